@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+option(NOLI_BUILD_TESTS "Build the tests" ON)
+option(NOLI_BUILD_BENCH "Build the benchmarks (needs Google Benchmark)" OFF)
+option(NOLI_BUILD_FUZZERS "Build the libFuzzer targets (needs clang)" OFF)
+set(NOLI_PARALLEL "TBB" CACHE STRING "Back end of the parallel layer: TBB or STD (std::thread; for ThreadSanitizer)")
+set_property(CACHE NOLI_PARALLEL PROPERTY STRINGS TBB STD)
+set(NOLI_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them, e.g. address,undefined")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+# Headers are included as <noli/kernel/contact.h> in the build tree as they are once installed.
+set(NOLI_INCLUDE_ROOT "${CMAKE_BINARY_DIR}/include")
+file(MAKE_DIRECTORY "${NOLI_INCLUDE_ROOT}/noli")
+foreach(layer kernel trajectory proofs audit app tests bench)
+  file(CREATE_LINK "${CMAKE_SOURCE_DIR}/${layer}" "${NOLI_INCLUDE_ROOT}/noli/${layer}" SYMBOLIC)
+endforeach()
