@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 find_package(Threads REQUIRED)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
-find_package(CGAL REQUIRED QUIET)
+find_package(CGAL REQUIRED QUIET)  # brings GMP, MPFR and Boost
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
@@ -10,6 +10,7 @@ if(NOLI_PARALLEL STREQUAL "TBB")
 endif()
 if(NOLI_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(rapidcheck REQUIRED)
   include(GoogleTest)
 endif()
 if(NOLI_BUILD_BENCH)

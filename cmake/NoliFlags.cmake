@@ -1,11 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 # What every target of the project is compiled with.
 add_library(noli_flags INTERFACE)
+add_library(noli::flags ALIAS noli_flags)
+set_target_properties(noli_flags PROPERTIES EXPORT_NAME flags)
 
 # Same bits everywhere: nothing may fuse or re-order floating-point operations. This one travels with the exported targets,
 # because the kernel's templates are compiled in the user's translation units too.
-target_compile_options(noli_flags INTERFACE -ffp-contract=off)
+target_compile_options(noli_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
 target_compile_definitions(noli_flags INTERFACE EIGEN_MPL2_ONLY)
+target_compile_features(noli_flags INTERFACE cxx_std_20)
+
+# For code that switches the rounding mode, so that the compiler neither folds nor moves an operation across the switch.
+add_library(noli_rounding INTERFACE)
+add_library(noli::rounding ALIAS noli_rounding)
+set_target_properties(noli_rounding PROPERTIES EXPORT_NAME rounding)
+target_compile_options(noli_rounding INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-frounding-math>)
 
 add_library(noli_warnings INTERFACE)
 target_compile_options(noli_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)

@@ -1,21 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The parallel layer: one loop over independent tasks. Backed by oneTBB, or by std::thread where the build says so
-// (NOLI_PARALLEL=STD, for ThreadSanitizer, which oneTBB is not instrumented for). Both give the same results because tasks may only
-// write what belongs to their own index.
+// (NOLI_PARALLEL=STD, for ThreadSanitizer, which oneTBB is not instrumented for). Both give the same results because
+// tasks may only write what belongs to their own index.
+//
+// What this does not do: no reductions (write to slot i, add up afterwards in order), no priorities, no cancellation
+// but by an exception.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <span>
+#include <string_view>
 
 namespace noli {
 
 /// Number of threads the machine offers; at least 1.
 int hardware_threads();
 
-/// Calls task(i) once for each i in [0, count), from at most `threads` threads, in any order. `threads` <= 0 means all there are.
-/// Returns when all calls have returned. When tasks throw, the remaining ones may be skipped, and one of the exceptions
-/// (that of the lowest index among those thrown) is rethrown here.
+/// Calls task(i) once for each i in [0, count), from at most `threads` threads, the caller's among them; tasks start in
+/// ascending order and end in any. `threads` <= 0 means all there are. Returns when all calls have returned. When tasks
+/// throw, the exception of the lowest index that throws at all is rethrown here; tasks of a higher index may be skipped
+/// then, those of a lower one are not. Calls may be nested. Throws also std::system_error or std::bad_alloc when the
+/// machine has no thread or memory left.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
+
+/// One way to get threads. `run` has the contract of parallel_for.
+struct ParallelBackend {
+  std::string_view name;  ///< "tbb" or "std"
+  void (*run)(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
+};
+
+/// The back ends of this build, "std" always among them. parallel_for uses the first.
+std::span<const ParallelBackend> parallel_backends();
 
 }  // namespace noli

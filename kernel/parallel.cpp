@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A back end only has to call a *lane* on several threads at once; every lane takes the next index until none is left.
+// What to do with indices and exceptions is thus written once, for both.
+#include "noli/kernel/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#ifdef NOLI_PARALLEL_TBB
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace noli {
+namespace {
+
+using Task = std::function<void(std::size_t)>;
+
+/// The indices still to be done, and the exception of the lowest index that threw.
+class Loop {
+ public:
+  Loop(std::size_t count, const Task& task) : count_(count), task_(task), limit_(count) {}
+
+  /// Takes indices until none is left. Called from several threads.
+  void lane() noexcept {
+    for (std::size_t i = next_++; i < count_; i = next_++) {
+      if (i < limit_.load(std::memory_order_relaxed)) call(i);
+    }
+  }
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  void call(std::size_t i) noexcept {
+    try {
+      task_(i);
+    } catch (...) {
+      keep(i, std::current_exception());
+    }
+  }
+
+  void keep(std::size_t i, std::exception_ptr error) {
+    const std::scoped_lock lock(mutex_);
+    if (i >= limit_.load(std::memory_order_relaxed)) return;
+    limit_.store(
+        i,
+        std::memory_order_relaxed);  // only indices above a failed one are skipped, so the lowest failure always runs
+    error_ = std::move(error);
+  }
+
+  const std::size_t count_;
+  const Task& task_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<std::size_t> limit_;
+  std::mutex mutex_;
+  std::exception_ptr error_;
+};
+
+int lane_count(std::size_t count, int threads) {
+  const int wanted = threads > 0 ? threads : hardware_threads();
+  return static_cast<int>(std::min(count, static_cast<std::size_t>(wanted)));
+}
+
+void run_std(std::size_t count, int threads, const Task& task) {
+  Loop loop(count, task);
+  {
+    std::vector<std::jthread> others;  // joined at the end of this block, also when a thread cannot be made
+    for (int lane = 1; lane < lane_count(count, threads); ++lane) others.emplace_back([&loop] { loop.lane(); });
+    loop.lane();
+  }
+  loop.rethrow();
+}
+
+#ifdef NOLI_PARALLEL_TBB
+void run_tbb(std::size_t count, int threads, const Task& task) {
+  const int lanes = lane_count(count, threads);
+  Loop loop(count, task);
+  if (lanes <= 1) {
+    loop.lane();
+  } else {
+    // More threads than the machine has must be allowed for explicitly. Controls alive at once take the least of their
+    // values, so none is ever made that would hold back a loop elsewhere; the arena is what limits this one.
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(std::max(lanes, hardware_threads())));
+    tbb::task_arena arena(lanes);
+    arena.execute([&] {
+      tbb::parallel_for(
+          0, lanes, [&loop](int) { loop.lane(); }, tbb::simple_partitioner());
+    });
+  }
+  loop.rethrow();
+}
+constexpr std::array backends = {ParallelBackend{"tbb", run_tbb}, ParallelBackend{"std", run_std}};
+#else
+constexpr std::array backends = {ParallelBackend{"std", run_std}};
+#endif
+
+}  // namespace
+
+int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+void parallel_for(std::size_t count, int threads, const Task& task) { backends.front().run(count, threads, task); }
+
+std::span<const ParallelBackend> parallel_backends() { return backends; }
+
+}  // namespace noli

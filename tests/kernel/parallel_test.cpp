@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/kernel/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace noli {
+namespace {
+
+constexpr std::array thread_counts = {1, 2, 5, 0};
+
+/// Work of uneven length whose result depends on the order of its own additions, and on nothing else.
+double uneven_sum(std::size_t i) {
+  double sum = 0;
+  for (std::size_t k = 1; k <= 1 + (i * 37) % 500; ++k) sum += 1.0 / static_cast<double>(k + i);
+  return sum;
+}
+
+std::vector<double> serial(std::size_t count) {
+  std::vector<double> out(count);
+  for (std::size_t i = 0; i < count; ++i) out[i] = uneven_sum(i);
+  return out;
+}
+
+bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+class EachBackend : public testing::TestWithParam<ParallelBackend> {};
+
+TEST_P(EachBackend, CallsEveryIndexOnce) {
+  for (const int threads : thread_counts) {
+    std::vector<std::atomic<int>> calls(1000);
+    GetParam().run(calls.size(), threads, [&](std::size_t i) { ++calls[i]; });
+    EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const auto& n) { return n == 1; })) << threads << " threads";
+  }
+}
+
+TEST_P(EachBackend, NothingToDo) {
+  for (const int threads : thread_counts) {
+    GetParam().run(0, threads, [](std::size_t) { FAIL() << "called without an index"; });
+  }
+}
+
+TEST_P(EachBackend, GivesTheBytesOfASerialLoop) {
+  const std::vector<double> expected = serial(2000);
+  for (const int threads : thread_counts) {
+    std::vector<double> out(expected.size());
+    GetParam().run(out.size(), threads, [&](std::size_t i) { out[i] = uneven_sum(i); });
+    EXPECT_TRUE(same_bytes(out, expected)) << threads << " threads";
+  }
+}
+
+/// Holds every task until `threads` of them are inside at once (or a second has passed), and says how many threads came
+/// by.
+std::size_t threads_seen(const ParallelBackend& backend, int threads) {
+  std::mutex mutex;
+  std::set<std::thread::id> seen;
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  backend.run(64, threads, [&](std::size_t) {
+    {
+      const std::scoped_lock lock(mutex);
+      seen.insert(std::this_thread::get_id());
+    }
+    const auto waiting = [&] {
+      const std::scoped_lock lock(mutex);
+      return seen.size() < static_cast<std::size_t>(threads);
+    };
+    while (waiting() && std::chrono::steady_clock::now() < give_up) std::this_thread::yield();
+  });
+  return seen.size();
+}
+
+TEST_P(EachBackend, UsesAsManyThreadsAsAskedForAndNoMore) {
+  for (const int threads : {1, 2, 5}) EXPECT_EQ(threads_seen(GetParam(), threads), threads);
+}
+
+TEST_P(EachBackend, RethrowsTheLowestIndexThatThrows) {
+  for (const int threads : thread_counts) {
+    for (int repetition = 0; repetition < 20; ++repetition) {
+      try {
+        GetParam().run(500, threads, [](std::size_t i) {
+          if (i % 100 == 42) throw std::runtime_error(std::to_string(i));
+        });
+        ADD_FAILURE() << "did not throw";
+      } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "42") << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST_P(EachBackend, RunsEverythingBelowAFailedIndex) {
+  for (const int threads : thread_counts) {
+    std::vector<std::atomic<int>> calls(400);
+    const auto task = [&](std::size_t i) {
+      ++calls[i];
+      if (i == 300) throw std::runtime_error("at 300");
+    };
+    EXPECT_THROW(GetParam().run(calls.size(), threads, task), std::runtime_error);
+    EXPECT_TRUE(std::all_of(calls.begin(), calls.begin() + 301, [](const auto& n) { return n == 1; }));
+    EXPECT_TRUE(std::all_of(calls.begin() + 301, calls.end(), [](const auto& n) { return n <= 1; }));
+  }
+}
+
+TEST_P(EachBackend, AloneStopsAtTheFailedIndex) {
+  std::size_t calls = 0;
+  const auto task = [&](std::size_t) {
+    if (++calls == 3) throw std::runtime_error("third");
+  };
+  EXPECT_THROW(GetParam().run(10, 1, task), std::runtime_error);
+  EXPECT_EQ(calls, 3U);
+}
+
+TEST_P(EachBackend, Nests) {
+  std::vector<std::uint64_t> sums(20);
+  GetParam().run(sums.size(), 2, [&](std::size_t i) {
+    std::vector<std::uint64_t> inner(50);
+    GetParam().run(inner.size(), 2, [&](std::size_t k) { inner[k] = i * k; });
+    sums[i] = std::accumulate(inner.begin(), inner.end(), std::uint64_t{0});
+  });
+  for (std::size_t i = 0; i < sums.size(); ++i) EXPECT_EQ(sums[i], i * 1225);
+}
+
+INSTANTIATE_TEST_SUITE_P(Parallel, EachBackend,
+                         testing::ValuesIn(parallel_backends().begin(), parallel_backends().end()),
+                         [](const auto& backend) { return std::string(backend.param.name); });
+
+TEST(Parallel, BackendsGiveTheSameBytes) {
+  const std::vector<double> expected = serial(3000);
+  for (const ParallelBackend& backend : parallel_backends()) {
+    std::vector<double> out(expected.size());
+    backend.run(out.size(), 3, [&](std::size_t i) { out[i] = uneven_sum(i); });
+    EXPECT_TRUE(same_bytes(out, expected)) << backend.name;
+  }
+}
+
+TEST(Parallel, TheComparisonOfBytesNoticesOneUlp) {
+  std::vector<double> changed = serial(10);
+  changed[7] = std::nextafter(changed[7], 1e9);
+  EXPECT_FALSE(same_bytes(changed, serial(10)));
+}
+
+TEST(Parallel, TheBuildHasTheBackendsItWasAskedFor) {
+#ifdef NOLI_PARALLEL_TBB
+  ASSERT_EQ(parallel_backends().size(), 2U);
+  EXPECT_EQ(parallel_backends().front().name, "tbb");
+#else
+  ASSERT_EQ(parallel_backends().size(), 1U);
+#endif
+  EXPECT_EQ(parallel_backends().back().name, "std");
+}
+
+TEST(Parallel, TheLoopOfTheBuildRuns) {
+  std::vector<double> out(100);
+  parallel_for(out.size(), 0, [&](std::size_t i) { out[i] = uneven_sum(i); });
+  EXPECT_TRUE(same_bytes(out, serial(100)));
+  EXPECT_GE(hardware_threads(), 1);
+}
+
+}  // namespace
+}  // namespace noli
