@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/trajectory/cells.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace noli {
+namespace {
+
+/// Equal for an edge and its reverse, different for any others.
+std::uint64_t edge_key(VertexId a, VertexId b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
+void drop_redundant_edges(Mesh& mesh) {
+  std::unordered_set<std::uint64_t> known;
+  known.reserve(2 * mesh.faces.size() + mesh.edges.size());
+  for (const auto& [a, b, c] : mesh.faces) known.insert({edge_key(a, b), edge_key(b, c), edge_key(c, a)});
+  std::erase_if(mesh.edges, [&](const auto& edge) { return !known.insert(edge_key(edge[0], edge[1])).second; });
+}
+
+/// Whether each vertex is a corner of a face or an end of a loose edge.
+std::vector<bool> used_by_larger_cells(const Mesh& mesh) {
+  std::vector<bool> used(mesh.vertex_count, false);
+  for (const auto& face : mesh.faces) {
+    for (const VertexId v : face) used[v] = true;
+  }
+  for (const auto& edge : mesh.edges) {
+    for (const VertexId v : edge) used[v] = true;
+  }
+  return used;
+}
+
+void drop_redundant_points(Mesh& mesh) {
+  std::vector<bool> used = used_by_larger_cells(mesh);
+  std::erase_if(mesh.points, [&](VertexId v) {
+    const bool redundant = used[v];
+    used[v] = true;
+    return redundant;
+  });
+}
+
+}  // namespace
+
+void add_polygon(Mesh& mesh, std::span<const VertexId> corners) {
+  if (corners.size() == 1) mesh.points.push_back(corners[0]);
+  if (corners.size() == 2) mesh.edges.push_back({corners[0], corners[1]});
+  for (std::size_t i = 2; i < corners.size(); ++i) mesh.faces.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+void drop_redundant_cells(Mesh& mesh) {
+  if (!mesh.edges.empty()) drop_redundant_edges(mesh);
+  if (!mesh.points.empty()) drop_redundant_points(mesh);
+}
+
+std::vector<VertexId> unreferenced_vertices(const Mesh& mesh) {
+  std::vector<bool> used = used_by_larger_cells(mesh);
+  for (const VertexId v : mesh.points) used[v] = true;
+  std::vector<VertexId> result;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) result.push_back(static_cast<VertexId>(v));
+  }
+  return result;
+}
+
+}  // namespace noli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the readers of text share: lines with their numbers, words, numbers that are the whole of a word, and the loading of a file.
+//
+// Nothing here depends on the locale; decimal numbers are rounded correctly (std::from_chars).
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace noli {
+
+/// The bytes of a file. Throws InputError without a place when it is missing, is a folder, cannot be read, or is empty.
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// "line 12", "byte 345": the places that InputError names.
+std::string line_place(std::size_t line);
+std::string byte_place(std::size_t offset);
+
+/// A word of the file in quotes, fit for a one-line message: shortened when long, unprintable bytes shown as '?'.
+std::string quoted(std::string_view word);
+
+/// Walks over the lines of a text. A line ends with LF or CRLF; the last one may end with the text.
+class Lines {
+ public:
+  /// `first` is the number of the first line of `text` in its file.
+  explicit Lines(std::string_view text, std::size_t first = 1) : rest_(text), next_number_(first) {}
+
+  /// Moves to the next line, without its line end, and returns whether there was one.
+  bool next(std::string_view& line);
+  /// Number of the line that next() gave last; 0 before the first.
+  std::size_t number() const { return number_; }
+  /// What follows the line that next() gave last.
+  std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_;
+  std::size_t next_number_;
+  std::size_t number_ = 0;
+};
+
+/// Walks over the words of a line, which are separated by blanks and tabs.
+class Words {
+ public:
+  explicit Words(std::string_view line) : rest_(line) {}
+
+  /// The next word, empty when there is none.
+  std::string_view next() {
+    skip_blanks();
+    const std::size_t end = rest_.find_first_of(" \t");
+    const std::string_view word = rest_.substr(0, end);
+    rest_.remove_prefix(word.size());
+    return word;
+  }
+  bool at_end() {
+    skip_blanks();
+    return rest_.empty();
+  }
+
+ private:
+  void skip_blanks() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t')) rest_.remove_prefix(1);
+  }
+  std::string_view rest_;
+};
+
+/// Parses the whole of `word` as a number of type T (a leading '+' is allowed). Returns an error code as std::from_chars does:
+/// invalid_argument when it is no such number, result_out_of_range when it is one that T cannot hold.
+template <class T>
+std::errc parse_number(std::string_view word, T& value) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size()) return std::errc::invalid_argument;
+  return error;
+}
+
+/// Parses the whole of `word` as a finite T, float or double, correctly rounded. Returns "" when it did, else what is wrong with it.
+std::string parse_finite(std::string_view word, float& value);
+std::string parse_finite(std::string_view word, double& value);
+
+}  // namespace noli
