@@ -12,6 +12,7 @@
 #include <cstring>
 #include <mutex>
 #include <numeric>
+#include <ostream>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,9 @@
 #include <vector>
 
 namespace noli {
+
+void PrintTo(const ParallelBackend& backend, std::ostream* out) { *out << backend.name; }
+
 namespace {
 
 constexpr std::array thread_counts = {1, 2, 5, 0};
