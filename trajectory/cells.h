@@ -2,10 +2,12 @@
 //
 // From what a file lists to the cells of a mesh; the rules are the same for all formats.
 //
-//   polygon with n >= 3 corners p0 .. p(n-1)   the fan (p0, p1, p2), (p0, p2, p3), ..., n - 2 faces. A stated rule, not a good
+//   polygon with n >= 3 corners p0 .. p(n-1)   the fan (p0, p1, p2), (p0, p2, p3), ..., n - 2 faces. A stated rule, not
+//   a good
 //                                              triangulation: a polygon that is not convex folds over itself.
 //   polygon with 2 corners, 1 corner           a loose edge, a loose point
-//   loose edges and points                     each once, and only where nothing larger has them already (drop_redundant_cells)
+//   loose edges and points                     each once, and only where nothing larger has them already
+//   (drop_redundant_cells)
 //
 // What this does not do: it looks at no coordinates and welds nothing (see merge.h for that).
 #pragma once
@@ -20,9 +22,9 @@ namespace noli {
 /// Appends the cells of one polygon. Precondition: at least one corner.
 void add_polygon(Mesh& mesh, std::span<const VertexId> corners);
 
-/// Removes loose edges that are an edge of a face, loose points that are a corner of a face or loose edge, and all but the first of
-/// equal ones (in either direction). The others keep their order. No contact is lost: what is removed remains as a feature of what has it.
-/// Faces are left as they are, even equal ones.
+/// Removes loose edges that are an edge of a face, loose points that are a corner of a face or loose edge, and all but
+/// the first of equal ones (in either direction). The others keep their order. No contact is lost: what is removed
+/// remains as a feature of what has it. Faces are left as they are, even equal ones.
 void drop_redundant_cells(Mesh& mesh);
 
 /// The vertices that no cell refers to, in ascending order.

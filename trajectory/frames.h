@@ -4,7 +4,8 @@
 //
 // Notation
 //   frame k    the k-th file, k = 0 .. n - 1; the mesh is that of frame 0, and all others must have the same
-//   step k     Motion::linear: from frame k to frame k + 1, n - 1 steps. Motion::constant: frame k stands still, n steps.
+//   step k     Motion::linear: from frame k to frame k + 1, n - 1 steps. Motion::constant: frame k stands still, n
+//   steps.
 //
 // What this does not do: it reads nothing ahead and keeps nothing behind, so at most two frames are in memory.
 #pragma once
@@ -22,12 +23,13 @@ namespace noli {
 /// Reads a frame; the extension (.ply or .obj, in any case) says how. Throws InputError, also for other extensions.
 Frame read_frame(const std::filesystem::path& path);
 
-/// Throws InputError when the meshes differ in vertex count or in any cell; the message names both files and the first difference.
+/// Throws InputError when the meshes differ in vertex count or in any cell; the message names both files and the first
+/// difference.
 void require_same_mesh(const Mesh& expected, const std::filesystem::path& expected_path, const Mesh& found,
                        const std::filesystem::path& found_path);
 
-/// Whether all z are equal (as numbers): then nothing leaves a plane z = const, which may be another one in the next frame, and the step
-/// may be decided in two dimensions. True for no positions.
+/// Whether all z are equal (as numbers): then nothing leaves a plane z = const, which may be another one in the next
+/// frame, and the step may be decided in two dimensions. True for no positions.
 bool all_z_equal(std::span<const Position> positions);
 
 enum class Motion {
@@ -40,7 +42,8 @@ enum class Motion {
 ///   while (sequence.next()) use(sequence.mesh(), sequence.x_t0(), sequence.x_t1());
 class FrameSequence {
  public:
-  /// Throws InputError when there are fewer frames than a step needs (two, or one with Motion::constant). Reads nothing yet.
+  /// Throws InputError when there are fewer frames than a step needs (two, or one with Motion::constant). Reads nothing
+  /// yet.
   explicit FrameSequence(std::vector<std::filesystem::path> paths, Motion motion = Motion::linear);
 
   std::size_t frame_count() const { return paths_.size(); }

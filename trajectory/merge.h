@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes one vertex of those that are at the same place at all times. Never done silently: only on request, and the count is reported.
+// Makes one vertex of those that are at the same place at all times. Never done silently: only on request, and the
+// count is reported.
 //
-// Two passes over the frames: the first finds the classes of vertices whose coordinates are equal as numbers (-0 is 0) in every frame, by
-// splitting the classes frame by frame; the second is the work itself, on a mesh that refers to the first vertex of each class.
-// Memory is linear in the number of vertices. Equality is decided by comparing coordinates; hashes only find candidates.
+// Two passes over the frames: the first finds the classes of vertices whose coordinates are equal as numbers (-0 is 0)
+// in every frame, by splitting the classes frame by frame; the second is the work itself, on a mesh that refers to the
+// first vertex of each class. Memory is linear in the number of vertices. Equality is decided by comparing coordinates;
+// hashes only find candidates.
 #pragma once
 
 #include <cstddef>
@@ -34,13 +36,14 @@ class IdenticalVertices {
   std::vector<VertexId> representative_;
 };
 
-/// The first pass. Throws InputError as reading a FrameSequence does, also for frames that differ in their mesh. Precondition: at
-/// least one path.
+/// The first pass. Throws InputError as reading a FrameSequence does, also for frames that differ in their mesh.
+/// Precondition: at least one path.
 IdenticalVertices find_identical_vertices(const std::vector<std::filesystem::path>& paths);
 
-/// The mesh with every index replaced by its representative. vertex_count stays, so positions need no change; vertices that were
-/// merged into others are no longer referred to (so ask unreferenced_vertices() before, if they are to count). A cell in which an index
-/// now occurs twice stays, degenerate; loose edges and points that became redundant are dropped (cells.h).
+/// The mesh with every index replaced by its representative. vertex_count stays, so positions need no change; vertices
+/// that were merged into others are no longer referred to (so ask unreferenced_vertices() before, if they are to
+/// count). A cell in which an index now occurs twice stays, degenerate; loose edges and points that became redundant
+/// are dropped (cells.h).
 Mesh with_merged_vertices(const Mesh& mesh, const IdenticalVertices& classes);
 
 }  // namespace noli

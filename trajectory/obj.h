@@ -2,14 +2,14 @@
 //
 // Reads Wavefront OBJ files, as far as they are meshes.
 //
-//   v x y [z [w] | z r g b | z w r g b]   a vertex; without z, z = 0; weight and colour must be finite numbers and are ignored
-//   f a b c ...                           a polygon (cells.h), three corners or more. A corner is v, v/vt, v//vn or v/vt/vn;
-//   l a b c ...                           a line through two vertices or more: loose edges. Corners are v or v/vt;
-//   p a ...                               loose points
-// Indices count from 1, negative ones back from the last vertex so far; a positive one may refer to a vertex that follows.
-// Ignored: vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj, comments from a '#' that
-// begins a word. A '\' at the end of a line joins the next one to it. Every other statement (curves, surfaces) is an error: leaving
-// it out could lose faces.
+//   v x y [z [w] | z r g b | z w r g b]   a vertex; without z, z = 0; weight and colour must be finite numbers and are
+//   ignored f a b c ...                           a polygon (cells.h), three corners or more. A corner is v, v/vt,
+//   v//vn or v/vt/vn; l a b c ...                           a line through two vertices or more: loose edges. Corners
+//   are v or v/vt; p a ...                               loose points
+// Indices count from 1, negative ones back from the last vertex so far; a positive one may refer to a vertex that
+// follows. Ignored: vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj,
+// comments from a '#' that begins a word. A '\' at the end of a line joins the next one to it. Every other statement
+// (curves, surfaces) is an error: leaving it out could lose faces.
 #pragma once
 
 #include <filesystem>

@@ -2,10 +2,12 @@
 //
 // Reads PLY files: ASCII, binary little-endian, binary big-endian.
 //
-//   element vertex   properties x, y and, where there is one, z, of any scalar type. The declared type is what is read, in ASCII too:
-//                    a float is rounded to float and then widened, so one mesh is the same in all three encodings. An integer that is
-//                    no double is an error.
-//   element face     one list vertex_indices or vertex_index of any integer types. Polygons become cells as cells.h says; a list of no
+//   element vertex   properties x, y and, where there is one, z, of any scalar type. The declared type is what is read,
+//   in ASCII too:
+//                    a float is rounded to float and then widened, so one mesh is the same in all three encodings. An
+//                    integer that is no double is an error.
+//   element face     one list vertex_indices or vertex_index of any integer types. Polygons become cells as cells.h
+//   says; a list of no
 //                    vertices is an error.
 //   element edge     vertex1 and vertex2 of any integer types: a loose edge, unless a face has it (cells.h)
 //   anything else    skipped, except tristrips: leaving them out would lose faces.
@@ -22,9 +24,9 @@
 
 namespace noli {
 
-/// Reads a PLY file, whole, at once. Throws InputError with line (header and ASCII) or byte (binary) for anything that is not as above:
-/// missing, empty, truncated, NaN or infinite coordinates, indices out of range, trailing content, malformed headers. Counts are
-/// compared with the bytes that remain before anything is allocated for them.
+/// Reads a PLY file, whole, at once. Throws InputError with line (header and ASCII) or byte (binary) for anything that
+/// is not as above: missing, empty, truncated, NaN or infinite coordinates, indices out of range, trailing content,
+/// malformed headers. Counts are compared with the bytes that remain before anything is allocated for them.
 Frame read_ply(const std::filesystem::path& path);
 
 /// The same for bytes in memory; `file` is what errors call them.

@@ -17,15 +17,24 @@ struct TypeName {
   std::string_view word;
   PlyType type;
 };
-constexpr std::array<TypeName, 18> type_names = {{{"int8", PlyType::int8},       {"uint8", PlyType::uint8},
-                                                  {"int16", PlyType::int16},     {"uint16", PlyType::uint16},
-                                                  {"int32", PlyType::int32},     {"uint32", PlyType::uint32},
-                                                  {"int64", PlyType::int64},     {"uint64", PlyType::uint64},
-                                                  {"float32", PlyType::float32}, {"float64", PlyType::float64},
-                                                  {"char", PlyType::int8},       {"uchar", PlyType::uint8},
-                                                  {"short", PlyType::int16},     {"ushort", PlyType::uint16},
-                                                  {"int", PlyType::int32},       {"uint", PlyType::uint32},
-                                                  {"float", PlyType::float32},   {"double", PlyType::float64}}};
+constexpr std::array<TypeName, 18> type_names = {{{"int8", PlyType::int8},
+                                                  {"uint8", PlyType::uint8},
+                                                  {"int16", PlyType::int16},
+                                                  {"uint16", PlyType::uint16},
+                                                  {"int32", PlyType::int32},
+                                                  {"uint32", PlyType::uint32},
+                                                  {"int64", PlyType::int64},
+                                                  {"uint64", PlyType::uint64},
+                                                  {"float32", PlyType::float32},
+                                                  {"float64", PlyType::float64},
+                                                  {"char", PlyType::int8},
+                                                  {"uchar", PlyType::uint8},
+                                                  {"short", PlyType::int16},
+                                                  {"ushort", PlyType::uint16},
+                                                  {"int", PlyType::int32},
+                                                  {"uint", PlyType::uint32},
+                                                  {"float", PlyType::float32},
+                                                  {"double", PlyType::float64}}};
 
 class HeaderParser {
  public:
@@ -33,9 +42,11 @@ class HeaderParser {
 
   PlyHeader parse() {
     std::string_view line;
-    if (!lines_.next(line) || line != "ply") throw InputError(file_, line_place(1), "expected 'ply', this is no PLY file");
+    if (!lines_.next(line) || line != "ply")
+      throw InputError(file_, line_place(1), "expected 'ply', this is no PLY file");
     while (true) {
-      if (!lines_.next(line)) throw InputError(file_, line_place(lines_.number()), "the header ends without 'end_header'");
+      if (!lines_.next(line))
+        throw InputError(file_, line_place(lines_.number()), "the header ends without 'end_header'");
       if (line == "end_header") break;
       parse_line(line);
     }
@@ -62,9 +73,10 @@ class HeaderParser {
     } else if (keyword == "property") {
       parse_property(words);
     } else {
-      fail(fmt::format("expected format, element, property, comment, obj_info or end_header, found {}", quoted(line)));
+      fail(fmt::format("expected format, element, property, comment, obj_info or end_header, found {}",
+                       in_quotes(line)));
     }
-    if (!words.at_end()) fail(fmt::format("expected the end of the line, found {}", quoted(words.next())));
+    if (!words.at_end()) fail(fmt::format("expected the end of the line, found {}", in_quotes(words.next())));
   }
 
   void parse_format(Words& words) {
@@ -78,10 +90,10 @@ class HeaderParser {
     } else if (word == "binary_big_endian") {
       header_.format = PlyFormat::binary_big_endian;
     } else {
-      fail(fmt::format("expected ascii, binary_little_endian or binary_big_endian, found {}", quoted(word)));
+      fail(fmt::format("expected ascii, binary_little_endian or binary_big_endian, found {}", in_quotes(word)));
     }
     const std::string_view version = words.next();
-    if (version != "1.0") fail(fmt::format("expected version 1.0, found {}", quoted(version)));
+    if (version != "1.0") fail(fmt::format("expected version 1.0, found {}", in_quotes(version)));
   }
 
   void parse_element(Words& words) {
@@ -90,10 +102,10 @@ class HeaderParser {
     element.name = words.next();
     element.line = lines_.number();
     if (element.name.empty()) fail("expected the name of an element");
-    if (!element_names_.insert(element.name).second) fail(fmt::format("a second element {}", quoted(element.name)));
+    if (!element_names_.insert(element.name).second) fail(fmt::format("a second element {}", in_quotes(element.name)));
     const std::string_view count = words.next();
     if (parse_number(count, element.count) != std::errc{}) {
-      fail(fmt::format("expected the number of entries of {}, found {}", quoted(element.name), quoted(count)));
+      fail(fmt::format("expected the number of entries of {}, found {}", in_quotes(element.name), in_quotes(count)));
     }
     header_.elements.push_back(std::move(element));
     property_names_.clear();
@@ -112,14 +124,17 @@ class HeaderParser {
     property.name = words.next();
     if (property.name.empty()) fail("expected the name of a property");
     if (!property_names_.insert(property.name).second) {
-      fail(fmt::format("a second property {} in element {}", quoted(property.name), quoted(header_.elements.back().name)));
+      fail(fmt::format("a second property {} in element {}", in_quotes(property.name),
+                       in_quotes(header_.elements.back().name)));
     }
     header_.elements.back().properties.push_back(std::move(property));
   }
 
   PlyType parse_type(std::string_view word) const {
-    const auto found = std::find_if(type_names.begin(), type_names.end(), [&](const auto& t) { return t.word == word; });
-    if (found == type_names.end()) fail(fmt::format("expected a type such as uchar, int, float or double, found {}", quoted(word)));
+    const auto found =
+        std::find_if(type_names.begin(), type_names.end(), [&](const auto& t) { return t.word == word; });
+    if (found == type_names.end())
+      fail(fmt::format("expected a type such as uchar, int, float or double, found {}", in_quotes(word)));
     return found->type;
   }
 
@@ -128,7 +143,8 @@ class HeaderParser {
     if (header_.elements.empty()) return;
     const PlyElement& element = header_.elements.back();
     if (element.count > 0 && element.properties.empty()) {
-      throw InputError(file_, line_place(element.line), fmt::format("element {} has no properties", quoted(element.name)));
+      throw InputError(file_, line_place(element.line),
+                       fmt::format("element {} has no properties", in_quotes(element.name)));
     }
   }
 
@@ -164,7 +180,8 @@ std::string_view name(PlyType type) {
 }
 
 const PlyProperty* PlyElement::find(std::string_view property) const {
-  const auto found = std::find_if(properties.begin(), properties.end(), [&](const auto& p) { return p.name == property; });
+  const auto found =
+      std::find_if(properties.begin(), properties.end(), [&](const auto& p) { return p.name == property; });
   return found == properties.end() ? nullptr : &*found;
 }
 
@@ -173,6 +190,8 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return found == elements.end() ? nullptr : &*found;
 }
 
-PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) { return HeaderParser(bytes, file).parse(); }
+PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {
+  return HeaderParser(bytes, file).parse();
+}
 
 }  // namespace noli

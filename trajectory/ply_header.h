@@ -5,7 +5,8 @@
 // Grammar, one line each (LF or CRLF), words separated by blanks:
 //   ply | format (ascii|binary_little_endian|binary_big_endian) 1.0 | comment ... | obj_info ...
 //   element NAME COUNT | property TYPE NAME | property list COUNT_TYPE TYPE NAME | end_header
-// TYPE is char uchar short ushort int uint float double, or int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32 float64.
+// TYPE is char uchar short ushort int uint float double, or int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32
+// float64.
 #pragma once
 
 #include <cstddef>
@@ -53,9 +54,10 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
-/// Parses the header at the beginning of `bytes`; `file` is what errors call it. Allocates in proportion to the header's own length,
-/// whatever it promises. Throws InputError with the line: no PLY file, no end_header, an unknown format, keyword or type, a count that
-/// is no number, a name declared twice, an element that has entries but no properties.
+/// Parses the header at the beginning of `bytes`; `file` is what errors call it. Allocates in proportion to the
+/// header's own length, whatever it promises. Throws InputError with the line: no PLY file, no end_header, an unknown
+/// format, keyword or type, a count that is no number, a name declared twice, an element that has entries but no
+/// properties.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
 
 }  // namespace noli

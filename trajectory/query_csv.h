@@ -2,12 +2,12 @@
 //
 // Files of queries: two features over one step, with or without the truth.
 //
-// A query is 2 n rows, one a point: n at t = 0, then n at t = 1 in the same order (n = 4 for vertex_face and edge_edge, 3 for vertex_edge, 2
-// for vertex_vertex; the points of the first feature first). A row is
+// A query is 2 n rows, one a point: n at t = 0, then n at t = 1 in the same order (n = 4 for vertex_face and edge_edge,
+// 3 for vertex_edge, 2 for vertex_vertex; the points of the first feature first). A row is
 //   x num, x den, y num, y den, z num, z den [, label]
-// with decimal integers of any length whose quotient is exactly a double, and a label 0 (apart) or 1 (they meet) that all rows of a query
-// share; either every row of a file has it or none. A numerator -0 is the double -0.0. Blank lines are skipped.
-// What this does not do: it never rounds; a quotient that is no double is an error.
+// with decimal integers of any length whose quotient is exactly a double, and a label 0 (apart) or 1 (they meet) that
+// all rows of a query share; either every row of a file has it or none. A numerator -0 is the double -0.0. Blank lines
+// are skipped. What this does not do: it never rounds; a quotient that is no double is an error.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ enum class QueryKind { vertex_face, edge_edge, vertex_edge, vertex_vertex };
 /// Points of both features together: 4, 4, 3, 2.
 std::size_t point_count(QueryKind kind);
 
-/// The kind that a file name speaks of: "vertex-face", "edge-edge", "vertex-edge" or "vertex-vertex", also with '_' for '-'.
-/// Folders do not count. Nothing when it names none or more than one.
+/// The kind that a file name speaks of: "vertex-face", "edge-edge", "vertex-edge" or "vertex-vertex", also with '_' for
+/// '-'. Folders do not count. Nothing when it names none or more than one.
 std::optional<QueryKind> kind_from_file_name(const std::filesystem::path& path);
 
 /// The kind of that very name, as above; nothing for any other word.
@@ -44,16 +44,16 @@ struct QueryRecord {
   friend bool operator==(const QueryRecord&, const QueryRecord&) = default;
 };
 
-/// Reads a file of queries of one kind, at least one. Throws InputError with the line: a wrong number of columns, something that is no
-/// integer, a zero denominator, a quotient that is no double, a label other than 0 and 1 or not the same in all rows of its query, a number
-/// of rows that is no whole number of queries.
+/// Reads a file of queries of one kind, at least one. Throws InputError with the line: a wrong number of columns,
+/// something that is no integer, a zero denominator, a quotient that is no double, a label other than 0 and 1 or not
+/// the same in all rows of its query, a number of rows that is no whole number of queries.
 std::vector<QueryRecord> read_query_csv(const std::filesystem::path& path, QueryKind kind);
 
 /// The same for a text in memory; `file` is what errors call it.
 std::vector<QueryRecord> parse_query_csv(std::string_view text, const std::string& file, QueryKind kind);
 
-/// Writes queries such that reading gives the same doubles bit for bit, and the same labels. Preconditions: finite coordinates; all
-/// records have a label or none has (else std::invalid_argument).
+/// Writes queries such that reading gives the same doubles bit for bit, and the same labels. Preconditions: finite
+/// coordinates; all records have a label or none has (else std::invalid_argument).
 void write_query_csv(std::ostream& out, QueryKind kind, std::span<const QueryRecord> records);
 
 /// The same to a file. Throws std::system_error when it cannot be written.

@@ -42,10 +42,10 @@ template <class T>
 std::string parse_finite_as(std::string_view word, T& value) {
   const std::errc error = parse_number(word, value);
   if (error == std::errc::result_out_of_range) {
-    return fmt::format("{} is outside the range of {}", quoted(word), sizeof(T) == 4 ? "float" : "double");
+    return fmt::format("{} is outside the range of {}", in_quotes(word), sizeof(T) == 4 ? "float" : "double");
   }
-  if (error != std::errc{}) return fmt::format("expected a number, found {}", quoted(word));
-  if (!std::isfinite(value)) return fmt::format("expected a finite number, found {}", quoted(word));
+  if (error != std::errc{}) return fmt::format("expected a number, found {}", in_quotes(word));
+  if (!std::isfinite(value)) return fmt::format("expected a finite number, found {}", in_quotes(word));
   return {};
 }
 
@@ -67,7 +67,7 @@ std::string line_place(std::size_t line) { return fmt::format("line {}", line); 
 
 std::string byte_place(std::size_t offset) { return fmt::format("byte {}", offset); }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t longest = 40;
   std::string shown = "'";
   for (const char c : word.substr(0, longest)) shown += (c >= ' ' && c <= '~') ? c : '?';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the readers of text share: lines with their numbers, words, numbers that are the whole of a word, and the loading of a file.
+// What the readers of text share: lines with their numbers, words, numbers that are the whole of a word, and the
+// loading of a file.
 //
 // Nothing here depends on the locale; decimal numbers are rounded correctly (std::from_chars).
 #pragma once
@@ -22,7 +23,7 @@ std::string line_place(std::size_t line);
 std::string byte_place(std::size_t offset);
 
 /// A word of the file in quotes, fit for a one-line message: shortened when long, unprintable bytes shown as '?'.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 /// Walks over the lines of a text. A line ends with LF or CRLF; the last one may end with the text.
 class Lines {
@@ -68,8 +69,9 @@ class Words {
   std::string_view rest_;
 };
 
-/// Parses the whole of `word` as a number of type T (a leading '+' is allowed). Returns an error code as std::from_chars does:
-/// invalid_argument when it is no such number, result_out_of_range when it is one that T cannot hold.
+/// Parses the whole of `word` as a number of type T (a leading '+' is allowed). Returns an error code as
+/// std::from_chars does: invalid_argument when it is no such number, result_out_of_range when it is one that T cannot
+/// hold.
 template <class T>
 std::errc parse_number(std::string_view word, T& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -78,7 +80,8 @@ std::errc parse_number(std::string_view word, T& value) {
   return error;
 }
 
-/// Parses the whole of `word` as a finite T, float or double, correctly rounded. Returns "" when it did, else what is wrong with it.
+/// Parses the whole of `word` as a finite T, float or double, correctly rounded. Returns "" when it did, else what is
+/// wrong with it.
 std::string parse_finite(std::string_view word, float& value);
 std::string parse_finite(std::string_view word, double& value);
 

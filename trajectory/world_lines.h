@@ -7,8 +7,9 @@
 //   breakpoint    a time and the position then; those of one vertex are in strictly ascending order of time
 //   segment k     the piece between breakpoints k and k + 1 of a vertex, both included
 //
-// Storage: the breakpoints of all vertices in one array, vertex after vertex; those of v are at offsets[v] .. offsets[v + 1].
-// What this does not do: it does not interpolate (that would round; exact users take the segment), and it reads no files.
+// Storage: the breakpoints of all vertices in one array, vertex after vertex; those of v are at offsets[v] .. offsets[v
+// + 1]. What this does not do: it does not interpolate (that would round; exact users take the segment), and it reads
+// no files.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +23,14 @@ namespace noli {
 
 class WorldLines {
  public:
-  /// Two frames: every vertex has breakpoints at t = 0 and t = 1. Precondition: equal sizes, at least one vertex, finite positions.
+  /// Two frames: every vertex has breakpoints at t = 0 and t = 1. Precondition: equal sizes, at least one vertex,
+  /// finite positions.
   static WorldLines from_frames(std::span<const Position> x_t0, std::span<const Position> x_t1);
 
-  /// Takes over breakpoints and checks them; `source` is what errors call them. `offsets` has one entry more than there are vertices.
-  /// Throws InputError with the vertex and its breakpoint: offsets that do not fit the arrays or descend, no vertices, fewer than two
-  /// breakpoints, times that are not finite or not strictly ascending, a vertex with another first or last time than vertex 0, positions
-  /// that are not finite.
+  /// Takes over breakpoints and checks them; `source` is what errors call them. `offsets` has one entry more than there
+  /// are vertices. Throws InputError with the vertex and its breakpoint: offsets that do not fit the arrays or descend,
+  /// no vertices, fewer than two breakpoints, times that are not finite or not strictly ascending, a vertex with
+  /// another first or last time than vertex 0, positions that are not finite.
   static WorldLines from_breakpoints(std::vector<std::size_t> offsets, std::vector<double> times,
                                      std::vector<Position> positions, const std::string& source);
 
@@ -38,9 +40,12 @@ class WorldLines {
 
   /// Times and positions of the breakpoints of a vertex, at least two.
   std::span<const double> times(VertexId v) const { return {times_.data() + offsets_[v], breakpoint_count(v)}; }
-  std::span<const Position> positions(VertexId v) const { return {positions_.data() + offsets_[v], breakpoint_count(v)}; }
+  std::span<const Position> positions(VertexId v) const {
+    return {positions_.data() + offsets_[v], breakpoint_count(v)};
+  }
 
-  /// The segment k that contains t; at a breakpoint the one that begins there, at T1 the last. Precondition: T0 <= t <= T1.
+  /// The segment k that contains t; at a breakpoint the one that begins there, at T1 the last. Precondition: T0 <= t <=
+  /// T1.
   std::size_t segment_at(VertexId v, double t) const;
 
  private:

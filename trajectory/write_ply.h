@@ -2,8 +2,8 @@
 //
 // Writes PLY files that read_ply reads back bit for bit.
 //
-// Coordinates are doubles, in ASCII with 17 significant digits. Loose edges are the element edge; loose points are faces of one vertex, after
-// all others, which is how ply.h reads them.
+// Coordinates are doubles, in ASCII with 17 significant digits. Loose edges are the element edge; loose points are
+// faces of one vertex, after all others, which is how ply.h reads them.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,8 @@ namespace noli {
 
 enum class PlyEncoding { ascii, binary_little_endian };
 
-/// The bytes of the file. Precondition: as many positions as vertices; finite. To be read back equal, the mesh must have no redundant cells (cells.h).
+/// The bytes of the file. Precondition: as many positions as vertices; finite. To be read back equal, the mesh must
+/// have no redundant cells (cells.h).
 std::string format_ply(const Frame& frame, PlyEncoding encoding);
 
 /// Writes the file, or replaces it. Throws std::system_error when it cannot be written in full.
