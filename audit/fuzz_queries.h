@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fuzzing of the contact predicates: adversarial queries (audit/query_generators.h), each decided by the kernel and by
+// the slow oracle (tests/oracle). A difference is shrunk and saved as a file that `noli ccd` reads.
+//
+// Notation
+//   block    queries_per_block queries of one generator. Block b is of generator b mod (number of generators), and its
+//   queries depend on
+//            the seed and b alone, so that a run gives the same queries whatever the number of threads.
+//   answer   apart, touching, crossing or persistent: the oracle's
+//   finding  a query on which the subject's answer is wrong: it is in contact or not, the kind, the least time rounded
+//   down to double, the
+//            enclosure of that time; or an answer of the oracle that the generator does not declare
+//
+// What this does not do: it does not look for crashes of the subject (libFuzzer targets do), nor time it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/audit/any_query.h"
+#include "noli/kernel/contact.h"
+#include "noli/kernel/first_contact.h"
+#include "noli/kernel/stages.h"
+
+namespace noli::audit {
+
+constexpr std::size_t queries_per_block = 256;
+
+/// What the code under test says of a query.
+struct Decision {
+  std::optional<TimeEnclosure> contact;   ///< as noli::contact
+  ContactKind kind = ContactKind::apart;  ///< as noli::first_contact; apart when that finds no contact
+  double lower = 0;                       ///< the first time rounded down to double; meaningless when apart
+};
+
+/// The code under test. Called from several threads at once; `stages` counts as in noli::contact.
+using Decide = std::function<Decision(const AnyQuery&, StageCounters& stages)>;
+
+/// noli::contact and noli::first_contact.
+Decision decide_with_kernel(const AnyQuery& query, StageCounters& stages);
+
+struct FuzzProgress {
+  std::uint64_t queries = 0;
+  std::uint64_t findings = 0;
+  double seconds = 0;
+};
+
+struct FuzzOptions {
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> count;                       ///< stop after that many queries
+  std::optional<std::chrono::duration<double>> time_limit;  ///< stop after that time, at the end of a block
+  int threads = 0;                                          ///< <= 0: all there are
+  std::filesystem::path out;      ///< folder, made when the first finding is saved; empty: findings are not saved
+  std::size_t max_findings = 20;  ///< shrink and save at most that many; all are counted
+  const std::atomic<bool>* stop = nullptr;            ///< polled after every block
+  std::function<void(const FuzzProgress&)> progress;  ///< called from the caller's thread now and then
+  Decide decide = decide_with_kernel;
+};
+
+/// One query on which the subject is wrong.
+struct Finding {
+  std::string generator;                   ///< its name
+  std::uint64_t block = 0;                 ///< where it was made: options.seed, block and index make it again
+  std::size_t index = 0;                   ///< within the block
+  std::string difference;                  ///< in words: "contact: subject says apart, the oracle touching", ...
+  AnyQuery query;                          ///< as generated
+  AnyQuery shrunk;                         ///< simpler, and still a finding
+  ContactKind truth = ContactKind::apart;  ///< the oracle's answer to `shrunk`
+  std::filesystem::path file;              ///< where `shrunk` was saved, labelled with the truth; empty when it was not
+};
+
+/// Answers of one generator.
+struct GeneratorTally {
+  std::string name;
+  QueryType type{};
+  std::array<bool, 4> declared{};          ///< indexed by ContactKind
+  std::array<std::uint64_t, 4> answers{};  ///< how often the oracle gave each
+
+  std::uint64_t total() const;
+};
+
+struct FuzzReport {
+  std::uint64_t queries = 0;
+  std::array<std::uint64_t, 4> answers{};  ///< of the oracle, indexed by ContactKind
+  std::vector<GeneratorTally> generators;  ///< in the order of query_generators()
+  StageCounters stages;                    ///< of noli::contact, as counted by options.decide
+  std::uint64_t findings_total = 0;
+  std::vector<Finding> findings;  ///< the first max_findings, by block and index
+  bool interrupted = false;       ///< by the stop flag
+};
+
+/// Runs until count, time limit or stop flag; at least one of the three must be given, else std::invalid_argument.
+/// With `count` the report is the same for any number of threads. Throws std::system_error when a finding cannot be
+/// saved.
+FuzzReport fuzz_queries(const FuzzOptions& options);
+
+}  // namespace noli::audit
