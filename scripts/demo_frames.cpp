@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// demo_frames clean|contact N FOLDER: writes a short sequence of PLY frames, FOLDER/00.ply to FOLDER/05.ply, of two rippled sheets of
-// N by N squares (4 N^2 faces together), the upper one sinking towards the lower one while both fall.
+// demo_frames clean|contact N FOLDER: writes a short sequence of PLY frames, FOLDER/00.ply to FOLDER/05.ply, of two
+// rippled sheets of N by N squares (4 N^2 faces together), the upper one sinking towards the lower one while both fall.
 //   clean    the upper sheet stops above the lower one
 //   contact  one corner of it goes through, between frames 3 and 4
 // Coordinates are in metres. Only +, - and * are used, so the bytes are the same everywhere.

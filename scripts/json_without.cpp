@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// json_without FILE KEY...: the JSON in FILE on standard output, without the members called KEY, at any depth. For comparing results.
+// json_without FILE KEY...: the JSON in FILE on standard output, without the members called KEY, at any depth. For
+// comparing results.
 #include <exception>
 #include <fstream>
 #include <iostream>

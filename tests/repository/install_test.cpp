@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Installs the project into an empty folder and builds and runs examples/ against what is there, as a user would.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "workspace.h"
+
+namespace noli::repository {
+namespace {
+
+namespace fs = std::filesystem;
+
+void succeed(const std::string& command) {
+  const auto [exit_code, output] = run(command + " 2>&1");
+  ASSERT_EQ(exit_code, 0) << command << "\n" << output;
+}
+
+/// A library built with a sanitizer needs it in the programs too.
+std::string sanitizer_flags() {
+  const std::string sanitizers = NOLI_SANITIZE;
+  return sanitizers.empty() ? "" : " -DCMAKE_CXX_FLAGS=-fsanitize=" + sanitizers;
+}
+
+void install(const fs::path& prefix) {
+  succeed(quoted(NOLI_CMAKE) + " --install " + quoted(NOLI_BINARY_DIR) + " --prefix " + quoted(prefix.string()));
+}
+
+void build_examples(const fs::path& prefix, const fs::path& build) {
+  succeed(quoted(NOLI_CMAKE) + " -S " + quoted((fs::path(NOLI_SOURCE_DIR) / "examples").string()) + " -B " +
+          quoted(build.string()) + " -G " + quoted(NOLI_GENERATOR) +
+          " -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=" + quoted(NOLI_CXX_COMPILER) +
+          " -DCMAKE_PREFIX_PATH=" + quoted(prefix.string()) + sanitizer_flags());
+  succeed(quoted(NOLI_CMAKE) + " --build " + quoted(build.string()));
+}
+
+TEST(InstallSlow, AnInstalledNoliIsFoundAndTheExamplesRun) {
+  const TemporaryFolder folder;
+  const fs::path prefix = folder.path() / "prefix";
+  const fs::path build = folder.path() / "build";
+  ASSERT_NO_FATAL_FAILURE(install(prefix));
+  ASSERT_NO_FATAL_FAILURE(build_examples(prefix, build));
+  ASSERT_NO_FATAL_FAILURE(
+      succeed(quoted(NOLI_CTEST) + " --test-dir " + quoted(build.string()) + " --no-tests=error --output-on-failure"));
+  const auto [exit_code, output] = run(quoted((build / "meet").string()));
+  EXPECT_EQ(exit_code, 0);
+  EXPECT_EQ(output, "through the face: they meet\nbeside the face: they stay apart\n");
+}
+
+TEST(InstallSlow, WhatIsInstalledStandsOnItsOwn) {
+  const TemporaryFolder folder;
+  ASSERT_NO_FATAL_FAILURE(install(folder.path()));
+  int seen = 0;
+  for (const fs::path& file : files_below(folder.path())) {
+    if (file.extension() != ".cmake" && file.extension() != ".h") continue;
+    ++seen;
+    const std::string text = read_file(file);
+    EXPECT_EQ(text.find(NOLI_SOURCE_DIR), std::string::npos) << file;
+    EXPECT_EQ(text.find(NOLI_BINARY_DIR), std::string::npos) << file;
+  }
+  EXPECT_GT(seen, 5);
+  EXPECT_TRUE(fs::exists(folder.path() / "include" / "noli" / "kernel" / "contact.h"));
+  EXPECT_TRUE(fs::exists(folder.path() / "include" / "noli" / "proofs" / "prover" / "verifier.h"));
+  EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli"));
+}
+
+}  // namespace
+}  // namespace noli::repository

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "layers.h"
+#include "workspace.h"
+
+namespace noli::repository {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lines(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& line : all) text += line + "\n";
+  return text;
+}
+
+TEST(Layering, TheProjectKeepsTheTable) {
+  const auto violations = layering_violations(NOLI_SOURCE_DIR);
+  EXPECT_TRUE(violations.empty()) << lines(violations);
+}
+
+TEST(Layering, TheScanSeesTheProject) {
+  const fs::path verifier = fs::path("proofs") / "prover" / "verifier.h";
+  const auto found = includes(read_file(fs::path(NOLI_SOURCE_DIR) / verifier));
+  int kernel = 0;
+  int trajectory = 0;
+  for (const Include& include : found) {
+    const auto layer = included_layer(NOLI_SOURCE_DIR, verifier, include.target);
+    kernel += layer == "kernel" ? 1 : 0;
+    trajectory += layer == "trajectory" ? 1 : 0;
+  }
+  EXPECT_GE(kernel, 1);
+  EXPECT_GE(trajectory, 1);
+}
+
+struct Planted {
+  const char* name;
+  const char* file;
+  const char* line;
+  bool violation;
+};
+
+void PrintTo(const Planted& planted, std::ostream* out) { *out << planted.name; }
+
+class PlantedInclude : public testing::TestWithParam<Planted> {};
+
+TEST_P(PlantedInclude, IsJudged) {
+  const TemporaryFolder root;
+  for (const char* header :
+       {"kernel/k.h", "trajectory/t.h", "certificates/c.h", "integrator/i.h", "proofs/prover/p.h", "proofs/checker/c.h",
+        "audit/a.h", "app/a.h", "tests/oracle/o.h", "tests/app/t.h", "bench/b.h"}) {
+    write_file(root.path() / header, "#pragma once\n");
+  }
+  write_file(root.path() / GetParam().file, std::string("#pragma once\n") + GetParam().line + "\n");
+  const auto violations = layering_violations(root.path());
+  EXPECT_EQ(violations.size(), GetParam().violation ? 1U : 0U) << lines(violations);
+  if (!violations.empty()) {
+    EXPECT_TRUE(violations.front().starts_with(std::string(GetParam().file) + ":2: ")) << violations.front();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Layering, PlantedInclude,
+    testing::Values(
+        Planted{"KernelKnowsNoTrajectory", "kernel/x.h", "#include \"noli/trajectory/t.h\"", true},
+        Planted{"KernelKnowsItself", "kernel/x.h", "#include \"noli/kernel/k.h\"", false},
+        Planted{"KernelKnowsTheWorld", "kernel/x.h", "#include <vector>", false},
+        Planted{"KernelByARelativePath", "kernel/x.h", "#include \"../trajectory/t.h\"", true},
+        Planted{"KernelByAPathFromTheRoot", "kernel/x.h", "#include \"trajectory/t.h\"", true},
+        Planted{"KernelInBrackets", "kernel/x.h", "#  include <noli/trajectory/t.h>", true},
+        Planted{"KernelByADetour", "kernel/x.h", "#include \"noli/kernel/../trajectory/t.h\"", true},
+        Planted{"KernelByAMacro", "kernel/x.h", "#include HEADER", true},
+        Planted{"KernelKnowsNoOracle", "kernel/x.cpp", "#include \"noli/tests/oracle/o.h\"", true},
+        Planted{"TrajectoryKnowsNoKernel", "trajectory/x.h", "#include \"noli/kernel/k.h\"", true},
+        Planted{"CertificatesKnowTheKernel", "certificates/x.h", "#include \"noli/kernel/k.h\"", false},
+        Planted{"CertificatesKnowNoIntegrator", "certificates/x.h", "#include \"noli/integrator/i.h\"", true},
+        Planted{"IntegratorKnowsCertificates", "integrator/x.h", "#include \"noli/certificates/c.h\"", false},
+        Planted{"IntegratorKnowsNoProofs", "integrator/x.h", "#include \"noli/proofs/prover/p.h\"", true},
+        Planted{"ProverKnowsTheKernel", "proofs/prover/x.h", "#include \"noli/kernel/k.h\"", false},
+        Planted{"ProverKnowsNoIntegrator", "proofs/prover/x.h", "#include \"noli/integrator/i.h\"", true},
+        Planted{"ProverKnowsNoCertificates", "proofs/prover/x.h", "#include \"noli/certificates/c.h\"", true},
+        Planted{"CheckerKnowsItself", "proofs/checker/x.h", "#include \"c.h\"", false},
+        Planted{"CheckerKnowsNoKernel", "proofs/checker/x.h", "#include \"noli/kernel/k.h\"", true},
+        Planted{"CheckerKnowsNoProver", "proofs/checker/x.h", "#include \"../prover/p.h\"", true},
+        Planted{"AuditKnowsTheOracle", "audit/x.h", "#include \"noli/tests/oracle/o.h\"", false},
+        Planted{"AuditKnowsNoApp", "audit/x.h", "#include \"noli/app/a.h\"", true},
+        Planted{"AuditKnowsNoOtherTests", "audit/x.h", "#include \"noli/tests/app/t.h\"", true},
+        Planted{"OracleKnowsNoKernel", "tests/oracle/x.h", "#include \"noli/kernel/k.h\"", true},
+        Planted{"AppKnowsAudit", "app/x.h", "#include \"noli/audit/a.h\"", false},
+        Planted{"AppKnowsNoBench", "app/x.h", "#include \"noli/bench/b.h\"", true},
+        Planted{"ExamplesKnowWhatIsInstalled", "examples/x.cpp", "#include <noli/kernel/k.h>", false},
+        Planted{"ExamplesKnowNoAudit", "examples/x.cpp", "#include <noli/audit/a.h>", true},
+        Planted{"TestsKnowAll", "tests/app/x.h", "#include \"noli/app/a.h\"", false}),
+    [](const auto& planted) { return std::string(planted.param.name); });
+
+}  // namespace
+}  // namespace noli::repository
