@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The subcommands of `noli`, one file each. Each function adds its command to the parser and returns what is to be done
+// when the user asked for it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "noli/app/exit_code.h"
+
+namespace noli::app {
+
+struct Command {
+  CLI::App* parser;
+  std::function<ExitCode()> run;
+};
+
+Command add_verify(CLI::App& app);
+Command add_ccd(CLI::App& app);
+Command add_info(CLI::App& app);
+Command add_fuzz_queries(CLI::App& app);
+
+}  // namespace noli::app

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <iterator>
+#include <memory>
+
+#include "noli/app/commands.h"
+#include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/output.h"
+#include "noli/app/progress.h"
+#include "noli/audit/fuzz_queries.h"
+
+namespace noli::app {
+namespace {
+
+constexpr const char* queries_footer =
+    "Adversarial queries made backwards from a known contact, each decided by the kernel and by a slow independent "
+    "oracle. A difference is\n"
+    "shrunk and saved as a file that `noli ccd` reads, labelled with the truth. Exit 0: no difference; 1: findings; 2: "
+    "interrupted.\n"
+    "With --count the result depends on the seed alone.\n"
+    "Examples:\n"
+    "  noli fuzz queries --for 60s --seed 1\n"
+    "  noli fuzz queries --count 1000000 --threads 2 --out findings --json result.json";
+
+struct FuzzArguments {
+  audit::FuzzOptions options;
+  std::string duration = "60s";
+  std::string out = "fuzz-findings";
+  std::optional<std::string> json;
+};
+
+constexpr std::array<ContactKind, 4> kinds = {ContactKind::apart, ContactKind::touching, ContactKind::crossing,
+                                              ContactKind::persistent};
+
+const char* verdict(const audit::FuzzReport& report) {
+  if (report.findings_total > 0) return "finding";
+  return report.interrupted ? "undecided" : "no_difference";
+}
+
+ExitCode exit_code(const audit::FuzzReport& report) {
+  if (report.findings_total > 0) return ExitCode::refuted;
+  return report.interrupted ? ExitCode::undecided : ExitCode::holds;
+}
+
+Json answers_json(const std::array<std::uint64_t, 4>& answers) {
+  Json json = Json::object();
+  for (const ContactKind kind : kinds) json[std::string(name(kind))] = answers[static_cast<std::size_t>(kind)];
+  return json;
+}
+
+Json finding_json(const audit::Finding& finding) {
+  return {{"generator", finding.generator},   {"block", finding.block},       {"index", finding.index},
+          {"difference", finding.difference}, {"truth", name(finding.truth)}, {"file", finding.file.string()}};
+}
+
+Json generator_json(const audit::GeneratorTally& generator) {
+  return {{"name", generator.name},
+          {"pair", name(generator.type.pair)},
+          {"dimension", generator.type.dimension},
+          {"answers", answers_json(generator.answers)}};
+}
+
+Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
+  Json json = {{"verdict", verdict(report)},
+               {"seed", options.seed},
+               {"queries", report.queries},
+               {"findings", report.findings_total},
+               {"answers", answers_json(report.answers)}};
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(finding));
+  json["generators"] = Json::array();
+  for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
+  json["stages"] = stages_json(report.stages);
+  json["timing"] = {{"seconds", seconds}, {"threads", options.threads}};
+  return json;
+}
+
+void append_generator(const audit::GeneratorTally& generator, std::string& text) {
+  text += fmt::format("  {} ({}, {}D):", generator.name, name(generator.type.pair), generator.type.dimension);
+  for (const ContactKind kind : kinds) {
+    text += fmt::format(" {} {}", name(kind), generator.answers[static_cast<std::size_t>(kind)]);
+  }
+  text += '\n';
+}
+
+std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
+  std::string text = fmt::format("verdict {} queries {} findings {} seed {}\n", verdict(report), report.queries,
+                                 report.findings_total, options.seed);
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
+                   finding.difference, finding.file.empty() ? "not saved" : "saved as " + finding.file.string());
+  }
+  text += "Answers of the oracle:\n";
+  for (const auto& generator : report.generators) append_generator(generator, text);
+  text += "Stages:";
+  for (const Stage stage : all_stages) fmt::format_to(out, " {} {}", name(stage), report.stages[stage]);
+  fmt::format_to(out, "\nTime: {:.1f} s.\n", seconds);
+  return text;
+}
+
+/// Share of the run that is done, by count or by time, whichever is further.
+double share(const audit::FuzzOptions& options, const audit::FuzzProgress& progress) {
+  if (options.count) return static_cast<double>(progress.queries) / static_cast<double>(*options.count);
+  return progress.seconds / options.time_limit->count();
+}
+
+ExitCode run(FuzzArguments& arguments, bool for_given) {
+  audit::FuzzOptions& options = arguments.options;
+  if (for_given || !options.count) options.time_limit = parse_duration(arguments.duration, "--for");
+  const Output output(arguments.json);
+  require_writable_folder(arguments.out, "--out");
+  options.out = arguments.out;
+  options.stop = &interrupted();
+  const Stopwatch watch;
+  const audit::FuzzReport report = [&] {
+    Progress bar("fuzz queries");
+    options.progress = [&](const audit::FuzzProgress& progress) { bar.show(share(options, progress)); };
+    return audit::fuzz_queries(options);
+  }();
+  const double seconds = watch.seconds();
+  output.write(fuzz_text(options, report, seconds), fuzz_json(options, report, seconds));
+  return exit_code(report);
+}
+
+}  // namespace
+
+Command add_fuzz_queries(CLI::App& app) {
+  CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
+  fuzz->require_subcommand(1);
+  fuzz->footer("Examples:\n  noli fuzz queries --for 60s --seed 1\n`noli fuzz queries --help` says more.");
+  CLI::App* const command = fuzz->add_subcommand("queries", "Contact of two features: kernel against oracle");
+  command->footer(queries_footer);
+  const auto arguments = std::make_shared<FuzzArguments>();
+  audit::FuzzOptions& options = arguments->options;
+  CLI::Option* const duration =
+      command->add_option("--for", arguments->duration, "Stop after this time: 500ms, 60s, 5m, 1h")
+          ->capture_default_str()
+          ->type_name("TIME");
+  command->add_option("--count", options.count, "Stop after so many queries")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->add_option("--seed", options.seed, "What the queries depend on")->capture_default_str()->type_name("S");
+  command->add_option("--threads", options.threads, "How many threads; 0: all there are")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+  command->add_option("--out", arguments->out, "Folder for findings, made when there is one")
+      ->capture_default_str()
+      ->type_name("DIR");
+  command
+      ->add_option("--json", arguments->json,
+                   "Write everything as JSON to this file; '-': to standard output, in place of the text")
+      ->type_name("OUT");
+  return {command, [arguments, duration] { return run(*arguments, duration->count() > 0); }};
+}
+
+}  // namespace noli::app

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+
+#include "noli/app/ccd_run.h"
+#include "noli/app/commands.h"
+#include "noli/app/output.h"
+#include "noli/audit/any_query.h"
+#include "noli/trajectory/file_info.h"
+#include "noli/trajectory/query_csv.h"
+
+namespace noli::app {
+namespace {
+
+constexpr const char* footer =
+    "For meshes (PLY, OBJ): format, counts, extent, what is degenerate. For queries (CSV): how many, how many with a "
+    "label.\n"
+    "Examples:\n"
+    "  noli info frame.ply\n"
+    "  noli info frames/*.obj --json info.json\n"
+    "  noli info unit-tests-edge-edge-0.csv";
+
+struct InfoArguments {
+  std::vector<std::filesystem::path> files;
+  std::optional<std::string> json;
+};
+
+bool is_csv(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return extension == ".csv";
+}
+
+Json query_info(const std::filesystem::path& path) {
+  const FeaturePair pair = query_kind(path, std::nullopt);
+  const auto records = read_query_csv(path, audit::file_kind(pair));
+  const auto count_label = [&](bool label) {
+    return std::count_if(records.begin(), records.end(),
+                         [=](const QueryRecord& record) { return record.label == label; });
+  };
+  return {{"file", path.string()},
+          {"format", "CSV of queries"},
+          {"kind", name(pair)},
+          {"queries", records.size()},
+          {"labelled", count_label(false) + count_label(true)},
+          {"labelled_contact", count_label(true)}};
+}
+
+Json mesh_info(const std::filesystem::path& path) {
+  const FileInfo info = describe_file(path);
+  Json json = {{"file", path.string()},
+               {"format", info.format},
+               {"number_type", info.number_type},
+               {"vertices", info.vertices},
+               {"faces", info.faces},
+               {"mesh_edges", info.mesh_edges},
+               {"loose_edges", info.loose_edges},
+               {"loose_points", info.loose_points},
+               {"unreferenced_vertices", info.unreferenced_vertices},
+               {"degenerate_faces", info.degenerate_faces},
+               {"coincident_vertices", info.coincident_vertices},
+               {"planar", info.planar}};
+  json["lower"] = info.box ? Json(info.box->lower) : Json(nullptr);
+  json["upper"] = info.box ? Json(info.box->upper) : Json(nullptr);
+  return json;
+}
+
+std::string as_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& item : value) text += (text.empty() ? "" : ", ") + digits17(item.get<double>());
+  return text;
+}
+
+std::string info_text(const Json& files) {
+  std::string text = fmt::format("verdict described files {}\n", files.size());
+  for (const Json& file : files) {
+    text += as_text(file["file"]) + '\n';
+    for (const auto& [key, value] : file.items()) {
+      if (key != "file") text += fmt::format("  {} {}\n", key, as_text(value));
+    }
+  }
+  return text;
+}
+
+ExitCode run(const InfoArguments& arguments) {
+  const Output output(arguments.json);
+  Json files = Json::array();
+  for (const auto& path : arguments.files) files.push_back(is_csv(path) ? query_info(path) : mesh_info(path));
+  output.write(info_text(files), {{"verdict", "described"}, {"files", files}});
+  return ExitCode::holds;
+}
+
+}  // namespace
+
+Command add_info(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("info", "What is in a file");
+  command->footer(footer);
+  const auto arguments = std::make_shared<InfoArguments>();
+  command->add_option("files", arguments->files, "PLY, OBJ or CSV files")->required()->type_name("FILE");
+  command
+      ->add_option("--json", arguments->json,
+                   "Write everything as JSON to this file; '-': to standard output, in place of the text")
+      ->type_name("OUT");
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/interrupt.h"
+
+#include <csignal>
+
+namespace noli::app {
+namespace {
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may write it");
+
+extern "C" void request_stop(int) { stop_requested.store(true, std::memory_order_relaxed); }
+
+void on_signal(int signal, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;  // or reading a file would fail half-way
+  sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+const std::atomic<bool>& interrupted() { return stop_requested; }
+
+void install_signal_handlers() {
+  on_signal(SIGINT, request_stop);
+  on_signal(SIGTERM, request_stop);
+  on_signal(SIGPIPE, SIG_IGN);
+}
+
+}  // namespace noli::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Ctrl-C and SIGTERM ask the work to stop; what was settled so far is then reported as usual, with exit code 2.
+#pragma once
+
+#include <atomic>
+
+namespace noli::app {
+
+/// Becomes true when the user asks to stop. Never becomes false again.
+const std::atomic<bool>& interrupted();
+
+/// SIGINT and SIGTERM set the flag from now on; a closed pipe is an error of writing instead of a signal.
+void install_signal_handlers();
+
+}  // namespace noli::app

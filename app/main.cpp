@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "noli/app/commands.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/app/output.h"
+#include "noli/app/version.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+constexpr const char* description = "Noli proves that things that move do not touch: exact answers, no tolerance.";
+constexpr const char* footer =
+    "Exit codes: 0 what was asked holds; 1 it does not; 2 undecided (limit, interrupt); 3 the input or the command "
+    "line is at\n"
+    "fault; 4 an internal check failed, or the machine did.\n"
+    "Examples:\n"
+    "  noli verify before.ply after.ply       did anything touch between these frames?\n"
+    "  noli verify frames/*.ply --json out.json\n"
+    "  noli ccd edge-edge-queries.csv         decide queries, compare with their labels\n"
+    "  noli info frame.obj                    what is in a file\n"
+    "  noli fuzz queries --for 60s --seed 1   adversarial queries, kernel against oracle\n"
+    "`noli COMMAND --help` says more.";
+
+ExitCode complain(ExitCode code, const std::string& message) {
+  std::fputs(fmt::format("noli: {}\n", message).c_str(), stderr);
+  return code;
+}
+
+/// CLI11 describes a fault in a sentence or two; the user gets one line.
+std::string one_line(std::string text) {
+  for (char& c : text) c = c == '\n' ? ' ' : c;
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+/// The parser in which --help was asked for, which may be that of a subcommand.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app : innermost(*chosen.front());
+}
+
+ExitCode parse_and_run(int argc, char** argv) {
+  CLI::App app(description, "noli");
+  app.footer(footer);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
+  const std::vector<Command> commands = {add_verify(app), add_ccd(app), add_info(app), add_fuzz_queries(app)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    write_standard_output(innermost(app).help());
+    return ExitCode::holds;
+  } catch (const CLI::CallForVersion&) {
+    write_standard_output(version_text());
+    return ExitCode::holds;
+  } catch (const CLI::ParseError& error) {
+    return complain(ExitCode::bad_input, one_line(error.what()) + " (see noli --help)");
+  }
+  for (const Command& command : commands) {
+    if (command.parser->parsed()) return command.run();
+  }
+  return complain(ExitCode::failure, "internal error: a command without an action");
+}
+
+ExitCode guarded(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const InputError& error) {
+    return complain(ExitCode::bad_input, error.what());
+  } catch (const UsageError& error) {
+    return complain(ExitCode::bad_input, error.what());
+  } catch (const WriteError& error) {
+    return complain(ExitCode::failure, error.what());
+  } catch (const std::system_error& error) {
+    return complain(ExitCode::failure, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(ExitCode::failure, "out of memory");
+  } catch (const std::exception& error) {
+    return complain(ExitCode::failure, fmt::format("internal error: {}", error.what()));
+  }
+}
+
+}  // namespace
+}  // namespace noli::app
+
+int main(int argc, char** argv) {
+  noli::app::prepare_for_the_worst();
+  noli::app::install_signal_handlers();
+  return static_cast<int>(noli::app::guarded(argc, argv));
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/output.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "noli/app/exit_code.h"
+
+namespace noli::app {
+namespace {
+
+std::string reason() { return std::strerror(errno); }
+
+/// A file that is written beside its place and moved there in the end; removed if that does not come to pass.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& target) : name_(target + ".XXXXXX"), descriptor_(::mkstemp(name_.data())) {}
+  ~TemporaryFile() {
+    if (!is_open()) return;
+    ::close(descriptor_);
+    ::unlink(name_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+
+  /// mkstemp gives the file to its owner alone; a result has the permissions of any new file.
+  bool move_to(const std::string& target) {
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0) return false;
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed == 0 && ::rename(name_.c_str(), target.c_str()) == 0) return true;
+    const int error = errno;
+    ::unlink(name_.c_str());
+    errno = error;
+    return false;
+  }
+
+ private:
+  std::string name_;
+  int descriptor_;
+};
+
+/// Devices and pipes are written as they are, files are replaced.
+bool is_replaced(const std::string& path) {
+  struct stat status = {};
+  return ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
+}
+
+/// The file that a chain of symbolic links leads to, so that replacing the file leaves the links.
+std::string link_target(const std::string& path) {
+  std::error_code error;
+  const auto target = std::filesystem::canonical(path, error);
+  return error ? path : target.string();
+}
+
+bool can_write(const std::string& path) {
+  if (path.empty()) return errno = ENOENT, false;
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return errno = EISDIR, false;
+  const bool exists = ::access(path.c_str(), F_OK) == 0;
+  if (exists && ::access(path.c_str(), W_OK) != 0) return false;
+  return !is_replaced(path) || TemporaryFile(link_target(path)).is_open();
+}
+
+bool write_all(int descriptor, const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+bool replace_file(const std::string& path, const std::string& text) {
+  const std::string target = link_target(path);
+  TemporaryFile file(target);
+  return file.is_open() && write_all(file.descriptor(), text) && file.move_to(target);
+}
+
+bool write_device(const std::string& path, const std::string& text) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool written = write_all(descriptor, text);
+  return ::close(descriptor) == 0 && written;
+}
+
+}  // namespace
+
+Output::Output(std::optional<std::string> json_path) : json_path_(std::move(json_path)) {
+  if (!json_path_ || *json_path_ == "-") return;
+  if (!can_write(*json_path_)) throw UsageError("--json " + *json_path_ + ": cannot be written: " + reason());
+}
+
+void Output::write(const std::string& text, const Json& json) const {
+  if (!json_path_) return write_standard_output(text);
+  if (*json_path_ == "-") return write_standard_output(to_text(json));
+  const bool written =
+      is_replaced(*json_path_) ? replace_file(*json_path_, to_text(json)) : write_device(*json_path_, to_text(json));
+  if (!written) throw WriteError(*json_path_ + ": cannot be written: " + reason());
+  write_standard_output(text);
+}
+
+void require_writable_folder(const std::string& folder, const std::string& option) {
+  const std::filesystem::path path(folder);
+  std::error_code error;
+  const bool exists = std::filesystem::exists(path, error);
+  const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
+  const std::string probed = (exists ? path : parent) / "probe";
+  if (TemporaryFile(probed).is_open()) return;
+  throw UsageError(option + " " + folder + ": cannot be written: " + reason());
+}
+
+void write_standard_output(const std::string& text) {
+  if (!write_all(STDOUT_FILENO, text)) throw WriteError("standard output: cannot be written: " + reason());
+}
+
+}  // namespace noli::app

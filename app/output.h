@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where results go: text to standard output, and all of it as JSON to a file when asked for.
+//
+// The text's first line is the verdict, `verdict WORD key value key value ...`, for machines. With `--json -` standard
+// output carries the JSON document and nothing else.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "noli/app/json.h"
+
+namespace noli::app {
+
+class Output {
+ public:
+  /// `json_path`: where the JSON goes, "-" for standard output, nothing for nowhere.
+  /// Throws UsageError when a file cannot be written there; leaves nothing behind.
+  explicit Output(std::optional<std::string> json_path);
+
+  /// Writes the results. A file is written under another name first and then renamed: it is complete or absent. It
+  /// comes before the text, so that no verdict is printed by a run that fails. Throws WriteError.
+  void write(const std::string& text, const Json& json) const;
+
+ private:
+  std::optional<std::string> json_path_;
+};
+
+/// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, the folder
+/// itself.
+void require_writable_folder(const std::string& folder, const std::string& option);
+
+/// Writes to standard output, all of it. Throws WriteError.
+void write_standard_output(const std::string& text);
+
+}  // namespace noli::app

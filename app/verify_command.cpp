@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+
+#include "noli/app/commands.h"
+#include "noli/app/duration.h"
+#include "noli/app/output.h"
+#include "noli/app/verify_report.h"
+#include "noli/app/verify_run.h"
+
+namespace noli::app {
+namespace {
+
+constexpr const char* footer =
+    "Every step from one frame to the next is decided exactly. The first step that has a contact is counted to its "
+    "end, then the run\n"
+    "stops. Standard output begins with the verdict line; verdicts: no_contact (exit 0), contact (1), undecided (2).\n"
+    "Steps are counted from 1; times are in [0, 1] of their step. `first_time` is of the first pair of features that "
+    "meets: null when\n"
+    "none does, also where cells intersect from the beginning to the end without any.\n"
+    "Examples:\n"
+    "  noli verify before.ply after.ply\n"
+    "  noli verify frames/*.obj --keep-going --json result.json\n"
+    "  noli verify rest.ply --static --strict        does this mesh intersect itself?\n"
+    "  noli verify a.ply b.ply --json - | jq .first\n"
+    "  noli verify a.ply b.ply --time-limit 10s --threads 1";
+
+struct VerifyArguments {
+  VerifyRequest request;
+  std::string time_limit;
+  std::optional<std::string> json;
+};
+
+ExitCode exit_code(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_contact: return ExitCode::holds;
+    case Verdict::contact: return ExitCode::refuted;
+    case Verdict::undecided: return ExitCode::undecided;
+  }
+  return ExitCode::failure;
+}
+
+ExitCode run(VerifyArguments& arguments) {
+  VerifyRequest& request = arguments.request;
+  if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
+  const Output output(arguments.json);
+  const VerifyOutcome outcome = run_verify(request);
+  output.write(verify_text(request, outcome), verify_json(request, outcome));
+  return exit_code(outcome.verdict);
+}
+
+void add_options(CLI::App& command, VerifyArguments& arguments) {
+  VerifyRequest& request = arguments.request;
+  command.add_option("frames", request.frames, "PLY or OBJ files, in the order of time")
+      ->required()
+      ->type_name("FRAMES");
+  command
+      .add_option("--json", arguments.json,
+                  "Write everything as JSON to this file; '-': to standard output, in place of the text")
+      ->type_name("OUT");
+  command.add_option("--threads", request.threads, "How many threads; 0: all there are")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+  command.add_option("--max-reports", request.max_reports, "List at most so many contacts; counts are always exact")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("N");
+  command.add_option("--time-limit", arguments.time_limit, "Stop after this time, undecided: 500ms, 60s, 5m, 1h")
+      ->type_name("TIME");
+  command
+      .add_option("--dimension", request.dimension,
+                  "2 or 3; by default 2 if all z of the first two frames are equal, else 3")
+      ->check(CLI::IsMember({2, 3}))
+      ->type_name("2|3");
+}
+
+void add_flags(CLI::App& command, VerifyRequest& request) {
+  auto* keep_going = command.add_flag("--keep-going", request.keep_going, "Go through all steps, contacts or not");
+  command.add_flag("--first-only", request.first_only, "Be content with the first contact found")->excludes(keep_going);
+  command.add_flag("--strict", request.strict, "Also compare the features of one cell with each other");
+  command.add_flag("--points", request.points, "Vertices that nothing refers to are particles");
+  command.add_flag("--static", request.constant_motion, "Each frame by itself, at rest");
+  command.add_flag("--merge-identical", request.merge_identical,
+                   "Make one vertex of those whose coordinates are equal in all frames (reads them twice)");
+  // Accepted from the beginning, so that scripts need no change when a checker exists.
+  command.add_flag("--no-check")->description("Do without the check of the proof (there is none yet)");
+}
+
+}  // namespace
+
+Command add_verify(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("verify", "Did anything touch between these frames?");
+  command->footer(footer);
+  const auto arguments = std::make_shared<VerifyArguments>();
+  add_options(*command, *arguments);
+  add_flags(*command, arguments->request);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/verify_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iterator>
+
+#include "noli/app/machine.h"
+#include "noli/kernel/parallel.h"
+
+namespace noli::app {
+namespace {
+
+using Ids = std::vector<VertexId>;
+
+/// Vertex ids of the two features of a contact.
+std::pair<Ids, Ids> features(const FeatureContact& contact) {
+  const auto begin = contact.vertices.begin();
+  const auto middle = begin + static_cast<std::ptrdiff_t>(first_size(contact.pair));
+  const auto end = begin + static_cast<std::ptrdiff_t>(point_count(contact.pair));
+  return {Ids(begin, middle), Ids(middle, end)};
+}
+
+Json contact_json(const FeatureContact& contact) {
+  const auto [first, second] = features(contact);
+  return {{"pair", name(contact.pair)}, {"features", Json::array({first, second})}};
+}
+
+Json counts_json(const ContactCounts& counts) {
+  Json json = Json::object();
+  for (const FeaturePair pair : all_feature_pairs)
+    json[std::string(name(pair))] = counts[static_cast<std::size_t>(pair)];
+  return json;
+}
+
+const char* motion(const VerifyRequest& request) {
+  return request.constant_motion ? "each frame by itself, at rest"
+                                 : "every vertex moves linearly from each frame to the next";
+}
+
+Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
+  return {
+      {"claim", "no two features of two different cells that share no vertex meet at any time of a step"},
+      {"frames", request.frames.size()},
+      {"motion", motion(request)},
+      {"time", "[0, 1] in each step, both ends included"},
+      {"numbers", "the doubles that the files give, taken exactly; real arithmetic on them, no tolerance"},
+      {"dimension", outcome.dimension},
+      {"cells",
+       "faces, and the loose edges and points that the files list; their features are their vertices, edges and "
+       "themselves"},
+      {"contact", "closed simplices have a point in common; degenerate ones are what their hull is; touching counts"},
+      {"neighbours", "features that share a vertex are not compared; vertices are who they are by index"},
+      {"initial_intersections", "pairs of cells whose vertex-disjoint parts meet at the first time of all"},
+      {"excluded", Json::array()},
+      {"strict", request.strict},
+      {"points", request.points},
+      {"static", request.constant_motion},
+      {"keep_going", request.keep_going},
+      {"first_only", request.first_only},
+      {"merge_identical", request.merge_identical},
+      {"merged_vertices", outcome.merged_vertices},
+      {"unreferenced_vertices_left_out", outcome.unreferenced_vertices},
+  };
+}
+
+Json first_json(const VerifyOutcome& outcome) {
+  if (!outcome.first) return nullptr;
+  Json json = contact_json(outcome.first->contact);
+  json["kind"] = name(outcome.first->kind);
+  json["step"] = outcome.first->step;
+  json["time"] = outcome.first->time;
+  return json;
+}
+
+Json reports_json(const VerifyOutcome& outcome) {
+  Json list = Json::array();
+  for (const auto& [step, contact] : outcome.reports) {
+    list.push_back(contact_json(contact));
+    list.back()["step"] = step;
+  }
+  return {{"listed", outcome.reports.size()},
+          {"left_out", outcome.contact_count() - outcome.reports.size()},
+          {"contacts", list}};
+}
+
+Json initial_reports_json(const VerifyOutcome& outcome) {
+  Json list = Json::array();
+  for (const auto& [step, pair] : outcome.initial_reports) {
+    list.push_back({{"cells", {pair.first_cell, pair.second_cell}}, {"step", step}});
+  }
+  const auto listed = outcome.initial_reports.size();
+  return {{"listed", listed}, {"left_out", outcome.initial_intersections - listed}, {"intersections", list}};
+}
+
+Json steps_json(const VerifyOutcome& outcome) {
+  Json json = Json::array();
+  for (const StepCounts& step : outcome.steps) {
+    json.push_back({{"contacts", counts_json(step.contacts)}, {"initial_intersections", step.initial_intersections}});
+  }
+  return json;
+}
+
+Json work_json(const VerifyOutcome& outcome) {
+  Json json = stages_json(outcome.stages);
+  json["obligations"] = outcome.obligations;
+  json["cell_pairs"] = outcome.cell_pairs;
+  return json;
+}
+
+int threads_used(const VerifyRequest& request) { return request.threads > 0 ? request.threads : hardware_threads(); }
+
+const char* why_incomplete(const VerifyOutcome& outcome) {
+  if (outcome.interrupted) return "interrupted";
+  return outcome.out_of_time ? "time limit" : "first contact only";
+}
+
+std::string feature_text(const Ids& ids) {
+  static constexpr const char* names[] = {"vertex", "edge", "face"};
+  return fmt::format("{} {}", names[ids.size() - 1], fmt::join(ids, "-"));
+}
+
+std::string contact_text(const FeatureContact& contact) {
+  const auto [first, second] = features(contact);
+  return fmt::format("{} meets {}", feature_text(first), feature_text(second));
+}
+
+class Text {
+ public:
+  Text(const VerifyRequest& request, const VerifyOutcome& outcome) : request_(request), outcome_(outcome) {}
+
+  std::string operator()() && {
+    verdict_line();
+    answer();
+    contacts();
+    initial_intersections();
+    statement();
+    work();
+    return std::move(text_);
+  }
+
+ private:
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    text_ += '\n';
+  }
+
+  void verdict_line() {
+    text_ += fmt::format("verdict {}", name(outcome_.verdict));
+    for (const FeaturePair pair : all_feature_pairs) {
+      text_ += fmt::format(" contacts.{} {}", name(pair), outcome_.contacts[static_cast<std::size_t>(pair)]);
+    }
+    const std::string time = outcome_.first ? digits17(outcome_.first->time) : "none";
+    line(" initial_intersections {} first_time {} steps {} steps_total {} faces {} complete {}",
+         outcome_.initial_intersections, time, outcome_.steps.size(), outcome_.steps_total, outcome_.faces,
+         outcome_.complete);
+  }
+
+  void answer() {
+    switch (outcome_.verdict) {
+      case Verdict::no_contact: line("Nothing touches in {} step(s).", outcome_.steps_total); break;
+      case Verdict::contact:
+        line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());
+        break;
+      case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
+    }
+    if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
+      line("The counts are partial ({}).", why_incomplete(outcome_));
+    }
+  }
+
+  std::size_t touching_steps() const {
+    std::size_t count = 0;
+    for (const StepCounts& step : outcome_.steps) {
+      count += step.contacts != ContactCounts{} || step.initial_intersections > 0;
+    }
+    return count;
+  }
+
+  void contacts() {
+    if (!outcome_.first) return;
+    const First& first = *outcome_.first;
+    line("First: {}, {}, in step {} at time {}.", contact_text(first.contact), name(first.kind), first.step,
+         digits17(first.time));
+    line("Contacts ({} pairs of features):", outcome_.contact_count());
+    for (const auto& [step, contact] : outcome_.reports) line("  step {}: {}", step, contact_text(contact));
+    const auto left_out = outcome_.contact_count() - outcome_.reports.size();
+    if (left_out > 0) line("  ... and {} more (--max-reports)", left_out);
+  }
+
+  void initial_intersections() {
+    if (outcome_.initial_intersections == 0) return;
+    line("{} pair(s) of cells intersect already at the {}:", outcome_.initial_intersections,
+         request_.constant_motion ? "time of their frame" : "first time");
+    for (const auto& [step, pair] : outcome_.initial_reports) {
+      line("  step {}: cells {} and {}", step, pair.first_cell, pair.second_cell);
+    }
+    const auto left_out = outcome_.initial_intersections - outcome_.initial_reports.size();
+    if (left_out > 0) line("  ... and {} more (--max-reports)", left_out);
+  }
+
+  void statement() {
+    line("Statement:");
+    for (const auto& [key, value] : statement_json(request_, outcome_).items()) {
+      line("  {}: {}", key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+
+  void work() {
+    line("Mesh: {} vertices, {} faces, {} loose edges, {} loose points.", outcome_.vertices, outcome_.faces,
+         outcome_.edges, outcome_.points);
+    text_ += "Stages:";
+    const Json stages = work_json(outcome_);
+    for (const auto& [key, value] : stages.items()) text_ += fmt::format(" {} {}", key, value.dump());
+    line("");
+    line("Time: {:.3f} s, and {:.3f} s of reading; {} thread(s); {:.0f} MB.", outcome_.seconds, outcome_.read_seconds,
+         threads_used(request_), static_cast<double>(peak_memory_bytes()) / 1e6);
+  }
+
+  const VerifyRequest& request_;
+  const VerifyOutcome& outcome_;
+  std::string text_;
+};
+
+}  // namespace
+
+Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
+  Json json = {{"verdict", name(outcome.verdict)}, {"complete", outcome.complete}};
+  json["statement"] = statement_json(request, outcome);
+  json["contacts"] = counts_json(outcome.contacts);
+  json["initial_intersections"] = outcome.initial_intersections;
+  json["first_time"] = outcome.first ? Json(outcome.first->time) : Json(nullptr);
+  json["first"] = first_json(outcome);
+  json["reports"] = reports_json(outcome);
+  json["initial_reports"] = initial_reports_json(outcome);
+  json["steps"] = outcome.steps.size();
+  json["steps_total"] = outcome.steps_total;
+  json["per_step"] = steps_json(outcome);
+  json["vertices"] = outcome.vertices;
+  json["faces"] = outcome.faces;
+  json["edges"] = outcome.edges;
+  json["points"] = outcome.points;
+  json["stages"] = work_json(outcome);
+  json["timing"] = {{"seconds", outcome.seconds},
+                    {"read_seconds", outcome.read_seconds},
+                    {"threads", threads_used(request)},
+                    {"peak_memory_bytes", peak_memory_bytes()}};
+  return json;
+}
+
+std::string verify_text(const VerifyRequest& request, const VerifyOutcome& outcome) { return Text(request, outcome)(); }
+
+}  // namespace noli::app

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/verify_run.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "noli/app/exit_code.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/app/progress.h"
+#include "noli/audit/any_query.h"
+#include "noli/trajectory/cells.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/frames.h"
+#include "noli/trajectory/merge.h"
+
+namespace noli::app {
+namespace {
+
+Motion motion_of(const VerifyRequest& request) { return request.constant_motion ? Motion::constant : Motion::linear; }
+
+/// A frame that is not there is noticed before the work begins, not an hour later.
+void require_readable(const std::vector<std::filesystem::path>& paths) {
+  for (const auto& path : paths) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error) || !std::ifstream(path)) {
+      throw InputError(path.string(), "", "cannot be opened; expected a PLY or OBJ file");
+    }
+  }
+}
+
+class Run {
+ public:
+  explicit Run(const VerifyRequest& request) : request_(request), sequence_(request.frames, motion_of(request)) {
+    require_readable(request.frames);
+    if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
+    outcome_.steps_total = sequence_.step_count();
+  }
+
+  VerifyOutcome operator()() {
+    const Stopwatch watch;
+    if (request_.merge_identical) find_classes();
+    while (!stopped() && outcome_.complete && read_next_step()) {
+      if (sequence_.step() == 0) begin();
+      require_plane();
+      verify();
+      if (outcome_.touches() && !request_.keep_going) break;
+    }
+    conclude();
+    outcome_.seconds = watch.seconds() - outcome_.read_seconds;
+    return std::move(outcome_);
+  }
+
+ private:
+  bool stopped() {
+    outcome_.interrupted |= interrupted().load(std::memory_order_relaxed);
+    outcome_.out_of_time |= deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+    return outcome_.interrupted || outcome_.out_of_time;
+  }
+
+  bool read_next_step() {
+    const Stopwatch watch;
+    const bool read = sequence_.next();
+    outcome_.read_seconds += watch.seconds();
+    return read;
+  }
+
+  /// The first pass of --merge-identical.
+  void find_classes() {
+    const Stopwatch watch;
+    FrameSequence frames(request_.frames, Motion::constant);
+    while (!stopped() && frames.next()) {
+      if (!classes_) classes_.emplace(frames.mesh().vertex_count);
+      classes_->refine(frames.x_t0());
+    }
+    outcome_.read_seconds += watch.seconds();
+  }
+
+  /// What the first step tells about all of them.
+  void begin() {
+    mesh_ = sequence_.mesh();
+    const auto unreferenced = unreferenced_vertices(mesh_);
+    if (request_.points) {
+      mesh_.points.insert(mesh_.points.end(), unreferenced.begin(), unreferenced.end());
+    } else {
+      outcome_.unreferenced_vertices = unreferenced.size();
+    }
+    if (classes_) {
+      mesh_ = with_merged_vertices(mesh_, *classes_);
+      outcome_.merged_vertices = classes_->merged_count();
+    }
+    if (mesh_.cell_count() == 0) {
+      throw InputError(sequence_.path_t0().string(), "",
+                       "no faces, edges or points; expected something that can touch (see --points)");
+    }
+    outcome_.dimension = request_.dimension.value_or(in_plane() ? 2 : 3);
+    outcome_.vertices = mesh_.vertex_count;
+    outcome_.faces = mesh_.faces.size();
+    outcome_.edges = mesh_.edges.size();
+    outcome_.points = mesh_.points.size();
+  }
+
+  bool in_plane() const {
+    const auto x_t0 = sequence_.x_t0(), x_t1 = sequence_.x_t1();
+    return all_z_equal(x_t0) && all_z_equal(x_t1) && (x_t0.empty() || x_t0[0][2] == x_t1[0][2]);
+  }
+
+  void require_plane() const {
+    if (request_.dimension || outcome_.dimension == 3 || in_plane()) return;
+    throw InputError(sequence_.path_t1().string(), "",
+                     "leaves the plane of the frames before; expected the same z everywhere (see --dimension)");
+  }
+
+  VerifyOptions options(Progress& progress) const {
+    VerifyOptions options;
+    options.dimension = outcome_.dimension;
+    options.threads = request_.threads;
+    options.initial = request_.constant_motion || sequence_.step() == 0;
+    options.first_only = request_.first_only;
+    options.strict = request_.strict;
+    options.max_reports = request_.max_reports;
+    options.stop = &interrupted();
+    options.deadline = deadline_;
+    options.progress = [this, &progress](double share) {
+      progress.show((static_cast<double>(sequence_.step()) + share) / static_cast<double>(outcome_.steps_total));
+    };
+    return options;
+  }
+
+  void verify() {
+    Progress progress("verify");
+    const VerifyResult result = verify_step(mesh_, sequence_.x_t0(), sequence_.x_t1(), options(progress));
+    outcome_.complete = result.complete;
+    add_counts(result);
+    add_reports(result);
+    if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
+  }
+
+  void add_counts(const VerifyResult& result) {
+    outcome_.steps.push_back({result.contacts, result.initial_intersections});
+    for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += result.contacts[i];
+    outcome_.initial_intersections += result.initial_intersections;
+    outcome_.stages += result.stages;
+    outcome_.obligations += result.obligations;
+    outcome_.cell_pairs += result.cell_pairs;
+  }
+
+  void add_reports(const VerifyResult& result) {
+    const std::size_t step = sequence_.step() + 1;
+    for (const auto& contact : result.reports) {
+      if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
+    }
+    for (const auto& pair : result.initial_reports) {
+      if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
+    }
+  }
+
+  /// Kind and time of a contact of the current step.
+  First exactly(const FeatureContact& contact) const {
+    audit::AnyQuery query{contact.pair, outcome_.dimension, {}, {}};
+    for (std::size_t i = 0; i < query.size(); ++i) {
+      query.x_t0[i] = sequence_.x_t0()[contact.vertices[i]];
+      query.x_t1[i] = sequence_.x_t1()[contact.vertices[i]];
+    }
+    const auto found = audit::visit(query, [](const auto& typed) { return first_contact(typed); });
+    if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
+    return {contact, sequence_.step() + 1, found->kind, found->time.lower()};
+  }
+
+  void conclude() {
+    stopped();
+    const bool all_steps = outcome_.steps.size() == outcome_.steps_total;
+    const bool enough = outcome_.touches() && !request_.keep_going;
+    outcome_.complete = outcome_.complete && (all_steps || enough);
+    const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
+    outcome_.verdict = outcome_.touches() ? Verdict::contact : untouched;
+  }
+
+  const VerifyRequest& request_;
+  FrameSequence sequence_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  std::optional<IdenticalVertices> classes_;
+  Mesh mesh_;
+  VerifyOutcome outcome_;
+};
+
+}  // namespace
+
+VerifyOutcome run_verify(const VerifyRequest& request) { return Run(request)(); }
+
+}  // namespace noli::app

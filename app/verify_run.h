@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli verify` without its words: goes through the steps of a sequence and gathers what the verifier finds.
+//
+// Notation
+//   step k     as in trajectory/frames.h, but counted from 1 in what is reported: step 1 begins at the first frame
+//
+// What this does not do: it prints nothing (verify_report.h).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/kernel/first_contact.h"
+#include "noli/proofs/prover/verifier.h"
+
+namespace noli::app {
+
+struct VerifyRequest {
+  std::vector<std::filesystem::path> frames;
+  std::optional<int> dimension;  ///< nothing: 2 if all z of the first two frames are equal, else 3
+  int threads = 0;               ///< 0: all there are
+  std::size_t max_reports = 100;
+  bool keep_going = false;       ///< all steps, not only up to the first that has a contact
+  bool first_only = false;       ///< stop at any contact
+  bool strict = false;           ///< also the vertex-disjoint features of one cell
+  bool points = false;           ///< vertices that nothing refers to are particles
+  bool constant_motion = false;  ///< --static: each frame for itself
+  bool merge_identical = false;
+  std::optional<std::chrono::nanoseconds> time_limit;
+};
+
+enum class Verdict { no_contact, contact, undecided };
+
+/// The name used in JSON: "no_contact", "contact", "undecided".
+constexpr std::string_view name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_contact: return "no_contact";
+    case Verdict::contact: return "contact";
+    case Verdict::undecided: return "undecided";
+  }
+  return "";
+}
+
+/// The first pair of features that meets.
+struct First {
+  FeatureContact contact;
+  std::size_t step = 0;  ///< from 1
+  ContactKind kind = ContactKind::touching;
+  double time = 0;  ///< in [0, 1] of its step: the largest double not above the exact time
+};
+
+/// Listed contacts of one step.
+struct Listed {
+  std::size_t step = 0;  ///< from 1
+  FeatureContact contact;
+};
+
+struct ListedInitial {
+  std::size_t step = 0;  ///< from 1
+  InitialIntersection pair;
+};
+
+using ContactCounts = std::array<std::uint64_t, all_feature_pairs.size()>;
+
+/// What one step gave.
+struct StepCounts {
+  ContactCounts contacts{};
+  std::uint64_t initial_intersections = 0;
+};
+
+struct VerifyOutcome {
+  Verdict verdict = Verdict::undecided;
+  int dimension = 3;
+  std::size_t vertices = 0, faces = 0, edges = 0, points = 0;
+  std::size_t merged_vertices = 0;
+  std::size_t unreferenced_vertices = 0;  ///< that are left out
+  std::size_t steps_total = 0;
+  std::vector<StepCounts> steps;  ///< of the steps that were begun, in order
+  bool complete = true;           ///< all that was asked for was decided; else the counts are lower bounds
+  bool interrupted = false;       ///< by the user
+  bool out_of_time = false;
+  ContactCounts contacts{};
+  std::uint64_t initial_intersections = 0;
+  std::optional<First> first;
+  std::vector<Listed> reports;
+  std::vector<ListedInitial> initial_reports;
+  StageCounters stages;
+  std::uint64_t obligations = 0;
+  std::uint64_t cell_pairs = 0;
+  double seconds = 0;       ///< wall clock without reading
+  double read_seconds = 0;  ///< wall clock of reading
+
+  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
+  bool touches() const { return contact_count() + initial_intersections > 0; }
+};
+
+/// Runs it. Stops early, with what was settled so far, when app::interrupted() or at the time limit.
+/// Throws InputError, UsageError (options that do not go together), std::bad_alloc.
+VerifyOutcome run_verify(const VerifyRequest& request);
+
+}  // namespace noli::app

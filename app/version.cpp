@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/version.h"
+
+#include <CGAL/version.h>
+#include <fmt/format.h>
+#include <gmp.h>
+#include <mpfr.h>
+
+#include <boost/version.hpp>
+
+#include "noli/kernel/rounding.h"
+
+namespace noli::app {
+
+std::string version_text() {
+  const std::string rounding = rounding_self_test() ? "passed" : "FAILED: every decision falls to exact arithmetic";
+  return fmt::format("noli {}\ncommit {}\nGMP {}\nMPFR {}\nCGAL {}\nBoost {}.{}.{}\nrounding self-test {}\n",
+                     NOLI_VERSION, NOLI_COMMIT, gmp_version, mpfr_get_version(), CGAL_STR(CGAL_VERSION),
+                     BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, rounding);
+}
+
+}  // namespace noli::app

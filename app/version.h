@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace noli::app {
+
+/// What `noli --version` prints: version, commit, arithmetic libraries, and whether rounding works on this machine now.
+std::string version_text();
+
+}  // namespace noli::app
