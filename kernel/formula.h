@@ -125,6 +125,13 @@ constexpr std::array<T, N> difference(const std::array<T, N>& a, const std::arra
   return c;
 }
 
+template <class T, std::size_t N>
+constexpr std::array<T, N> sum(const std::array<T, N>& a, const std::array<T, N>& b) {
+  std::array<T, N> c = a;
+  for (std::size_t i = 0; i < N; ++i) c[i] = c[i] + b[i];
+  return c;
+}
+
 /// The differences of a vertex_face query: d_i = f_i - v.
 template <class T>
 struct VertexFace {

@@ -14,18 +14,18 @@ enum class Stage {
   comparison,  ///< an axis on which the two features are in the same strict order at both ends: comparisons only
   direction,   ///< a separating direction, with a proved floating-point error bound
   bernstein,   ///< Bernstein coefficients with bisection, in double with a proved error bound
-  interval,    ///< the same in interval arithmetic (CGAL::Interval_nt)
   fixed,       ///< exact integers of fixed width, without allocation
+  interval,    ///< Bernstein coefficients in interval arithmetic (CGAL::Interval_nt), for exponents that do not fit the fixed width
   gmp          ///< exact integers of any width
 };
 
 constexpr std::array<Stage, 6> all_stages = {Stage::comparison, Stage::direction, Stage::bernstein,
-                                             Stage::interval,   Stage::fixed,     Stage::gmp};
+                                             Stage::fixed,      Stage::interval,  Stage::gmp};
 
 /// The name used in JSON: "comparison", ...
 constexpr std::string_view name(Stage stage) {
   constexpr std::array<std::string_view, 6> names = {"comparison", "direction", "bernstein",
-                                                     "interval",   "fixed",     "gmp"};
+                                                     "fixed",      "interval",  "gmp"};
   return names[static_cast<std::size_t>(stage)];
 }
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/kernel/contact.h"
+
+#include "noli/kernel/double_filter.h"
+#include "noli/kernel/exact_contact.h"
+#include "noli/kernel/first_contact.h"
+#include "noli/kernel/interval_filter.h"
+#include "noli/kernel/rounding.h"
+#include "noli/kernel/scaled_integers.h"
+
+namespace noli {
+namespace {
+
+using bernstein::Verdict;
+using filter::Decision;
+
+/// Bits of a coordinate that the widths in exact_contact.h leave room for, with one and with two limbs.
+/// A difference of coordinates has B + 1 bits, a cross product's coefficient 2 B + 5, a determinant's 3 B + 9; the largest number in
+/// exact_times.h 16 B + 52, in 16 C limbs with the sign.
+constexpr int one_limb_bits = 59;
+constexpr int two_limb_bits = 123;
+
+const Decision undecided{Verdict::unknown, {}};
+
+// --- The floating-point stages, by kind of query -----------------------------------------------------------------------
+
+/// `axis`: along which the configuration looks large, for the stages to come.
+template <class Filter, class Query>
+Decision filtered(const Query& query, StageCounters& counters, bool narrow, std::size_t& axis) {
+  const Filter filter(query);
+  axis = filter.axis();
+  if (!filter.usable()) return undecided;
+  if (filter.separated()) {
+    counters.count(Stage::direction);
+    return {};
+  }
+  const Decision decision = filter::search(filter.forms(), filter.axis(), filter.signs(), narrow);
+  if (decision.verdict != Verdict::unknown) counters.count(Stage::bernstein);
+  return decision;
+}
+
+Decision float_stages(const VertexFace3& query, StageCounters& counters, bool narrow, std::size_t& axis) {
+  return filtered<filter::VertexFaceFilter>(query, counters, narrow, axis);
+}
+
+Decision float_stages(const EdgeEdge3& query, StageCounters& counters, bool narrow, std::size_t& axis) {
+  return filtered<filter::EdgeEdgeFilter>(query, counters, narrow, axis);
+}
+
+/// The others are rare and cheap to decide exactly.
+template <FeaturePair Pair, int Dim>
+Decision float_stages(const Query<Pair, Dim>&, StageCounters&, bool, std::size_t&) {
+  return undecided;
+}
+
+// --- Exact integers of fixed width -----------------------------------------------------------------------------------
+
+template <std::size_t C, FeaturePair Pair, int Dim>
+Decision exact_decision(const Query<Pair, Dim>& query, const exact::ExponentRange& range, [[maybe_unused]] std::size_t axis) {
+  const auto points = exact::scaled<C>(query, range);
+  if constexpr (Pair == FeaturePair::vertex_face) {
+    const exact::VertexFaceProblem<C> problem(points);
+    return exact::CodimensionOne<exact::VertexFaceProblem<C>, C>(problem, axis).decide();
+  } else if constexpr (Pair == FeaturePair::edge_edge) {
+    const exact::EdgeEdgeProblem<C> problem(points);
+    return exact::CodimensionOne<exact::EdgeEdgeProblem<C>, C>(problem, axis).decide();
+  } else if constexpr (Pair == FeaturePair::vertex_edge) {
+    return exact::decide_vertex_edge(points);
+  } else {
+    return exact::decide_vertex_vertex(points);
+  }
+}
+
+template <FeaturePair Pair, int Dim>
+Decision fixed_stage(const Query<Pair, Dim>& query, StageCounters& counters, std::size_t axis) {
+  const exact::ExponentRange range = exact::exponent_range(query);
+  Decision decision = undecided;
+  if (range.bits() <= one_limb_bits) {
+    decision = exact_decision<1>(query, range, axis);
+  } else if (range.bits() <= two_limb_bits) {
+    decision = exact_decision<2>(query, range, axis);
+  }
+  if (decision.verdict != Verdict::unknown) counters.count(Stage::fixed);
+  return decision;
+}
+
+// --- Integers of any width ----------------------------------------------------------------------------------------------
+
+template <FeaturePair Pair, int Dim>
+Decision gmp_stage(const Query<Pair, Dim>& query, StageCounters& counters) {
+  counters.count(Stage::gmp);
+  const auto first = first_contact(query);
+  if (!first) return {};
+  return {Verdict::contact, {std::max(0.0, first->time.lower()), std::min(1.0, first->time.upper())}};
+}
+
+template <FeaturePair Pair, int Dim>
+Decision decide(const Query<Pair, Dim>& query, StageCounters& counters, bool narrow) {
+  static const RoundingReport rounding = rounding_self_test();
+  if (filter::ordered_on_an_axis(query)) {
+    counters.count(Stage::comparison);
+    return {};
+  }
+  if (rounding.nearest_ok) {
+    std::size_t axis = 0;
+    const Decision decision = float_stages(query, counters, narrow, axis);
+    if (decision.verdict != Verdict::unknown) return decision;
+    const Decision exact = fixed_stage(query, counters, axis);
+    if (exact.verdict != Verdict::unknown) return exact;
+  }
+  if (rounding.directed_ok) {
+    const Decision decision = interval_filter::decide(query, narrow);
+    if (decision.verdict != Verdict::unknown) {
+      counters.count(Stage::interval);
+      return decision;
+    }
+  }
+  return gmp_stage(query, counters);
+}
+
+}  // namespace
+
+template <FeaturePair Pair, int Dim>
+std::optional<TimeEnclosure> contact(const Query<Pair, Dim>& query, StageCounters* counters, EnclosureWanted wanted) {
+  StageCounters unused;
+  const Decision decision = decide(query, counters != nullptr ? *counters : unused, wanted == EnclosureWanted::narrow);
+  if (decision.verdict == Verdict::apart) return std::nullopt;
+  return decision.enclosure;
+}
+
+template std::optional<TimeEnclosure> contact(const VertexFace3&, StageCounters*, EnclosureWanted);
+template std::optional<TimeEnclosure> contact(const EdgeEdge3&, StageCounters*, EnclosureWanted);
+template std::optional<TimeEnclosure> contact(const VertexEdge3&, StageCounters*, EnclosureWanted);
+template std::optional<TimeEnclosure> contact(const VertexVertex3&, StageCounters*, EnclosureWanted);
+template std::optional<TimeEnclosure> contact(const VertexEdge2&, StageCounters*, EnclosureWanted);
+template std::optional<TimeEnclosure> contact(const VertexVertex2&, StageCounters*, EnclosureWanted);
+
+}  // namespace noli

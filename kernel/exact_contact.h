@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contact decided in exact integers of fixed width: all queries but those that hang on the sign of something at an irrational
+// root of a cubic.
+//
+// Notation (formula.h): f is the coplanarity form; a *time* is an object of exact_times.h with the exact sign of quadratic forms.
+// The features meet at some time of the step iff they meet at an end, or at a root of f inside, or, when f is zero
+// throughout, at a root inside of one of the forms on whose signs the answer depends: the set of contact times is closed, and
+// between such roots nothing changes.
+//
+// What this does not do: a cubic f whose roots are all irrational is left `unknown` when double precision, applied to the
+// exact coefficients, does not settle it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "noli/kernel/bernstein.h"
+#include "noli/kernel/double_filter.h"
+#include "noli/kernel/exact_times.h"
+#include "noli/kernel/formula.h"
+#include "noli/kernel/query.h"
+#include "noli/kernel/wide.h"
+
+namespace noli::exact {
+
+using bernstein::Verdict;
+using formula::CrossForms;
+using formula::Moving;
+
+template <std::size_t C>
+using Coordinate = Wide<C>;
+template <std::size_t C>
+using Quadratic = Form<Wide<2 * C>, 2>;
+template <std::size_t C>
+using Cubic = Form<Wide<3 * C>, 3>;
+
+template <class T, std::size_t N>
+bool is_zero(const std::array<T, N>& coefficients) {
+  for (const T& c : coefficients) {
+    if (!c.is_zero()) return false;
+  }
+  return true;
+}
+
+template <class T, std::size_t N>
+std::array<double, N> rounded(const std::array<T, N>& form) {
+  std::array<double, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = form[i].approximate();
+  return bernstein::scaled_coefficients(result);
+}
+
+template <std::size_t N>
+double largest(const std::array<double, N>& c) {
+  double size = 0;
+  for (const double x : c) size = std::max(size, std::abs(x));
+  return size;
+}
+
+/// A quadratic form, and its coefficients rounded to double: these mostly suffice for the sign at a time that is known to 2^-45, and
+/// spare the long products.
+template <std::size_t L>
+class SignedForm {
+ public:
+  SignedForm() = default;
+  explicit SignedForm(const Form<Wide<L>, 2>& form) : exact_(form), rounded_(rounded(form)), bound_(0x1p-40 * largest(rounded_)) {}
+
+  const Form<Wide<L>, 2>& exact() const { return exact_; }
+  const std::array<double, 3>& approximation() const { return rounded_; }
+
+  /// The sign at `time`, of which `t` is an approximation.
+  template <class Time>
+  int sign(const Time& time, double t) const {
+    const double value = bernstein::value_at(rounded_, t);
+    if (value > bound_) return 1;
+    if (value < -bound_) return -1;
+    return time.sign(exact_);
+  }
+
+ private:
+  Form<Wide<L>, 2> exact_;
+  std::array<double, 3> rounded_{};
+  double bound_ = 0;
+};
+
+/// Whether 0 lies between p and q: p x q = 0 and p . q <= 0.
+template <std::size_t C, std::size_t Dim>
+struct Between {
+  static constexpr std::size_t cross_count = Dim == 3 ? 3 : 1;
+  std::array<SignedForm<2 * C>, cross_count> zero;
+  SignedForm<2 * C> not_positive;
+
+  Between(const Moving<Wide<C>, Dim>& p, const Moving<Wide<C>, Dim>& q) : not_positive(formula::dot(p, q)) {
+    if constexpr (Dim == 3) {
+      const auto cross = formula::cross(p, q);
+      zero = {SignedForm<2 * C>(cross[0]), SignedForm<2 * C>(cross[1]), SignedForm<2 * C>(cross[2])};
+    } else {
+      zero = {SignedForm<2 * C>(formula::cross(p, q))};
+    }
+  }
+
+  template <class Time>
+  bool holds(const Time& time, double t) const {
+    for (const auto& form : zero) {
+      if (form.sign(time, t) != 0) return false;
+    }
+    return not_positive.sign(time, t) <= 0;
+  }
+};
+
+/// Seen along one axis: the insides, and the form that is zero when the configuration is degenerate in this view.
+template <std::size_t C, std::size_t Insides>
+struct View {
+  std::array<SignedForm<2 * C>, Insides> insides;
+  SignedForm<2 * C> degenerate;
+
+  View(const std::array<Quadratic<C>, Insides>& forms, const Quadratic<C>& degenerate_form) : degenerate(degenerate_form) {
+    for (std::size_t k = 0; k < Insides; ++k) insides[k] = SignedForm<2 * C>(forms[k]);
+  }
+
+  /// Given that the points are coplanar and the view is not degenerate: whether no inside has the sign opposite to `orientation`.
+  template <class Time>
+  bool contact(const Time& time, double t, int orientation) const {
+    for (const auto& g : insides) {
+      if (g.sign(time, t) * orientation < 0) return false;
+    }
+    return true;
+  }
+};
+
+/// A vertex_face query in integers.
+template <std::size_t C>
+class VertexFaceProblem {
+ public:
+  static constexpr std::size_t insides_count = 3;
+  using Vector = Moving<Wide<C>, 3>;
+
+  explicit VertexFaceProblem(const std::array<Vector, 4>& x) : forms_{{x[1] - x[0], x[2] - x[0], x[3] - x[0]}} {}
+
+  Cubic<C> coplanarity() const { return forms_.coplanarity(); }
+
+  View<C, 3> view(std::size_t axis) const {
+    const auto insides = forms_.insides(axis);
+    return View<C, 3>(insides, formula::sum(formula::sum(insides[0], insides[1]), insides[2]));
+  }
+
+  /// The face as the union of its edges: what it is when it is degenerate in every view.
+  std::array<Between<C, 3>, 3> degenerate_parts() const {
+    const auto& d = forms_.d;
+    return {Between<C, 3>(d[0], d[1]), Between<C, 3>(d[1], d[2]), Between<C, 3>(d[2], d[0])};
+  }
+
+ private:
+  formula::VertexFace<Wide<C>> forms_;
+};
+
+/// An edge_edge query in integers.
+template <std::size_t C>
+class EdgeEdgeProblem {
+ public:
+  static constexpr std::size_t insides_count = 4;
+  using Vector = Moving<Wide<C>, 3>;
+
+  explicit EdgeEdgeProblem(const std::array<Vector, 4>& x) : x_(x), forms_{x[1] - x[0], x[3] - x[2], x[2] - x[0]} {}
+
+  Cubic<C> coplanarity() const { return forms_.coplanarity(); }
+
+  View<C, 4> view(std::size_t axis) const {
+    return View<C, 4>(forms_.insides(axis), formula::cross_component(forms_.u, forms_.v, axis));
+  }
+
+  /// Edges that are parallel (or points) in every view meet iff an end of one lies on the other.
+  std::array<Between<C, 3>, 4> degenerate_parts() const {
+    const auto& [a0, a1, b0, b1] = x_;
+    return {Between<C, 3>(b0 - a0, b1 - a0), Between<C, 3>(b0 - a1, b1 - a1), Between<C, 3>(a0 - b0, a1 - b0),
+            Between<C, 3>(a0 - b1, a1 - b1)};
+  }
+
+ private:
+  std::array<Vector, 4> x_;
+  formula::EdgeEdge<Wide<C>> forms_;
+};
+
+using filter::Decision;
+
+inline Decision contact_in(TimeEnclosure enclosure) { return {Verdict::contact, enclosure}; }
+
+/// An interval around a time known to a relative error far below 2^-40.
+inline TimeEnclosure around(double t) { return {std::max(0.0, t - 0x1p-40), std::min(1.0, t + 0x1p-40)}; }
+
+/// Decides a problem of codimension one: vertex_face and edge_edge in space.
+template <class Problem, std::size_t C>
+class CodimensionOne {
+  static constexpr int cubic_depth = 6;
+
+ public:
+  /// `axis`: along which to look first; any is right, one along which the configuration looks large is faster.
+  CodimensionOne(const Problem& problem, std::size_t axis) : problem_(problem), axis_(axis) {}
+
+  Decision decide() {
+    const Cubic<C> f = problem_.coplanarity();
+    if (is_zero(f)) return decide_coplanar();
+    if (f[0].is_zero() && touches(EndTime{false})) return contact_in({0, 0});
+    Decision inside = decide_roots(f);
+    if (inside.verdict != Verdict::contact && f[3].is_zero() && touches(EndTime{true})) {
+      return contact_in({inside.verdict == Verdict::apart ? 1.0 : 0.0, 1});
+    }
+    return inside;
+  }
+
+ private:
+  static constexpr std::size_t insides_count = Problem::insides_count;
+
+  const View<C, insides_count>& view(std::size_t axis) {
+    if (!views_[axis]) views_[axis] = problem_.view(axis);
+    return *views_[axis];
+  }
+
+  /// Given that the points are coplanar at this time: whether the features meet.
+  template <class Time>
+  bool touches(const Time& time) {
+    const double t = time.approximate();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& seen = view((axis_ + i) % 3);
+      const int orientation = seen.degenerate.sign(time, t);
+      if (orientation != 0) return seen.contact(time, t, orientation);
+    }
+    for (const auto& part : problem_.degenerate_parts()) {
+      if (part.holds(time, t)) return true;
+    }
+    return false;
+  }
+
+  Decision decide_coplanar() {
+    if (touches(EndTime{false})) return contact_in({0, 0});
+    bool found = touches(EndTime{true});
+    double latest = found ? 1 : 0;
+    const auto visit = [&](const auto& time) {
+      if (!touches(time)) return false;
+      latest = time.approximate();
+      return true;
+    };
+    found = any_critical_root(visit) || found;
+    return found ? contact_in({0, around(latest).end}) : Decision{};
+  }
+
+  /// Roots of the forms on whose signs `touches` depends, when the points are coplanar throughout.
+  template <class Visit>
+  bool any_critical_root(Visit&& visit) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& seen = view((axis_ + i) % 3);
+      if (is_zero(seen.degenerate.exact())) continue;
+      if (any_root(seen.degenerate.exact(), visit)) return true;
+      for (const auto& g : seen.insides) {
+        if (any_root(g.exact(), visit)) return true;
+      }
+      return false;
+    }
+    for (const auto& part : problem_.degenerate_parts()) {
+      for (const auto& form : part.zero) {
+        if (any_root(form.exact(), visit)) return true;
+      }
+      if (any_root(part.not_positive.exact(), visit)) return true;
+    }
+    return false;
+  }
+
+  /// Contact at a root of f inside the step. Roots at the ends and factors s + t (no root at all) are divided out.
+  Decision decide_roots(Cubic<C> f) {
+    std::size_t degree = 3;
+    const auto drop_first = [&] {
+      for (std::size_t i = 0; i < degree; ++i) f[i] = f[i + 1];
+      --degree;
+    };
+    while (degree > 0 && f[0].is_zero()) drop_first();
+    while (degree > 0 && f[degree].is_zero()) --degree;
+    while (degree > 0 && divide_by_s_plus_t(f, degree)) --degree;
+    if (!changes_sign(f, degree)) return {};
+    if (degree == 3) return decide_cubic(f);
+    Form<Wide<3 * C>, 2> p{f[0], degree > 0 ? f[1] : Wide<3 * C>(), degree > 1 ? f[2] : Wide<3 * C>()};
+    Decision decision;
+    any_root(p, [&](const auto& time) {
+      if (!touches(time)) return false;
+      decision = contact_in(around(time.approximate()));
+      return true;
+    });
+    return decision;
+  }
+
+  static bool divide_by_s_plus_t(Cubic<C>& f, std::size_t degree) {
+    Cubic<C> quotient = f;
+    for (std::size_t i = 1; i < degree; ++i) quotient[i] = f[i] - quotient[i - 1];
+    if (!(f[degree] - quotient[degree - 1]).is_zero()) return false;
+    f = quotient;
+    return true;
+  }
+
+  static bool changes_sign(const Cubic<C>& f, std::size_t degree) {
+    const int sign = f[0].sign();
+    for (std::size_t i = 1; i <= degree; ++i) {
+      if (f[i].sign() * sign < 0) return true;
+    }
+    return false;
+  }
+
+  /// The Bernstein search once more, now on the exact coefficients. Error bounds: a coefficient is rounded to 2^-51 of itself and
+  /// multiplied once; a run of de Casteljau has at most three levels of 3 * 2^-53.
+  Decision decide_cubic(const Cubic<C>& f) {
+    using Piece = bernstein::Piece<double, 3, insides_count, 2>;
+    using Signs = filter::DoubleSigns<insides_count>;
+    const auto& seen = view(axis_);
+    Piece piece{rounded(f), {}, {}, 0, 1};
+    Signs signs;
+    signs.f_bound = signs.f_level = 0x1p-49 * largest(piece.f);
+    for (std::size_t k = 0; k < insides_count; ++k) {
+      if (is_zero(seen.insides[k].exact())) piece.g_sign[k] = bernstein::zero_throughout;
+      piece.g[k] = seen.insides[k].approximation();
+      signs.g_bound[k] = signs.g_level[k] = 0x1p-49 * largest(piece.g[k]);
+    }
+    bernstein::Search<Piece, Signs> search(true);
+    const Verdict verdict = search.run(piece, signs, cubic_depth);
+    if (verdict != Verdict::unknown) return {verdict, search.enclosure()};
+    const Decision on_border = contact_on_border(f, piece.f, seen);
+    return on_border.verdict == Verdict::contact ? on_border : decide_double_root(f);
+  }
+
+  /// A root that f shares with an inside: a contact on the border of a feature.
+  Decision contact_on_border(const Cubic<C>& f, const std::array<double, 4>& rounded_f, const View<C, insides_count>& seen) {
+    const double bound = 0x1p-40 * largest(rounded_f);
+    Decision decision{Verdict::unknown, {}};
+    const auto visit = [&](const auto& time) {
+      const double t = time.approximate();
+      if (std::abs(bernstein::value_at(rounded_f, t)) > bound) return false;
+      if (time.sign(f) != 0 || !touches(time)) return false;
+      decision = contact_in({0, around(t).end});
+      return true;
+    };
+    for (const auto& g : seen.insides) {
+      if (any_root(g.exact(), visit)) break;
+    }
+    return decision;
+  }
+
+  /// A cubic with a double root has rational roots: the double one at (9 f0 f3 - f1 f2) / (2 (f2^2 - 3 f1 f3)), unless it is triple,
+  /// and the simple one at -f2 / f3 minus twice that.
+  Decision decide_double_root(const Cubic<C>& f) {
+    const Wide<C> two(2), three(3), nine(9);
+    auto t = narrowed(nine * (f[0] * f[3])) - f[1] * f[2];
+    auto s = narrowed(two * (f[2] * f[2] - narrowed(three * (f[1] * f[3]))));
+    if (s.is_zero()) return {Verdict::unknown, {}};
+    if (s.is_negative()) {
+      s = -s;
+      t = -t;
+    }
+    const RationalTime<6 * C> time{s, t};
+    if (time.sign(f) != 0 || !is_double_root(f, time)) return {Verdict::unknown, {}};
+    if (t.sign() > 0 && touches(time)) return contact_in({0, around(time.approximate()).end});
+    return decide_simple_root(f, time);
+  }
+
+  template <class Time>
+  static bool is_double_root(const Cubic<C>& f, const Time& time) {
+    const Wide<C> two(2), three(3);
+    const Form<Wide<4 * C>, 2> derivative{Wide<4 * C>(f[1]), two * f[2], three * f[3]};
+    return time.sign(derivative) == 0;
+  }
+
+  Decision decide_simple_root(const Cubic<C>& f, const RationalTime<6 * C>& double_root) {
+    auto s = f[3] * double_root.s;
+    auto t = -(f[2] * double_root.s) - (f[3] * double_root.t + f[3] * double_root.t);
+    if (s.is_negative()) {
+      s = -s;
+      t = -t;
+    }
+    const RationalTime<9 * C> time{s, t};
+    if (t.sign() <= 0 || !touches(time)) return {};
+    return contact_in(around(time.approximate()));
+  }
+
+  /// Drops the highest limb(s) that a product with a small constant added; the bits for it are there.
+  static Wide<6 * C> narrowed(const Wide<7 * C>& x) {
+    Wide<6 * C> result;
+    for (std::size_t i = 0; i < 6 * C; ++i) result.limb(i) = x.limb(i);
+    return result;
+  }
+
+  const Problem& problem_;
+  std::size_t axis_;
+  std::array<std::optional<View<C, insides_count>>, 3> views_;
+};
+
+/// Decides the other problems: the features meet iff all of `zero` vanish and `not_positive` is not positive at the same time.
+template <std::size_t L, std::size_t N>
+class ZeroSet {
+ public:
+  ZeroSet(const std::array<SignedForm<L>, N>& zero, const SignedForm<L>& not_positive) : zero_(zero), not_positive_(not_positive) {}
+
+  Decision decide() const {
+    if (holds(EndTime{false})) return contact_in({0, 0});
+    Decision decision;
+    any_root(critical_form(), [&](const auto& time) {
+      if (!holds(time)) return false;
+      decision = contact_in(around(time.approximate()));
+      return true;
+    });
+    if (decision.verdict != Verdict::contact && holds(EndTime{true})) return contact_in({1, 1});
+    return decision;
+  }
+
+ private:
+  template <class Time>
+  bool holds(const Time& time) const {
+    const double t = time.approximate();
+    for (const auto& form : zero_) {
+      if (form.sign(time, t) != 0) return false;
+    }
+    return not_positive_.sign(time, t) <= 0;
+  }
+
+  /// Contacts begin only where this one vanishes, or at t = 0.
+  const Form<Wide<L>, 2>& critical_form() const {
+    for (const auto& form : zero_) {
+      if (!is_zero(form.exact())) return form.exact();
+    }
+    return not_positive_.exact();
+  }
+
+  std::array<SignedForm<L>, N> zero_;
+  SignedForm<L> not_positive_;
+};
+
+/// A vertex and an edge: 0 between the two ends of the edge, seen from the vertex.
+template <std::size_t C, std::size_t Dim>
+Decision decide_vertex_edge(const std::array<Moving<Wide<C>, Dim>, 3>& x) {
+  const Between<C, Dim> between(x[1] - x[0], x[2] - x[0]);
+  return ZeroSet<2 * C, Between<C, Dim>::cross_count>(between.zero, between.not_positive).decide();
+}
+
+/// Two vertices: every coordinate of their difference vanishes. Each, of degree 1, is raised to degree 2 by the factor s + t = 1.
+template <std::size_t C, std::size_t Dim>
+Decision decide_vertex_vertex(const std::array<Moving<Wide<C>, Dim>, 2>& x) {
+  const auto d = x[1] - x[0];
+  std::array<SignedForm<C>, Dim> zero;
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    zero[axis] = SignedForm<C>({d.at_t0[axis], d.at_t0[axis] + d.at_t1[axis], d.at_t1[axis]});
+  }
+  return ZeroSet<C, Dim>(zero, {}).decide();
+}
+
+}  // namespace noli::exact

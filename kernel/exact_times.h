@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Times of a step at which a polynomial of degree 2 vanishes, in closed form, and the exact sign of other quadratic forms at them.
+//
+// Notation (formula.h)
+//   z = t / s         in (0, infinity) for t inside the step: a form of degree n is a polynomial in z, c[0] + c[1] z + ... + c[n] z^n
+//   p                 the form that vanishes, D = p1^2 - 4 p0 p2
+//   g                 a form of degree 2 or 3 whose sign is asked for
+//
+// Widths: for coefficients of p below 2^P and of g below 2^G in magnitude, the largest number that arises is below
+// 2^(4 P + 2 G + 2 P + 10) for a g of degree 2, and 2^(6 P + 2 G + 2 P + 10) for one of degree 3; its type has as many limbs as the
+// same sum over limbs.
+//
+// What this does not do: no time at which only a polynomial of degree 3 vanishes. It has no closed form within the numbers at hand.
+#pragma once
+
+#include "noli/kernel/formula.h"
+#include "noli/kernel/wide.h"
+
+namespace noli::exact {
+
+using formula::Form;
+
+/// One end of the step.
+struct EndTime {
+  bool at_t1;
+
+  template <std::size_t L>
+  int sign(const Form<Wide<L>, 2>& g) const {
+    return (at_t1 ? g[2] : g[0]).sign();
+  }
+  double approximate() const { return at_t1 ? 1 : 0; }
+};
+
+/// The rational time t / (s + t), s, t > 0.
+template <std::size_t W>
+struct RationalTime {
+  Wide<W> s, t;
+
+  template <std::size_t L>
+  int sign(const Form<Wide<L>, 2>& g) const {
+    return (g[0] * (s * s) + g[1] * (s * t) + g[2] * (t * t)).sign();
+  }
+  template <std::size_t L>
+  int sign(const Form<Wide<L>, 3>& g) const {
+    const auto ss = s * s, st = s * t, tt = t * t;
+    return (g[0] * (ss * s) + g[1] * (ss * t) + g[2] * (st * t) + g[3] * (tt * t)).sign();
+  }
+  double approximate() const {
+    const double a = s.approximate(), b = t.approximate();
+    return b / (a + b);
+  }
+};
+
+/// The time with z = (-p1 + root sqrt(D)) / (2 p2), where p2 > 0, D > 0, root = +-1.
+template <std::size_t W>
+struct QuadraticTime {
+  Form<Wide<W>, 2> p;
+  Wide<2 * W> discriminant;
+  int root;
+
+  /// g(z) has the sign of p2 g(z) - g2 p(z), which is linear.
+  template <std::size_t L>
+  int sign(const Form<Wide<L>, 2>& g) const {
+    return sign_of_linear(p[2] * g[0] - p[0] * g[2], p[2] * g[1] - p[1] * g[2]);
+  }
+
+  /// Two such steps for a g of degree 3: e = p2 g - g3 z p, then p2 e - e2 p.
+  template <std::size_t L>
+  int sign(const Form<Wide<L>, 3>& g) const {
+    const auto e0 = p[2] * g[0], e1 = p[2] * g[1] - p[0] * g[3], e2 = p[2] * g[2] - p[1] * g[3];
+    return sign_of_linear(p[2] * e0 - p[0] * e2, p[2] * e1 - p[1] * e2);
+  }
+
+  /// h0 + h1 z has the sign of X + Y sqrt(D) with X = 2 p2 h0 - p1 h1, Y = root h1.
+  template <std::size_t H>
+  int sign_of_linear(const Wide<H>& h0, const Wide<H>& h1) const {
+    const auto twice_p2 = p[2] + p[2];
+    const auto x = twice_p2 * h0 - p[1] * h1;
+    const int sign_x = x.sign(), sign_y = root * h1.sign();
+    if (sign_y == 0 || sign_x == sign_y) return sign_x;
+    if (sign_x == 0) return sign_y;
+    return sign_x * (x * x - h1 * h1 * discriminant).sign();
+  }
+
+  /// Without cancellation: of the two expressions of a root, the one whose terms have the same sign.
+  double approximate() const {
+    const double p0 = p[0].approximate(), p1 = p[1].approximate(), p2 = p[2].approximate();
+    const double r = root * std::sqrt(discriminant.approximate());
+    const double z = (p1 <= 0) == (r >= 0) ? (r - p1) / (2 * p2) : (2 * p0) / (-p1 - r);
+    return z / (1 + z);
+  }
+};
+
+/// The sign of p1^2 - 4 p0 p2 decides how many roots there are.
+template <std::size_t W>
+Wide<2 * W> discriminant(const Form<Wide<W>, 2>& p) {
+  const auto product = p[0] * p[2];
+  const auto twice = product + product;
+  return p[1] * p[1] - (twice + twice);
+}
+
+/// Calls visit(time) for each time inside the step at which p0 s + p1 t is zero; stops when visit returns true, and returns that.
+template <std::size_t W, class Visit>
+bool any_linear_root(const Wide<W>& p0, const Wide<W>& p1, Visit&& visit) {
+  const int sign0 = p0.sign(), sign1 = p1.sign();
+  if (sign0 * sign1 >= 0) return false;
+  return visit(sign1 > 0 ? RationalTime<W>{p1, -p0} : RationalTime<W>{-p1, p0});
+}
+
+/// The same for a form of degree 2, in ascending order. A form that is zero throughout has no roots to visit.
+template <std::size_t W, class Visit>
+bool any_root(Form<Wide<W>, 2> p, Visit&& visit) {
+  if (p[2].is_zero()) return any_linear_root(p[0], p[1], visit);
+  if (p[0].is_zero()) return any_linear_root(p[1], p[2], visit);
+  if (p[2].is_negative()) p = {-p[0], -p[1], -p[2]};
+  const bool one_root = p[0].is_negative();
+  if (!one_root && p[1].sign() >= 0) return false;
+  const auto d = discriminant(p);
+  if (d.is_negative()) return false;
+  if (d.is_zero()) return visit(RationalTime<W>{p[2] + p[2], -p[1]});
+  if (!one_root && visit(QuadraticTime<W>{p, d, -1})) return true;
+  return visit(QuadraticTime<W>{p, d, +1});
+}
+
+}  // namespace noli::exact

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The stage between exact integers of fixed width and GMP: Bernstein coefficients in CGAL::Interval_nt, for queries whose exponents do
+// not fit the fixed width, or that double precision could not settle.
+//
+// What this does not do: like every filter it is silent about degenerate queries. It needs directed rounding to work
+// (kernel/rounding.h) and must not be called when it does not.
+#pragma once
+
+#include "noli/kernel/double_filter.h"
+#include "noli/kernel/query.h"
+
+namespace noli::interval_filter {
+
+/// vertex_face and edge_edge in space; `unknown` for the others, whose exact decision is cheaper.
+filter::Decision decide(const VertexFace3& query, bool narrow);
+filter::Decision decide(const EdgeEdge3& query, bool narrow);
+
+template <FeaturePair Pair, int Dim>
+filter::Decision decide(const Query<Pair, Dim>&, bool) {
+  return {bernstein::Verdict::unknown, {}};
+}
+
+}  // namespace noli::interval_filter
