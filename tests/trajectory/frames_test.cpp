@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/trajectory/frames.h"
+
+#include <cmath>
+
+#include "noli/trajectory/write_ply.h"
+#include "support.h"
+
+namespace noli {
+namespace {
+
+using testing::input_error;
+using testing::TemporaryFolder;
+
+const std::string face_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// Frame k of a triangle that rises by one a frame.
+Frame rising(double z) {
+  return {.mesh = {.vertex_count = 3, .faces = {{0, 1, 2}}, .edges = {}, .points = {}},
+          .positions = {{0, 0, z}, {1, 0, z}, {0, 1, z}}};
+}
+
+std::vector<std::filesystem::path> write_rising(const TemporaryFolder& folder, int count) {
+  std::vector<std::filesystem::path> paths;
+  for (int k = 0; k < count; ++k) {
+    paths.push_back(folder / (std::to_string(k) + ".ply"));
+    write_ply(paths.back(), rising(k), PlyEncoding::binary_little_endian);
+  }
+  return paths;
+}
+
+TEST(Frames, ExtensionDecides) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(read_frame(folder.write("a.OBJ", face_obj)).mesh.faces.size(), 1u);
+  const std::string ply = format_ply(rising(0), PlyEncoding::ascii);
+  EXPECT_EQ(read_frame(folder.write("a.Ply", ply)).mesh.faces.size(), 1u);
+  EXPECT_EQ(input_error([&] { read_frame(folder.write("a.stl", ply)); }),
+            (folder / "a.stl").string() + ": expected a file that ends in .ply or .obj, found '.stl'");
+  EXPECT_EQ(input_error([&] { read_frame(folder.write("a", ply)); }),
+            (folder / "a").string() + ": expected a file that ends in .ply or .obj, found ''");
+}
+
+TEST(Frames, LinearStepsJoinSuccessiveFrames) {
+  const TemporaryFolder folder;
+  FrameSequence sequence(write_rising(folder, 4));
+  EXPECT_EQ(sequence.frame_count(), 4u);
+  EXPECT_EQ(sequence.step_count(), 3u);
+  for (std::size_t step = 0; step < 3; ++step) {
+    ASSERT_TRUE(sequence.next());
+    EXPECT_EQ(sequence.step(), step);
+    EXPECT_EQ(sequence.x_t0()[2], (Position{0, 1, static_cast<double>(step)}));
+    EXPECT_EQ(sequence.x_t1()[2], (Position{0, 1, static_cast<double>(step + 1)}));
+    EXPECT_EQ(sequence.path_t0(), folder / (std::to_string(step) + ".ply"));
+    EXPECT_EQ(sequence.path_t1(), folder / (std::to_string(step + 1) + ".ply"));
+    EXPECT_EQ(sequence.mesh().faces.size(), 1u);
+  }
+  EXPECT_FALSE(sequence.next());
+}
+
+TEST(Frames, ConstantStepsStandStill) {
+  const TemporaryFolder folder;
+  FrameSequence sequence(write_rising(folder, 2), Motion::constant);
+  EXPECT_EQ(sequence.step_count(), 2u);
+  for (std::size_t step = 0; step < 2; ++step) {
+    ASSERT_TRUE(sequence.next());
+    EXPECT_EQ(sequence.step(), step);
+    EXPECT_EQ(sequence.x_t0().data(), sequence.x_t1().data());
+    EXPECT_EQ(sequence.x_t0()[0][2], static_cast<double>(step));
+    EXPECT_EQ(sequence.path_t0(), sequence.path_t1());
+  }
+  EXPECT_FALSE(sequence.next());
+}
+
+TEST(Frames, TooFewFrames) {
+  EXPECT_EQ(input_error([] { FrameSequence({}); }), "frames: there are none");
+  EXPECT_EQ(input_error([] { FrameSequence({}, Motion::constant); }), "frames: there are none");
+  EXPECT_EQ(input_error([] { FrameSequence({"one.ply"}); }),
+            "one.ply: is a single frame, expected at least two to have a motion");
+  EXPECT_EQ(FrameSequence({"one.ply"}, Motion::constant).step_count(), 1u);
+}
+
+TEST(Frames, ReadsNothingBeforeItIsAsked) {
+  FrameSequence sequence({"missing-a.ply", "missing-b.ply"});
+  EXPECT_EQ(input_error([&] { sequence.next(); }), "missing-a.ply: cannot be opened: No such file or directory");
+}
+
+struct OtherMesh {
+  const char* name;
+  std::string text;
+  std::string difference;  ///< NAME stands for the first file
+  friend void PrintTo(const OtherMesh& bad, std::ostream* out) { *out << bad.name; }
+};
+const std::string cells_obj = "v 0 0\nv 1 0\nv 0 1\nv 3 3\nv 4 4\nv 5 5\nf 1 2 3\nl 4 5\np 6\n";
+const std::string vertices = cells_obj.substr(0, cells_obj.find('f'));
+const OtherMesh other_meshes[] = {
+    {"vertices", cells_obj + "v 1 1\n", "has 7 vertices, but NAME has 6"},
+    {"face_count", cells_obj + "f 2 1 3\n", "has 2 faces, but NAME has 1"},
+    {"edge_count", cells_obj + "l 4 6\n", "has 2 loose edges, but NAME has 1"},
+    {"point_count", vertices + "f 1 2 3\nl 4 5\n", "has 0 loose points, but NAME has 1"},
+    {"face", vertices + "f 2 3 1\nl 4 5\np 6\n", "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there"},
+    {"edge", vertices + "f 1 2 3\nl 5 4\np 6\n", "loose edge 0 has vertices [4, 3], but NAME has [3, 4] there"},
+    {"point", vertices + "f 1 2 3\nl 4 6\np 5\n", "loose edge 0 has vertices [3, 5], but NAME has [3, 4] there"},
+};
+
+class DifferentMeshes : public ::testing::TestWithParam<OtherMesh> {};
+INSTANTIATE_TEST_SUITE_P(All, DifferentMeshes, ::testing::ValuesIn(other_meshes),
+                         [](const auto& bad) { return bad.param.name; });
+
+TEST_P(DifferentMeshes, AreNamedWithTheFirstDifference) {
+  const TemporaryFolder folder;
+  const auto a = folder.write("a.obj", cells_obj), b = folder.write("b.obj", GetParam().text);
+  std::string expected = b.string() + ": " + GetParam().difference + "; all frames must have the same mesh";
+  expected.replace(expected.find("NAME"), 4, a.string());
+  FrameSequence sequence({a, a, b});
+  ASSERT_TRUE(sequence.next());
+  EXPECT_EQ(input_error([&] { sequence.next(); }), expected);
+}
+
+TEST(Frames, PlanarOrNot) {
+  EXPECT_TRUE(all_z_equal({}));
+  EXPECT_TRUE(all_z_equal(std::vector<Position>{{1, 2, 5}, {3, 4, 5}}));
+  EXPECT_TRUE(all_z_equal(std::vector<Position>{{1, 2, 0.0}, {3, 4, -0.0}}));
+  EXPECT_FALSE(all_z_equal(std::vector<Position>{{1, 2, 5}, {3, 4, 5}, {3, 4, std::nextafter(5.0, 6.0)}}));
+}
+
+}  // namespace
+}  // namespace noli

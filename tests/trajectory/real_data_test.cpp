@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The readers on files that others made; skipped, visibly, where they are not there.
+#include "noli/trajectory/file_info.h"
+#include "noli/trajectory/frames.h"
+#include "noli/trajectory/query_csv.h"
+#include "support.h"
+
+namespace noli {
+namespace {
+
+struct RealFrame {
+  const char* name;
+  const char* path;
+  const char* format;
+  const char* number_type;
+  std::size_t vertices, edges, faces;
+  friend void PrintTo(const RealFrame& frame, std::ostream* out) { *out << frame.name; }
+};
+const RealFrame real_frames[] = {
+    {"cloth_funnel", "frames/cloth-funnel/227.ply", "PLY binary little-endian", "float64", 9450, 27930, 18484},
+    {"armadillo_rollers", "frames/armadillo-rollers/326.ply", "PLY binary little-endian", "float64", 12135, 36363,
+     24242},
+    {"cloth_ball", "frames/cloth-ball/cloth_ball92.ply", "PLY binary big-endian", "float32", 46598, 138825, 92230},
+    {"rod_twist_clean", "frames/rod-twist-clean/0.ply", "PLY binary little-endian", "float64", 39940, 119796, 79864},
+};
+
+class RealFrames : public ::testing::TestWithParam<RealFrame> {};
+INSTANTIATE_TEST_SUITE_P(All, RealFrames, ::testing::ValuesIn(real_frames),
+                         [](const auto& real) { return real.param.name; });
+
+TEST_P(RealFrames, HaveTheKnownCounts) {
+  const auto path = testing::data_folder() / GetParam().path;
+  NOLI_REQUIRE_DATA(path);
+  const FileInfo info = describe_file(path);
+  EXPECT_EQ(info.format, GetParam().format);
+  EXPECT_EQ(info.number_type, GetParam().number_type);
+  EXPECT_EQ(info.vertices, GetParam().vertices);
+  EXPECT_EQ(info.mesh_edges, GetParam().edges);
+  EXPECT_EQ(info.faces, GetParam().faces);
+  EXPECT_EQ(info.loose_edges + info.loose_points, 0u);
+  EXPECT_FALSE(info.planar);
+}
+
+TEST(RealFrames, SuccessiveFramesHaveOneMesh) {
+  const auto folder = testing::data_folder() / "frames" / "cloth-ball";
+  NOLI_REQUIRE_DATA(folder);
+  FrameSequence sequence({folder / "cloth_ball92.ply", folder / "cloth_ball93.ply"});
+  ASSERT_TRUE(sequence.next());
+  EXPECT_EQ(sequence.x_t0().size(), 46598u);
+  EXPECT_EQ(sequence.x_t1().size(), 46598u);
+  EXPECT_FALSE(sequence.next());
+}
+
+struct RealQueries {
+  const char* name;
+  const char* file;
+  std::size_t queries, positive;
+  friend void PrintTo(const RealQueries& queries, std::ostream* out) { *out << queries.name; }
+};
+const RealQueries real_queries[] = {
+    {"armadillo_rollers_vertex_face", "armadillo-rollers-vertex-face.csv", 4652, 4650},
+    {"cloth_funnel_edge_edge", "cloth-funnel-edge-edge.csv", 263, 107},
+    {"cloth_funnel_vertex_face", "cloth-funnel-vertex-face.csv", 92, 27},
+    {"unit_tests_edge_edge_0", "unit-tests-edge-edge-0.csv", 54, 21},
+    {"erleben_spikes_vertex_face_0", "erleben-spikes-vertex-face-0.csv", 125, 11},
+};
+
+class RealQueryFiles : public ::testing::TestWithParam<RealQueries> {};
+INSTANTIATE_TEST_SUITE_P(All, RealQueryFiles, ::testing::ValuesIn(real_queries),
+                         [](const auto& real) { return real.param.name; });
+
+TEST_P(RealQueryFiles, AreLabelledAndExact) {
+  const auto path = testing::data_folder() / "queries" / GetParam().file;
+  NOLI_REQUIRE_DATA(path);
+  const auto kind = kind_from_file_name(path);
+  ASSERT_TRUE(kind.has_value());
+  const auto queries = read_query_csv(path, *kind);
+  EXPECT_EQ(queries.size(), GetParam().queries);
+  std::size_t positive = 0;
+  for (const QueryRecord& query : queries) positive += query.label.value_or(false);
+  EXPECT_EQ(positive, GetParam().positive);
+}
+
+}  // namespace
+}  // namespace noli
