@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/bench/report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace noli::bench {
+
+void MedianReporter::ReportRuns(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    if (run.aggregate_name != "median") continue;
+    medians_[run.run_name.function_name] =
+        run.GetAdjustedRealTime() * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit);
+  }
+  ConsoleReporter::ReportRuns(runs);
+}
+
+const double* MedianReporter::median_ns(const std::string& name) const {
+  const auto found = medians_.find(name);
+  return found == medians_.end() ? nullptr : &found->second;
+}
+
+Table::Table(const std::vector<std::string>& head) {
+  row(head);
+  row(std::vector<std::string>(head.size(), "---"));
+}
+
+void Table::row(const std::vector<std::string>& cells) { text_ += fmt::format("| {} |\n", fmt::join(cells, " | ")); }
+
+}  // namespace noli::bench
