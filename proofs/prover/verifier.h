@@ -5,20 +5,21 @@
 // Notation
 //   cell        a face, a loose edge or a loose point of the mesh; its features are its vertices, edges and itself
 //   x_t0, x_t1  positions of the vertices at the beginning and at the end of the step; between them each moves linearly
-//   obligation  a pair of groups of cells (or a group with itself) whose vertex-disjoint features have to be shown apart
+//   obligation  a pair of groups of cells (or a group with itself) whose vertex-disjoint features have to be shown
+//   apart
 //
-// The verifier walks a hierarchy of groups. An obligation is closed by one separating direction when there is one; else the larger
-// group is split; a pair of cells that no direction separates is taken apart into its pairs of features, and the exact kernel decides each.
-// Which pairs of features are counted:
+// The verifier walks a hierarchy of groups. An obligation is closed by one separating direction when there is one; else
+// the larger group is split; a pair of cells that no direction separates is taken apart into its pairs of features, and
+// the exact kernel decides each. Which pairs of features are counted:
 //   3D  vertex_face   every vertex of a cell (loose points included) against every face
 //       edge_edge     every edge of a face and every loose edge, against every other
 //       vertex_edge   loose points against loose edges       vertex_vertex  loose points against loose points
 //   2D  vertex_edge   every vertex of a cell against every edge      vertex_vertex  loose points against loose points
-// each pair once, only pairs that share no vertex. In 3D all other incidences of features are contained in these; a vertex on an edge of a
-// face is also on the face. Vertices are who they are by index.
+// each pair once, only pairs that share no vertex. In 3D all other incidences of features are contained in these; a
+// vertex on an edge of a face is also on the face. Vertices are who they are by index.
 //
-// What this does not do: it writes no proof file (it reports its steps to a StepSink, from which one can be written), it knows no
-// thickness, and it does not read files.
+// What this does not do: it writes no proof file (it reports its steps to a StepSink, from which one can be written),
+// it knows no thickness, and it does not read files.
 #pragma once
 
 #include <array>
@@ -41,8 +42,8 @@ namespace noli {
 /// One pair of features that meets within a step.
 struct FeatureContact {
   FeaturePair pair = FeaturePair::vertex_face;
-  /// Vertex ids in the order of kernel/query.h; the first point_count(pair) count. Canonical: each edge in ascending order, the
-  /// smaller edge first, a face as the mesh lists it.
+  /// Vertex ids in the order of kernel/query.h; the first point_count(pair) count. Canonical: each edge in ascending
+  /// order, the smaller edge first, a face as the mesh lists it.
   std::array<VertexId, 4> vertices{};
   TimeEnclosure first;  ///< contains the first time at which they meet, in [0, 1] of the step
 
@@ -59,36 +60,38 @@ struct InitialIntersection {
 };
 
 struct VerifyOptions {
-  int dimension = 3;           ///< 2 or 3; in 2 the third coordinate is not looked at
-  int threads = 0;             ///< 0: all there are
-  bool initial = true;         ///< look for intersections at the beginning of the step
-  bool first_only = false;     ///< stop at any contact; which one is found is deterministic all the same
-  bool strict = false;         ///< also the vertex-disjoint features of one cell (a face that degenerates)
-  std::size_t max_reports = 100;  ///< at most so many contacts and initial intersections are listed; counts are always exact
+  int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is not looked at
+  int threads = 0;          ///< 0: all there are
+  bool initial = true;      ///< look for intersections at the beginning of the step
+  bool first_only = false;  ///< stop at any contact; which one is found is deterministic all the same
+  bool strict = false;      ///< also the vertex-disjoint features of one cell (a face that degenerates)
+  std::size_t max_reports =
+      100;  ///< at most so many contacts and initial intersections are listed; counts are always exact
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the result is incomplete
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<void(double)> progress;  ///< called from any thread, serialised, with the share of work done in [0, 1]
-  StepSink* sink = nullptr;    ///< receives the steps of the proof in prefix order; nullptr: nobody listens
+  StepSink* sink = nullptr;              ///< receives the steps of the proof in prefix order; nullptr: nobody listens
 };
 
 struct VerifyResult {
   bool complete = true;  ///< false: stopped early (stop, deadline, first_only); counts are then lower bounds
-  std::array<std::uint64_t, all_feature_pairs.size()> contacts{};  ///< by FeaturePair: pairs that meet in the closed step
+  std::array<std::uint64_t, all_feature_pairs.size()>
+      contacts{};  ///< by FeaturePair: pairs that meet in the closed step
   std::uint64_t initial_intersections = 0;
   std::vector<FeatureContact> reports;               ///< the first max_reports in canonical order (pair, then vertices)
   std::vector<InitialIntersection> initial_reports;  ///< the first max_reports in ascending order
   /// A contact whose first time is the least of all, when there is any; ties: the least in canonical order.
   std::optional<FeatureContact> first;
-  StageCounters stages;              ///< which stage decided each pair of features that reached the kernel
-  std::uint64_t obligations = 0;     ///< obligations closed by a direction
-  std::uint64_t cell_pairs = 0;      ///< pairs of cells taken apart into features
+  StageCounters stages;           ///< which stage decided each pair of features that reached the kernel
+  std::uint64_t obligations = 0;  ///< obligations closed by a direction
+  std::uint64_t cell_pairs = 0;   ///< pairs of cells taken apart into features
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
 };
 
-/// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions. Deterministic: the result depends on the
-/// input and on `dimension`, `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by `stop` or `deadline`).
-/// Memory is linear in the mesh. Throws std::bad_alloc.
+/// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions. Deterministic: the result
+/// depends on the input and on `dimension`, `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by
+/// `stop` or `deadline`). Memory is linear in the mesh. Throws std::bad_alloc.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The end of the verifier's recursion: two cells that no box has separated, or one cell by itself.
+//
+// Notation
+//   shared   a vertex that both cells have. No direction separates cells that share one; but two simplices on them that
+//   share none
+//            miss each shared vertex on one side at least, so it is enough to settle all *parts* that arise by dropping
+//            each shared vertex from one side or the other: (bc, ade) and (abc, de) for abc and ade; (c, abd), (bc,
+//            ad), (ac, bd), (abc, d) for abc and abd
+//   open     a pair of parts for which no direction was found, over the whole step or over pieces of it
+//
+// The features of an open pair are taken to the kernel one by one, and whether it meets at the beginning of the step is
+// decided by a direction at that time or by the exact static predicate.
+//
+// What this does not do: it never looks at cells other than the two.
+#pragma once
+
+#include "noli/proofs/prover/direction_search.h"
+#include "noli/proofs/prover/feature_pairs.h"
+#include "noli/proofs/prover/initial.h"
+#include "noli/proofs/prover/step_record.h"
+#include "noli/proofs/prover/tally.h"
+
+namespace noli {
+
+/// What to look for, beside the pairs of features of different cells.
+struct CellOptions {
+  bool initial = true;  ///< as in VerifyOptions
+  bool strict = false;
+};
+
+template <int Dim>
+class CellPairs {
+ public:
+  using Cell = MovingCell<Dim>;
+
+  CellPairs(CellOptions options, Tally& tally, StepRecord& record)
+      : options_(options), tally_(tally), record_(record) {}
+
+  /// Settles the obligation about two different cells.
+  void settle(const Cell& a, const Cell& b) {
+    const Shared shared = find_shared(a, b);
+    if (shared.count == 1 && settle_around(a, shared.in_a[0], b, shared.in_b[0])) return;
+    Progress progress{a, b, pairs_owned(a, b)};
+    settle_parts(progress, {all_corners(a.corners), all_corners(b.corners)}, shared, 0);
+    if (!progress.open) return;
+    ++tally_.cell_pairs;
+    if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
+  }
+
+  /// Settles the obligation about the features of one cell.
+  void settle_self(const Cell& c) {
+    if (c.corners == 3) {
+      for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
+    } else if (options_.strict && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1]) {
+      examine({FeaturePair::vertex_vertex, &c, corner_feature(0), &c, corner_feature(1)});
+    }
+    record_.cell();
+  }
+
+ private:
+  struct Parts {
+    CornerMask a, b;
+  };
+
+  /// The shared vertices: where in a and where in b the i-th of them is.
+  struct Shared {
+    std::array<CornerMask, 3> in_a{}, in_b{};
+    std::size_t count = 0;
+  };
+
+  struct Progress {
+    const Cell& a;
+    const Cell& b;
+    PairSet left;  ///< pairs of features which belong here and have not been settled
+    bool open = false;
+    bool meets_at_begin = false;
+  };
+
+  /// Rounds of the search for a direction, and how often the step is halved for it: what paid on simulated cloth and
+  /// solids.
+  static constexpr int search_rounds = 10;
+  static constexpr int halvings = 0;
+
+  static CornerMask corners_at(const Cell& c, VertexId v) {
+    const int mask = (c.vertices[0] == v ? 1 : 0) | (c.vertices[1] == v ? 2 : 0) | (c.vertices[2] == v ? 4 : 0);
+    return static_cast<CornerMask>(mask & all_corners(c.corners));
+  }
+
+  static Shared find_shared(const Cell& a, const Cell& b) {
+    Shared shared;
+    for (std::size_t i = 0; i < a.corners; ++i) {
+      const CornerMask in_b = corners_at(b, a.vertices[i]);
+      if (in_b == 0) continue;
+      const CornerMask in_a = corners_at(a, a.vertices[i]);
+      if ((in_a & ((1U << i) - 1)) != 0) continue;  // the same vertex again
+      shared.in_a[shared.count] = in_a;
+      shared.in_b[shared.count++] = in_b;
+    }
+    return shared;
+  }
+
+  /// From the middle of the second part to the middle of the first, at mid-time, four times as long.
+  static Direction<Dim> between_middles(const PartPair<Dim>& pair) {
+    Direction<Dim> n;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      const auto &p = pair.d[0][k], &q = pair.d[1][k];
+      n[k] = ((p[0] + q[0]) + (p[1] + q[1]) + (p[2] + q[2])) - ((p[4] + q[4]) + (p[5] + q[5]) + (p[6] + q[6]));
+    }
+    return n;
+  }
+
+  void close(const Direction<Dim>& n, double sign) {
+    ++tally_.obligations;
+    if (!record_.on()) return;
+    std::array<double, 3> signed_n{};
+    for (std::size_t k = 0; k < Dim; ++k) signed_n[k] = sign * n[k];
+    record_.direction(signed_n);
+  }
+
+  /// Two cells that share one vertex, as faces of a fan do: a direction that has it between what they do not share
+  /// settles both pairs of parts.
+  bool settle_around(const Cell& a, CornerMask in_a, const Cell& b, CornerMask in_b) {
+    const auto a_rest = static_cast<CornerMask>(all_corners(a.corners) & ~in_a);
+    const auto b_rest = static_cast<CornerMask>(all_corners(b.corners) & ~in_b);
+    if (a_rest == 0 || b_rest == 0) return false;
+    const PartPair<Dim> pair = pair_of(a, a_rest, b, b_rest, static_cast<std::size_t>(std::countr_zero(in_a)));
+    const Direction<Dim> n = between_middles(pair);
+    const Projections p = project(pair, n);
+    if (!origin_between(p, error_bound(pair, n))) return false;
+    record_.drop_vertex(a.vertices[static_cast<std::size_t>(std::countr_zero(in_a))]);
+    close(n, 1);
+    close(n, 1);
+    return true;
+  }
+
+  void settle_parts(Progress& progress, Parts parts, const Shared& shared, std::size_t from) {
+    if (from < shared.count) {
+      const CornerMask in_a = shared.in_a[from], in_b = shared.in_b[from];
+      record_.drop_vertex(progress.a.vertices[static_cast<std::size_t>(std::countr_zero(in_a))]);
+      settle_parts(progress, {static_cast<CornerMask>(parts.a & ~in_a), parts.b}, shared, from + 1);
+      settle_parts(progress, {parts.a, static_cast<CornerMask>(parts.b & ~in_b)}, shared, from + 1);
+    } else if (parts.a == 0 || parts.b == 0) {
+      record_.empty();
+    } else {
+      settle_part(progress, parts);
+    }
+  }
+
+  void settle_part(Progress& progress, Parts parts) {
+    const Cell &a = progress.a, &b = progress.b;
+    const auto origin = static_cast<std::size_t>(std::countr_zero(parts.a));
+    const PartPair<Dim> pair = pair_of(a, parts.a, b, parts.b, origin);
+    const Direction<Dim> guess = between_middles(pair);
+    const PairSet within = pairs_within(a, parts.a, b, parts.b);
+    if (try_direction(pair, guess) || try_normals(pair, a, b) || search(pair, guess, {}, halvings)) {
+      progress.left &= ~within;
+      return;
+    }
+    progress.open = true;
+    for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) examine(first_of(todo, a, b));
+    progress.left &= ~within;
+    if (options_.initial && !progress.meets_at_begin) {
+      progress.meets_at_begin = !apart_at_begin(pair, guess) && meet_at_begin(a, parts.a, b, parts.b);
+      record_.at_begin(progress.meets_at_begin);
+    }
+    record_.features();
+  }
+
+  bool try_direction(const PartPair<Dim>& pair, const Direction<Dim>& n) {
+    const int sign = separates(pair, n);
+    if (sign != 0) close(n, sign);
+    return sign != 0;
+  }
+
+  bool try_normals(const PartPair<Dim>& pair, const Cell& a, const Cell& b) {
+    if constexpr (Dim == 2) return false;
+    return (a.corners == 3 && try_direction(pair, a.normal)) || (b.corners == 3 && try_direction(pair, b.normal));
+  }
+
+  /// Looks for a direction over the interval, else over its halves, and theirs.
+  bool search(const PartPair<Dim>& pair, const Direction<Dim>& guess, Interval interval, int depth) {
+    if (const auto n = find_direction(pair, guess, interval, search_rounds)) {
+      close(*n, 1);
+      return true;
+    }
+    if (depth == 0) return false;
+    const std::size_t recorded = record_.size();
+    const std::uint64_t obligations = tally_.obligations;
+    record_.halve();
+    if (search(pair, guess, {interval.begin, interval.middle()}, depth - 1) &&
+        search(pair, guess, {interval.middle(), interval.end}, depth - 1)) {
+      return true;
+    }
+    record_.truncate(recorded);
+    tally_.obligations = obligations;
+    return false;
+  }
+
+  static bool apart_at_begin(const PartPair<Dim>& pair, const Direction<Dim>& guess) {
+    return find_direction(pair, guess, {0, 0}, search_rounds).has_value();
+  }
+
+  /// A corner of a face against the edge opposite to it: features of one cell, which count if it is asked for or (in
+  /// 2D, where a pair of features may have both its owners in one cell) if they are features of two different cells as
+  /// well.
+  void settle_opposite(const Cell& c, unsigned corner) {
+    const unsigned edge = (corner + 1) % 3;
+    const FeatureMask mask = corner_bit(static_cast<int>(corner)) | edge_bit(static_cast<int>(edge));
+    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0;
+    const bool wanted = options_.strict || (Dim == 2 && (c.shared & mask) != 0);
+    const VertexId v = c.vertices[corner];
+    if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;
+    examine({FeaturePair::vertex_edge, &c, corner_feature(corner), &c, edge_feature(edge)});
+  }
+
+  void examine(const FeatureQuestion<Dim>& question) {
+    const auto enclosure = ask(question, tally_.stages);
+    if (enclosure) tally_.add_contact(canonical(question.pair, question.vertices(), *enclosure));
+    if (record_.on()) record_.decided(question.pair, question.vertices(), enclosure.has_value());
+  }
+
+  CellOptions options_;
+  Tally& tally_;
+  StepRecord& record_;
+};
+
+}  // namespace noli

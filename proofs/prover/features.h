@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which cell a vertex or an edge belongs to, so that each pair of features is counted once.
+//
+// Notation
+//   corner   a place in a cell's list of vertices; edge i of a face goes from corner i to corner i + 1, cyclically
+//   owner    of a vertex, or of an edge as a pair of vertex ids: the least cell that has it. A pair of features is
+//   examined where the
+//            obligations of its two owners are
+//   listed   a cell such that no cell of its kind (face, loose edge, loose point) before it has the same vertices
+//
+// What this does not do: it looks at no coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "noli/trajectory/mesh.h"
+
+namespace noli {
+
+/// A set of features of one cell: bits 0, 1, 2 its corners, 3, 4, 5 its edges, 6 the cell itself.
+using FeatureMask = std::uint8_t;
+constexpr FeatureMask corner_bit(int corner) { return static_cast<FeatureMask>(1 << corner); }
+constexpr FeatureMask edge_bit(int edge) { return static_cast<FeatureMask>(8 << edge); }
+constexpr FeatureMask cell_bit = 64;
+
+/// For each cell, which of its features belong to it.
+struct CellFeatures {
+  std::vector<FeatureMask> owned;   ///< the corners and edges it owns; cell_bit if it is listed
+  std::vector<FeatureMask> shared;  ///< the corners and edges that another cell has as well
+};
+
+/// Number of corners of a cell: 3 (a face), 2 (a loose edge) or 1 (a loose point).
+int corner_count(const Mesh& mesh, std::uint32_t cell);
+
+/// The corners of a cell; a loose edge or point repeats its last one.
+std::array<VertexId, 3> corners(const Mesh& mesh, std::uint32_t cell);
+
+/// Finds the owners. A vertex or edge that a cell has twice counts once, at its first place. Time and memory linear in
+/// the mesh (if no vertex has more than a few cells).
+CellFeatures find_owners(const Mesh& mesh);
+
+}  // namespace noli
