@@ -20,7 +20,7 @@ run_tests() {
   local preset=$1 label failed=0
   for label in fast slow; do
     say "$preset: $label tests"
-    ctest --test-dir "build/$preset" -L "$label" --parallel "$jobs" --output-on-failure --no-tests=error --progress || failed=1
+    ctest --test-dir "build/$preset" -L "$label" --parallel "$jobs" --output-on-failure --no-tests=error || failed=1
   done
   return "$failed"
 }
