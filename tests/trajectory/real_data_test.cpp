@@ -42,7 +42,7 @@ TEST_P(RealFrames, HaveTheKnownCounts) {
   EXPECT_FALSE(info.planar);
 }
 
-TEST(RealFrames, SuccessiveFramesHaveOneMesh) {
+TEST(RealSequences, SuccessiveFramesHaveOneMesh) {
   const auto folder = testing::data_folder() / "frames" / "cloth-ball";
   NOLI_REQUIRE_DATA(folder);
   FrameSequence sequence({folder / "cloth_ball92.ply", folder / "cloth_ball93.ply"});

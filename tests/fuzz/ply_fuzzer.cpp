@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check_frame.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return noli::fuzz::check_reader(data, size, noli::parse_ply);
+}
