@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contact and nearness of two features as conditions on the time.
+//
+// A point of the hull of some points is a weighted mean of few of them (Caratheodory). So two features are in contact,
+// or within a distance, iff the relative interiors of two of their sub-features are, whose mutual closest points are
+// unique: those are the solution of the normal equations, by Cramer's rule with the Gram determinant G, and the
+// conditions are that G > 0 and that the weights are not negative. Sub-features for which G = 0 are left out: what they
+// would add, smaller ones already say. No projection to a plane occurs.
+#pragma once
+
+#include <optional>
+
+#include "noli/tests/oracle/condition.h"
+#include "noli/tests/oracle/integer_path.h"
+
+namespace noli::oracle {
+
+/// When two features are in contact.
+struct ContactCondition {
+  Condition condition;
+  /// What has to vanish in every contact: the determinant of the four points in 3D, of the three points of vertex_edge
+  /// in 2D.
+  std::optional<Polynomial> orientation;
+  /// Positive at a contact that is relatively interior to both features, whose points span a plane (vertex_edge in 2D:
+  /// a line).
+  std::vector<Polynomial> interior;
+};
+
+/// The orientation of vertex_face and edge_edge alone, to see quickly that it has no root.
+Polynomial orientation(const Motion& motion, const std::vector<Vector>& x);
+
+ContactCondition contact_condition(const Motion& motion, const std::vector<Vector>& x);
+
+/// Within `distance`, in the unit of x: closed.
+Condition nearness_condition(const Motion& motion, const std::vector<Vector>& x, const Integer& distance);
+
+}  // namespace noli::oracle
