@@ -4,6 +4,7 @@
 // rippled sheets of N by N squares (4 N^2 faces together), the upper one sinking towards the lower one while both fall.
 //   clean    the upper sheet stops above the lower one
 //   contact  one corner of it goes through, between frames 3 and 4
+// For N below 20 the ripples are cut so coarsely that the clean one may touch, too.
 // Coordinates are in metres. Only +, - and * are used, so the bytes are the same everywhere.
 #include <charconv>
 #include <fstream>
