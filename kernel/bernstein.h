@@ -143,9 +143,6 @@ class Search {
  public:
   using T = typename Piece::Number;
 
-  /// `narrow`: on contact, spend a little more to have a narrow enclosure.
-  explicit Search(bool narrow) : narrow_(narrow) {}
-
   Verdict run(Piece piece, const Signs& signs, int depth) {
     switch (judge(piece, signs)) {
       case Judgement::apart: return Verdict::apart;
@@ -227,8 +224,8 @@ class Search {
     if (insides.disagree()) return Judgement::apart;
     if (sign.front() * sign.back() >= 0) return sign == std::array<int, n>{} ? Judgement::hopeless : Judgement::open;
     const bool one = n == 3 || sign[1] == sign.front() || sign[n - 2] == sign.back();
-    if (insides.agree() && !(narrow_ && one)) return Judgement::contact;
-    return one ? Judgement::one_root : Judgement::open;
+    if (one) return Judgement::one_root;
+    return insides.agree() ? Judgement::contact : Judgement::open;
   }
 
   /// f certainly has one root in the piece, and certainly changes sign.
@@ -267,7 +264,6 @@ class Search {
     return Verdict::unknown;
   }
 
-  bool narrow_;
   double first_lost_ = 1;
   TimeEnclosure enclosure_;
 };

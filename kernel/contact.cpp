@@ -5,6 +5,7 @@
 #include "noli/kernel/exact_contact.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/interval_filter.h"
+#include "noli/kernel/root_filter.h"
 #include "noli/kernel/rounding.h"
 #include "noli/kernel/scaled_integers.h"
 
@@ -26,7 +27,7 @@ const Decision undecided{Verdict::unknown, {}};
 
 /// `axis`: along which the configuration looks large, for the stages to come.
 template <class Filter, class Query>
-Decision filtered(const Query& query, StageCounters& counters, bool narrow, std::size_t& axis) {
+Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis) {
   const Filter filter(query);
   axis = filter.axis();
   if (!filter.usable()) return undecided;
@@ -34,22 +35,25 @@ Decision filtered(const Query& query, StageCounters& counters, bool narrow, std:
     counters.count(Stage::direction);
     return {};
   }
-  const Decision decision = filter::search(filter.forms(), filter.axis(), filter.signs(), narrow);
+  Decision decision = filter::RootSearch<Filter>(filter).run();
+  if (decision.verdict == Verdict::unknown) {
+    decision = filter::search(filter.forms(), filter.axis(), filter.signs());
+  }
   if (decision.verdict != Verdict::unknown) counters.count(Stage::bernstein);
   return decision;
 }
 
-Decision float_stages(const VertexFace3& query, StageCounters& counters, bool narrow, std::size_t& axis) {
-  return filtered<filter::VertexFaceFilter>(query, counters, narrow, axis);
+Decision float_stages(const VertexFace3& query, StageCounters& counters, std::size_t& axis) {
+  return filtered<filter::VertexFaceFilter>(query, counters, axis);
 }
 
-Decision float_stages(const EdgeEdge3& query, StageCounters& counters, bool narrow, std::size_t& axis) {
-  return filtered<filter::EdgeEdgeFilter>(query, counters, narrow, axis);
+Decision float_stages(const EdgeEdge3& query, StageCounters& counters, std::size_t& axis) {
+  return filtered<filter::EdgeEdgeFilter>(query, counters, axis);
 }
 
 /// The others are rare and cheap to decide exactly.
 template <FeaturePair Pair, int Dim>
-Decision float_stages(const Query<Pair, Dim>&, StageCounters&, bool, std::size_t&) {
+Decision float_stages(const Query<Pair, Dim>&, StageCounters&, std::size_t&) {
   return undecided;
 }
 
@@ -95,7 +99,7 @@ Decision gmp_stage(const Query<Pair, Dim>& query, StageCounters& counters) {
 }
 
 template <FeaturePair Pair, int Dim>
-Decision decide(const Query<Pair, Dim>& query, StageCounters& counters, bool narrow) {
+Decision decide(const Query<Pair, Dim>& query, StageCounters& counters) {
   static const RoundingReport rounding = rounding_self_test();
   if (filter::ordered_on_an_axis(query)) {
     counters.count(Stage::comparison);
@@ -103,13 +107,13 @@ Decision decide(const Query<Pair, Dim>& query, StageCounters& counters, bool nar
   }
   if (rounding.nearest_ok) {
     std::size_t axis = 0;
-    const Decision decision = float_stages(query, counters, narrow, axis);
+    const Decision decision = float_stages(query, counters, axis);
     if (decision.verdict != Verdict::unknown) return decision;
     const Decision exact = fixed_stage(query, counters, axis);
     if (exact.verdict != Verdict::unknown) return exact;
   }
   if (rounding.directed_ok) {
-    const Decision decision = interval_filter::decide(query, narrow);
+    const Decision decision = interval_filter::decide(query);
     if (decision.verdict != Verdict::unknown) {
       counters.count(Stage::interval);
       return decision;
@@ -121,18 +125,18 @@ Decision decide(const Query<Pair, Dim>& query, StageCounters& counters, bool nar
 }  // namespace
 
 template <FeaturePair Pair, int Dim>
-std::optional<TimeEnclosure> contact(const Query<Pair, Dim>& query, StageCounters* counters, EnclosureWanted wanted) {
+std::optional<TimeEnclosure> contact(const Query<Pair, Dim>& query, StageCounters* counters) {
   StageCounters unused;
-  const Decision decision = decide(query, counters != nullptr ? *counters : unused, wanted == EnclosureWanted::narrow);
+  const Decision decision = decide(query, counters != nullptr ? *counters : unused);
   if (decision.verdict == Verdict::apart) return std::nullopt;
   return decision.enclosure;
 }
 
-template std::optional<TimeEnclosure> contact(const VertexFace3&, StageCounters*, EnclosureWanted);
-template std::optional<TimeEnclosure> contact(const EdgeEdge3&, StageCounters*, EnclosureWanted);
-template std::optional<TimeEnclosure> contact(const VertexEdge3&, StageCounters*, EnclosureWanted);
-template std::optional<TimeEnclosure> contact(const VertexVertex3&, StageCounters*, EnclosureWanted);
-template std::optional<TimeEnclosure> contact(const VertexEdge2&, StageCounters*, EnclosureWanted);
-template std::optional<TimeEnclosure> contact(const VertexVertex2&, StageCounters*, EnclosureWanted);
+template std::optional<TimeEnclosure> contact(const VertexFace3&, StageCounters*);
+template std::optional<TimeEnclosure> contact(const EdgeEdge3&, StageCounters*);
+template std::optional<TimeEnclosure> contact(const VertexEdge3&, StageCounters*);
+template std::optional<TimeEnclosure> contact(const VertexVertex3&, StageCounters*);
+template std::optional<TimeEnclosure> contact(const VertexEdge2&, StageCounters*);
+template std::optional<TimeEnclosure> contact(const VertexVertex2&, StageCounters*);
 
 }  // namespace noli

@@ -22,18 +22,12 @@ struct TimeEnclosure {
   double end = 1;
 };
 
-/// How much to spend on the enclosure of a contact that is certain already.
-enum class EnclosureWanted {
-  any,    ///< may be as wide as the step
-  narrow  ///< mostly narrower than 2^-25; never a promise
-};
-
-/// If the features meet at some t in [0, 1]: an interval that contains the first such t. Otherwise nothing.
+/// If the features meet at some t in [0, 1]: an interval that contains the first such t, mostly narrower than 2^-20 but never
+/// promised to be. Otherwise nothing.
 /// Defined for vertex_face, edge_edge, vertex_edge, vertex_vertex in 3D and for vertex_edge, vertex_vertex in 2D.
 /// Counts the stage that decided in `counters` when given. Precondition: finite coordinates.
 template <FeaturePair Pair, int Dim>
-std::optional<TimeEnclosure> contact(const Query<Pair, Dim>& query, StageCounters* counters = nullptr,
-                                     EnclosureWanted wanted = EnclosureWanted::any);
+std::optional<TimeEnclosure> contact(const Query<Pair, Dim>& query, StageCounters* counters = nullptr);
 
 /// Whether the features meet at some t in [0, 1].
 template <FeaturePair Pair, int Dim>

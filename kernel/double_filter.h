@@ -14,6 +14,8 @@
 //   determinant       at one end 46u m_a m_b m_c; the scaled coefficients are at most 18 m_a m_b m_c, their error 168u m_a m_b m_c
 //   de Casteljau      a level adds at most 3u times the largest coefficient: 162u m_a m_b m_c for a cubic, 24u m_a m_b for an inside
 //   n . d             11u |n| m_d (components' maxima); a sum of up to three of these: 48u |n| max m
+//   inside at t       a vector at time t is off by 4u m, an inside by 20u m_a m_b (c - w x u: 22u of the sum); while t moves by r, a vector moves by
+//                     at most 2 r m, an inside by 8 r m_a m_b and a term in r^2
 // Products neither overflow nor lose bits to underflow that matter when all m_x are within 2^-300 and 2^300, which is tested.
 //
 // What this does not do: it does not decide coplanar, touching or otherwise degenerate queries; it says `unknown`.
@@ -23,6 +25,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 
 #include "noli/kernel/bernstein.h"
@@ -148,6 +151,38 @@ struct OneSide {
   bool beyond(double bound) const { return low > bound || high < -bound; }
 };
 
+/// Where moving vectors are at time t, seen along the axis in which `normal` is largest.
+class PlaneView {
+ public:
+  PlaneView(const Vec<double, 3>& normal, double t)
+      : i_((largest_component(normal) + 1) % 3), j_((i_ + 1) % 3), s_(1 - t), t_(t) {}
+
+  Vec<double, 2> operator()(const Moving<double, 3>& x) const {
+    return {x.at_t0[i_] * s_ + x.at_t1[i_] * t_, x.at_t0[j_] * s_ + x.at_t1[j_] * t_};
+  }
+
+ private:
+  std::size_t i_, j_;
+  double s_, t_;
+};
+
+/// Gathers the certain signs of insides.
+struct InsideSigns {
+  bool some_positive = false, some_negative = false, all_positive = true, all_negative = true;
+
+  void add(double value, double bound) {
+    const bool positive = value > bound, negative = value < -bound;
+    some_positive |= positive;
+    some_negative |= negative;
+    all_positive &= positive;
+    all_negative &= negative;
+  }
+  Verdict verdict() const {
+    if (some_positive & some_negative) return Verdict::apart;
+    return (all_positive | all_negative) ? Verdict::contact : Verdict::unknown;
+  }
+};
+
 // --- vertex_face -----------------------------------------------------------------------------------------------------
 
 /// What the filters of one query share: differences, their magnitudes, and the normal at mid-time.
@@ -177,6 +212,19 @@ class VertexFaceFilter {
 
   std::size_t axis() const { return largest_component(normal_); }
   const formula::VertexFace<double>& forms() const { return forms_; }
+  double volume() const { return m_[0] * m_[1] * m_[2]; }
+
+  /// What the insides say, seen along the axis, on all of [t - reach, t + reach].
+  Verdict inside(double t, double reach) const {
+    const PlaneView view(normal_, t);
+    const Vec<double, 2> d0 = view(forms_.d[0]), d1 = view(forms_.d[1]), d2 = view(forms_.d[2]);
+    const double bound = 25 * u + 9 * reach;
+    InsideSigns signs;
+    signs.add(formula::cross(d0, d1), bound * (m_[0] * m_[1]));
+    signs.add(formula::cross(d1, d2), bound * (m_[1] * m_[2]));
+    signs.add(formula::cross(d2, d0), bound * (m_[2] * m_[0]));
+    return signs.verdict();
+  }
 
   DoubleSigns<3> signs() const {
     const double volume = m_[0] * m_[1] * m_[2] * u;
@@ -215,6 +263,21 @@ class EdgeEdgeFilter {
 
   std::size_t axis() const { return largest_component(normal_); }
   const formula::EdgeEdge<double>& forms() const { return forms_; }
+  double volume() const { return mu_ * mv_ * mw_; }
+
+  /// What the insides say, seen along the axis, on all of [t - reach, t + reach].
+  Verdict inside(double t, double reach) const {
+    const PlaneView view(normal_, t);
+    const Vec<double, 2> du = view(forms_.u), dv = view(forms_.v), dw = view(forms_.w);
+    const double wu = formula::cross(dw, du), wv = formula::cross(dw, dv), c = formula::cross(du, dv);
+    const double bound = 25 * u + 9 * reach, size_wu = bound * (mw_ * mu_), size_wv = bound * (mw_ * mv_), size_c = bound * (mu_ * mv_);
+    InsideSigns signs;
+    signs.add(wu, size_wu);
+    signs.add(c - wu, size_c + size_wu);
+    signs.add(wv, size_wv);
+    signs.add(c - wv, size_c + size_wv);
+    return signs.verdict();
+  }
 
   DoubleSigns<4> signs() const {
     const double volume = mu_ * mv_ * mw_ * u, wu = mw_ * mu_ * u, wv = mw_ * mv_ * u, uv = mu_ * mv_ * u;
@@ -252,14 +315,14 @@ constexpr int subdivision_depth = 3;
 
 /// The Bernstein search on the forms of a query, seen along an axis.
 template <class Forms, class Signs>
-Decision search(const Forms& forms, std::size_t axis, const Signs& signs, bool narrow) {
+Decision search(const Forms& forms, std::size_t axis, const Signs& signs) {
   const auto f = bernstein::scaled_coefficients(forms.coplanarity());
   using Number = typename decltype(f)::value_type;
   using Piece = bernstein::Piece<Number, 3, Forms::insides_count, 2>;
   Piece piece{f, {}, {}, 0, 1};
   const auto insides = forms.insides(axis);
   for (std::size_t k = 0; k < insides.size(); ++k) piece.g[k] = bernstein::scaled_coefficients(insides[k]);
-  bernstein::Search<Piece, Signs> search(narrow);
+  bernstein::Search<Piece, Signs> search;
   const Verdict verdict = search.run(piece, signs, subdivision_depth);
   return {verdict, search.enclosure()};
 }

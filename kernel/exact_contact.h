@@ -318,7 +318,7 @@ class CodimensionOne {
       piece.g[k] = seen.insides[k].approximation();
       signs.g_bound[k] = signs.g_level[k] = 0x1p-49 * largest(piece.g[k]);
     }
-    bernstein::Search<Piece, Signs> search(true);
+    bernstein::Search<Piece, Signs> search;
     const Verdict verdict = search.run(piece, signs, cubic_depth);
     if (verdict != Verdict::unknown) return {verdict, search.enclosure()};
     const Decision on_border = contact_on_border(f, piece.f, seen);

@@ -38,6 +38,18 @@ Moving<Interval, Dim> difference(const Query<Pair, Dim>& q, std::size_t to, std:
   return result;
 }
 
+/// Whether no product can overflow: an infinite bound times zero would not be a number.
+template <FeaturePair Pair, int Dim>
+bool in_range(const Query<Pair, Dim>& q) {
+  double largest = 0;
+  for (const auto* points : {&q.x_t0, &q.x_t1}) {
+    for (const auto& point : *points) largest = std::max(largest, filter::magnitude(point));
+  }
+  return largest < 0x1p300;
+}
+
+const filter::Decision undecided{bernstein::Verdict::unknown, {}};
+
 /// The axis along which the cross product of two vectors looks largest at mid-time.
 std::size_t clearest_axis(const Moving<Interval, 3>& a, const Moving<Interval, 3>& b) {
   filter::Vec<double, 3> size;
@@ -50,16 +62,18 @@ std::size_t clearest_axis(const Moving<Interval, 3>& a, const Moving<Interval, 3
 
 }  // namespace
 
-filter::Decision decide(const VertexFace3& q, bool narrow) {
+filter::Decision decide(const VertexFace3& q) {
+  if (!in_range(q)) return undecided;
   const Interval::Protector protector;
   const formula::VertexFace<Interval> forms{{difference(q, 1, 0), difference(q, 2, 0), difference(q, 3, 0)}};
-  return filter::search(forms, clearest_axis(difference(q, 2, 1), difference(q, 3, 1)), IntervalSigns(), narrow);
+  return filter::search(forms, clearest_axis(difference(q, 2, 1), difference(q, 3, 1)), IntervalSigns());
 }
 
-filter::Decision decide(const EdgeEdge3& q, bool narrow) {
+filter::Decision decide(const EdgeEdge3& q) {
+  if (!in_range(q)) return undecided;
   const Interval::Protector protector;
   const formula::EdgeEdge<Interval> forms{difference(q, 1, 0), difference(q, 3, 2), difference(q, 2, 0)};
-  return filter::search(forms, clearest_axis(forms.u, forms.v), IntervalSigns(), narrow);
+  return filter::search(forms, clearest_axis(forms.u, forms.v), IntervalSigns());
 }
 
 }  // namespace noli::interval_filter

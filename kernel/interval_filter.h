@@ -13,11 +13,11 @@
 namespace noli::interval_filter {
 
 /// vertex_face and edge_edge in space; `unknown` for the others, whose exact decision is cheaper.
-filter::Decision decide(const VertexFace3& query, bool narrow);
-filter::Decision decide(const EdgeEdge3& query, bool narrow);
+filter::Decision decide(const VertexFace3& query);
+filter::Decision decide(const EdgeEdge3& query);
 
 template <FeaturePair Pair, int Dim>
-filter::Decision decide(const Query<Pair, Dim>&, bool) {
+filter::Decision decide(const Query<Pair, Dim>&) {
   return {bernstein::Verdict::unknown, {}};
 }
 

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The quick way through the Bernstein stage in double: when the roots of the coplanarity cubic can be told apart, only the insides
+// at those roots matter.
+//
+// Notation
+//   f                 the cubic, as scaled Bernstein coefficients on a piece of the step; a sign of a coefficient is *certain* when
+//                     its magnitude is above `bound`
+//   sliver            [x - reach, x + reach], at whose ends f has certain, opposite signs
+// One certain change of sign (Descartes) is one root: a few safeguarded steps of Halley's method propose where, and the signs at the ends of a sliver
+// prove it. Two roots are separated by splitting where f seems to have its extremum.
+//
+// What this does not do: it says `unknown` when f is nearly zero at an end of the step or a root is nearly double; bernstein.h looks
+// at more.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "noli/kernel/bernstein.h"
+#include "noli/kernel/double_filter.h"
+
+namespace noli::filter {
+
+using Cubic = std::array<double, 4>;
+
+struct Root {
+  double x;
+  double reach;
+};
+
+/// About where the one root in (0, 1) is. After a step the error is about its cube, so its square is a generous reach.
+inline Root halley(const Cubic& c) {
+  const double d0 = c[1] - c[0], d1 = c[2] - c[1], d2 = c[3] - c[2], e0 = d1 - d0;
+  const double a0 = c[0], a1 = 3 * d0, a2 = 3 * e0, a3 = (d2 - d1) - e0;
+  double low = 0, high = 1, x = c[0] / (c[0] - c[3]), step = 1;
+  for (int i = 0; i < 8 && std::abs(step) > 0x1p-11; ++i) {
+    const double f = ((a3 * x + a2) * x + a1) * x + a0;
+    const double df = (3 * a3 * x + 2 * a2) * x + a1;
+    const double half_ddf = 3 * a3 * x + a2;
+    const bool before_root = (f < 0) == (a0 < 0);
+    low = before_root ? x : low;
+    high = before_root ? high : x;
+    double next = x - f * df / (df * df - f * half_ddf);
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    step = next - x;
+    x = next;
+  }
+  return {x, std::max(0x1p-32, step * step)};
+}
+
+template <class Filter>
+class RootSearch {
+ public:
+  explicit RootSearch(const Filter& filter)
+      : filter_(filter), bound_(176 * u * filter.volume()), level_(168 * u * filter.volume()) {}
+
+  Decision run() {
+    const Verdict verdict = settle(bernstein::scaled_coefficients(filter_.forms().coplanarity()), bound_, 0, 1, subdivision_depth);
+    return {verdict, enclosure_};
+  }
+
+ private:
+  static int sign(double x, double bound) { return (x > bound) - (x < -bound); }
+
+  /// The part of f on [begin, begin + width].
+  Verdict settle(Cubic f, double bound, double begin, double width, int depth) {
+    const std::array<int, 4> s = {sign(f[0], bound), sign(f[1], bound), sign(f[2], bound), sign(f[3], bound)};
+    if (s[0] * s[3] < 0) {
+      if (s[1] == s[0] || s[2] == s[3]) return settle_root(f, bound, begin, width);
+    } else {
+      if (std::abs(s[0] + s[1] + s[2] + s[3]) == 4) return Verdict::apart;
+      if (s[0] * s[3] == 0) return lost(begin);
+    }
+    if (depth == 0) return lost(begin);
+    const double x = bernstein::proposed_split(f);
+    const Cubic left = bernstein::split_at(f, x);
+    const double left_width = width * x;  // exact: few bits each
+    const Verdict before = settle(left, bound + level_, begin, left_width, depth - 1);
+    if (before == Verdict::contact) return before;
+    const Verdict after = settle(f, bound + level_, begin + left_width, width - left_width, depth - 1);
+    return after == Verdict::apart ? before : after;
+  }
+
+  Verdict settle_root(const Cubic& f, double bound, double begin, double width) {
+    const Root root = halley(f);
+    const double low = std::max(0.0, root.x - root.reach), high = std::min(1.0, root.x + root.reach);
+    const double value_bound = bound + level_;
+    if (sign(bernstein::value_at(f, low), value_bound) * sign(bernstein::value_at(f, high), value_bound) >= 0) return lost(begin);
+    constexpr double outward = 0x1p-50;  // above the rounding of times, which stay in [0, 1]
+    const double t = begin + width * root.x, reach = width * root.reach + outward;
+    const Verdict verdict = filter_.inside(t, reach);
+    if (verdict == Verdict::unknown) return lost(begin);
+    if (verdict == Verdict::contact) {
+      enclosure_ = {std::max(0.0, std::min(first_lost_, t - reach - outward)), std::min(1.0, t + reach + outward)};
+    }
+    return verdict;
+  }
+
+  Verdict lost(double begin) {
+    first_lost_ = std::min(first_lost_, begin);
+    return Verdict::unknown;
+  }
+
+  const Filter& filter_;
+  double bound_, level_;
+  double first_lost_ = 1;
+  TimeEnclosure enclosure_;
+};
+
+}  // namespace noli::filter
