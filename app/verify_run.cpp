@@ -132,11 +132,47 @@ class Run {
 
   void verify() {
     Progress progress("verify");
-    const VerifyResult result = verify_step(mesh_, sequence_.x_t0(), sequence_.x_t1(), options(progress));
+    const VerifyOptions asked = options(progress);
+    VerifyResult result = verify_step(mesh_, sequence_.x_t0(), sequence_.x_t1(), asked);
+    const bool counted_before = request_.keep_going && !request_.constant_motion && sequence_.step() > 0;
+    if (counted_before && result.contact_count() > 0) drop_contacts_at_begin(asked, result);
     outcome_.complete = result.complete;
     add_counts(result);
     add_reports(result);
     if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
+  }
+
+  /// What is in contact at the beginning of a later step was in contact at the end of the step before, and counted
+  /// there. Those pairs are the ones that meet when everything rests where the step begins.
+  void drop_contacts_at_begin(VerifyOptions options, VerifyResult& result) const {
+    options.progress = nullptr;
+    options.first_only = false;
+    options.max_reports = 0;
+    const VerifyResult resting = verify_step(mesh_, sequence_.x_t0(), sequence_.x_t0(), options);
+    result.complete = result.complete && resting.complete;
+    result.stages += resting.stages;
+    for (std::size_t i = 0; i < result.contacts.size(); ++i) {
+      // Counts of what is not complete are lower bounds, and so must the difference be.
+      const std::uint64_t before = resting.complete ? resting.contacts[i] : result.contacts[i];
+      result.contacts[i] -= std::min(result.contacts[i], before);
+    }
+    std::erase_if(result.reports,
+                  [&](const FeatureContact& contact) { return !resting.complete || meets_at_begin(contact); });
+  }
+
+  bool meets_at_begin(const FeatureContact& contact) const {
+    audit::AnyQuery query = query_of(contact);
+    query.x_t1 = query.x_t0;
+    return audit::visit(query, [](const auto& typed) { return meet(typed); });
+  }
+
+  audit::AnyQuery query_of(const FeatureContact& contact) const {
+    audit::AnyQuery query{contact.pair, outcome_.dimension, {}, {}};
+    for (std::size_t i = 0; i < query.size(); ++i) {
+      query.x_t0[i] = sequence_.x_t0()[contact.vertices[i]];
+      query.x_t1[i] = sequence_.x_t1()[contact.vertices[i]];
+    }
+    return query;
   }
 
   void add_counts(const VerifyResult& result) {
@@ -160,12 +196,7 @@ class Run {
 
   /// Kind and time of a contact of the current step.
   First exactly(const FeatureContact& contact) const {
-    audit::AnyQuery query{contact.pair, outcome_.dimension, {}, {}};
-    for (std::size_t i = 0; i < query.size(); ++i) {
-      query.x_t0[i] = sequence_.x_t0()[contact.vertices[i]];
-      query.x_t1[i] = sequence_.x_t1()[contact.vertices[i]];
-    }
-    const auto found = audit::visit(query, [](const auto& typed) { return first_contact(typed); });
+    const auto found = audit::visit(query_of(contact), [](const auto& typed) { return first_contact(typed); });
     if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
     return {contact, sequence_.step() + 1, found->kind, found->time.lower()};
   }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the command ends when the user, a limit or the machine puts an end to it: never in 0.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+
+namespace noli::app_tests {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A sequence that takes minutes: two frames that never touch, over and over.
+std::vector<std::string> endless_verify(const Folder& folder) {
+  const auto a = folder.write("a.ply", sheets(20000, 0)), b = folder.write("b.ply", sheets(20000, 3));
+  std::vector<std::string> arguments = {"verify"};
+  for (int i = 0; i < 20000; ++i) arguments.push_back(i % 2 == 0 ? a : b);
+  arguments.insert(arguments.end(), {"--json", folder.path("result.json")});
+  return arguments;
+}
+
+ProcessOptions sends(int signal) {
+  ProcessOptions options;
+  options.signal = signal;
+  options.signal_after = std::chrono::milliseconds(500);
+  return options;
+}
+
+class EndedBySignal : public testing::TestWithParam<int> {};
+
+TEST_P(EndedBySignal, VerifyLeavesValidJson) {
+  const Folder folder;
+  const Process process = run_noli(endless_verify(folder), sends(GetParam()));
+  EXPECT_EQ(process.exit_code, 2) << process.err;
+  EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
+  const Json json = Json::parse(read_text(folder.path("result.json")));
+  EXPECT_EQ(json["verdict"], "undecided");
+  EXPECT_EQ(json["complete"], false);
+  EXPECT_LT(json["steps"], json["steps_total"]);
+}
+
+TEST_P(EndedBySignal, FuzzLeavesValidJson) {
+  const Folder folder;
+  const Process process =
+      run_noli({"fuzz", "queries", "--for", "1h", "--out", folder.path("out"), "--json", folder.path("result.json")},
+               sends(GetParam()));
+  EXPECT_EQ(process.exit_code, 2) << process.err;
+  const Json json = Json::parse(read_text(folder.path("result.json")));
+  EXPECT_EQ(json["verdict"], "undecided");
+  EXPECT_EQ(json["findings"], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EndedBySignal, testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) { return test.param == SIGINT ? "Interrupt" : "Terminate"; });
+
+TEST(Ending, ATimeLimitGivesWhatWasSettledSoFar) {
+  const Folder folder;
+  auto arguments = endless_verify(folder);
+  arguments.insert(arguments.end(), {"--time-limit", "700ms"});
+  const Process process = run_noli(arguments);
+  EXPECT_EQ(process.exit_code, 2) << process.err;
+  EXPECT_NE(process.out.find("Undecided (time limit)"), std::string::npos) << process.out;
+  const Json json = Json::parse(read_text(folder.path("result.json")));
+  EXPECT_EQ(json["verdict"], "undecided");
+  EXPECT_EQ(json["per_step"].size(), json["steps"].get<std::size_t>());
+}
+
+TEST(Ending, ATimeLimitAfterAContactLeavesTheContact) {
+  const Folder folder;
+  const auto a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(-1));
+  std::vector<std::string> arguments = {"verify", "--keep-going", "--time-limit", "300ms"};
+  for (int i = 0; i < 30000; ++i) arguments.push_back(i % 2 == 0 ? a : b);
+  const Json json = json_of(arguments, 1);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_EQ(json["complete"], false);
+  EXPECT_GE(json["contacts"]["vertex_face"], 3);
+}
+
+TEST(Ending, AFullDiskIsNoSuccess) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
+  const Folder folder;
+  const auto a = folder.write("a.ply", two_triangles(1));
+  ProcessOptions options;
+  options.standard_output = "/dev/full";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"verify", a, a}, {"info", a}, {"--version"}, {"--help"}, {"ccd", "--help"}}) {
+    const Process process = run_noli(arguments, options);
+    EXPECT_EQ(process.exit_code, 4) << arguments[0];
+    EXPECT_NE(process.err.find("standard output"), std::string::npos) << process.err;
+  }
+  const Process json = run_noli({"verify", a, a, "--json", "/dev/full"});
+  EXPECT_EQ(json.exit_code, 4);
+  EXPECT_EQ(json.out, "") << "a verdict that does not agree with the exit code";
+}
+
+TEST(Ending, AClosedOutputIsNoSuccess) {
+  const Folder folder;
+  const auto a = folder.write("a.ply", two_triangles(1));
+  ProcessOptions closed, hung_up;
+  closed.close_standard_output = true;
+  hung_up.hang_up = true;
+  EXPECT_EQ(run_noli({"verify", a, a}, closed).exit_code, 4);
+  EXPECT_EQ(run_noli({"verify", a, a}, hung_up).exit_code, 4);
+  // The JSON must not end up where standard output was.
+  EXPECT_EQ(run_noli({"verify", a, a, "--json", folder.path("result.json")}, closed).exit_code, 4);
+  EXPECT_EQ(Json::parse(read_text(folder.path("result.json")))["verdict"], "no_contact");
+}
+
+TEST(Ending, TooLittleMemoryIsNoSuccess) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve address space of their own";
+#endif
+  const Folder folder;
+  // A sparse file: a mesh of 20 million vertices at the origin, in hardly a block on the disk.
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty double x\nproperty double y\nproperty "
+      "double z\nend_header\n";
+  const auto path = folder.write("large.ply", header);
+  std::filesystem::resize_file(path, header.size() + 20'000'000ull * 24);
+  ProcessOptions options;
+  options.address_space = 300'000'000;
+  const Process process = run_noli({"verify", path, path, "--points"}, options);
+  EXPECT_EQ(process.exit_code, 4) << process.out << process.err;
+  EXPECT_EQ(process.err, "noli: out of memory\n");
+}
+
+}  // namespace
+}  // namespace noli::app_tests

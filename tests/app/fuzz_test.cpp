@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+
+namespace noli::app_tests {
+namespace {
+
+TEST(FuzzQueries, FindsNoDifferenceAndDependsOnTheSeedAlone) {
+  const Folder folder;
+  const auto run = [&](const std::string& seed, const std::string& threads) {
+    return without_timing(json_of(
+        {"fuzz", "queries", "--count", "4000", "--seed", seed, "--threads", threads, "--out", folder.path("out")}, 0));
+  };
+  const std::string one = run("5", "1");
+  EXPECT_EQ(one, run("5", "2"));
+  EXPECT_NE(one, run("6", "2"));
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(FuzzQueries, StopsWhenItsTimeIsOver) {
+  const Folder folder;
+  const Process process = run_noli({"fuzz", "queries", "--for", "300ms", "--out", folder.path("out")});
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(process.verdict_line().rfind("verdict no_difference queries ", 0), 0u) << process.out;
+}
+
+}  // namespace
+}  // namespace noli::app_tests

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Version, help, and where results are written.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+
+namespace noli::app_tests {
+namespace {
+
+TEST(Help, HasExamplesForEveryCommand) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{}, {"verify"}, {"ccd"}, {"info"}, {"fuzz"}, {"fuzz", "queries"}}) {
+    auto arguments = command;
+    arguments.push_back("--help");
+    const Process process = run_noli(arguments);
+    EXPECT_EQ(process.exit_code, 0);
+    EXPECT_NE(process.out.find("Examples:\n  noli "), std::string::npos) << process.out;
+    if (!command.empty()) {
+      EXPECT_NE(process.out.find("noli " + command[0]), std::string::npos) << process.out;
+    }
+    EXPECT_EQ(process.err, "");
+  }
+}
+
+TEST(Version, NamesLibrariesAndTestsRounding) {
+  const Process process = run_noli({"--version"});
+  EXPECT_EQ(process.exit_code, 0);
+  EXPECT_EQ(process.out.rfind("noli ", 0), 0u);
+  for (const char* const part :
+       {"\ncommit ", "\nGMP 6", "\nMPFR 4", "\nCGAL 5", "\nBoost 1.", "\nrounding self-test passed\n"}) {
+    EXPECT_NE(process.out.find(part), std::string::npos) << part << " not in: " << process.out;
+  }
+}
+
+class JsonOutput : public testing::Test {
+ protected:
+  Process run(const std::string& out) const { return run_noli({"info", mesh, "--json", out}); }
+
+  Folder folder;
+  std::string mesh = folder.write("a.ply", two_triangles(1));
+};
+
+TEST_F(JsonOutput, GoesToAFileBesideTheText) {
+  const Process process = run(folder.path("out.json"));
+  EXPECT_EQ(process.exit_code, 0);
+  EXPECT_EQ(process.verdict_line(), "verdict described files 1");
+  EXPECT_EQ(nlohmann::json::parse(read_text(folder.path("out.json")))["verdict"], "described");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply", "out.json"}));
+}
+
+TEST_F(JsonOutput, TakesThePlaceOfTheTextOnStandardOutput) {
+  const Process process = run("-");
+  EXPECT_EQ(nlohmann::json::parse(process.out)["verdict"], "described");
+}
+
+TEST_F(JsonOutput, ReplacesAFileWhole) {
+  const auto path = folder.write("out.json", std::string(100'000, 'x'));
+  EXPECT_EQ(run(path).exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read_text(path))["verdict"], "described");
+}
+
+TEST_F(JsonOutput, FollowsALinkToTheFile) {
+  const auto target = folder.write("target.json", "old");
+  std::filesystem::create_symlink(target, folder.path("link.json"));
+  EXPECT_EQ(run(folder.path("link.json")).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path("link.json")));
+  EXPECT_EQ(nlohmann::json::parse(read_text(target))["verdict"], "described");
+}
+
+TEST_F(JsonOutput, IsReadableByWhomNewFilesAre) {
+  const mode_t before = ::umask(022);
+  run(folder.path("out.json"));
+  ::umask(before);
+  const auto permissions = std::filesystem::status(folder.path("out.json")).permissions();
+  EXPECT_EQ(static_cast<unsigned>(permissions), 0644u);
+}
+
+TEST_F(JsonOutput, StaysJsonWhenANameIsNoText) {
+  const auto odd = folder.write("odd\xff\".ply", two_triangles(1));
+  const Process process = run_noli({"info", odd, "--json", "-"});
+  EXPECT_EQ(process.exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(process.out)["verdict"], "described");
+}
+
+}  // namespace
+}  // namespace noli::app_tests

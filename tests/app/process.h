@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs the `noli` command and keeps what it says.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace noli::app_tests {
+
+struct ProcessOptions {
+  /// Sent once the process is ready for it (it catches the signal) and this time has passed.
+  std::optional<int> signal;
+  std::chrono::milliseconds signal_after{0};
+  std::string standard_output;                 ///< a file to use as standard output instead of a pipe
+  bool close_standard_output = false;          ///< start without one
+  bool hang_up = false;                        ///< standard output is a pipe that nobody reads
+  std::optional<std::uint64_t> address_space;  ///< limit, in bytes
+};
+
+struct Process {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string out, err;
+  std::uint64_t peak_bytes = 0;
+
+  /// The first line of standard output, without its end.
+  std::string verdict_line() const { return out.substr(0, out.find('\n')); }
+};
+
+/// Runs `noli` with these arguments and waits for it.
+Process run_noli(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
+
+/// The same with `--json -`: the document. Standard output must be nothing but JSON.
+nlohmann::json json_of(std::vector<std::string> arguments, int expected_exit_code);
+
+/// The document without what a clock or the machine decides, as text.
+std::string without_timing(nlohmann::json document);
+
+}  // namespace noli::app_tests

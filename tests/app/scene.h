@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Small input for the command: a folder that vanishes with the test, and meshes that are known by heart.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "noli/trajectory/mesh.h"
+
+namespace noli::app_tests {
+
+/// A new empty folder, removed at the end of the scope.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+  /// Writes a file and returns its path.
+  std::string write(const std::string& name, std::string_view content) const;
+  /// Names of the files in it, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+/// An ASCII PLY file of these points, with these faces.
+std::string ply_text(const std::vector<Position>& points, const std::vector<std::array<VertexId, 3>>& faces);
+
+/// Two triangles in planes z = 0 and z = height; the upper one, vertices 3 to 5, lies well inside the outline of the
+/// lower one. When it passes through z = 0 its three vertices meet the lower face, and nothing else meets.
+std::string two_triangles(double height);
+
+/// A triangle, and a second one that stands in its middle like a sail through a deck: no vertex meets a face, no edge
+/// an edge.
+std::string sail_through_deck();
+
+/// Two sheets of about `faces` faces in all that move together and never touch. Binary PLY.
+std::string sheets(std::size_t faces, double height);
+
+/// A file of real data, or nothing when the data are not there; then says what is skipped.
+std::optional<std::string> real_data(const std::string& name);
+
+std::string read_text(const std::string& path);
+
+}  // namespace noli::app_tests

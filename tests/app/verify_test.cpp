@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+
+namespace noli::app_tests {
+namespace {
+
+using Json = nlohmann::json;
+
+class Verify : public testing::Test {
+ protected:
+  /// Frames with the upper triangle at these heights.
+  std::vector<std::string> frames(const std::vector<double>& heights) const {
+    std::vector<std::string> arguments = {"verify"};
+    for (const double height : heights) {
+      arguments.push_back(folder.write("frame" + std::to_string(arguments.size()) + ".ply", two_triangles(height)));
+    }
+    return arguments;
+  }
+
+  static std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  Folder folder;
+};
+
+Json vertex_face_contacts(int count) {
+  return {{"vertex_face", count}, {"edge_edge", 0}, {"vertex_edge", 0}, {"vertex_vertex", 0}};
+}
+
+TEST_F(Verify, SaysThatNothingTouches) {
+  const auto arguments = frames({1, 0.5});
+  const Process process = run_noli(arguments);
+  EXPECT_EQ(process.exit_code, 0);
+  EXPECT_EQ(
+      process.verdict_line(),
+      "verdict no_contact contacts.vertex_face 0 contacts.edge_edge 0 contacts.vertex_edge 0 contacts.vertex_vertex 0 "
+      "initial_intersections 0 first_time none steps 1 steps_total 1 faces 2 complete true");
+  EXPECT_EQ(process.err, "");
+  const Json json = json_of(arguments, 0);
+  EXPECT_EQ(json["verdict"], "no_contact");
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(0));
+  EXPECT_TRUE(json["first"].is_null());
+  EXPECT_TRUE(json["first_time"].is_null());
+  EXPECT_EQ(json["statement"]["dimension"], 3);
+}
+
+TEST_F(Verify, CountsEveryContactAndFindsTheFirst) {
+  const auto arguments = frames({1, -3});
+  EXPECT_EQ(run_noli(arguments).exit_code, 1);
+  const Json json = json_of(arguments, 1);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_EQ(json["complete"], true);
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
+  EXPECT_EQ(json["initial_intersections"], 0);
+  EXPECT_EQ(json["first_time"], 0.25);
+  const Json first = {
+      {"pair", "vertex_face"}, {"features", {{3}, {0, 1, 2}}}, {"kind", "crossing"}, {"step", 1}, {"time", 0.25}};
+  EXPECT_EQ(json["first"], first);
+  EXPECT_EQ(json["steps"], 1);
+  EXPECT_EQ(json["faces"], 2);
+  EXPECT_EQ(json["reports"]["listed"], 3);
+  EXPECT_EQ(json["reports"]["left_out"], 0);
+  EXPECT_EQ(json["reports"]["contacts"][2]["features"], Json({{5}, {0, 1, 2}}));
+}
+
+TEST_F(Verify, PrintsTheFirstTimeWith17DigitsRoundedDown) {
+  // From 1 to -2: the contact is at 1/3, and the double below it is 0.33333333333333331.
+  const Process process = run_noli(frames({1, -2}));
+  EXPECT_NE(process.verdict_line().find(" first_time 0.33333333333333331 "), std::string::npos) << process.out;
+  const Process json = run_noli(with(frames({1, -2}), {"--json", "-"}));
+  EXPECT_NE(json.out.find("\"first_time\": 0.33333333333333331,"), std::string::npos) << json.out;
+}
+
+TEST_F(Verify, CountsATouchAtTheVeryEnd) {
+  const Json json = json_of(frames({1, 0}), 1);
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
+  EXPECT_EQ(json["first"]["kind"], "touching");
+  EXPECT_EQ(json["first_time"], 1.0);
+}
+
+TEST_F(Verify, SaysWhenAFacePiercesAnotherThroughout) {
+  const auto a = folder.write("a.ply", sail_through_deck());
+  const Json json = json_of({"verify", a, a}, 1);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(0));
+  EXPECT_EQ(json["initial_intersections"], 1);
+  EXPECT_EQ(json["initial_reports"]["intersections"], Json::parse(R"([{"cells": [0, 1], "step": 1}])"));
+  EXPECT_TRUE(json["first"].is_null());
+}
+
+TEST_F(Verify, StopsAfterTheFirstStepThatHasAContact) {
+  const Json json = json_of(frames({1, 0.5, -0.5, -1, 1}), 1);
+  EXPECT_EQ(json["steps"], 2);
+  EXPECT_EQ(json["steps_total"], 4);
+  EXPECT_EQ(json["first"]["step"], 2);
+  EXPECT_EQ(json["first_time"], 0.5);
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
+}
+
+TEST_F(Verify, KeepsGoingWhenAsked) {
+  const Json json = json_of(with(frames({1, 0.5, -0.5, -1, 1}), {"--keep-going"}), 1);
+  EXPECT_EQ(json["steps"], 4);
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(6));
+  EXPECT_EQ(json["per_step"][0]["contacts"], vertex_face_contacts(0));
+  EXPECT_EQ(json["per_step"][3]["contacts"], vertex_face_contacts(3));
+  EXPECT_EQ(json["first"]["step"], 2);
+}
+
+TEST_F(Verify, CountsAContactAtABorderOnce) {
+  const Json json = json_of(with(frames({1, 0, -1}), {"--keep-going"}), 1);
+  EXPECT_EQ(json["steps"], 2);
+  EXPECT_EQ(json["per_step"][0]["contacts"], vertex_face_contacts(3));
+  EXPECT_EQ(json["per_step"][1]["contacts"], vertex_face_contacts(0));
+  EXPECT_EQ(json["reports"]["listed"], 3);
+  EXPECT_EQ(json["reports"]["left_out"], 0);
+}
+
+TEST_F(Verify, IsContentWithTheFirstContactWhenAsked) {
+  const Json json = json_of(with(frames({1, -1}), {"--first-only"}), 1);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_FALSE(json["first"].is_null());
+  EXPECT_EQ(json_of(with(frames({1, 0.5}), {"--first-only"}), 0)["verdict"], "no_contact");
+}
+
+TEST_F(Verify, ListsNoMoreThanAskedButCountsAll) {
+  const auto arguments = with(frames({1, -1}), {"--max-reports", "2"});
+  const Json json = json_of(arguments, 1);
+  EXPECT_EQ(json["reports"]["contacts"].size(), 2u);
+  EXPECT_EQ(json["reports"]["left_out"], 1);
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
+  EXPECT_NE(run_noli(arguments).out.find("... and 1 more"), std::string::npos);
+}
+
+TEST_F(Verify, TakesASingleFrameAtRest) {
+  const auto apart = folder.write("apart.ply", two_triangles(1));
+  const auto touching = folder.write("touching.ply", two_triangles(0));
+  const auto pierced = folder.write("pierced.ply", sail_through_deck());
+  EXPECT_EQ(json_of({"verify", apart, "--static"}, 0)["steps"], 1);
+  const Json json = json_of({"verify", touching, "--static"}, 1);
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
+  EXPECT_EQ(json["first"]["kind"], "persistent");
+  EXPECT_EQ(json["first_time"], 0.0);
+  EXPECT_EQ(json_of({"verify", pierced, "--static"}, 1)["initial_intersections"], 1);
+  // Intersections of a later frame are not those of an earlier one: all frames are looked at.
+  EXPECT_EQ(json_of({"verify", folder.write("sail.ply", sail_through_deck()), touching, "--static", "--keep-going"},
+                    1)["steps"],
+            2);
+}
+
+TEST_F(Verify, LooksAtOneCellWhenStrict) {
+  const auto open = folder.write("open.ply", ply_text({{0, 0, 0}, {4, 0, 1}, {2, 1, 0}}, {{0, 1, 2}}));
+  const auto flipped = folder.write("flipped.ply", ply_text({{0, 0, 0}, {4, 0, 1}, {2, -1, 1}}, {{0, 1, 2}}));
+  EXPECT_EQ(json_of({"verify", open, flipped}, 0)["verdict"], "no_contact");
+  const Json json = json_of({"verify", open, flipped, "--strict"}, 1);
+  EXPECT_EQ(json["contacts"]["vertex_edge"], 1);
+  EXPECT_EQ(json["statement"]["strict"], true);
+}
+
+TEST_F(Verify, TakesLooseVerticesAsPointsWhenAsked) {
+  const auto above = folder.write("above.ply", ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}}, {{0, 1, 2}}));
+  const auto below = folder.write("below.ply", ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}}, {{0, 1, 2}}));
+  const Json without = json_of({"verify", above, below}, 0);
+  EXPECT_EQ(without["statement"]["unreferenced_vertices_left_out"], 1);
+  const Json with_points = json_of({"verify", above, below, "--points"}, 1);
+  EXPECT_EQ(with_points["contacts"], vertex_face_contacts(1));
+  EXPECT_EQ(with_points["points"], 1);
+}
+
+TEST_F(Verify, MergesVerticesThatAreTheSameThroughoutWhenAsked) {
+  // Two triangles side by side whose common edge has its vertices twice.
+  const std::vector<std::array<VertexId, 3>> faces = {{0, 1, 2}, {3, 4, 5}};
+  const auto a =
+      folder.write("a.ply", ply_text({{0, 0, 0}, {0, 2, 0}, {2, 1, 0}, {0, 0, 0}, {0, 2, 0}, {-2, 1, 1}}, faces));
+  const auto b =
+      folder.write("b.ply", ply_text({{0, 0, 1}, {0, 2, 1}, {2, 1, 1}, {0, 0, 1}, {0, 2, 1}, {-2, 1, 2}}, faces));
+  EXPECT_EQ(json_of({"verify", a, b}, 1)["statement"]["merged_vertices"], 0);
+  const Json merged = json_of({"verify", a, b, "--merge-identical"}, 0);
+  EXPECT_EQ(merged["statement"]["merged_vertices"], 2);
+}
+
+TEST_F(Verify, DecidesFlatMeshesInTheirPlane) {
+  const auto moved = [&](const std::string& name, double x, double z) {
+    return folder.write(name, ply_text({{0, 0, z}, {2, 0, z}, {0, 2, z}, {x, 0.25, z}, {x + 2, 0.25, z}, {x + 2, 1, z}},
+                                       {{0, 1, 2}, {3, 4, 5}}));
+  };
+  const auto right = moved("right.ply", 4, 0), nearer = moved("nearer.ply", 3, 0), over = moved("over.ply", 1, 0);
+  const auto lifted = moved("lifted.ply", 3, 1);
+  EXPECT_EQ(json_of({"verify", right, nearer}, 0)["statement"]["dimension"], 2);
+  const Json touch = json_of({"verify", right, over}, 1);
+  EXPECT_EQ(touch["statement"]["dimension"], 2);
+  EXPECT_EQ(touch["contacts"]["vertex_face"], 0);
+  EXPECT_GT(touch["contacts"]["vertex_edge"], 0);
+  EXPECT_EQ(json_of({"verify", right, over, "--dimension", "3"}, 1)["statement"]["dimension"], 3);
+  EXPECT_EQ(json_of({"verify", right, lifted}, 0)["statement"]["dimension"], 3);
+  const Process leaves = run_noli({"verify", right, nearer, lifted});
+  EXPECT_EQ(leaves.exit_code, 3);
+  EXPECT_NE(leaves.err.find("leaves the plane"), std::string::npos) << leaves.err;
+}
+
+TEST_F(Verify, ReadsObjAndMixesFormats) {
+  const auto obj =
+      folder.write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 1\nv 1.5 1 1\nv 1 1.5 1\nf 1 2 3\nf -3 -2 -1\n");
+  const auto ply = folder.write("b.ply", two_triangles(-1));
+  EXPECT_EQ(json_of({"verify", obj, ply}, 1)["contacts"], vertex_face_contacts(3));
+}
+
+TEST_F(Verify, AcceptsTheFlagOfALaterChecker) {
+  EXPECT_EQ(run_noli(with(frames({1, 0.5}), {"--no-check"})).exit_code, 0);
+}
+
+TEST_F(Verify, GivesTheSameForAnyNumberOfThreads) {
+  const auto a = folder.write("a.ply", sheets(2000, 0)), b = folder.write("b.ply", sheets(2000, 3));
+  const auto arguments = std::vector<std::string>{"verify", a, b, "--strict", "--threads"};
+  const std::string one = without_timing(json_of(with(arguments, {"1"}), 0));
+  EXPECT_EQ(one, without_timing(json_of(with(arguments, {"2"}), 0)));
+  EXPECT_EQ(one, without_timing(json_of(with(arguments, {"5"}), 0)));
+}
+
+TEST_F(Verify, CountsTheContactsOfRealCloth) {
+  const auto a = real_data("frames/cloth-funnel/227.ply"), b = real_data("frames/cloth-funnel/228.ply");
+  if (!a || !b) GTEST_SKIP() << "no real data";
+  const Json one = json_of({"verify", *a, *b, "--threads", "1"}, 1);
+  EXPECT_EQ(one["contacts"]["vertex_face"], 27);
+  EXPECT_EQ(one["contacts"]["edge_edge"], 107);
+  EXPECT_EQ(without_timing(one), without_timing(json_of({"verify", *a, *b, "--threads", "5"}, 1)));
+}
+
+TEST_F(Verify, ClearsARealRodTwist) {
+  const auto a = real_data("frames/rod-twist-clean/0.ply"), b = real_data("frames/rod-twist-clean/1.ply");
+  if (!a || !b) GTEST_SKIP() << "no real data";
+  EXPECT_EQ(json_of({"verify", *a, *b}, 0)["verdict"], "no_contact");
+}
+
+}  // namespace
+}  // namespace noli::app_tests
