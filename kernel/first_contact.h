@@ -4,9 +4,10 @@
 //
 // Kinds, judged at the first time t* at which the features meet:
 //   persistent  they meet during a whole interval that begins at t* (of positive length, within the step)
-//   crossing    t* is inside the open step, the contact is of codimension one (vertex_face and edge_edge in 3D: at t* the four
-//               points span exactly a plane; vertex_edge in 2D: the three points span exactly a line), it is relatively interior to
-//               both features, and the orientation determinant changes sign at t*
+//   crossing    t* is inside the open step, the contact is of codimension one (vertex_face and edge_edge in 3D: at t*
+//   the four
+//               points span exactly a plane; vertex_edge in 2D: the three points span exactly a line), it is relatively
+//               interior to both features, and the orientation determinant changes sign at t*
 //   touching    every other contact
 //   apart       they do not meet
 #pragma once
@@ -38,7 +39,8 @@ struct FirstContact {
 };
 
 /// The first contact of the step, or nothing if the features stay apart.
-/// Slow next to `contact` (kernel/contact.h): microseconds, with allocation. Call it for queries known to be in contact.
+/// Slow next to `contact` (kernel/contact.h): microseconds, with allocation. Call it for queries known to be in
+/// contact.
 template <FeaturePair Pair, int Dim>
 std::optional<FirstContact> first_contact(const Query<Pair, Dim>& query);
 
