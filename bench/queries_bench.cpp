@@ -22,6 +22,12 @@ namespace {
 constexpr std::size_t oracle_sample = 200;
 
 template <class Query>
+bool oracle_meet(const Query& query) {
+  constexpr auto pair = Query::pair == FeaturePair::vertex_face ? oracle::Pair::vertex_face : oracle::Pair::edge_edge;
+  return oracle::first_contact({pair, 3, query.x_t0, query.x_t1}).kind != oracle::Kind::apart;
+}
+
+template <class Query>
 void register_file(const std::string& name, const std::vector<Query>& queries) {
   const auto work = std::make_shared<std::vector<Query>>(workload(queries));
   register_passes("textbook/" + name,

@@ -29,11 +29,8 @@ namespace noli::bernstein {
 
 enum class Verdict { apart, contact, unknown };
 
-/// Instead of a sign: the polynomial is known to be zero throughout. It does not keep the others from deciding.
-constexpr int zero_throughout = 2;
-
-/// A piece [begin, begin + width] of the step and the polynomials on it. g_sign: the certain sign of g_k on the whole piece, 0 if that
-/// is not known, or zero_throughout; unless it is 0, the coefficients of g_k are no longer kept up to date.
+/// A piece [begin, begin + width] of the step and the polynomials on it. g_sign: the certain sign of g_k on the whole piece, if known;
+/// the coefficients of such a g_k are no longer kept up to date.
 template <class T, std::size_t Degree, std::size_t Insides, std::size_t InsideDegree>
 struct Piece {
   using Number = T;
@@ -190,8 +187,8 @@ class Search {
     bool positive = false, negative = false, open = false;
 
     void add(int sign) {
-      positive |= sign == 1;
-      negative |= sign == -1;
+      positive |= sign > 0;
+      negative |= sign < 0;
       open |= sign == 0;
     }
     bool disagree() const { return positive && negative; }

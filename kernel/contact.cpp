@@ -5,7 +5,6 @@
 #include "noli/kernel/exact_contact.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/interval_filter.h"
-#include "noli/kernel/root_filter.h"
 #include "noli/kernel/rounding.h"
 #include "noli/kernel/scaled_integers.h"
 
@@ -35,7 +34,7 @@ Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis
     counters.count(Stage::direction);
     return {};
   }
-  Decision decision = filter::RootSearch<Filter>(filter).run();
+  Decision decision = filter::search_roots(filter);
   if (decision.verdict == Verdict::unknown) {
     decision = filter::search(filter.forms(), filter.axis(), filter.signs());
   }

@@ -31,6 +31,7 @@
 #include "noli/kernel/bernstein.h"
 #include "noli/kernel/formula.h"
 #include "noli/kernel/query.h"
+#include "noli/kernel/root_filter.h"
 
 namespace noli::filter {
 
@@ -304,14 +305,17 @@ class EdgeEdgeFilter {
 
 // --- Stage: bernstein --------------------------------------------------------------------------------------------------
 
-/// A verdict and, with `contact`, where it may have begun.
-struct Decision {
-  Verdict verdict = Verdict::apart;
-  TimeEnclosure enclosure;
-};
-
 /// How often a piece of the step may be split. After three, what is left is nearly always degenerate.
 constexpr int subdivision_depth = 3;
+
+/// Root by root: the quick way, for what is not degenerate.
+template <class Filter>
+Decision search_roots(const Filter& filter) {
+  const double volume = filter.volume() * u;
+  const RoundedCubic cubic{bernstein::scaled_coefficients(filter.forms().coplanarity()), 176 * volume, 168 * volume};
+  const auto inside = [&filter](double t, double reach, int) { return filter.inside(t, reach); };
+  return RootSearch(cubic, inside).run(subdivision_depth);
+}
 
 /// The Bernstein search on the forms of a query, seen along an axis.
 template <class Forms, class Signs>

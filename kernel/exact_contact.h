@@ -67,15 +67,20 @@ class SignedForm {
   explicit SignedForm(const Form<Wide<L>, 2>& form) : exact_(form), rounded_(rounded(form)), bound_(0x1p-40 * largest(rounded_)) {}
 
   const Form<Wide<L>, 2>& exact() const { return exact_; }
-  const std::array<double, 3>& approximation() const { return rounded_; }
+
+  /// The sign at times near t, if it is certain.
+  std::optional<int> certain_sign(double t) const {
+    const double value = bernstein::value_at(rounded_, t);
+    if (value > bound_) return 1;
+    if (value < -bound_) return -1;
+    return std::nullopt;
+  }
 
   /// The sign at `time`, of which `t` is an approximation.
   template <class Time>
   int sign(const Time& time, double t) const {
-    const double value = bernstein::value_at(rounded_, t);
-    if (value > bound_) return 1;
-    if (value < -bound_) return -1;
-    return time.sign(exact_);
+    const std::optional<int> certain = certain_sign(t);
+    return certain ? *certain : time.sign(exact_);
   }
 
  private:
@@ -304,42 +309,52 @@ class CodimensionOne {
     return false;
   }
 
-  /// The Bernstein search once more, now on the exact coefficients. Error bounds: a coefficient is rounded to 2^-51 of itself and
-  /// multiplied once; a run of de Casteljau has at most three levels of 3 * 2^-53.
+  /// Root by root in double, now on the exact coefficients; where that does not tell the sign of an inside at a root, exactly. Error
+  /// bounds: a coefficient is rounded to 2^-51 of itself and multiplied once; a run of de Casteljau has three levels of 3 * 2^-53.
   Decision decide_cubic(const Cubic<C>& f) {
-    using Piece = bernstein::Piece<double, 3, insides_count, 2>;
-    using Signs = filter::DoubleSigns<insides_count>;
-    const auto& seen = view(axis_);
-    Piece piece{rounded(f), {}, {}, 0, 1};
-    Signs signs;
-    signs.f_bound = signs.f_level = 0x1p-49 * largest(piece.f);
-    for (std::size_t k = 0; k < insides_count; ++k) {
-      if (is_zero(seen.insides[k].exact())) piece.g_sign[k] = bernstein::zero_throughout;
-      piece.g[k] = seen.insides[k].approximation();
-      signs.g_bound[k] = signs.g_level[k] = 0x1p-49 * largest(piece.g[k]);
-    }
-    bernstein::Search<Piece, Signs> search;
-    const Verdict verdict = search.run(piece, signs, cubic_depth);
-    if (verdict != Verdict::unknown) return {verdict, search.enclosure()};
-    const Decision on_border = contact_on_border(f, piece.f, seen);
-    return on_border.verdict == Verdict::contact ? on_border : decide_double_root(f);
+    const auto approximation = rounded(f);
+    const double bound = 0x1p-49 * largest(approximation);
+    const filter::RoundedCubic cubic{approximation, bound, bound};
+    const auto inside = [&](double t, double reach, int f_before) { return inside_at_root(f, {t - reach, t + reach, f_before}); };
+    const Decision decision = filter::RootSearch(cubic, inside).run(cubic_depth);
+    return decision.verdict == Verdict::unknown ? decide_double_root(f) : decision;
   }
 
-  /// A root that f shares with an inside: a contact on the border of a feature.
-  Decision contact_on_border(const Cubic<C>& f, const std::array<double, 4>& rounded_f, const View<C, insides_count>& seen) {
-    const double bound = 0x1p-40 * largest(rounded_f);
-    Decision decision{Verdict::unknown, {}};
-    const auto visit = [&](const auto& time) {
-      const double t = time.approximate();
-      if (std::abs(bernstein::value_at(rounded_f, t)) > bound) return false;
-      if (time.sign(f) != 0 || !touches(time)) return false;
-      decision = contact_in({0, around(t).end});
-      return true;
-    };
-    for (const auto& g : seen.insides) {
-      if (any_root(g.exact(), visit)) break;
+  /// What is known about a root of f: where it is, and the sign of f before it.
+  struct RootOfCubic {
+    double low, high;
+    int f_before;
+  };
+
+  Verdict inside_at_root(const Cubic<C>& f, const RootOfCubic& root) {
+    bool positive = false, negative = false, open = false;
+    for (const auto& g : view(axis_).insides) {
+      const std::optional<int> sign = sign_at_root(g, f, root);
+      positive |= sign.value_or(0) > 0;
+      negative |= sign.value_or(0) < 0;
+      open |= !sign;
     }
-    return decision;
+    if (positive && negative) return Verdict::apart;
+    return open || positive == negative ? Verdict::unknown : Verdict::contact;
+  }
+
+  /// The sign of g at a root alpha of f: that of g before alpha, changed once by each root of g in between. Whether a root of g comes
+  /// before alpha is told by the sign of f there.
+  static std::optional<int> sign_at_root(const SignedForm<2 * C>& g, const Cubic<C>& f, const RootOfCubic& root) {
+    constexpr double margin = 0x1p-44;  // far above the error of an approximate root
+    if (is_zero(g.exact())) return 0;
+    std::optional<int> sign = g.certain_sign(root.low);
+    if (!sign || discriminant(g.exact()).is_zero()) return std::nullopt;
+    any_root(g.exact(), [&](const auto& time) {
+      const double t = time.approximate();
+      if (t < root.low - margin || t > root.high + margin) return false;
+      const int f_there = time.sign(f);
+      if (t < root.low + margin || t > root.high - margin) sign = std::nullopt;
+      else if (f_there == 0) sign = 0;
+      else if (f_there == root.f_before) sign = -*sign;
+      return !sign || *sign == 0;
+    });
+    return sign;
   }
 
   /// A cubic with a double root has rational roots: the double one at (9 f0 f3 - f1 f2) / (2 (f2^2 - 3 f1 f3)), unless it is triple,

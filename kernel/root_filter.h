@@ -19,9 +19,15 @@
 #include <cmath>
 
 #include "noli/kernel/bernstein.h"
-#include "noli/kernel/double_filter.h"
 
 namespace noli::filter {
+
+using bernstein::Verdict;
+/// A verdict and, with `contact`, where it may have begun.
+struct Decision {
+  Verdict verdict = Verdict::apart;
+  TimeEnclosure enclosure;
+};
 
 using Cubic = std::array<double, 4>;
 
@@ -50,14 +56,22 @@ inline Root halley(const Cubic& c) {
   return {x, std::max(0x1p-32, step * step)};
 }
 
-template <class Filter>
+/// A cubic with what is known about its coefficients.
+struct RoundedCubic {
+  Cubic f;
+  double bound;  ///< of the error of a coefficient
+  double level;  ///< of what one run of de Casteljau adds to that
+};
+
+/// The search. inside(t, reach, f_before) is asked about each root, which is within `reach` of t, in ascending order until it answers
+/// `contact`; f_before is the sign of f before the root.
+template <class Inside>
 class RootSearch {
  public:
-  explicit RootSearch(const Filter& filter)
-      : filter_(filter), bound_(176 * u * filter.volume()), level_(168 * u * filter.volume()) {}
+  RootSearch(const RoundedCubic& cubic, Inside& inside) : cubic_(cubic), inside_(inside) {}
 
-  Decision run() {
-    const Verdict verdict = settle(bernstein::scaled_coefficients(filter_.forms().coplanarity()), bound_, 0, 1, subdivision_depth);
+  Decision run(int depth) {
+    const Verdict verdict = settle(cubic_.f, cubic_.bound, 0, 1, depth);
     return {verdict, enclosure_};
   }
 
@@ -77,20 +91,21 @@ class RootSearch {
     const double x = bernstein::proposed_split(f);
     const Cubic left = bernstein::split_at(f, x);
     const double left_width = width * x;  // exact: few bits each
-    const Verdict before = settle(left, bound + level_, begin, left_width, depth - 1);
+    const Verdict before = settle(left, bound + cubic_.level, begin, left_width, depth - 1);
     if (before == Verdict::contact) return before;
-    const Verdict after = settle(f, bound + level_, begin + left_width, width - left_width, depth - 1);
+    const Verdict after = settle(f, bound + cubic_.level, begin + left_width, width - left_width, depth - 1);
     return after == Verdict::apart ? before : after;
   }
 
   Verdict settle_root(const Cubic& f, double bound, double begin, double width) {
     const Root root = halley(f);
     const double low = std::max(0.0, root.x - root.reach), high = std::min(1.0, root.x + root.reach);
-    const double value_bound = bound + level_;
-    if (sign(bernstein::value_at(f, low), value_bound) * sign(bernstein::value_at(f, high), value_bound) >= 0) return lost(begin);
+    const double value_bound = bound + cubic_.level;
+    const int before = sign(bernstein::value_at(f, low), value_bound);
+    if (before * sign(bernstein::value_at(f, high), value_bound) >= 0) return lost(begin);
     constexpr double outward = 0x1p-50;  // above the rounding of times, which stay in [0, 1]
     const double t = begin + width * root.x, reach = width * root.reach + outward;
-    const Verdict verdict = filter_.inside(t, reach);
+    const Verdict verdict = inside_(t, reach, before);
     if (verdict == Verdict::unknown) return lost(begin);
     if (verdict == Verdict::contact) {
       enclosure_ = {std::max(0.0, std::min(first_lost_, t - reach - outward)), std::min(1.0, t + reach + outward)};
@@ -103,8 +118,8 @@ class RootSearch {
     return Verdict::unknown;
   }
 
-  const Filter& filter_;
-  double bound_, level_;
+  const RoundedCubic& cubic_;
+  Inside& inside_;
   double first_lost_ = 1;
   TimeEnclosure enclosure_;
 };

@@ -16,6 +16,7 @@
 // What this does not do: it never looks at cells other than the two.
 #pragma once
 
+#include "noli/proofs/prover/around.h"
 #include "noli/proofs/prover/direction_search.h"
 #include "noli/proofs/prover/feature_pairs.h"
 #include "noli/proofs/prover/initial.h"
@@ -40,10 +41,17 @@ class CellPairs {
 
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
-    const Shared shared = find_shared(a, b);
-    if (shared.count == 1 && settle_around(a, shared.in_a[0], b, shared.in_b[0])) return;
     Progress progress{a, b, pairs_owned(a, b)};
-    settle_parts(progress, {all_corners(a.corners), all_corners(b.corners)}, shared, 0);
+    const Shared shared = find_shared(a, b);
+    if (shared.count == 0) {
+      settle_part(progress, pair_of(a, b), {all_corners(a.corners), all_corners(b.corners)});
+    } else if (is_fan(a, b, shared)) {
+      settle_around_corner(progress, shared);
+    } else if (is_hinge(a, b, shared)) {
+      settle_around_edge(progress, shared);
+    } else {
+      settle_parts(progress, shared);
+    }
     if (!progress.open) return;
     ++tally_.cell_pairs;
     if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
@@ -119,39 +127,72 @@ class CellPairs {
     record_.direction(signed_n);
   }
 
-  /// Two cells that share one vertex, as faces of a fan do: a direction that has it between what they do not share
-  /// settles both pairs of parts.
-  bool settle_around(const Cell& a, CornerMask in_a, const Cell& b, CornerMask in_b) {
-    const auto a_rest = static_cast<CornerMask>(all_corners(a.corners) & ~in_a);
-    const auto b_rest = static_cast<CornerMask>(all_corners(b.corners) & ~in_b);
-    if (a_rest == 0 || b_rest == 0) return false;
-    const PartPair<Dim> pair = pair_of(a, a_rest, b, b_rest, static_cast<std::size_t>(std::countr_zero(in_a)));
-    const Direction<Dim> n = between_middles(pair);
-    const Projections p = project(pair, n);
-    if (!origin_between(p, error_bound(pair, n))) return false;
-    record_.drop_vertex(a.vertices[static_cast<std::size_t>(std::countr_zero(in_a))]);
-    close(n, 1);
-    close(n, 1);
-    return true;
+  static std::size_t place(CornerMask mask) { return static_cast<std::size_t>(std::countr_zero(mask)); }
+
+  static bool is_single(CornerMask mask) { return (mask & (mask - 1)) == 0; }
+
+  /// Two faces that have one vertex in common, each of them once.
+  static bool is_fan(const Cell& a, const Cell& b, const Shared& shared) {
+    return shared.count == 1 && a.corners == 3 && b.corners == 3 && is_single(shared.in_a[0]) && is_single(shared.in_b[0]);
   }
 
-  void settle_parts(Progress& progress, Parts parts, const Shared& shared, std::size_t from) {
+  /// Two faces that have two vertices in common, each of them once.
+  static bool is_hinge(const Cell& a, const Cell& b, const Shared& shared) {
+    return shared.count == 2 && a.corners == 3 && b.corners == 3 && is_single(shared.in_a[0]) &&
+           is_single(shared.in_a[1]) && is_single(shared.in_b[0]) && is_single(shared.in_b[1]);
+  }
+
+  void settle_around_corner(Progress& progress, const Shared& shared) {
+    const Cell &a = progress.a, &b = progress.b;
+    const std::size_t i = place(shared.in_a[0]), j = place(shared.in_b[0]);
+    const auto four = four_around(a, b, i, {{{false, next(i)}, {false, next(next(i))}, {true, next(j)}, {true, next(next(j))}}});
+    const auto n = around_corner(four);
+    if (!n) return settle_parts(progress, shared);
+    record_.drop_vertex(a.vertices[i]);
+    close(*n, 1);
+    close(*n, 1);
+  }
+
+  void settle_around_edge(Progress& progress, const Shared& shared) {
+    const Cell &a = progress.a, &b = progress.b;
+    const std::size_t i = place(shared.in_a[0]), j = place(shared.in_a[1]);
+    const std::size_t c = 3 - i - j, d = 3 - place(shared.in_b[0]) - place(shared.in_b[1]);
+    const auto known = around_edge(four_around(a, b, i, {{{false, j}, {false, c}, {true, d}, {true, d}}}));
+    settle_parts(progress, shared, &known);
+  }
+
+  static std::size_t next(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
+
+  void settle_parts(Progress& progress, const Shared& shared, const AroundEdge<Dim>* known = nullptr) {
+    std::size_t number = 0;
+    drop_shared(progress, {all_corners(progress.a.corners), all_corners(progress.b.corners)}, shared, 0, known, number);
+  }
+
+  /// Goes through the pairs of parts in prefix order and numbers them.
+  void drop_shared(Progress& progress, Parts parts, const Shared& shared, std::size_t from, const AroundEdge<Dim>* known,
+                   std::size_t& number) {
     if (from < shared.count) {
       const CornerMask in_a = shared.in_a[from], in_b = shared.in_b[from];
-      record_.drop_vertex(progress.a.vertices[static_cast<std::size_t>(std::countr_zero(in_a))]);
-      settle_parts(progress, {static_cast<CornerMask>(parts.a & ~in_a), parts.b}, shared, from + 1);
-      settle_parts(progress, {parts.a, static_cast<CornerMask>(parts.b & ~in_b)}, shared, from + 1);
-    } else if (parts.a == 0 || parts.b == 0) {
+      record_.drop_vertex(progress.a.vertices[place(in_a)]);
+      const Parts without_a = {static_cast<CornerMask>(parts.a & ~in_a), parts.b};
+      const Parts without_b = {parts.a, static_cast<CornerMask>(parts.b & ~in_b)};
+      drop_shared(progress, without_a, shared, from + 1, known, number);
+      drop_shared(progress, without_b, shared, from + 1, known, number);
+      return;
+    }
+    const std::size_t i = number++;
+    if (parts.a == 0 || parts.b == 0) {
       record_.empty();
+    } else if (known != nullptr && known->found[i]) {
+      close(known->n[i], 1);
+      progress.left &= ~pairs_within(progress.a, parts.a, progress.b, parts.b);
     } else {
-      settle_part(progress, parts);
+      settle_part(progress, pair_of(progress.a, parts.a, progress.b, parts.b, place(parts.a)), parts);
     }
   }
 
-  void settle_part(Progress& progress, Parts parts) {
+  void settle_part(Progress& progress, const PartPair<Dim>& pair, Parts parts) {
     const Cell &a = progress.a, &b = progress.b;
-    const auto origin = static_cast<std::size_t>(std::countr_zero(parts.a));
-    const PartPair<Dim> pair = pair_of(a, parts.a, b, parts.b, origin);
     const Direction<Dim> guess = between_middles(pair);
     const PairSet within = pairs_within(a, parts.a, b, parts.b);
     if (try_direction(pair, guess) || try_normals(pair, a, b) || search(pair, guess, {}, halvings)) {

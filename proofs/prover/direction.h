@@ -85,6 +85,21 @@ double reach_of(const std::array<std::array<std::array<double, 8>, Dim>, 2>& d) 
 
 }  // namespace detail
 
+/// The pair of two whole cells.
+template <int Dim>
+PartPair<Dim> pair_of(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
+  PartPair<Dim> pair;
+  for (std::size_t e = 0; e < 2; ++e) {
+    for (std::size_t k = 0; k < Dim; ++k) {
+      const double r = a.x[e][k][0];
+      for (std::size_t l = 0; l < 4; ++l) pair.d[e][k][l] = a.x[e][k][l] - r;
+      for (std::size_t l = 0; l < 4; ++l) pair.d[e][k][4 + l] = b.x[e][k][l] - r;
+    }
+  }
+  pair.reach = detail::reach_of<Dim>(pair.d);
+  return pair;
+}
+
 /// The pair of two parts, neither of them empty. The origin is corner `origin` of a.
 template <int Dim>
 PartPair<Dim> pair_of(const MovingCell<Dim>& a, CornerMask a_part, const MovingCell<Dim>& b, CornerMask b_part,
@@ -133,10 +148,10 @@ inline Projections at_ends(const Projections& step, Interval interval) {
 
 /// The right side of the claim.
 template <int Dim>
-double error_bound(const PartPair<Dim>& pair, const Direction<Dim>& n) {
+double error_bound(const Direction<Dim>& n, double reach) {
   double size = std::abs(n[0]) + std::abs(n[1]);
   if constexpr (Dim == 3) size += std::abs(n[2]);
-  return 0x1p-49 * (4 * size * pair.reach) + std::numeric_limits<double>::min();
+  return 0x1p-49 * (4 * size * reach) + std::numeric_limits<double>::min();
 }
 
 /// How far the first part is above the second at one end (negative: the parts overlap along n).
@@ -153,20 +168,12 @@ inline double gap_below(const std::array<double, 8>& q) {
   return low - high;
 }
 
-/// Whether the first part is certainly above the origin of the pair and the second below it, over the whole step;
-/// `bound` as from error_bound.
-inline bool origin_between(const Projections& p, double bound) {
-  const auto above = [&](std::size_t l) { return p.q[0][l] > bound && p.q[1][l] > bound; };
-  const auto below = [&](std::size_t l) { return p.q[0][l] < -bound && p.q[1][l] < -bound; };
-  return above(0) && above(1) && above(2) && above(3) && below(4) && below(5) && below(6) && below(7);
-}
-
 /// +1 if n, -1 if -n certainly separates the first part (above) from the second over the interval; 0 if neither could
 /// be shown.
 template <int Dim>
 int separates(const PartPair<Dim>& pair, const Direction<Dim>& n, Interval interval = {}) {
   const Projections p = at_ends(project(pair, n), interval);
-  const double bound = error_bound(pair, n);
+  const double bound = error_bound<Dim>(n, pair.reach);
   if (gap_above(p.q[0]) > bound && gap_above(p.q[1]) > bound) return 1;
   if (gap_below(p.q[0]) > bound && gap_below(p.q[1]) > bound) return -1;
   return 0;

@@ -167,7 +167,7 @@ std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair,
   detail::Simplex<Dim> simplex;
   for (int round = 0; round < rounds; ++round) {
     const Projections p = at_ends(project(pair, v), interval);
-    const double bound = error_bound(pair, v);
+    const double bound = error_bound<Dim>(v, pair.reach);
     const double gap_begin = gap_above(p.q[0]), gap_end = gap_above(p.q[1]);
     if (gap_begin > bound && gap_end > bound) return v;
     const bool begin = gap_begin < gap_end;

@@ -12,8 +12,6 @@ namespace noli {
 
 namespace {
 
-using Lanes = std::array<float, 4>;
-
 /// phi, for one axis and one end of the step.
 struct MonotoneMap {
   double middle = 0;
@@ -50,17 +48,8 @@ struct Entry {
   std::uint32_t cell = 0;
 };
 
-Lanes lower(const Lanes& a, const Lanes& b) {
-  Lanes c{};
-  for (std::size_t k = 0; k < 4; ++k) c[k] = a[k] < b[k] ? a[k] : b[k];
-  return c;
-}
-
-Lanes higher(const Lanes& a, const Lanes& b) {
-  Lanes c{};
-  for (std::size_t k = 0; k < 4; ++k) c[k] = a[k] > b[k] ? a[k] : b[k];
-  return c;
-}
+Lanes lower(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+Lanes higher(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 
 GroupBox merge(const GroupBox& a, const GroupBox& b) {
   return {lower(a.low_t0, b.low_t0), lower(a.low_t1, b.low_t1), higher(a.high_t0, b.high_t0),
@@ -164,6 +153,15 @@ std::vector<Group> split_top(Builder& builder, Group root, std::size_t wanted, i
 }
 
 }  // namespace
+
+std::array<double, 3> separating_axis(const GroupBox& a, const GroupBox& b) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::array<double, 3> n{};
+    n[k] = a.low_t0[k] > b.high_t0[k] && a.low_t1[k] > b.high_t1[k] ? 1 : -1;
+    if (n[k] > 0 || (b.low_t0[k] > a.high_t0[k] && b.low_t1[k] > a.high_t1[k])) return n;
+  }
+  return {};
+}
 
 Hierarchy::Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
                      int threads)

@@ -19,6 +19,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,20 +29,24 @@
 
 namespace noli {
 
+/// Four floats that are compared and combined lane by lane (an extension that g++ and clang++ share).
+using Lanes = float __attribute__((vector_size(16)));
+
 /// phi of the extreme coordinates of a group. Lanes: the axes, then unused (zero).
 struct alignas(64) GroupBox {
-  std::array<float, 4> low_t0, low_t1, high_t0, high_t1;
+  Lanes low_t0, low_t1, high_t0, high_t1;
 };
 
-/// The lanes in which a is above b at both ends, as a bit mask.
-inline unsigned above(const GroupBox& a, const GroupBox& b) {
-  unsigned mask = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const bool yes = (a.low_t0[k] > b.high_t0[k]) & (a.low_t1[k] > b.high_t1[k]);
-    mask |= static_cast<unsigned>(yes) << k;
-  }
-  return mask;
+/// Whether on some axis the boxes are in the same strict order at both ends.
+inline bool axis_separates(const GroupBox& a, const GroupBox& b) {
+  const auto over = (a.low_t0 > b.high_t0) & (a.low_t1 > b.high_t1);
+  const auto under = (b.low_t0 > a.high_t0) & (b.low_t1 > a.high_t1);
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(over | under);
+  return (halves[0] | halves[1]) != 0;
 }
+
+/// The axis on which they are, with the sign that makes a the upper one. Precondition: axis_separates(a, b).
+std::array<double, 3> separating_axis(const GroupBox& a, const GroupBox& b);
 
 /// A node and the number of leaves below it.
 struct Group {
