@@ -162,17 +162,34 @@ class PlaneView {
     return {x.at_t0[i_] * s_ + x.at_t1[i_] * t_, x.at_t0[j_] * s_ + x.at_t1[j_] * t_};
   }
 
+  /// Whether three points are collinear in this view all the time because they have one of its two coordinates in common at both
+  /// ends. The inside that they make is then zero throughout, exactly.
+  template <class Query>
+  bool share_a_coordinate(const Query& q, const std::array<std::size_t, 3>& points) const {
+    return share(q.x_t0, q.x_t1, points, i_) || share(q.x_t0, q.x_t1, points, j_);
+  }
+
  private:
+  template <class Points>
+  static bool share(const Points& x_t0, const Points& x_t1, const std::array<std::size_t, 3>& points, std::size_t axis) {
+    const auto [a, b, c] = points;
+    return x_t0[a][axis] == x_t0[b][axis] && x_t0[b][axis] == x_t0[c][axis] && x_t1[a][axis] == x_t1[b][axis] &&
+           x_t1[b][axis] == x_t1[c][axis];
+  }
+
   std::size_t i_, j_;
   double s_, t_;
 };
 
-/// Gathers the certain signs of insides.
+/// Gathers the certain signs of insides. One that is zero throughout does not keep the others from deciding: when these have the same
+/// strict sign the view is not degenerate, and the contact is on the border of a feature.
 struct InsideSigns {
   bool some_positive = false, some_negative = false, all_positive = true, all_negative = true;
 
-  void add(double value, double bound) {
+  template <class ZeroThroughout>
+  void add(double value, double bound, ZeroThroughout&& zero_throughout) {
     const bool positive = value > bound, negative = value < -bound;
+    if (!positive && !negative && zero_throughout()) return;
     some_positive |= positive;
     some_negative |= negative;
     all_positive &= positive;
@@ -180,7 +197,7 @@ struct InsideSigns {
   }
   Verdict verdict() const {
     if (some_positive & some_negative) return Verdict::apart;
-    return (all_positive | all_negative) ? Verdict::contact : Verdict::unknown;
+    return all_positive != all_negative ? Verdict::contact : Verdict::unknown;
   }
 };
 
@@ -190,7 +207,8 @@ struct InsideSigns {
 class VertexFaceFilter {
  public:
   explicit VertexFaceFilter(const VertexFace3& q)
-      : forms_{{difference(q, 1, 0), difference(q, 2, 0), difference(q, 3, 0)}},
+      : query_(q),
+        forms_{{difference(q, 1, 0), difference(q, 2, 0), difference(q, 3, 0)}},
         m_{magnitude(forms_.d[0]), magnitude(forms_.d[1]), magnitude(forms_.d[2])} {
     const Vec<double, 3> middle = twice_at_middle(forms_.d[0]);
     normal_ = cross(formula::operator-(twice_at_middle(forms_.d[1]), middle),
@@ -220,10 +238,11 @@ class VertexFaceFilter {
     const PlaneView view(normal_, t);
     const Vec<double, 2> d0 = view(forms_.d[0]), d1 = view(forms_.d[1]), d2 = view(forms_.d[2]);
     const double bound = 25 * u + 9 * reach;
+    const auto collinear = [&](std::size_t a, std::size_t b) { return view.share_a_coordinate(query_, {0, a, b}); };
     InsideSigns signs;
-    signs.add(formula::cross(d0, d1), bound * (m_[0] * m_[1]));
-    signs.add(formula::cross(d1, d2), bound * (m_[1] * m_[2]));
-    signs.add(formula::cross(d2, d0), bound * (m_[2] * m_[0]));
+    signs.add(formula::cross(d0, d1), bound * (m_[0] * m_[1]), [&] { return collinear(1, 2); });
+    signs.add(formula::cross(d1, d2), bound * (m_[1] * m_[2]), [&] { return collinear(2, 3); });
+    signs.add(formula::cross(d2, d0), bound * (m_[2] * m_[0]), [&] { return collinear(3, 1); });
     return signs.verdict();
   }
 
@@ -234,6 +253,7 @@ class VertexFaceFilter {
   }
 
  private:
+  const VertexFace3& query_;
   formula::VertexFace<double> forms_;
   std::array<double, 3> m_;
   Vec<double, 3> normal_;
@@ -244,7 +264,8 @@ class VertexFaceFilter {
 class EdgeEdgeFilter {
  public:
   explicit EdgeEdgeFilter(const EdgeEdge3& q)
-      : forms_{difference(q, 1, 0), difference(q, 3, 2), difference(q, 2, 0)},
+      : query_(q),
+        forms_{difference(q, 1, 0), difference(q, 3, 2), difference(q, 2, 0)},
         mu_(magnitude(forms_.u)),
         mv_(magnitude(forms_.v)),
         mw_(magnitude(forms_.w)),
@@ -272,11 +293,12 @@ class EdgeEdgeFilter {
     const Vec<double, 2> du = view(forms_.u), dv = view(forms_.v), dw = view(forms_.w);
     const double wu = formula::cross(dw, du), wv = formula::cross(dw, dv), c = formula::cross(du, dv);
     const double bound = 25 * u + 9 * reach, size_wu = bound * (mw_ * mu_), size_wv = bound * (mw_ * mv_), size_c = bound * (mu_ * mv_);
-    InsideSigns signs;
-    signs.add(wu, size_wu);
-    signs.add(c - wu, size_c + size_wu);
-    signs.add(wv, size_wv);
-    signs.add(c - wv, size_c + size_wv);
+    const auto collinear = [&](const std::array<std::size_t, 3>& points) { return view.share_a_coordinate(query_, points); };
+    InsideSigns signs;  // a0 a1 b0, a0 a1 b1, a0 b0 b1, a1 b0 b1
+    signs.add(wu, size_wu, [&] { return collinear({0, 1, 2}); });
+    signs.add(c - wu, size_c + size_wu, [&] { return collinear({0, 1, 3}); });
+    signs.add(wv, size_wv, [&] { return collinear({0, 2, 3}); });
+    signs.add(c - wv, size_c + size_wv, [&] { return collinear({1, 2, 3}); });
     return signs.verdict();
   }
 
@@ -298,6 +320,7 @@ class EdgeEdgeFilter {
     side.add((nw + nv) - nu);
   }
 
+  const EdgeEdge3& query_;
   formula::EdgeEdge<double> forms_;
   double mu_, mv_, mw_;
   Vec<double, 3> normal_;
