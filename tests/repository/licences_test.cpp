@@ -78,6 +78,7 @@ std::vector<fs::path> files_read_for_what_ships() {
   parallel_for(inputs.size(), 0, [&](std::size_t i) { read[i] = files_read(inputs[i].command, inputs[i].file); });
   std::set<fs::path> all;
   for (const auto& files : read) all.insert(files.begin(), files.end());
+  std::erase_if(all, [&](const fs::path& file) { return file.parent_path() == fs::canonical(scratch.path()); });
   return {all.begin(), all.end()};
 }
 

@@ -30,7 +30,7 @@ TEST(DemoFrames, TheOtherTouchesBetweenFramesThreeAndFour) {
   const auto [exit_code, output] = verify_generated("contact");
   EXPECT_EQ(exit_code, 1) << output;
   EXPECT_TRUE(output.starts_with("verdict contact ")) << output;
-  EXPECT_NE(output.find("in step 3 "), std::string::npos) << output;
+  EXPECT_NE(output.find("in step 4 "), std::string::npos) << output;
 }
 
 TEST(DemoFrames, RefusesWhatItDoesNotKnow) {
