@@ -90,16 +90,16 @@ FileInfo describe_frame(const Frame& frame) {
 }
 
 FileInfo describe_file(const std::filesystem::path& path) {
-  FileInfo info = describe_frame(read_frame(path));
   const std::string bytes = read_whole_file(path);
-  if (!bytes.starts_with("ply")) {
+  FileInfo info = describe_frame(parse_frame(bytes, path));
+  if (!bytes.starts_with("ply")) {  // an OBJ file that begins so has been refused
     info.format = "OBJ";
     info.number_type = "decimal";
     return info;
   }
   const PlyHeader header = parse_ply_header(bytes, path.string());
   info.format = format_name(header.format);
-  if (const PlyElement* vertex = header.find("vertex")) info.number_type = number_type(*vertex);
+  info.number_type = number_type(*header.find("vertex"));  // parse_frame has seen it
   return info;
 }
 

@@ -10,14 +10,24 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/obj.h"
 #include "noli/trajectory/ply.h"
+#include "noli/trajectory/text.h"
 
 namespace noli {
 namespace {
 
-std::string lower_case(std::string text) {
+/// In lower case.
+std::string extension_of(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return text;
+}
+
+void require_known_extension(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".ply" || extension == ".obj") return;
+  throw InputError(path.string(), "",
+                   fmt::format("expected a file that ends in .ply or .obj, found {}", in_quotes(extension)));
 }
 
 /// Throws when two lists of cells differ, naming the first that does.
@@ -39,10 +49,13 @@ void require_same_cells(std::string_view what, const std::vector<Cell>& expected
 }  // namespace
 
 Frame read_frame(const std::filesystem::path& path) {
-  const std::string extension = lower_case(path.extension().string());
-  if (extension == ".ply") return read_ply(path);
-  if (extension == ".obj") return read_obj(path);
-  throw InputError(path.string(), "", fmt::format("expected a file that ends in .ply or .obj, found '{}'", extension));
+  require_known_extension(path);
+  return parse_frame(read_whole_file(path), path);
+}
+
+Frame parse_frame(std::string_view bytes, const std::filesystem::path& path) {
+  require_known_extension(path);
+  return extension_of(path) == ".ply" ? parse_ply(bytes, path.string()) : parse_obj(bytes, path.string());
 }
 
 void require_same_mesh(const Mesh& expected, const std::filesystem::path& expected_path, const Mesh& found,

@@ -7,13 +7,14 @@
 //   step k     Motion::linear: from frame k to frame k + 1, n - 1 steps. Motion::constant: frame k stands still, n
 //   steps.
 //
-// What this does not do: it reads nothing ahead and keeps nothing behind, so at most two frames are in memory.
+// What this does not do: it reads nothing ahead and keeps nothing behind, so at most the
+// positions of two frames and the file of one are in memory.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "noli/trajectory/mesh.h"
@@ -22,6 +23,9 @@ namespace noli {
 
 /// Reads a frame; the extension (.ply or .obj, in any case) says how. Throws InputError, also for other extensions.
 Frame read_frame(const std::filesystem::path& path);
+
+/// The same for the bytes of a file; `path` says how to read them and is what errors call them.
+Frame parse_frame(std::string_view bytes, const std::filesystem::path& path);
 
 /// Throws InputError when the meshes differ in vertex count or in any cell; the message names both files and the first
 /// difference.

@@ -4,8 +4,9 @@
 //
 //   element vertex   properties x, y and, where there is one, z, of any scalar type. The declared type is what is read,
 //   in ASCII too:
-//                    a float is rounded to float and then widened, so one mesh is the same in all three encodings. An
-//                    integer that is no double is an error.
+//                    a float is rounded to float and then widened, so one mesh is the same in all three encodings. A
+//                    number beyond the type's range, or so small that it would become 0, is an error. An integer that
+//                    is no double is an error.
 //   element face     one list vertex_indices or vertex_index of any integer types. Polygons become cells as cells.h
 //   says; a list of no
 //                    vertices is an error.

@@ -87,6 +87,7 @@ const BadPly bad_plys[] = {
     {"nan", xy + "end_header\n1 2\n3 nan\n", "line 8: expected a finite number, found 'nan'"},
     {"infinity", xy + "end_header\n1 2\n-inf 4\n", "line 8: expected a finite number, found '-inf'"},
     {"overflow", xy + "end_header\n1 2\n1e309 4\n", "line 8: '1e309' is outside the range of double"},
+    {"underflow", xy + "end_header\n1 2\n1e-330 4\n", "line 8: '1e-330' is outside the range of double"},
     {"comma", xy + "end_header\n1,5 2\n3 4\n", "line 7: expected a number, found '1,5'"},
     {"hexadecimal", xy + "end_header\n0x10 2\n3 4\n", "line 7: expected a number, found '0x10'"},
     {"unprintable", xy + "end_header\n1\xff 2\n3 4\n", "line 7: expected a number, found '1?'"},

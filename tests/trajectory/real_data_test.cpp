@@ -15,7 +15,7 @@ struct RealFrame {
   const char* format;
   const char* number_type;
   std::size_t vertices, edges, faces;
-  friend void PrintTo(const RealFrame& frame, std::ostream* out) { *out << frame.name; }
+  friend void PrintTo(const RealFrame& real, std::ostream* out) { *out << real.name; }
 };
 const RealFrame real_frames[] = {
     {"cloth_funnel", "frames/cloth-funnel/227.ply", "PLY binary little-endian", "float64", 9450, 27930, 18484},
@@ -56,7 +56,7 @@ struct RealQueries {
   const char* name;
   const char* file;
   std::size_t queries, positive;
-  friend void PrintTo(const RealQueries& queries, std::ostream* out) { *out << queries.name; }
+  friend void PrintTo(const RealQueries& real, std::ostream* out) { *out << real.name; }
 };
 const RealQueries real_queries[] = {
     {"armadillo_rollers_vertex_face", "armadillo-rollers-vertex-face.csv", 4652, 4650},
