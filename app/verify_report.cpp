@@ -203,7 +203,8 @@ class Text {
 
   void statement() {
     line("Statement:");
-    for (const auto& [key, value] : statement_json(request_, outcome_).items()) {
+    const Json statement = statement_json(request_, outcome_);  // items() only refers to it
+    for (const auto& [key, value] : statement.items()) {
       line("  {}: {}", key, value.is_string() ? value.get<std::string>() : value.dump());
     }
   }
