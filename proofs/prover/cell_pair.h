@@ -133,7 +133,8 @@ class CellPairs {
 
   /// Two faces that have one vertex in common, each of them once.
   static bool is_fan(const Cell& a, const Cell& b, const Shared& shared) {
-    return shared.count == 1 && a.corners == 3 && b.corners == 3 && is_single(shared.in_a[0]) && is_single(shared.in_b[0]);
+    return shared.count == 1 && a.corners == 3 && b.corners == 3 && is_single(shared.in_a[0]) &&
+           is_single(shared.in_b[0]);
   }
 
   /// Two faces that have two vertices in common, each of them once.
@@ -145,7 +146,8 @@ class CellPairs {
   void settle_around_corner(Progress& progress, const Shared& shared) {
     const Cell &a = progress.a, &b = progress.b;
     const std::size_t i = place(shared.in_a[0]), j = place(shared.in_b[0]);
-    const auto four = four_around(a, b, i, {{{false, next(i)}, {false, next(next(i))}, {true, next(j)}, {true, next(next(j))}}});
+    const auto four =
+        four_around(a, b, i, {{{false, next(i)}, {false, next(next(i))}, {true, next(j)}, {true, next(next(j))}}});
     const auto n = around_corner(four);
     if (!n) return settle_parts(progress, shared);
     record_.drop_vertex(a.vertices[i]);
@@ -169,8 +171,8 @@ class CellPairs {
   }
 
   /// Goes through the pairs of parts in prefix order and numbers them.
-  void drop_shared(Progress& progress, Parts parts, const Shared& shared, std::size_t from, const AroundEdge<Dim>* known,
-                   std::size_t& number) {
+  void drop_shared(Progress& progress, Parts parts, const Shared& shared, std::size_t from,
+                   const AroundEdge<Dim>* known, std::size_t& number) {
     if (from < shared.count) {
       const CornerMask in_a = shared.in_a[from], in_b = shared.in_b[from];
       record_.drop_vertex(progress.a.vertices[place(in_a)]);

@@ -101,7 +101,9 @@ void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFea
   for (std::size_t i = first; i < last; ++i) {
     const auto cell = static_cast<std::uint32_t>(i);
     auto vertices = corners(mesh, cell);
-    std::sort(vertices.begin(), vertices.end());
+    const int count = corner_count(mesh, cell);
+    std::sort(vertices.begin(), vertices.begin() + count);
+    if (count < 3) vertices[2] = vertices[1];
     all.push_back({vertices, cell, cell_bit});
   }
   assign_all(std::move(all), mesh.vertex_count, features);

@@ -116,7 +116,8 @@ class Traversal {
     }
   }
 
-  /// What `settle` does when no axis separates them. Not inlined, so that the test of an axis, which mostly succeeds, comes before the call.
+  /// What `settle` does when no axis separates them. Not inlined, so that the test of an axis, which mostly succeeds,
+  /// comes before the call.
   [[gnu::noinline]] void take_apart(Group a, Group b) {
     if (stopped_ || put_off({a, b, false})) return;
     if (++since_look_ >= patience) look_at_clock();

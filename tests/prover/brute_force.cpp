@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "brute_force.h"
+
+#include <algorithm>
+
+#include "hulls.h"
+
+namespace noli::testing {
+
+namespace {
+
+using Edge = std::pair<VertexId, VertexId>;
+using Cell = std::vector<VertexId>;
+
+std::vector<Cell> cells_of(const Mesh& mesh) {
+  std::vector<Cell> cells;
+  for (const auto& f : mesh.faces) cells.push_back({f[0], f[1], f[2]});
+  for (const auto& e : mesh.edges) cells.push_back({e[0], e[1]});
+  for (const VertexId p : mesh.points) cells.push_back({p});
+  return cells;
+}
+
+std::set<Edge> edges_of(const Cell& cell) {
+  std::set<Edge> edges;
+  if (cell.size() == 2) edges.insert(std::minmax(cell[0], cell[1]));
+  for (std::size_t i = 0; cell.size() == 3 && i < 3; ++i) edges.insert(std::minmax(cell[i], cell[(i + 1) % 3]));
+  return edges;
+}
+
+bool has(const Edge& e, VertexId v) { return e.first == v || e.second == v; }
+
+/// Which cells have each vertex and each edge.
+struct Incidences {
+  std::map<VertexId, std::set<std::size_t>> of_vertex;
+  std::map<Edge, std::set<std::size_t>> of_edge;
+
+  explicit Incidences(const Mesh& mesh) {
+    const auto cells = cells_of(mesh);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (const VertexId v : cells[i]) of_vertex[v].insert(i);
+      for (const Edge& e : edges_of(cells[i])) of_edge[e].insert(i);
+    }
+  }
+};
+
+/// Whether there are different cells, one from each set.
+bool two_different(const std::set<std::size_t>& a, const std::set<std::size_t>& b) {
+  return a.size() > 1 || b.size() > 1 || *a.begin() != *b.begin();
+}
+
+PairKey vertex_edge(VertexId v, const Edge& e) {
+  return canonical_key(FeaturePair::vertex_edge, {v, e.first, e.second, 0});
+}
+
+PairKey vertex_vertex(VertexId v, VertexId w) { return canonical_key(FeaturePair::vertex_vertex, {v, w, 0, 0}); }
+
+void add_pairs_3d(const Mesh& mesh, std::map<PairKey, int>& pairs) {
+  const Incidences incidences(mesh);
+  for (const auto& f : mesh.faces) {
+    for (const auto& [v, cells] : incidences.of_vertex) {
+      if (v != f[0] && v != f[1] && v != f[2]) ++pairs[{FeaturePair::vertex_face, {v, f[0], f[1], f[2]}}];
+    }
+  }
+  for (const auto& [e, cells] : incidences.of_edge) {
+    for (const auto& [g, others] : incidences.of_edge) {
+      if (e < g && !has(e, g.first) && !has(e, g.second)) {
+        ++pairs[canonical_key(FeaturePair::edge_edge, {e.first, e.second, g.first, g.second})];
+      }
+    }
+  }
+  std::set<Edge> loose;
+  for (const auto& e : mesh.edges) loose.insert(std::minmax(e[0], e[1]));
+  for (const VertexId p : std::set(mesh.points.begin(), mesh.points.end())) {
+    for (const Edge& e : loose) {
+      if (!has(e, p)) ++pairs[vertex_edge(p, e)];
+    }
+  }
+}
+
+void add_pairs_2d(const Mesh& mesh, bool strict, std::map<PairKey, int>& pairs) {
+  const Incidences incidences(mesh);
+  for (const auto& [v, cells] : incidences.of_vertex) {
+    for (const auto& [e, others] : incidences.of_edge) {
+      if (!has(e, v) && (strict || two_different(cells, others))) ++pairs[vertex_edge(v, e)];
+    }
+  }
+}
+
+void add_loose_points(const Mesh& mesh, std::map<PairKey, int>& pairs) {
+  const std::set<VertexId> points(mesh.points.begin(), mesh.points.end());
+  for (const VertexId p : points) {
+    for (const VertexId q : points) {
+      if (p < q) ++pairs[vertex_vertex(p, q)];
+    }
+  }
+}
+
+/// The features of one cell.
+void add_strict(const Mesh& mesh, int dimension, std::map<PairKey, int>& pairs) {
+  std::set<Cell> seen;
+  for (Cell cell : cells_of(mesh)) {
+    std::sort(cell.begin(), cell.end());
+    if (!seen.insert(cell).second) continue;
+    if (cell.size() == 2 && cell[0] != cell[1]) ++pairs[vertex_vertex(cell[0], cell[1])];
+    for (const VertexId v : std::set(cell.begin(), cell.end())) {
+      for (const Edge& e : edges_of(cell)) {
+        if (cell.size() == 3 && dimension == 3 && !has(e, v)) ++pairs[vertex_edge(v, e)];
+      }
+    }
+  }
+}
+
+/// The part of a cell that the bits of `mask` stand for.
+Cell part_of(const Cell& cell, unsigned mask) {
+  Cell part;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if ((mask >> i & 1) != 0) part.push_back(cell[i]);
+  }
+  return part;
+}
+
+bool disjoint(const Cell& a, const Cell& b) {
+  return std::none_of(a.begin(), a.end(), [&](VertexId v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+}
+
+std::vector<Position> at_begin(const Step& step, int dimension, const Cell& part) {
+  std::vector<Position> points;
+  for (const VertexId v : part) {
+    points.push_back(step.x_t0[v]);
+    if (dimension == 2) points.back()[2] = 0;
+  }
+  return points;
+}
+
+bool cells_meet(const Step& step, int dimension, const Cell& a, const Cell& b) {
+  for (unsigned i = 1; i < 1U << a.size(); ++i) {
+    for (unsigned j = 1; j < 1U << b.size(); ++j) {
+      const Cell p = part_of(a, i), q = part_of(b, j);
+      if (disjoint(p, q) && hulls_meet(at_begin(step, dimension, p), at_begin(step, dimension, q))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+PairKey key_of(const FeatureContact& contact) { return {contact.pair, contact.vertices}; }
+
+PairKey canonical_key(FeaturePair pair, std::array<VertexId, 4> v) {
+  if (pair == FeaturePair::vertex_edge && v[2] < v[1]) std::swap(v[1], v[2]);
+  if (pair == FeaturePair::vertex_vertex && v[1] < v[0]) std::swap(v[0], v[1]);
+  if (pair == FeaturePair::edge_edge) {
+    if (v[1] < v[0]) std::swap(v[0], v[1]);
+    if (v[3] < v[2]) std::swap(v[2], v[3]);
+    if (Edge(v[2], v[3]) < Edge(v[0], v[1])) v = {v[2], v[3], v[0], v[1]};
+  }
+  return {pair, v};
+}
+
+std::map<PairKey, int> all_pairs(const Mesh& mesh, int dimension, bool strict) {
+  std::map<PairKey, int> pairs;
+  if (dimension == 3) {
+    add_pairs_3d(mesh, pairs);
+  } else {
+    add_pairs_2d(mesh, strict, pairs);
+  }
+  add_loose_points(mesh, pairs);
+  if (strict) add_strict(mesh, dimension, pairs);
+  return pairs;
+}
+
+oracle::Answer decide(const PairKey& key, const Step& step, int dimension) {
+  oracle::Motion motion;
+  motion.pair = static_cast<oracle::Pair>(key.first);
+  motion.dimension = dimension;
+  for (std::size_t i = 0; i < point_count(key.first); ++i) {
+    motion.x_t0[i] = step.x_t0[key.second[i]];
+    motion.x_t1[i] = step.x_t1[key.second[i]];
+  }
+  return oracle::first_contact(motion);
+}
+
+BruteForce brute_force(const Step& step, int dimension, bool strict) {
+  BruteForce result;
+  for (const auto& [key, count] : all_pairs(step.mesh, dimension, strict)) {
+    const oracle::Answer answer = decide(key, step, dimension);
+    if (!answer.time) continue;
+    result.contacts[key] = count;
+    const int order = result.first_time ? answer.time->compare(*result.first_time) : -1;
+    if (order < 0) {
+      result.first_time = answer.time;
+      result.first.clear();
+    }
+    if (order <= 0) result.first.insert(key);
+  }
+  for (std::uint32_t b = 0; b < step.mesh.cell_count(); ++b) {
+    for (std::uint32_t a = 0; a < b; ++a) {
+      if (cells_meet_at_begin(step, dimension, a, b)) result.initial.insert({a, b});
+    }
+  }
+  return result;
+}
+
+bool cells_meet_at_begin(const Step& step, int dimension, std::uint32_t a, std::uint32_t b) {
+  const auto cells = cells_of(step.mesh);
+  return cells_meet(step, dimension, cells[a], cells[b]);
+}
+
+}  // namespace noli::testing

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The verifier's answer by its definition: all pairs of features, all pairs of cells, one by one, in rational
+// arithmetic.
+#pragma once
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "noli/proofs/prover/verifier.h"
+#include "noli/tests/oracle/oracle.h"
+#include "scenes.h"
+
+namespace noli::testing {
+
+/// A pair of features, as FeatureContact has it.
+using PairKey = std::pair<FeaturePair, std::array<VertexId, 4>>;
+
+PairKey key_of(const FeatureContact& contact);
+
+/// Puts the vertices of a pair into canonical order: each edge, and the two edges of a pair, ascending; two points
+/// ascending.
+PairKey canonical_key(FeaturePair pair, std::array<VertexId, 4> vertices);
+
+/// All pairs of features that the verifier has to decide, and how often each counts (a face that is listed twice counts
+/// twice).
+std::map<PairKey, int> all_pairs(const Mesh& mesh, int dimension, bool strict);
+
+/// What the oracle says about one of them.
+oracle::Answer decide(const PairKey& key, const Step& step, int dimension);
+
+struct BruteForce {
+  std::map<PairKey, int> contacts;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> initial;
+  std::optional<oracle::Time> first_time;
+  std::set<PairKey> first;  ///< those that meet at the first time
+};
+
+BruteForce brute_force(const Step& step, int dimension, bool strict = false);
+
+/// Whether the vertex-disjoint parts of two cells meet at t = 0.
+bool cells_meet_at_begin(const Step& step, int dimension, std::uint32_t a, std::uint32_t b);
+
+}  // namespace noli::testing
