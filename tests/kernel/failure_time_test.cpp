@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "noli/kernel/failure_time.h"
+#include "noli/tests/kernel/random_numbers.h"
+
+namespace noli {
+namespace {
+
+using test::Random;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// --- replay over the rationals
+
+template <int Dim>
+mpq_class coordinate(const Ray<Dim>& p, std::size_t i, const mpq_class& t) {
+  return mpq_class(p.x[i]) + (t - mpq_class(p.t)) * mpq_class(p.v[i]);
+}
+template <int Dim>
+mpq_class coordinate(const Chord<Dim>& p, std::size_t i, const mpq_class& t) {
+  const mpq_class part = (t - mpq_class(p.t0)) / (mpq_class(p.t1) - mpq_class(p.t0));
+  return (1 - part) * mpq_class(p.x0[i]) + part * mpq_class(p.x1[i]);
+}
+
+template <int Dim, class A, class B>
+bool fails_at(const A& a, const B& b, const Point<Dim>& n, double g, const mpq_class& t) {
+  mpq_class sum = -mpq_class(g);
+  for (std::size_t i = 0; i < Dim; ++i) sum += mpq_class(n[i]) * (coordinate<Dim>(a, i, t) - coordinate<Dim>(b, i, t));
+  return sum <= 0;
+}
+
+/// The definition: not late (no failure before the answer), and not earlier than rounding down makes it. As the margin
+/// is linear, the ends of an interval tell about all of it.
+template <int Dim, class A, class B>
+void check(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
+  const double t = failure_time(a, b, n, g, from);
+  ASSERT_GE(t, from);
+  const auto fails = [&](const mpq_class& at) { return fails_at<Dim>(a, b, n, g, at); };
+  if (fails(mpq_class(from))) {
+    ASSERT_EQ(t, from);
+  } else if (t == infinity) {
+    mpq_class far(1);
+    mpz_ui_pow_ui(far.get_num_mpz_t(), 2, 12000);
+    ASSERT_FALSE(fails(far)) << "late";
+  } else {
+    const mpq_class at(t), just_before = at - (at - mpq_class(from)) / mpq_class(1e30);
+    ASSERT_FALSE(t > from && fails(just_before)) << "late";
+    const double next = std::nextafter(t, infinity);
+    ASSERT_TRUE(next == infinity || fails(mpq_class(next))) << "earlier than need be";
+  }
+}
+
+struct Numbers {
+  Random& random;
+  int mode;
+
+  double value() {
+    const double sign = random.below(2) == 0 ? 1 : -1;
+    switch (mode) {
+      case 0: return random.around_zero(3);
+      case 1: return sign * random.unit();
+      case 2: return sign * std::ldexp(random.unit(), random.around_zero(300));
+      default: return random.below(3) == 0 ? 0.0 : sign * std::ldexp(1 + random.unit(), random.around_zero(1000));
+    }
+  }
+  template <int Dim>
+  Point<Dim> point() {
+    Point<Dim> p;
+    for (double& x : p) x = value();
+    return p;
+  }
+  template <int Dim>
+  Ray<Dim> ray() {
+    return {value(), point<Dim>(), point<Dim>()};
+  }
+  template <int Dim>
+  Chord<Dim> chord() {
+    double t0 = value(), t1 = value();
+    if (t0 > t1) std::swap(t0, t1);
+    if (t0 == t1) t1 = std::nextafter(t1, infinity);
+    return {t0, point<Dim>(), t1, point<Dim>()};
+  }
+};
+
+template <int Dim>
+void check_random(std::uint64_t seed, int count) {
+  Random random(seed);
+  for (int i = 0; i < count; ++i) {
+    SCOPED_TRACE(i);
+    Numbers numbers{random, i % 4};
+    const auto n = numbers.point<Dim>();
+    const double g = numbers.value(), from = numbers.value();
+    ASSERT_NO_FATAL_FAILURE(check<Dim>(numbers.ray<Dim>(), numbers.ray<Dim>(), n, g, from));
+    ASSERT_NO_FATAL_FAILURE(check<Dim>(numbers.chord<Dim>(), numbers.ray<Dim>(), n, g, from));
+    ASSERT_NO_FATAL_FAILURE(check<Dim>(numbers.ray<Dim>(), numbers.chord<Dim>(), n, g, from));
+    ASSERT_NO_FATAL_FAILURE(check<Dim>(numbers.chord<Dim>(), numbers.chord<Dim>(), n, g, from));
+  }
+}
+
+TEST(FailureTime, ExactReplayInThePlane) { check_random<2>(1, 4000); }
+TEST(FailureTime, ExactReplayInSpace) { check_random<3>(2, 4000); }
+
+const Ray<3> still{0, {0, 0, 0}, {0, 0, 0}};
+
+TEST(FailureTime, RoundsDown) {
+  const Ray<3> falling{0, {1, 0, 0}, {-3, 0, 0}};
+  EXPECT_EQ(failure_time(falling, still, Point3{1, 0, 0}, 0, 0), 0x1.5555555555555p-2);
+  const Ray<3> later{0, {5, 0, 0}, {-3, 0, 0}};
+  EXPECT_EQ(failure_time(later, still, Point3{1, 0, 0}, 0, 0),
+            0x1.aaaaaaaaaaaaap0);  // the double nearest to 5/3 is late
+}
+
+TEST(FailureTime, FailedAlready) {
+  const Ray<3> at_gap{0, {1, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(failure_time(at_gap, still, Point3{1, 0, 0}, 1, 0), 0);
+  EXPECT_EQ(failure_time(at_gap, still, Point3{1, 0, 0}, 2, 0.5), 0.5);
+}
+
+TEST(FailureTime, Never) {
+  const Ray<3> parallel{0, {1, 0, 0}, {0, 5, 0}}, leaving{0, {1, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(failure_time(parallel, still, Point3{1, 0, 0}, 0, 0), infinity);
+  EXPECT_EQ(failure_time(leaving, still, Point3{1, 0, 0}, 0, 0), infinity);
+}
+
+TEST(FailureTime, LaterThanAllDoublesIsTheLargest) {
+  const Ray<3> slow{0, {1e300, 0, 0}, {-1e-300, 0, 0}};
+  EXPECT_EQ(failure_time(slow, still, Point3{1, 0, 0}, 0, 0), std::numeric_limits<double>::max());
+}
+
+TEST(FailureTime, ChordsMeetWhereTheyWereRecorded) {
+  const Chord<3> down{1, {1, 0, 0}, 2, {-1, 0, 0}}, up{0, {-2, 0, 0}, 4, {2, 0, 0}};
+  EXPECT_EQ(failure_time(down, up, Point3{1, 0, 0}, 0, 1), 0x1.aaaaaaaaaaaaap0);
+}
+
+}  // namespace
+}  // namespace noli
