@@ -2,12 +2,10 @@
 //
 // From what a file lists to the cells of a mesh; the rules are the same for all formats.
 //
-//   polygon with n >= 3 corners p0 .. p(n-1)   the fan (p0, p1, p2), (p0, p2, p3), ..., n - 2 faces. A stated rule, not
-//   a good
-//                                              triangulation: a polygon that is not convex folds over itself.
-//   polygon with 2 corners, 1 corner           a loose edge, a loose point
-//   loose edges and points                     each once, and only where nothing larger has them already
-//   (drop_redundant_cells)
+//   polygon p0 p1 .. pn       the fan (p0, p1, p2), (p0, p2, p3), ..., (p0, pn-1, pn). A stated rule, not a good
+//                             triangulation: a polygon that is not convex folds over itself.
+//   polygon of two, of one    a loose edge, a loose point
+//   loose edges and points    each once, and only where nothing larger has them already: drop_redundant_cells
 //
 // What this does not do: it looks at no coordinates and welds nothing (see merge.h for that).
 #pragma once

@@ -4,11 +4,11 @@
 //
 // Notation
 //   frame k    the k-th file, k = 0 .. n - 1; the mesh is that of frame 0, and all others must have the same
-//   step k     Motion::linear: from frame k to frame k + 1, n - 1 steps. Motion::constant: frame k stands still, n
-//   steps.
+//   step k     Motion::linear: from frame k to frame k + 1, n - 1 steps
+//              Motion::constant: frame k stands still, n steps
 //
-// What this does not do: it reads nothing ahead and keeps nothing behind, so at most the
-// positions of two frames and the file of one are in memory.
+// What this does not do: it reads nothing ahead and keeps nothing behind, so at most the positions of two frames and
+// the file of one are in memory.
 #pragma once
 
 #include <cstddef>

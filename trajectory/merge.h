@@ -5,8 +5,10 @@
 //
 // Two passes over the frames: the first finds the classes of vertices whose coordinates are equal as numbers (-0 is 0)
 // in every frame, by splitting the classes frame by frame; the second is the work itself, on a mesh that refers to the
-// first vertex of each class. Memory is linear in the number of vertices. Equality is decided by comparing coordinates;
-// hashes only find candidates.
+// first vertex of each class.
+//
+// Memory is linear in the number of vertices. Equality is decided by comparing coordinates; hashes only find
+// candidates.
 #pragma once
 
 #include <cstddef>

@@ -2,13 +2,15 @@
 //
 // Reads Wavefront OBJ files, as far as they are meshes.
 //
-//   v x y [z [w] | z r g b | z w r g b]   a vertex; without z, z = 0; weight and colour must be finite numbers and are
-//   ignored f a b c ...                           a polygon (cells.h), three corners or more. A corner is v, v/vt,
-//   v//vn or v/vt/vn; l a b c ...                           a line through two vertices or more: loose edges. Corners
-//   are v or v/vt; p a ...                               loose points
+//   v x y [z]      a vertex; without z, z = 0. After z may follow a weight, a colour, or a weight and a colour: finite
+//                  numbers that are ignored
+//   f a b c ...    a polygon (cells.h), three corners or more, each v, v/vt, v//vn or v/vt/vn
+//   l a b ...      a line through two vertices or more, each v or v/vt: loose edges
+//   p a ...        loose points
+//
 // Indices count from 1, negative ones back from the last vertex so far; a positive one may refer to a vertex that
-// follows. Ignored: vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj,
-// comments from a '#' that begins a word. A '\' at the end of a line joins the next one to it. Every other statement
+// follows. A '#' that begins a word begins a comment. A '\' at the end of a line joins the next one to it. Ignored: vt
+// vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj. Every other statement
 // (curves, surfaces) is an error: leaving it out could lose faces.
 #pragma once
 

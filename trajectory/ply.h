@@ -2,17 +2,15 @@
 //
 // Reads PLY files: ASCII, binary little-endian, binary big-endian.
 //
-//   element vertex   properties x, y and, where there is one, z, of any scalar type. The declared type is what is read,
-//   in ASCII too:
-//                    a float is rounded to float and then widened, so one mesh is the same in all three encodings. A
-//                    number beyond the type's range, or so small that it would become 0, is an error. An integer that
-//                    is no double is an error.
-//   element face     one list vertex_indices or vertex_index of any integer types. Polygons become cells as cells.h
-//   says; a list of no
-//                    vertices is an error.
+//   element vertex   properties x, y and, where there is one, z, of any scalar type
+//   element face     one list vertex_indices or vertex_index of any integer types: polygons (cells.h); none is empty
 //   element edge     vertex1 and vertex2 of any integer types: a loose edge, unless a face has it (cells.h)
-//   anything else    skipped, except tristrips: leaving them out would lose faces.
-// In ASCII an entry is one line, and blank lines are skipped. Nothing may follow the last entry.
+//   anything else    skipped, except tristrips: leaving them out would lose faces
+//
+// The declared type is what is read, in ASCII too: a float is rounded to float and then widened, so one mesh is the
+// same in all three encodings. A number beyond the type's range, or so small that it would become 0, is an error, and
+// so is an integer that is no double. In ASCII an entry is one line, and blank lines are skipped. Nothing may follow
+// the last entry.
 //
 // What this does not do: it writes nothing (write_ply.h), welds nothing, and keeps no other property.
 #pragma once

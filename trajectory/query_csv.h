@@ -2,12 +2,14 @@
 //
 // Files of queries: two features over one step, with or without the truth.
 //
-// A query is 2 n rows, one a point: n at t = 0, then n at t = 1 in the same order (n = 4 for vertex_face and edge_edge,
-// 3 for vertex_edge, 2 for vertex_vertex; the points of the first feature first). A row is
+// A query is 2 n rows, one a point: n at t = 0, then n at t = 1 in the same order (n = 4 for vertex_face and
+// edge_edge, 3 for vertex_edge, 2 for vertex_vertex; the points of the first feature first). A row is
 //   x num, x den, y num, y den, z num, z den [, label]
 // with decimal integers of any length whose quotient is exactly a double, and a label 0 (apart) or 1 (they meet) that
 // all rows of a query share; either every row of a file has it or none. A numerator -0 is the double -0.0. Blank lines
-// are skipped. What this does not do: it never rounds; a quotient that is no double is an error.
+// are skipped.
+//
+// What this does not do: it never rounds; a quotient that is no double is an error.
 #pragma once
 
 #include <array>

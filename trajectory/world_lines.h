@@ -7,9 +7,11 @@
 //   breakpoint    a time and the position then; those of one vertex are in strictly ascending order of time
 //   segment k     the piece between breakpoints k and k + 1 of a vertex, both included
 //
-// Storage: the breakpoints of all vertices in one array, vertex after vertex; those of v are at offsets[v] .. offsets[v
-// + 1]. What this does not do: it does not interpolate (that would round; exact users take the segment), and it reads
-// no files.
+// Storage: the breakpoints of all vertices in one array, vertex after vertex; those of v begin at offsets[v] and end
+// before offsets[v + 1].
+//
+// What this does not do: it does not interpolate (that would round; exact users take the segment), and it reads no
+// files.
 #pragma once
 
 #include <cstddef>

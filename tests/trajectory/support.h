@@ -58,6 +58,7 @@ std::string input_error(F&& f) {
 /// Positions as bits, so that -0 and 0 differ in comparisons.
 inline std::vector<std::array<std::uint64_t, 3>> bits(const std::vector<Position>& positions) {
   std::vector<std::array<std::uint64_t, 3>> result;
+  result.reserve(positions.size());
   for (const Position& x : positions) result.push_back(std::bit_cast<std::array<std::uint64_t, 3>>(x));
   return result;
 }
