@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Predicates: whatever the query, kernel and oracle agree on contact, kind and first time.
+//
+// Input: a byte that says which pair of features, which dimension and how coordinates are coded, then the coordinates
+// of the points at t = 0, then those at t = 1; bytes that are missing are 0.
+//   coded   small integers in units of a power of two, perhaps an ulp off: three bytes each. Coincidences are likely.
+//   raw     eight bytes each, a double; where it is not finite its exponent is cleared.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+
+#include "noli/kernel/contact.h"
+#include "noli/kernel/first_contact.h"
+#include "noli/tests/oracle/oracle.h"
+
+namespace {
+
+using noli::FeaturePair;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+  std::uint8_t next() { return at_ < size_ ? data_[at_++] : std::uint8_t{0}; }
+
+ private:
+  const std::uint8_t* data_;
+  std::size_t size_;
+  std::size_t at_ = 0;
+};
+
+double raw_coordinate(Bytes& bytes) {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < 8; ++i) bits |= static_cast<std::uint64_t>(bytes.next()) << (8 * i);
+  const double value = std::bit_cast<double>(bits);
+  return std::isfinite(value) ? value : std::bit_cast<double>(bits & ~(std::uint64_t{0x7ff} << 52));
+}
+
+double coded_coordinate(Bytes& bytes) {
+  const auto integer = static_cast<std::int8_t>(bytes.next());
+  const auto exponent = static_cast<std::int8_t>(bytes.next());
+  const std::uint8_t ulp = bytes.next();
+  const double value = std::ldexp(static_cast<double>(integer), exponent);
+  if (ulp == 1) return std::nextafter(value, std::numeric_limits<double>::max());
+  return ulp == 2 ? std::nextafter(value, std::numeric_limits<double>::lowest()) : value;
+}
+
+template <FeaturePair Pair, int Dim>
+noli::Query<Pair, Dim> decode(Bytes& bytes, bool raw) {
+  noli::Query<Pair, Dim> query{};
+  for (auto* points : {&query.x_t0, &query.x_t1}) {
+    for (auto& point : *points) {
+      for (double& x : point) x = raw ? raw_coordinate(bytes) : coded_coordinate(bytes);
+    }
+  }
+  return query;
+}
+
+constexpr noli::oracle::Pair oracle_pair(FeaturePair pair) {
+  constexpr std::array pairs = {noli::oracle::Pair::vertex_face, noli::oracle::Pair::edge_edge,
+                                noli::oracle::Pair::vertex_edge, noli::oracle::Pair::vertex_vertex};
+  return pairs[static_cast<std::size_t>(pair)];
+}
+
+template <FeaturePair Pair, int Dim>
+noli::oracle::Motion motion(const noli::Query<Pair, Dim>& query) {
+  noli::oracle::Motion motion;
+  motion.pair = oracle_pair(Pair);
+  motion.dimension = Dim;
+  for (std::size_t i = 0; i < query.size; ++i) {
+    for (std::size_t k = 0; k < Dim; ++k) {
+      motion.x_t0[i][k] = query.x_t0[i][k];
+      motion.x_t1[i][k] = query.x_t1[i][k];
+    }
+  }
+  return motion;
+}
+
+template <FeaturePair Pair, int Dim>
+void compare(Bytes& bytes, bool raw) {
+  const auto query = decode<Pair, Dim>(bytes, raw);
+  const noli::oracle::Answer truth = noli::oracle::first_contact(motion(query));
+  const auto enclosure = noli::contact(query);
+  const auto first = noli::first_contact(query);
+  require(enclosure.has_value() == truth.time.has_value());
+  require(first.has_value() == truth.time.has_value());
+  if (!truth.time) return;
+  require(truth.time->compare(enclosure->begin) >= 0 && truth.time->compare(enclosure->end) <= 0);
+  require(noli::name(first->kind) == noli::oracle::name(truth.kind));
+  require(first->time.lower() == truth.time->lower());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes bytes(data, size);
+  const std::uint8_t head = bytes.next();
+  const bool raw = (head & 8) != 0;
+  switch (head % 6) {
+    case 0: compare<FeaturePair::vertex_face, 3>(bytes, raw); break;
+    case 1: compare<FeaturePair::edge_edge, 3>(bytes, raw); break;
+    case 2: compare<FeaturePair::vertex_edge, 3>(bytes, raw); break;
+    case 3: compare<FeaturePair::vertex_vertex, 3>(bytes, raw); break;
+    case 4: compare<FeaturePair::vertex_edge, 2>(bytes, raw); break;
+    default: compare<FeaturePair::vertex_vertex, 2>(bytes, raw); break;
+  }
+  return 0;
+}
