@@ -23,9 +23,6 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# TEMPORARY-GROUND: lets the tree configure while a folder has no source yet
-file(WRITE "${CMAKE_BINARY_DIR}/nothing.cpp" "")
-
 # Headers are included as <noli/kernel/contact.h> in the build tree as they are once installed.
 set(NOLI_INCLUDE_ROOT "${CMAKE_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${NOLI_INCLUDE_ROOT}/noli")
