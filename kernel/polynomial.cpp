@@ -86,6 +86,29 @@ int Polynomial::sign_at_rational(const Integer& num, const Integer& den) const {
   return value.sign();
 }
 
+Polynomial& Polynomial::operator+=(const Polynomial& b) {
+  if (c_.size() < b.c_.size()) c_.resize(b.c_.size());
+  for (std::size_t i = 0; i < b.c_.size(); ++i) c_[i] += b.c_[i];
+  trim();
+  return *this;
+}
+
+Polynomial& Polynomial::operator-=(const Polynomial& b) {
+  if (c_.size() < b.c_.size()) c_.resize(b.c_.size());
+  for (std::size_t i = 0; i < b.c_.size(); ++i) c_[i] -= b.c_[i];
+  trim();
+  return *this;
+}
+
+Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  if (a.is_zero() || b.is_zero()) return {};
+  std::vector<Integer> c(a.c_.size() + b.c_.size() - 1);
+  for (std::size_t i = 0; i < a.c_.size(); ++i) {
+    for (std::size_t j = 0; j < b.c_.size(); ++j) mpz_addmul(c[i + j].get(), a.c_[i].get(), b.c_[j].get());
+  }
+  return Polynomial(std::move(c));
+}
+
 Polynomial Polynomial::derivative() const {
   std::vector<Integer> d(c_.empty() ? 0 : c_.size() - 1);
   for (std::size_t i = 0; i < d.size(); ++i) mpz_mul_ui(d[i].get(), c_[i + 1].get(), i + 1);

@@ -46,6 +46,11 @@ class Polynomial {
   /// The sum of |c[i]|.
   Integer coefficient_sum() const;
 
+  Polynomial& operator+=(const Polynomial& b);
+  Polynomial& operator-=(const Polynomial& b);
+  friend Polynomial operator+(Polynomial a, const Polynomial& b) { return a += b; }
+  friend Polynomial operator-(Polynomial a, const Polynomial& b) { return a -= b; }
+  friend Polynomial operator*(const Polynomial& a, const Polynomial& b);
   friend bool operator==(const Polynomial&, const Polynomial&) = default;
 
  private:

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Candidates for the first time are 0 and the roots of the excesses. For let t > 0 be the first time. Of the pairs of
+// points that are nearest then, take one in the faces of least dimension; the part is not degenerate, and strictly
+// inside. Its excess is zero at t, and not throughout: for just before t it is still inside, and would have been within
+// already.
+#include "noli/kernel/thickness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "noli/kernel/distance_parts.h"
+#include "noli/kernel/first_contact.h"
+#include "noli/kernel/integer_coordinates.h"
+#include "noli/kernel/rounding.h"
+
+namespace noli {
+namespace {
+
+// --- a separating direction in double precision
+
+constexpr double error =
+    16 * 0x1p-53;  // more than the seven roundings of a scalar product of differences, in any rounding mode
+constexpr double smallest = 0x1p-900;  // above all that underflow can do
+
+template <int Dim>
+using Direction = std::array<double, Dim>;
+
+/// A lower bound for n . (b - a) over the points of the features at both ends of the step; not a number where that
+/// overflows.
+template <FeaturePair Pair, int Dim>
+double least_gap(const Query<Pair, Dim>& q, const Direction<Dim>& n) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto* x : {&q.x_t0, &q.x_t1}) {
+    for (std::size_t i = 0; i < first_size(Pair); ++i) {
+      for (std::size_t j = first_size(Pair); j < x->size(); ++j) {
+        double sum = 0, size = 0;
+        for (std::size_t k = 0; k < Dim; ++k) {
+          const double term = n[k] * ((*x)[j][k] - (*x)[i][k]);
+          sum += term;
+          size += std::abs(term);
+        }
+        const double bound = sum - (error * size + smallest);
+        if (!(bound >= least)) least = bound;
+      }
+    }
+  }
+  return least;
+}
+
+template <FeaturePair Pair, int Dim>
+bool separates(const Query<Pair, Dim>& q, Direction<Dim> n, double eta) {
+  double square = 0;
+  for (const double x : n) square += x * x;
+  if (!(square > 0x1p-800)) return false;
+  const double needed = std::sqrt(square) * eta * (1 + error) + smallest;
+  if (least_gap<Pair, Dim>(q, n) > needed) return true;
+  for (double& x : n) x = -x;
+  return least_gap<Pair, Dim>(q, n) > needed;
+}
+
+template <int Dim>
+Direction<Dim> minus(const Point<Dim>& a, const Point<Dim>& b) {
+  Direction<Dim> d;
+  for (std::size_t k = 0; k < Dim; ++k) d[k] = a[k] - b[k];
+  return d;
+}
+
+/// Directions worth trying: from one feature to the other and the common normal, at the middle of the step.
+template <FeaturePair Pair, int Dim>
+std::vector<Direction<Dim>> directions(const Query<Pair, Dim>& q) {
+  std::array<Point<Dim>, point_count(Pair)> x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t k = 0; k < Dim; ++k) x[i][k] = 0.5 * q.x_t0[i][k] + 0.5 * q.x_t1[i][k];
+  }
+  std::vector<Direction<Dim>> result;
+  for (std::size_t k = 0; k < Dim; ++k) result.emplace_back()[k] = 1;
+  result.push_back(minus<Dim>(x.back(), x.front()));
+  if constexpr (point_count(Pair) == 4) {
+    const auto u = Pair == FeaturePair::vertex_face ? minus<3>(x[2], x[1]) : minus<3>(x[1], x[0]);
+    const auto v = Pair == FeaturePair::vertex_face ? minus<3>(x[3], x[1]) : minus<3>(x[3], x[2]);
+    using formula::cross_component;
+    result.push_back({cross_component(u, v, 0), cross_component(u, v, 1), cross_component(u, v, 2)});
+  }
+  return result;
+}
+
+template <FeaturePair Pair, int Dim>
+bool surely_farther(const Query<Pair, Dim>& q, double eta) {
+  if (!rounding_self_test().nearest_ok) return false;
+  const auto candidates = directions(q);
+  return std::any_of(candidates.begin(), candidates.end(),
+                     [&](const auto& n) { return separates<Pair, Dim>(q, n, eta); });
+}
+
+// --- exact
+
+struct At {
+  const AlgebraicNumber& t;
+  int sign(const Polynomial& p) const { return t.sign_of(p); }
+};
+
+bool within(const std::vector<distance::Part>& parts, const AlgebraicNumber& t) {
+  return std::any_of(parts.begin(), parts.end(), [&t](const auto& part) { return part.within(At{t}); });
+}
+
+std::vector<AlgebraicNumber> candidate_times(const std::vector<distance::Part>& parts) {
+  std::vector<AlgebraicNumber> times;
+  for (const auto& part : parts) {
+    if (part.excess.is_zero()) continue;
+    auto roots = roots_in_unit_interval(part.excess);
+    std::move(roots.begin(), roots.end(), std::back_inserter(times));
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+template <FeaturePair Pair, int Dim>
+std::vector<distance::Part> exact_parts(const Query<Pair, Dim>& query, double eta) {
+  exact::ExponentRange range = exact::exponent_range(query);
+  range.add(eta);
+  const auto points = integer_points(query, range);
+  std::array<distance::Vector<Dim>, point_count(Pair)> x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t k = 0; k < Dim; ++k) x[i][k] = from_form(std::array{points[i].at_t0[k], points[i].at_t1[k]});
+  }
+  const Integer scaled_eta = integer_coordinate(eta, range);
+  return distance::parts_of<Pair, Dim>(x, scaled_eta * scaled_eta);
+}
+
+std::optional<TimeOfImpact> first_within(const std::vector<distance::Part>& parts) {
+  if (within(parts, AlgebraicNumber())) return TimeOfImpact();
+  for (AlgebraicNumber& t : candidate_times(parts)) {
+    if (within(parts, t)) return TimeOfImpact(std::move(t));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+template <FeaturePair Pair, int Dim>
+std::optional<TimeOfImpact> first_within(const Query<Pair, Dim>& query, double eta) {
+  if (surely_farther(query, eta)) return std::nullopt;
+  if (eta > 0) return first_within(exact_parts(query, eta));
+  auto contact = first_contact(query);
+  return contact ? std::optional(std::move(contact->time)) : std::nullopt;
+}
+
+template <FeaturePair Pair, int Dim>
+bool within_distance(const Query<Pair, Dim>& query, double eta) {
+  return first_within(query, eta).has_value();
+}
+
+template std::optional<TimeOfImpact> first_within(const VertexFace3&, double);
+template std::optional<TimeOfImpact> first_within(const EdgeEdge3&, double);
+template std::optional<TimeOfImpact> first_within(const VertexEdge3&, double);
+template std::optional<TimeOfImpact> first_within(const VertexVertex3&, double);
+template std::optional<TimeOfImpact> first_within(const VertexEdge2&, double);
+template std::optional<TimeOfImpact> first_within(const VertexVertex2&, double);
+template bool within_distance(const VertexFace3&, double);
+template bool within_distance(const EdgeEdge3&, double);
+template bool within_distance(const VertexEdge3&, double);
+template bool within_distance(const VertexVertex3&, double);
+template bool within_distance(const VertexEdge2&, double);
+template bool within_distance(const VertexVertex2&, double);
+
+}  // namespace noli

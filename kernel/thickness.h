@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Do two features come within a distance of each other during the step, and when first? Exact, for any finite doubles.
+//
+// Notation: the distance is that of the closed features, eta the bound; "within" means distance <= eta. With eta = 0 it
+// is contact.
+//
+// What this does not do: no kind of contact, and no stages but one filter: it is for a user's bound on the distance,
+// not for the millions of queries of a simulation.
+#pragma once
+
+#include <optional>
+
+#include "noli/kernel/query.h"
+#include "noli/kernel/time_of_impact.h"
+
+namespace noli {
+
+/// The least t in [0, 1] at which the features are within eta of each other, or nothing.
+/// Preconditions: finite coordinates; eta is finite and not negative.
+template <FeaturePair Pair, int Dim>
+std::optional<TimeOfImpact> first_within(const Query<Pair, Dim>& query, double eta);
+
+/// Whether there is such a time.
+template <FeaturePair Pair, int Dim>
+bool within_distance(const Query<Pair, Dim>& query, double eta);
+
+}  // namespace noli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Random queries in which degenerate features, coplanar motion, shared coordinates and contacts of all kinds are
+// frequent.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "noli/kernel/query.h"
+#include "noli/tests/kernel/random_numbers.h"
+
+namespace noli::test {
+
+/// How coordinates are drawn.
+enum class Coordinates { tiny_integers, small_integers, integers, nearly_integers, doubles, any_magnitude };
+constexpr std::array all_coordinates = {Coordinates::tiny_integers, Coordinates::small_integers,
+                                        Coordinates::integers,      Coordinates::nearly_integers,
+                                        Coordinates::doubles,       Coordinates::any_magnitude};
+
+inline double random_coordinate(Random& random, Coordinates how) {
+  switch (how) {
+    case Coordinates::tiny_integers: return random.around_zero(1);
+    case Coordinates::small_integers: return random.around_zero(2);
+    case Coordinates::integers: return random.around_zero(20);
+    case Coordinates::nearly_integers: return random.around_zero(4) + random.around_zero(1) * 0x1p-50;
+    case Coordinates::doubles: return random.unit() - 0.5;
+    case Coordinates::any_magnitude: return random.around_zero(2) * std::ldexp(1.0, random.around_zero(1) * 1000);
+  }
+  return 0;
+}
+
+template <class Query>
+Query random_query(Random& random, Coordinates how) {
+  Query q;
+  constexpr auto size = static_cast<int>(Query::size);
+  for (auto* points : {&q.x_t0, &q.x_t1}) {
+    for (auto& p : *points) {
+      for (double& x : p) x = random_coordinate(random, how);
+    }
+  }
+  // Points that stand still, coincide, or stay in a coordinate plane.
+  if (random.below(4) == 0) {
+    for (std::size_t i = 1; i < Query::size; ++i) q.x_t1[i] = q.x_t0[i];
+  }
+  if (random.below(8) == 0) {
+    const auto i = static_cast<std::size_t>(random.below(size)), j = static_cast<std::size_t>(random.below(size));
+    q.x_t0[i] = q.x_t0[j];
+    if (random.below(2) == 0) q.x_t1[i] = q.x_t1[j];
+  }
+  for (int flat = random.below(4) - 1; flat > 0; --flat) {
+    const auto axis = static_cast<std::size_t>(random.below(Query::dimension));
+    for (auto* points : {&q.x_t0, &q.x_t1}) {
+      for (auto& p : *points) p[axis] = flat;
+    }
+  }
+  return q;
+}
+
+template <class Query>
+Query random_query(Random& random) {
+  return random_query<Query>(random, all_coordinates[static_cast<std::size_t>(random.below(all_coordinates.size()))]);
+}
+
+}  // namespace noli::test
