@@ -32,7 +32,9 @@ struct OddBinary {
   }
 
   /// |x| < 2^top.
-  int top() const { return exponent + std::bit_width(static_cast<std::uint64_t>(mantissa < 0 ? -mantissa : mantissa)); }
+  int top() const {
+    return exponent + static_cast<int>(std::bit_width(static_cast<std::uint64_t>(mantissa < 0 ? -mantissa : mantissa)));
+  }
 };
 
 /// The exponents in use: every coordinate is a multiple of 2^low and below 2^high in magnitude.

@@ -12,6 +12,9 @@
 
 namespace noli {
 
+__extension__ using DoubleLimb = unsigned __int128;
+__extension__ using SignedDoubleLimb = __int128;
+
 template <std::size_t N>
 class Wide {
  public:
@@ -73,7 +76,7 @@ class Wide {
     Wide result;
     unsigned long long carry = 0;
     for (std::size_t i = 0; i < N; ++i) {
-      const unsigned __int128 sum = static_cast<unsigned __int128>(a.limbs_[i]) + b.limbs_[i] + carry;
+      const DoubleLimb sum = static_cast<DoubleLimb>(a.limbs_[i]) + b.limbs_[i] + carry;
       result.limbs_[i] = static_cast<std::uint64_t>(sum);
       carry = static_cast<unsigned long long>(sum >> 64);
     }
@@ -84,7 +87,7 @@ class Wide {
     Wide result;
     unsigned long long borrow = 0;
     for (std::size_t i = 0; i < N; ++i) {
-      const unsigned __int128 difference = static_cast<unsigned __int128>(a.limbs_[i]) - b.limbs_[i] - borrow;
+      const DoubleLimb difference = static_cast<DoubleLimb>(a.limbs_[i]) - b.limbs_[i] - borrow;
       result.limbs_[i] = static_cast<std::uint64_t>(difference);
       borrow = static_cast<unsigned long long>(difference >> 64) & 1;
     }
@@ -104,7 +107,7 @@ constexpr Wide<N + M> operator*(const Wide<N>& a, const Wide<M>& b) {
   for (std::size_t i = 0; i < N; ++i) {
     std::uint64_t carry = 0;
     for (std::size_t j = 0; j < M; ++j) {
-      const unsigned __int128 t = static_cast<unsigned __int128>(a.limb(i)) * b.limb(j) + result.limb(i + j) + carry;
+      const DoubleLimb t = static_cast<DoubleLimb>(a.limb(i)) * b.limb(j) + result.limb(i + j) + carry;
       result.limb(i + j) = static_cast<std::uint64_t>(t);
       carry = static_cast<std::uint64_t>(t >> 64);
     }
@@ -114,7 +117,7 @@ constexpr Wide<N + M> operator*(const Wide<N>& a, const Wide<M>& b) {
   const auto subtract_high = [&result](const auto& x, std::size_t from, std::size_t count) {
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const unsigned __int128 d = static_cast<unsigned __int128>(result.limb(from + i)) - x.limb(i) - borrow;
+      const DoubleLimb d = static_cast<DoubleLimb>(result.limb(from + i)) - x.limb(i) - borrow;
       result.limb(from + i) = static_cast<std::uint64_t>(d);
       borrow = static_cast<std::uint64_t>(d >> 64) & 1;
     }
@@ -126,10 +129,10 @@ constexpr Wide<N + M> operator*(const Wide<N>& a, const Wide<M>& b) {
 
 /// Two limbs are what the machine multiplies by itself.
 constexpr Wide<2> operator*(const Wide<1>& a, const Wide<1>& b) {
-  const __int128 product = static_cast<__int128>(static_cast<std::int64_t>(a.limb(0))) * static_cast<std::int64_t>(b.limb(0));
+  const SignedDoubleLimb product = static_cast<SignedDoubleLimb>(static_cast<std::int64_t>(a.limb(0))) * static_cast<std::int64_t>(b.limb(0));
   Wide<2> result;
   result.limb(0) = static_cast<std::uint64_t>(product);
-  result.limb(1) = static_cast<std::uint64_t>(static_cast<unsigned __int128>(product) >> 64);
+  result.limb(1) = static_cast<std::uint64_t>(static_cast<DoubleLimb>(product) >> 64);
   return result;
 }
 

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contact, and each of the stages that decide it, against the oracle.
+#include "noli/kernel/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <sstream>
+
+#include "noli/kernel/double_filter.h"
+#include "noli/kernel/exact_contact.h"
+#include "noli/kernel/interval_filter.h"
+#include "noli/kernel/rounding.h"
+#include "noli/kernel/scaled_integers.h"
+#include "noli/tests/kernel/random_query.h"
+#include "noli/tests/oracle/oracle.h"
+
+namespace noli {
+namespace {
+
+using bernstein::Verdict;
+using test::Coordinates;
+
+template <class Query>
+std::string text(const Query& q) {
+  std::ostringstream out;
+  out << std::hexfloat;
+  for (const auto* points : {&q.x_t0, &q.x_t1}) {
+    for (const auto& point : *points) {
+      for (const double x : point) out << x << ' ';
+      out << '\n';
+    }
+  }
+  return out.str();
+}
+
+/// Contact and its enclosure agree with the oracle; both answers occur.
+template <FeaturePair Pair, int Dim>
+void compare_with_oracle(Coordinates how, int count, StageCounters& counters) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(how) + 1);
+  int contacts = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto q = test::any_query<Pair, Dim>(how, random);
+    const auto found = contact(q, &counters);
+    const oracle::Answer truth = oracle::first_contact(test::motion_of(q));
+    ASSERT_EQ(found.has_value(), truth.time.has_value()) << text(q);
+    if (!found) continue;
+    ++contacts;
+    ASSERT_LE(0, found->begin);
+    ASSERT_LE(found->end, 1);
+    ASSERT_GE(truth.time->compare(found->begin), 0) << text(q);
+    ASSERT_LE(truth.time->compare(found->end), 0) << text(q);
+  }
+  if (how == Coordinates::tiny_grid) {
+    EXPECT_GT(contacts, count / 100);
+    EXPECT_LT(contacts, count);
+  }
+}
+
+template <FeaturePair Pair, int Dim>
+StageCounters compare_all(int count) {
+  StageCounters counters;
+  for (const Coordinates how : test::all_coordinates) compare_with_oracle<Pair, Dim>(how, count, counters);
+  return counters;
+}
+
+TEST(Contact, VertexFaceAgreesWithTheOracleInEveryStage) {
+  const StageCounters counters = compare_all<FeaturePair::vertex_face, 3>(3000);
+  for (const Stage stage : all_stages) EXPECT_GT(counters[stage], 0U) << name(stage);
+}
+
+TEST(Contact, EdgeEdgeAgreesWithTheOracleInEveryStage) {
+  const StageCounters counters = compare_all<FeaturePair::edge_edge, 3>(3000);
+  for (const Stage stage : all_stages) EXPECT_GT(counters[stage], 0U) << name(stage);
+}
+
+TEST(Contact, VertexEdgeAndVertexVertexAgreeWithTheOracle) {
+  compare_all<FeaturePair::vertex_edge, 3>(2000);
+  compare_all<FeaturePair::vertex_vertex, 3>(2000);
+  compare_all<FeaturePair::vertex_edge, 2>(2000);
+  compare_all<FeaturePair::vertex_vertex, 2>(2000);
+}
+
+// --- Each stage by itself: silent, or right ---------------------------------------------------------------------------
+
+struct StageResult {
+  int wrong = 0;
+  int contact = 0;
+  int apart = 0;
+
+  void add(Verdict verdict, bool truth) {
+    contact += verdict == Verdict::contact;
+    apart += verdict == Verdict::apart;
+    wrong += verdict != Verdict::unknown && (verdict == Verdict::contact) != truth;
+  }
+};
+
+void expect_useful(const StageResult& result) {
+  EXPECT_EQ(result.wrong, 0);
+  EXPECT_GT(result.contact, 0);
+  EXPECT_GT(result.apart, 0);
+}
+
+template <class Filter, class Query>
+void add_float_stages(const Query& q, bool truth, StageResult& direction, StageResult& roots, StageResult& search,
+                      StageResult& interval) {
+  if (rounding_self_test().directed_ok) interval.add(interval_filter::decide(q).verdict, truth);
+  const Filter filter(q);
+  if (!filter.usable()) return;
+  if (filter.separated()) direction.add(Verdict::apart, truth);
+  roots.add(filter::search_roots(filter).verdict, truth);
+  search.add(filter::search(filter.forms(), filter.axis(), filter.signs()).verdict, truth);
+}
+
+template <class Filter, FeaturePair Pair>
+void check_float_stages() {
+  StageResult direction, roots, search, interval;
+  std::mt19937_64 random(7);
+  for (const Coordinates how : test::all_coordinates) {
+    for (int i = 0; i < 2000; ++i) {
+      const auto q = test::any_query<Pair, 3>(how, random);
+      const bool truth = oracle::first_contact(test::motion_of(q)).time.has_value();
+      add_float_stages<Filter>(q, truth, direction, roots, search, interval);
+    }
+  }
+  EXPECT_EQ(direction.wrong, 0);
+  EXPECT_GT(direction.apart, 0);
+  expect_useful(roots);
+  expect_useful(search);
+  if (rounding_self_test().directed_ok) expect_useful(interval);
+}
+
+TEST(Stages, FloatingPointIsSilentOrRightForVertexFace) {
+  check_float_stages<filter::VertexFaceFilter, FeaturePair::vertex_face>();
+}
+
+TEST(Stages, FloatingPointIsSilentOrRightForEdgeEdge) {
+  check_float_stages<filter::EdgeEdgeFilter, FeaturePair::edge_edge>();
+}
+
+template <std::size_t C, template <std::size_t> class Problem, class Query>
+Verdict exact_verdict(const Query& q, const exact::ExponentRange& range, std::size_t axis) {
+  const Problem<C> problem(exact::scaled<C>(q, range));
+  return exact::CodimensionOne<Problem<C>, C>(problem, axis).decide().verdict;
+}
+
+/// One limb, two limbs, and any axis to begin with: the answer is the same.
+template <template <std::size_t> class Problem, FeaturePair Pair>
+void check_fixed_width() {
+  StageResult one_limb, two_limbs;
+  std::mt19937_64 random(8);
+  for (const Coordinates how : {Coordinates::tiny_grid, Coordinates::floats, Coordinates::doubles, Coordinates::nudged_grid}) {
+    for (int i = 0; i < 1500; ++i) {
+      const auto q = test::any_query<Pair, 3>(how, random);
+      const bool truth = oracle::first_contact(test::motion_of(q)).time.has_value();
+      const exact::ExponentRange range = exact::exponent_range(q);
+      const std::size_t axis = static_cast<std::size_t>(i) % 3;
+      if (range.bits() <= 59) one_limb.add(exact_verdict<1, Problem>(q, range, axis), truth);
+      if (range.bits() <= 123) two_limbs.add(exact_verdict<2, Problem>(q, range, axis), truth);
+    }
+  }
+  expect_useful(one_limb);
+  expect_useful(two_limbs);
+}
+
+TEST(Stages, FixedWidthIsSilentOrRightForVertexFace) {
+  check_fixed_width<exact::VertexFaceProblem, FeaturePair::vertex_face>();
+}
+
+TEST(Stages, FixedWidthIsSilentOrRightForEdgeEdge) {
+  check_fixed_width<exact::EdgeEdgeProblem, FeaturePair::edge_edge>();
+}
+
+// --- By hand -----------------------------------------------------------------------------------------------------------
+
+/// A vertex that falls on the face (0,0,0) (1,0,0) (0,1,0), from z_t0 to z_t1 above (x, y).
+VertexFace3 falling(double x, double y, double z_t0, double z_t1) {
+  const Point3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
+  return {{Point3{x, y, z_t0}, a, b, c}, {Point3{x, y, z_t1}, a, b, c}};
+}
+
+TEST(Contact, ATouchIsAContactAndOneUlpLessIsNot) {
+  EXPECT_TRUE(meet(falling(0.25, 0.25, 1, 0)));
+  EXPECT_FALSE(meet(falling(0.25, 0.25, 1, 0x1p-1074)));
+  EXPECT_TRUE(meet(falling(0.5, 0.5, 1, -1)));  // on the edge
+  EXPECT_FALSE(meet(falling(0.5, std::nextafter(0.5, 1), 1, -1)));
+  EXPECT_TRUE(meet(falling(0, 0, 1, -1)));  // on the corner
+  EXPECT_FALSE(meet(falling(-0x1p-1074, 0, 1, -1)));
+}
+
+TEST(Contact, AContactAtAnEndOfTheStepCounts) {
+  const auto at_begin = contact(falling(0.25, 0.25, 0, 1));
+  ASSERT_TRUE(at_begin);
+  EXPECT_EQ(at_begin->begin, 0);
+  EXPECT_EQ(at_begin->end, 0);
+  const auto at_end = contact(falling(0.25, 0.25, 1, 0));
+  ASSERT_TRUE(at_end);
+  EXPECT_EQ(at_end->end, 1);
+}
+
+TEST(Contact, TwoCrossingsInOneStepAreSeen) {
+  // The face turns in the plane z = (2 t - 1) x, below the vertex 2 (t - 1/2)^2 high: through 1/8 at t = 1/4 and at t = 3/4.
+  VertexFace3 q{{Point3{-0.5, -0.5, 0.125}, Point3{-1, -1, 1}, Point3{1, -1, -1}, Point3{0, 1, 0}},
+                {Point3{0.5, -0.5, 0.125}, Point3{-1, -1, -1}, Point3{1, -1, 1}, Point3{0, 1, 0}}};
+  const auto first = contact(q);
+  ASSERT_TRUE(first);
+  EXPECT_LE(first->begin, 0.25);
+  EXPECT_GE(first->end, 0.25);
+  EXPECT_LT(first->end, 0.75);
+  q.x_t0[0][2] = q.x_t1[0][2] = -0x1p-60;  // now it stays below
+  EXPECT_FALSE(meet(q));
+}
+
+TEST(Contact, ADegenerateFaceIsItsHull) {
+  VertexFace3 q = falling(0.5, 0, 1, -1);
+  for (auto* x : {&q.x_t0, &q.x_t1}) (*x)[3] = {2, 0, 0};  // the face is the segment from 0 to (2, 0, 0)
+  EXPECT_TRUE(meet(q));
+  q.x_t0[0][0] = q.x_t1[0][0] = 2.5;
+  EXPECT_FALSE(meet(q));
+}
+
+TEST(Contact, EdgesThatOverlapOnALineMeet) {
+  EdgeEdge3 q{{Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{2, 0, 0}, Point3{3, 0, 0}},
+              {Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{2, 0, 0}, Point3{3, 0, 0}}};
+  EXPECT_FALSE(meet(q));
+  q.x_t1[2][0] = 1;
+  EXPECT_TRUE(meet(q));
+  q.x_t1[2][0] = std::nextafter(1.0, 2.0);
+  EXPECT_FALSE(meet(q));
+}
+
+TEST(Contact, ExtremeScalesGiveTheSameAnswers) {
+  for (const int exponent : {-1060, -600, 0, 600, 1000}) {
+    const double s = std::ldexp(1.0, exponent);
+    VertexFace3 hit = falling(0.25, 0.25, 1, -1), miss = falling(0.75, 0.75, 1, -1);
+    for (VertexFace3* q : {&hit, &miss}) {
+      for (auto* points : {&q->x_t0, &q->x_t1}) {
+        for (auto& point : *points) {
+          for (double& x : point) x *= s;
+        }
+      }
+    }
+    EXPECT_TRUE(meet(hit)) << exponent;
+    EXPECT_FALSE(meet(miss)) << exponent;
+  }
+}
+
+}  // namespace
+}  // namespace noli
