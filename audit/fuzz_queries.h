@@ -57,11 +57,11 @@ struct FuzzProgress {
 struct FuzzOptions {
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> count;                       ///< stop after that many queries
-  std::optional<std::chrono::duration<double>> time_limit;  ///< stop after that time, at the end of a block
+  std::optional<std::chrono::duration<double>> time_limit;  ///< stop after that time, at the end of a few blocks
   int threads = 0;                                          ///< <= 0: all there are
   std::filesystem::path out;      ///< folder, made when the first finding is saved; empty: findings are not saved
   std::size_t max_findings = 20;  ///< shrink and save at most that many; all are counted
-  const std::atomic<bool>* stop = nullptr;            ///< polled after every block
+  const std::atomic<bool>* stop = nullptr;            ///< polled after every few blocks
   std::function<void(const FuzzProgress&)> progress;  ///< called from the caller's thread now and then
   Decide decide = decide_with_kernel;
 };
