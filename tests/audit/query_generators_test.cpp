@@ -89,7 +89,8 @@ TEST(QueryGenerators, GiveTheSameQueriesForTheSameSeed) {
 
 TEST(RandomNumbers, AreTheSameEverywhere) {
   Random random(1, 2);
-  for (const std::uint64_t expected : {0x1cdf17f715df5037U, 0xba593eb8ed156debU, 0xd6ee6286c1f51517U}) EXPECT_EQ(random.next(), expected);
+  for (const std::uint64_t expected : {0x1cdf17f715df5037U, 0xba593eb8ed156debU, 0xd6ee6286c1f51517U})
+    EXPECT_EQ(random.next(), expected);
 }
 
 TEST(RandomNumbers, StayInTheirRangeAndReachItsEnds) {
