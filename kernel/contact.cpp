@@ -34,8 +34,9 @@ Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis
     counters.count(Stage::direction);
     return {};
   }
-  Decision decision = filter::search_roots(filter);
-  if (decision.verdict == Verdict::unknown) {
+  bool near_border = false;
+  Decision decision = filter::search_roots(filter, near_border);
+  if (decision.verdict == Verdict::unknown && !near_border) {
     decision = filter::search(filter.forms(), filter.axis(), filter.signs());
   }
   if (decision.verdict != Verdict::unknown) counters.count(Stage::bernstein);

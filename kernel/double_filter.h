@@ -331,13 +331,16 @@ class EdgeEdgeFilter {
 /// How often a piece of the step may be split. After three, what is left is nearly always degenerate.
 constexpr int subdivision_depth = 3;
 
-/// Root by root: the quick way, for what is not degenerate.
+/// Root by root: the quick way, for what is not degenerate. `near_border` as in RootSearch.
 template <class Filter>
-Decision search_roots(const Filter& filter) {
+Decision search_roots(const Filter& filter, bool& near_border) {
   const double volume = filter.volume() * u;
   const RoundedCubic cubic{bernstein::scaled_coefficients(filter.forms().coplanarity()), 176 * volume, 168 * volume};
   const auto inside = [&filter](double t, double reach, int) { return filter.inside(t, reach); };
-  return RootSearch(cubic, inside).run(subdivision_depth);
+  RootSearch search(cubic, inside);
+  const Decision decision = search.run(subdivision_depth);
+  near_border = search.near_border();
+  return decision;
 }
 
 /// The Bernstein search on the forms of a query, seen along an axis.

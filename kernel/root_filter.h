@@ -75,6 +75,9 @@ class RootSearch {
     return {verdict, enclosure_};
   }
 
+  /// After `unknown`: whether that is because at some root the features meet on, or next to, the border of one.
+  bool near_border() const { return near_border_; }
+
  private:
   static int sign(double x, double bound) { return (x > bound) - (x < -bound); }
 
@@ -106,7 +109,10 @@ class RootSearch {
     constexpr double outward = 0x1p-50;  // above the rounding of times, which stay in [0, 1]
     const double t = begin + width * root.x, reach = width * root.reach + outward;
     const Verdict verdict = inside_(t, reach, before);
-    if (verdict == Verdict::unknown) return lost(begin);
+    if (verdict == Verdict::unknown) {
+      near_border_ = true;
+      return lost(begin);
+    }
     if (verdict == Verdict::contact) {
       enclosure_ = {std::max(0.0, std::min(first_lost_, t - reach - outward)), std::min(1.0, t + reach + outward)};
     }
@@ -120,6 +126,7 @@ class RootSearch {
 
   const RoundedCubic& cubic_;
   Inside& inside_;
+  bool near_border_ = false;
   double first_lost_ = 1;
   TimeEnclosure enclosure_;
 };

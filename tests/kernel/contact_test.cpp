@@ -109,7 +109,8 @@ void add_float_stages(const Query& q, bool truth, StageResult& direction, StageR
   const Filter filter(q);
   if (!filter.usable()) return;
   if (filter.separated()) direction.add(Verdict::apart, truth);
-  roots.add(filter::search_roots(filter).verdict, truth);
+  bool near_border = false;
+  roots.add(filter::search_roots(filter, near_border).verdict, truth);
   search.add(filter::search(filter.forms(), filter.axis(), filter.signs()).verdict, truth);
 }
 
