@@ -42,15 +42,10 @@ class CellPairs {
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
     Progress progress{a, b, pairs_owned(a, b)};
-    const Shared shared = find_shared(a, b);
-    if (shared.count == 0) {
+    if (!share_vertex(a, b)) {
       settle_part(progress, pair_of(a, b), {all_corners(a.corners), all_corners(b.corners)});
-    } else if (is_fan(a, b, shared)) {
-      settle_around_corner(progress, shared);
-    } else if (is_hinge(a, b, shared)) {
-      settle_around_edge(progress, shared);
     } else {
-      settle_parts(progress, shared);
+      settle_neighbours(progress, find_shared(a, b));
     }
     if (!progress.open) return;
     ++tally_.cell_pairs;
@@ -89,11 +84,16 @@ class CellPairs {
   /// Rounds of the search for a direction, and how often the step is halved for it: what paid on simulated cloth and
   /// solids.
   static constexpr int search_rounds = 10;
-  static constexpr int halvings = 0;
+  static constexpr int halvings = 1;
 
   static CornerMask corners_at(const Cell& c, VertexId v) {
     const int mask = (c.vertices[0] == v ? 1 : 0) | (c.vertices[1] == v ? 2 : 0) | (c.vertices[2] == v ? 4 : 0);
     return static_cast<CornerMask>(mask & all_corners(c.corners));
+  }
+
+  static bool share_vertex(const Cell& a, const Cell& b) {
+    const auto in_b = [&b](VertexId v) { return (v == b.vertices[0]) | (v == b.vertices[1]) | (v == b.vertices[2]); };
+    return (in_b(a.vertices[0]) | in_b(a.vertices[1]) | in_b(a.vertices[2])) != 0;
   }
 
   static Shared find_shared(const Cell& a, const Cell& b) {
@@ -141,6 +141,16 @@ class CellPairs {
   static bool is_hinge(const Cell& a, const Cell& b, const Shared& shared) {
     return shared.count == 2 && a.corners == 3 && b.corners == 3 && is_single(shared.in_a[0]) &&
            is_single(shared.in_a[1]) && is_single(shared.in_b[0]) && is_single(shared.in_b[1]);
+  }
+
+  void settle_neighbours(Progress& progress, const Shared& shared) {
+    if (is_fan(progress.a, progress.b, shared)) {
+      settle_around_corner(progress, shared);
+    } else if (is_hinge(progress.a, progress.b, shared)) {
+      settle_around_edge(progress, shared);
+    } else {
+      settle_parts(progress, shared);
+    }
   }
 
   void settle_around_corner(Progress& progress, const Shared& shared) {
@@ -197,7 +207,9 @@ class CellPairs {
     const Cell &a = progress.a, &b = progress.b;
     const Direction<Dim> guess = between_middles(pair);
     const PairSet within = pairs_within(a, parts.a, b, parts.b);
-    if (try_direction(pair, guess) || try_normals(pair, a, b) || search(pair, guess, {}, halvings)) {
+    const bool closed = try_direction(pair, guess) || try_normals(pair, a, b) || search(pair, guess, {}, 0);
+    const bool apart_at_begin = closed || find_direction(pair, guess, {0, 0}, search_rounds).has_value();
+    if (closed || (apart_at_begin && search_halves(pair, guess, {}, halvings))) {
       progress.left &= ~within;
       return;
     }
@@ -205,7 +217,7 @@ class CellPairs {
     for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) examine(first_of(todo, a, b));
     progress.left &= ~within;
     if (options_.initial && !progress.meets_at_begin) {
-      progress.meets_at_begin = !apart_at_begin(pair, guess) && meet_at_begin(a, parts.a, b, parts.b);
+      progress.meets_at_begin = !apart_at_begin && meet_at_begin(a, parts.a, b, parts.b);
       record_.at_begin(progress.meets_at_begin);
     }
     record_.features();
@@ -222,13 +234,16 @@ class CellPairs {
     return (a.corners == 3 && try_direction(pair, a.normal)) || (b.corners == 3 && try_direction(pair, b.normal));
   }
 
-  /// Looks for a direction over the interval, else over its halves, and theirs.
+  /// Looks for a direction over the interval, else over its halves.
   bool search(const PartPair<Dim>& pair, const Direction<Dim>& guess, Interval interval, int depth) {
     if (const auto n = find_direction(pair, guess, interval, search_rounds)) {
       close(*n, 1);
       return true;
     }
-    if (depth == 0) return false;
+    return depth > 0 && search_halves(pair, guess, interval, depth);
+  }
+
+  bool search_halves(const PartPair<Dim>& pair, const Direction<Dim>& guess, Interval interval, int depth) {
     const std::size_t recorded = record_.size();
     const std::uint64_t obligations = tally_.obligations;
     record_.halve();
@@ -239,10 +254,6 @@ class CellPairs {
     record_.truncate(recorded);
     tally_.obligations = obligations;
     return false;
-  }
-
-  static bool apart_at_begin(const PartPair<Dim>& pair, const Direction<Dim>& guess) {
-    return find_direction(pair, guess, {0, 0}, search_rounds).has_value();
   }
 
   /// A corner of a face against the edge opposite to it: features of one cell, which count if it is asked for or (in

@@ -15,8 +15,16 @@ struct Occurrence {
   std::uint32_t cell;
   FeatureMask bit;
 
+  /// -1, 0 or 1. (The comparisons of std::array are calls of memcmp, which is slow for so little.)
+  friend int compare(const Occurrence& a, const Occurrence& b) {
+    for (std::size_t i = 0; i < N; ++i) {
+      if (a.vertices[i] != b.vertices[i]) return a.vertices[i] < b.vertices[i] ? -1 : 1;
+    }
+    return 0;
+  }
   friend bool operator<(const Occurrence& a, const Occurrence& b) {
-    if (a.vertices != b.vertices) return a.vertices < b.vertices;
+    const int order = compare(a, b);
+    if (order != 0) return order < 0;
     return a.cell != b.cell ? a.cell < b.cell : a.bit < b.bit;
   }
 };
@@ -50,7 +58,7 @@ void assign_all(std::vector<Occurrence<N>> all, std::size_t vertex_count, CellFe
   sort_occurrences(all, vertex_count);
   const std::span<const Occurrence<N>> view(all);
   for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    while (end < all.size() && all[end].vertices == all[begin].vertices) ++end;
+    while (end < all.size() && compare(all[end], all[begin]) == 0) ++end;
     assign(view.subspan(begin, end - begin), features);
   }
 }
@@ -94,47 +102,36 @@ void assign_edges(const Mesh& mesh, CellFeatures& features) {
   assign_all(std::move(all), mesh.vertex_count, features);
 }
 
+/// The corners of a cell in ascending order; a loose edge or point repeats its last one.
+std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count) {
+  if (v[1] < v[0]) std::swap(v[0], v[1]);
+  if (count < 3) return {v[0], v[1], v[1]};
+  if (v[2] < v[1]) std::swap(v[1], v[2]);
+  if (v[1] < v[0]) std::swap(v[0], v[1]);
+  return v;
+}
+
 /// Marks the listed ones among the cells [first, last), all of one kind.
 void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFeatures& features) {
   std::vector<Occurrence<3>> all;
   all.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
     const auto cell = static_cast<std::uint32_t>(i);
-    auto vertices = corners(mesh, cell);
-    const int count = corner_count(mesh, cell);
-    std::sort(vertices.begin(), vertices.begin() + count);
-    if (count < 3) vertices[2] = vertices[1];
-    all.push_back({vertices, cell, cell_bit});
+    all.push_back({ascending(corners(mesh, cell), corner_count(mesh, cell)), cell, cell_bit});
   }
   assign_all(std::move(all), mesh.vertex_count, features);
 }
 
 }  // namespace
 
-int corner_count(const Mesh& mesh, std::uint32_t cell) {
-  if (cell < mesh.faces.size()) return 3;
-  return cell < mesh.faces.size() + mesh.edges.size() ? 2 : 1;
-}
-
-std::array<VertexId, 3> corners(const Mesh& mesh, std::uint32_t cell) {
-  const std::size_t faces = mesh.faces.size(), edges = mesh.edges.size();
-  if (cell < faces) return mesh.faces[cell];
-  if (cell < faces + edges) {
-    const auto& e = mesh.edges[cell - faces];
-    return {e[0], e[1], e[1]};
-  }
-  const VertexId v = mesh.points[cell - faces - edges];
-  return {v, v, v};
-}
-
-CellFeatures find_owners(const Mesh& mesh) {
+CellFeatures find_owners(const Mesh& mesh, bool list_faces) {
   const std::size_t faces = mesh.faces.size(), edges = mesh.edges.size();
   CellFeatures features;
   features.owned.assign(mesh.cell_count(), 0);
   features.shared.assign(mesh.cell_count(), 0);
   assign_corners(mesh, features);
   assign_edges(mesh, features);
-  assign_cells(mesh, 0, faces, features);
+  if (list_faces) assign_cells(mesh, 0, faces, features);
   assign_cells(mesh, faces, faces + edges, features);
   assign_cells(mesh, faces + edges, mesh.cell_count(), features);
   return features;

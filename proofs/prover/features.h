@@ -33,13 +33,24 @@ struct CellFeatures {
 };
 
 /// Number of corners of a cell: 3 (a face), 2 (a loose edge) or 1 (a loose point).
-int corner_count(const Mesh& mesh, std::uint32_t cell);
+inline int corner_count(const Mesh& mesh, std::uint32_t cell) {
+  if (cell < mesh.faces.size()) return 3;
+  return cell < mesh.faces.size() + mesh.edges.size() ? 2 : 1;
+}
 
 /// The corners of a cell; a loose edge or point repeats its last one.
-std::array<VertexId, 3> corners(const Mesh& mesh, std::uint32_t cell);
+inline std::array<VertexId, 3> corners(const Mesh& mesh, std::uint32_t cell) {
+  const std::size_t faces = mesh.faces.size(), edges = mesh.edges.size();
+  if (cell < faces) return mesh.faces[cell];
+  if (cell < faces + edges)
+    return {mesh.edges[cell - faces][0], mesh.edges[cell - faces][1], mesh.edges[cell - faces][1]};
+  const VertexId v = mesh.points[cell - faces - edges];
+  return {v, v, v};
+}
 
-/// Finds the owners. A vertex or edge that a cell has twice counts once, at its first place. Time and memory linear in
-/// the mesh (if no vertex has more than a few cells).
-CellFeatures find_owners(const Mesh& mesh);
+/// Finds the owners; which faces are listed only if that is asked for (for a strict verification in 3D; else none is).
+/// A vertex or edge that a cell has twice counts once, at its first place. Time and memory linear in the mesh (if no
+/// vertex has more than a few cells).
+CellFeatures find_owners(const Mesh& mesh, bool list_faces);
 
 }  // namespace noli

@@ -69,7 +69,7 @@ class Verification {
       if (i == 0) {
         hierarchy_.emplace(mesh, x_t0, x_t1, Dim, options.threads);
       } else {
-        features = find_owners(mesh);
+        features = find_owners(mesh, options.strict);
       }
     });
     gather_cells(mesh, x_t0, x_t1, features);

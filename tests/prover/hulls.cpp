@@ -3,6 +3,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 
 namespace noli::testing {
@@ -54,9 +55,20 @@ bool origin_in_hull(const std::vector<Vector>& d) {
   return false;
 }
 
+/// Whether on some axis all of p are above all of q.
+bool above_on_an_axis(const std::vector<Position>& p, const std::vector<Position>& q) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto less = [k](const Position& a, const Position& b) { return a[k] < b[k]; };
+    if ((*std::min_element(p.begin(), p.end(), less))[k] > (*std::max_element(q.begin(), q.end(), less))[k])
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool hulls_meet(const std::vector<Position>& p, const std::vector<Position>& q) {
+  if (p.empty() || q.empty() || above_on_an_axis(p, q) || above_on_an_axis(q, p)) return false;
   std::vector<Vector> differences;
   for (const Position& a : p) {
     for (const Position& b : q) {

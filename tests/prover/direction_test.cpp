@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The floating-point test of a direction, and the search for one, against rational arithmetic.
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "noli/proofs/prover/around.h"
+#include "noli/proofs/prover/direction_search.h"
+#include "scenes.h"
+
+namespace noli::testing {
+namespace {
+
+template <int Dim>
+MovingCell<Dim> cell(const std::array<Position, 3>& x_t0, const std::array<Position, 3>& x_t1) {
+  Mesh mesh;
+  mesh.vertex_count = 3;
+  mesh.faces = {{0, 1, 2}};
+  return gather<Dim>(mesh, x_t0, x_t1, find_owners(mesh, false), 0);
+}
+
+template <int Dim>
+PartPair<Dim> whole(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
+  return pair_of(a, b);
+}
+
+/// n.(a - b) > 0 at time s, for all corners; exact.
+template <int Dim>
+bool truly_above(const MovingCell<Dim>& a, const MovingCell<Dim>& b, const Direction<Dim>& n, double s) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      mpq_class sum = 0;
+      for (std::size_t k = 0; k < Dim; ++k) {
+        const mpq_class d0 = mpq_class(a.x[0][k][i]) - b.x[0][k][j], d1 = mpq_class(a.x[1][k][i]) - b.x[1][k][j];
+        sum += n[k] * ((1 - mpq_class(s)) * d0 + s * d1);
+      }
+      if (sum <= 0) return false;
+    }
+  }
+  return true;
+}
+
+template <int Dim>
+std::array<double, Dim> negative(Direction<Dim> n) {
+  for (double& c : n) c = -c;
+  return n;
+}
+
+MovingCell<3> random_cell(Random& random, double size, double offset, double lift) {
+  const auto point = [&] {
+    return Position{offset + size * random.unit(), offset + size * random.unit(), offset + size * random.unit() + lift};
+  };
+  return cell<3>({point(), point(), point()}, {point(), point(), point()});
+}
+
+struct Scale {
+  double size, offset;
+};
+
+class Separation : public ::testing::TestWithParam<Scale> {};
+INSTANTIATE_TEST_SUITE_P(Scales, Separation,
+                         ::testing::Values(Scale{1, 0}, Scale{1, 1e6}, Scale{1e-9, 1}, Scale{1e150, 0}, Scale{1e300, 0},
+                                           Scale{1e-150, 0}, Scale{1e-300, 0}, Scale{1e308, 0}, Scale{1e-310, 0}));
+
+TEST_P(Separation, IsNeverClaimedWrongly) {
+  Random random(1);
+  for (int i = 0; i < 3000; ++i) {
+    const double lift = GetParam().size * random.unit() * 2;
+    const auto a = random_cell(random, GetParam().size, GetParam().offset, lift);
+    const auto b = random_cell(random, GetParam().size, GetParam().offset, 0);
+    const Interval interval = i % 2 == 0 ? Interval{0, 1} : Interval{0.25, 0.375};
+    const std::array<double, 3> n = {random.unit() * 0.1, random.unit() * 0.1, 1};
+    const int sign = separates(whole(a, b), n, interval);
+    if (sign == 0) continue;
+    const auto up = sign > 0 ? n : negative<3>(n);
+    EXPECT_TRUE(truly_above(a, b, up, interval.begin) && truly_above(a, b, up, interval.end));
+  }
+}
+
+TEST_P(Separation, ThatIsFoundHolds) {
+  Random random(2);
+  int found = 0, not_found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double lift = GetParam().size * (1.5 + random.unit());
+    const auto a = random_cell(random, GetParam().size, GetParam().offset, lift);
+    const auto b = random_cell(random, GetParam().size, GetParam().offset, 0);
+    const Interval interval = i % 2 == 0 ? Interval{0, 1} : Interval{0.25, 0.375};
+    const auto n = find_direction(whole(a, b), {0, 0, GetParam().size}, interval, 10);
+    ++(n ? found : not_found);
+    if (!n) continue;
+    EXPECT_TRUE(truly_above(a, b, *n, interval.begin) && truly_above(a, b, *n, interval.end));
+  }
+  EXPECT_GT(not_found, 0);
+  const bool squares_fit = GetParam().size > 1e-160 && GetParam().size < 1e160;
+  EXPECT_EQ(found > 0, squares_fit);
+}
+
+/// Two horizontal triangles that touch, but for `gap`.
+std::pair<MovingCell<3>, MovingCell<3>> stacked(double gap) {
+  const std::array<Position, 3> low = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+  std::array<Position, 3> high = low;
+  for (Position& x : high) x[2] += gap;
+  return {cell<3>(high, high), cell<3>(low, low)};
+}
+
+TEST(Direction, DoesNotSeparateWhatTouches) {
+  const auto [high, low] = stacked(0);
+  EXPECT_EQ(separates(whole(high, low), {0, 0, 1}), 0);
+  EXPECT_FALSE(find_direction(whole(high, low), {0, 0, 1}, {0, 1}, 10));
+}
+
+TEST(Direction, SeparatesEitherWayWhatIsApart) {
+  const auto [high, low] = stacked(0.001);
+  EXPECT_EQ(separates(whole(high, low), {0, 0, 1}), 1);
+  EXPECT_EQ(separates(whole(high, low), {0, 0, -1}), -1);
+  EXPECT_EQ(separates(whole(high, low), {1, 0, 0}), 0);
+  EXPECT_TRUE(find_direction(whole(high, low), {1, 0, 0}, {0, 1}, 10));
+}
+
+TEST(Direction, IsSilentWhenTheGapDrownsInTheErrorBound) {
+  const auto [high, low] = stacked(0x1p-52);
+  EXPECT_EQ(separates(whole(high, low), {0, 0, 1}), 0);
+}
+
+TEST(Direction, IsSilentWhenSomethingOverflowsOrIsNoNumber) {
+  const auto [high, low] = stacked(1);
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {inf, -inf, nan, std::numeric_limits<double>::max()}) {
+    EXPECT_EQ(separates(whole(high, low), {0, 0, bad}), 0);
+    EXPECT_EQ(separates(whole(high, low), {bad, 0, 1}), 0);
+  }
+  EXPECT_EQ(separates(whole(high, low), {0, 0, 0}), 0);
+}
+
+TEST(Direction, MayHoldOverAPartOfTheStepOnly) {
+  const std::array<Position, 3> low = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  const std::array<Position, 3> above = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}},
+                                below = {{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}}};
+  const auto a = cell<3>(above, below), b = cell<3>(low, low);
+  EXPECT_EQ(separates(whole(a, b), {0, 0, 1}), 0);
+  EXPECT_EQ(separates(whole(a, b), {0, 0, 1}, {0, 0.375}), 1);
+  EXPECT_EQ(separates(whole(a, b), {0, 0, 1}, {0.625, 1}), -1);
+  EXPECT_FALSE(find_direction(whole(a, b), {0, 0, 1}, {0, 1}, 20));
+  EXPECT_TRUE(find_direction(whole(a, b), {0, 0, -1}, {0, 0.375}, 20));
+}
+
+TEST(Direction, IsFoundIn2D) {
+  const std::array<Position, 3> x = {{{0, 0, 9}, {1, 0, 9}, {0, 1, 9}}}, y = {{{1, 1, 9}, {2, 1, 9}, {1, 2, 9}}};
+  const auto a = cell<2>(x, x), b = cell<2>(y, y);
+  const auto n = find_direction(whole(a, b), {1, -1}, {0, 1}, 10);
+  ASSERT_TRUE(n);
+  EXPECT_TRUE(truly_above(a, b, *n, 0));
+  EXPECT_FALSE(find_direction(whole(a, a), {1, -1}, {0, 1}, 10));
+}
+
+TEST(Direction, APartIsJustItsCorners) {
+  const std::array<Position, 3> x = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, y = {{{0, 0, 2}, {1, 0, 2}, {0, 1, -2}}};
+  const auto a = cell<3>(y, y), b = cell<3>(x, x);
+  EXPECT_EQ(separates(pair_of(a, 7, b, 7, 0), {0, 0, 1}), 0);
+  EXPECT_EQ(separates(pair_of(a, 3, b, 7, 0), {0, 0, 1}), 1);
+  EXPECT_EQ(separates(pair_of(a, 4, b, 7, 2), {0, 0, 1}), -1);
+}
+
+TEST(Around, ACornerIsBetweenItsFacesOrNot) {
+  const std::array<Position, 3> x = {{{0, 0, 0}, {2, -1, 0}, {2, 1, 0}}}, y = {{{0, 0, 0}, {-2, 1, 0}, {-2, -1, 1}}};
+  const std::array<CornerOf, 4> points = {{{false, 1}, {false, 2}, {true, 1}, {true, 2}}};
+  EXPECT_TRUE(around_corner(four_around(cell<3>(x, x), cell<3>(y, y), 0, points)));
+  EXPECT_FALSE(around_corner(four_around(cell<3>(x, x), cell<3>(x, x), 0, points)));
+}
+
+TEST(Around, AFlatHingeIsSettledAndAFoldedOneIsNot) {
+  const std::array<Position, 3> x = {{{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, y = {{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}}};
+  const std::array<CornerOf, 4> points = {{{false, 1}, {false, 2}, {true, 2}, {true, 2}}};
+  const auto flat = around_edge(four_around(cell<3>(x, x), cell<3>(y, y), 0, points));
+  EXPECT_EQ(flat.found, (std::array<bool, 4>{true, true, true, true}));
+  const auto folded = around_edge(four_around(cell<3>(x, x), cell<3>(x, x), 0, points));
+  EXPECT_EQ(folded.found, (std::array<bool, 4>{false, false, false, false}));
+}
+
+}  // namespace
+}  // namespace noli::testing

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/proofs/prover/features.h"
+
+#include <gtest/gtest.h>
+
+namespace noli {
+namespace {
+
+TEST(Features, TheLeastCellOwns) {
+  Mesh mesh;
+  mesh.vertex_count = 5;
+  mesh.faces = {{0, 1, 2}, {2, 1, 3}};
+  mesh.edges = {{3, 2}, {3, 4}};
+  mesh.points = {4};
+  const CellFeatures features = find_owners(mesh, true);
+  EXPECT_EQ(features.owned[0], 7 | 7 << 3 | cell_bit);
+  EXPECT_EQ(features.owned[1], corner_bit(2) | edge_bit(1) | edge_bit(2) | cell_bit);  // 3, (1, 3), (3, 2)
+  EXPECT_EQ(features.owned[2], cell_bit);
+  EXPECT_EQ(features.owned[3], corner_bit(1) | edge_bit(0) | cell_bit);
+  EXPECT_EQ(features.owned[4], cell_bit);
+}
+
+TEST(Features, WhatSeveralCellsHaveIsShared) {
+  Mesh mesh;
+  mesh.vertex_count = 5;
+  mesh.faces = {{0, 1, 2}, {2, 1, 3}};
+  mesh.points = {4};
+  const CellFeatures features = find_owners(mesh, false);
+  EXPECT_EQ(features.shared[0], corner_bit(1) | corner_bit(2) | edge_bit(1));
+  EXPECT_EQ(features.shared[1], corner_bit(0) | corner_bit(1) | edge_bit(0));
+  EXPECT_EQ(features.shared[2], 0);
+}
+
+TEST(Features, AVertexThatACellHasTwiceCountsOnce) {
+  Mesh mesh;
+  mesh.vertex_count = 2;
+  mesh.faces = {{0, 1, 1}};
+  const CellFeatures features = find_owners(mesh, false);
+  EXPECT_EQ(features.owned[0], corner_bit(0) | corner_bit(1) | edge_bit(0) | edge_bit(1));
+  EXPECT_EQ(features.shared[0], 0);
+}
+
+TEST(Features, RepeatedCellsAreNotListedWhateverTheirOrder) {
+  Mesh mesh;
+  mesh.vertex_count = 4;
+  mesh.faces = {{0, 1, 2}, {2, 0, 1}, {0, 1, 3}, {0, 0, 1}, {0, 1, 1}};
+  mesh.edges = {{0, 1}, {1, 0}, {1, 1}, {2, 1}};
+  mesh.points = {3, 3, 2};
+  const CellFeatures features = find_owners(mesh, true);
+  const auto listed = [&](std::size_t cell) { return (features.owned[cell] & cell_bit) != 0; };
+  const std::vector<bool> expected = {true, false, true, true, true, true, false, true, true, true, false, true};
+  for (std::size_t cell = 0; cell < expected.size(); ++cell) EXPECT_EQ(listed(cell), expected[cell]) << cell;
+}
+
+TEST(Features, FacesAreListedOnlyOnRequest) {
+  Mesh mesh;
+  mesh.vertex_count = 3;
+  mesh.faces = {{0, 1, 2}};
+  EXPECT_EQ(find_owners(mesh, false).owned[0] & cell_bit, 0);
+  EXPECT_EQ(find_owners(mesh, true).owned[0] & cell_bit, cell_bit);
+}
+
+}  // namespace
+}  // namespace noli

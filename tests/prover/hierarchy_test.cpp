@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/proofs/prover/hierarchy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "noli/proofs/prover/features.h"
+#include "scenes.h"
+
+namespace noli::testing {
+namespace {
+
+Hierarchy build(const Step& step, int threads = 1) { return Hierarchy(step.mesh, step.x_t0, step.x_t1, 3, threads); }
+
+TEST(Hierarchy, HasEachCellOnce) {
+  const Step step = two_sheets(3, 15, 0.5);
+  const Hierarchy hierarchy = build(step);
+  std::vector<std::uint32_t> cells(hierarchy.leaf_cells().begin(), hierarchy.leaf_cells().end());
+  std::sort(cells.begin(), cells.end());
+  std::vector<std::uint32_t> expected(step.mesh.cell_count());
+  std::iota(expected.begin(), expected.end(), 0u);
+  EXPECT_EQ(cells, expected);
+}
+
+TEST(Hierarchy, DoesNotDependOnThreads) {
+  const Step step = two_sheets(3, 40, 0.5);
+  const Hierarchy one = build(step, 1), many = build(step, 5);
+  EXPECT_TRUE(std::equal(one.leaf_cells().begin(), one.leaf_cells().end(), many.leaf_cells().begin()));
+}
+
+TEST(Hierarchy, ChildrenShareOutTheLeavesAndTheNodes) {
+  const Group g = {10, 4, 7};
+  EXPECT_EQ(g.left().count + g.right().count, g.count);
+  EXPECT_EQ(g.left().begin, g.begin);
+  EXPECT_EQ(g.right().begin, g.begin + g.left().count);
+  EXPECT_EQ(g.left().node, 11u);
+  EXPECT_EQ(g.right().node, 11u + 2 * g.left().count - 1);
+}
+
+/// Whether all corners of the leaves of p are above those of q along n, at one end.
+bool above(const Step& step, const std::vector<Position>& x, const Hierarchy& h, Group p, Group q,
+           const std::array<double, 3>& n) {
+  const auto axis =
+      static_cast<std::size_t>(std::find_if(n.begin(), n.end(), [](double c) { return c != 0; }) - n.begin());
+  const auto extreme = [&](Group g, double sign) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = g.begin; i < g.begin + g.count; ++i) {
+      for (const VertexId v : corners(step.mesh, h.leaf_cells()[i])) least = std::min(least, sign * x[v][axis]);
+    }
+    return least;
+  };
+  return extreme(p, n[axis]) > -extreme(q, -n[axis]);
+}
+
+/// Goes down the tree and counts the pairs that were separated and the claims that do not hold.
+void check_pairs(const Step& step, const Hierarchy& h, Group p, Group q, int& separated, int& open, int& wrong) {
+  if (axis_separates(h.box(p), h.box(q))) {
+    ++separated;
+    const auto n = separating_axis(h.box(p), h.box(q));
+    if (!above(step, step.x_t0, h, p, q, n) || !above(step, step.x_t1, h, p, q, n)) ++wrong;
+    return;
+  }
+  ++open;
+  if (p.is_leaf() && q.is_leaf()) return;
+  const bool first = p.count >= q.count;
+  const Group whole = first ? p : q;
+  for (const Group part : {whole.left(), whole.right()}) {
+    check_pairs(step, h, first ? part : p, first ? q : part, separated, open, wrong);
+  }
+}
+
+void expect_true_axes(const Step& step) {
+  const Hierarchy h = build(step);
+  int separated = 0, open = 0, wrong = 0;
+  check_pairs(step, h, h.root().left(), h.root().right(), separated, open, wrong);
+  EXPECT_GT(separated, 0);
+  EXPECT_GT(open, 0);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Hierarchy, WhatItsBoxesSeparateIsSeparate) { expect_true_axes(two_sheets(3, 12, 0.5)); }
+
+/// The same scene, scaled and moved: rounding to float must not make an order of what has none.
+Step transformed(Step step, double scale, double offset) {
+  for (auto* x : {&step.x_t0, &step.x_t1}) {
+    for (Position& p : *x) {
+      for (double& c : p) c = c * scale + offset;
+    }
+  }
+  return step;
+}
+
+TEST(Hierarchy, BoxesHoldFarFromTheOriginAndAtEveryScale) {
+  expect_true_axes(transformed(two_sheets(3, 12, 0.5), 1, 1e12));
+  expect_true_axes(transformed(two_sheets(3, 12, 0.5), 1e300, 0));
+  expect_true_axes(transformed(two_sheets(3, 12, 0.5), 1e-300, 0));
+  expect_true_axes(transformed(two_sheets(3, 12, 0.5), 1e-320, 0));
+}
+
+TEST(Hierarchy, EqualCoordinatesAreInNoOrder) {
+  Step step;
+  step.face({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  step.face({1, 1, 0}, {2, 1, 0}, {1, 2, 0});  // touches the first one's box in x, y and z
+  const Hierarchy h = build(step);
+  EXPECT_FALSE(axis_separates(h.box(h.root().left()), h.box(h.root().right())));
+}
+
+TEST(Hierarchy, AnOrderThatTurnsAroundSeparatesNothing) {
+  Step step;
+  step.face({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  step.face({5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {-10, 0, 0});
+  const Hierarchy h = build(step);
+  EXPECT_FALSE(axis_separates(h.box(h.root().left()), h.box(h.root().right())));
+}
+
+}  // namespace
+}  // namespace noli::testing
