@@ -74,8 +74,9 @@ void AlgebraicNumber::set_interval(Dyadic low, Dyadic high) {
   reach_ = b - a;  // more than half, as the middle is rounded
 }
 
-void AlgebraicNumber::cut_at(const Dyadic& x) {
-  const int side = compare(x);
+void AlgebraicNumber::cut_at(const Dyadic& x) { keep_side(x, compare(x)); }
+
+void AlgebraicNumber::keep_side(const Dyadic& x, int side) {
   if (side == 0) {
     become(x);
   } else if (side > 0) {
@@ -105,30 +106,38 @@ void AlgebraicNumber::polish(double proposal) {
 void AlgebraicNumber::refine_quadratically(std::size_t& log_pieces) {
   const std::size_t common = std::max(low_.e, high_.e), e = common + log_pieces;
   const Integer width = high_.scaled(common) - low_.scaled(common);  // a piece, in units of 2^-e
-  const Integer at_low = absolute(p_->scaled_value(low_.scaled(e), e));
-  const Integer at_high = absolute(p_->scaled_value(high_.scaled(e), e));
-  // The piece where the chord has its zero; the middle of it decides on which side to look.
+  const Integer at_low = absolute(p_->scaled_value(low_.scaled(common), common));
+  const Integer at_high = absolute(p_->scaled_value(high_.scaled(common), common));
+  // The border between pieces that is nearest to the zero of the chord, then the next one on the root's side.
   Integer piece = (at_low << (log_pieces + 1)) + at_low + at_high;
   const Integer both = (at_low + at_high) << 1;
   mpz_fdiv_q(piece.get(), piece.get(), both.get());
   const Dyadic guess = add(low_, piece * width, e);
   const int side = compare(guess);
   if (side == 0) return become(guess);
-  Dyadic other = side > 0 ? add(guess, width, e) : add(guess, -width, e);
-  const bool hit = side * compare(other) <= 0;
-  cut_at(guess);
-  if (sign_high_ != 0) cut_at(other);
+  const Dyadic other = side > 0 ? add(guess, width, e) : add(guess, -width, e);
+  const int other_side = compare(other);
+  keep_side(guess, side);
+  keep_side(other, other_side);
+  if (other_side == 0) return;
+  const bool hit = side != other_side;
   log_pieces = hit ? 2 * log_pieces : std::max<std::size_t>(1, log_pieces / 2);
-  if (!hit && sign_high_ != 0) cut_at(middle(low_, high_));
+  if (!hit) cut_at(middle(low_, high_));
+}
+
+std::size_t AlgebraicNumber::width_bits() const {
+  const std::size_t e = std::max(low_.e, high_.e), bits = (high_.scaled(e) - low_.scaled(e)).bit_length();
+  return e > bits ? e - bits : 0;
 }
 
 void AlgebraicNumber::refine(std::size_t bits) {
-  std::size_t log_pieces = 2;
-  const auto wide = [&] {
-    const std::size_t e = std::max({low_.e, high_.e, bits});
-    return (high_.scaled(e) - low_.scaled(e)) > (Integer(1) << (e - bits));
-  };
-  while (sign_high_ != 0 && wide()) refine_quadratically(log_pieces);
+  if (sign_high_ == 0) return;
+  // On an interval of width w the chord is off by about w^2, unless the root is ill-conditioned.
+  std::size_t have = width_bits(), log_pieces = std::max<std::size_t>(2, have - std::min<std::size_t>(have, 8));
+  while (sign_high_ != 0 && (have = width_bits()) < bits) {
+    log_pieces = std::min(log_pieces, bits - have + 2);
+    refine_quadratically(log_pieces);
+  }
 }
 
 double AlgebraicNumber::floor() const {
@@ -170,21 +179,20 @@ bool AlgebraicNumber::is_root_of(const Polynomial& q) const {
   return common.degree() > 0 && common.sign_at(low_) != common.sign_at(high_);
 }
 
-int AlgebraicNumber::sign_by_refinement(const Polynomial& q) const {
+int AlgebraicNumber::sign_by_refinement(const Polynomial& q) {
   // |q(x) - q(low)| <= (high - low) n sum |c[i]| on the interval.
-  AlgebraicNumber finer = *this;
   const Integer steepness = q.coefficient_sum() * Integer(q.degree());
-  for (std::size_t bits = 64;; bits *= 2) {
-    finer.refine(bits);
-    const std::size_t e = std::max(finer.low_.e, finer.high_.e);
-    const Integer at_low = q.scaled_value(finer.low_.scaled(e), e);
-    const Integer width = finer.high_.scaled(e) - finer.low_.scaled(e);
+  for (std::size_t bits = width_bits();; bits = 2 * bits + 8) {
+    refine(bits);
+    const std::size_t e = std::max(low_.e, high_.e);
+    const Integer at_low = q.scaled_value(low_.scaled(e), e);
+    const Integer width = high_.scaled(e) - low_.scaled(e);
     if (absolute(at_low) > ((steepness * width) << (e * static_cast<std::size_t>(q.degree() - 1))))
       return at_low.sign();
   }
 }
 
-int AlgebraicNumber::sign_of(const Polynomial& q) const {
+int AlgebraicNumber::sign_of(const Polynomial& q) {
   int sign = 0;
   if (q.degree() <= 0) return q.is_zero() ? 0 : q[0].sign();
   if (approximate_sign(q, sign)) return sign;
@@ -212,7 +220,7 @@ bool share_root(const AlgebraicNumber& a, const AlgebraicNumber& b) {
 }
 
 std::strong_ordering compare_by_refinement(AlgebraicNumber a, AlgebraicNumber b) {
-  for (std::size_t bits = 64;; bits *= 2) {
+  for (std::size_t bits = std::max(a.width_bits(), b.width_bits()) + 32;; bits *= 2) {
     a.refine(bits);
     b.refine(bits);
     if (a.is_dyadic()) return 0 <=> b.compare(a.low());

@@ -43,13 +43,16 @@ class AlgebraicNumber {
   bool is_rational() const { return p_->degree() == 1; }
   bool is_dyadic() const { return low_ == high_; }
 
-  /// Makes high - low <= 2^-bits.
+  /// high - low < 2^-width_bits(). Precondition: not dyadic.
+  std::size_t width_bits() const;
+  /// Makes high - low < 2^-bits.
   void refine(std::size_t bits);
   /// Shrinks the interval to about 2^-45 of the number, if double precision finds the root; otherwise nothing.
   void polish(double proposal);
 
-  /// The sign of q at this number.
-  int sign_of(const Polynomial& q) const;
+  /// The sign of q at this number. The first keeps the interval that it took to find out.
+  int sign_of(const Polynomial& q);
+  int sign_of(const Polynomial& q) const { return AlgebraicNumber(*this).sign_of(q); }
   /// The sign of (this number - x).
   int compare(const Dyadic& x) const;
   /// Replaces the interval by the part of it on the number's side of x; by x itself if it is the number.
@@ -63,11 +66,13 @@ class AlgebraicNumber {
  private:
   void become(Dyadic x);
   void set_interval(Dyadic low, Dyadic high);
+  /// cut_at, given the sign of (number - x).
+  void keep_side(const Dyadic& x, int side);
   /// One step; raises or lowers `log_pieces`, the binary logarithm of the number of pieces that are proposed.
   void refine_quadratically(std::size_t& log_pieces);
   bool approximate_sign(const Polynomial& q, int& sign) const;
   bool is_root_of(const Polynomial& q) const;
-  int sign_by_refinement(const Polynomial& q) const;
+  int sign_by_refinement(const Polynomial& q);
 
   std::shared_ptr<const Polynomial> p_;
   Dyadic low_, high_;

@@ -11,13 +11,13 @@ namespace noli {
 namespace {
 
 struct At {
-  const AlgebraicNumber& t;
+  AlgebraicNumber& t;
   int sign(const Polynomial& p) const { return t.sign_of(p); }
 };
 
 /// An instant after t that is as near as it need be.
 struct JustAfter {
-  const AlgebraicNumber& t;
+  AlgebraicNumber& t;
 
   int sign(const Polynomial& p) const {
     for (Polynomial d = p; !d.is_zero(); d = d.derivative()) {
@@ -28,7 +28,7 @@ struct JustAfter {
 };
 
 /// Whether the multiplicity of the root t of p is odd.
-bool changes_sign(const Polynomial& p, const AlgebraicNumber& t) {
+bool changes_sign(const Polynomial& p, AlgebraicNumber& t) {
   bool odd = true;
   for (Polynomial d = p.derivative(); t.sign_of(d) == 0; d = d.derivative()) odd = !odd;
   return odd;
@@ -63,7 +63,7 @@ std::vector<AlgebraicNumber> critical_times(const std::vector<Polynomial>& criti
 }
 
 template <class Condition>
-ContactKind kind_without_equality(Condition& condition, const AlgebraicNumber& t) {
+ContactKind kind_without_equality(Condition& condition, AlgebraicNumber& t) {
   const bool more_to_come = t.compare(Dyadic::from_integer(1)) < 0;
   return more_to_come && condition.holds(JustAfter{t}) ? ContactKind::persistent : ContactKind::touching;
 }
