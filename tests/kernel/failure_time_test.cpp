@@ -105,6 +105,11 @@ void check_random(std::uint64_t seed, int count) {
 TEST(FailureTime, ExactReplayInThePlane) { check_random<2>(1, 4000); }
 TEST(FailureTime, ExactReplayInSpace) { check_random<3>(2, 4000); }
 
+TEST(SlowFailureTime, MillionExactReplays) {
+  check_random<2>(3, 125000);
+  check_random<3>(4, 125000);
+}
+
 const Ray<3> still{0, {0, 0, 0}, {0, 0, 0}};
 
 TEST(FailureTime, RoundsDown) {

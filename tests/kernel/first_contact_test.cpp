@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "noli/kernel/first_contact.h"
 #include "noli/tests/kernel/oracle_motion.h"
@@ -64,6 +65,30 @@ TEST(FirstContact, VertexEdgeAsOracle) { compare_with_oracle<VertexEdge3>(3, 200
 TEST(FirstContact, VertexVertexAsOracle) { compare_with_oracle<VertexVertex3>(4, 4000, 3); }
 TEST(FirstContact, VertexEdgeInThePlaneAsOracle) { compare_with_oracle<VertexEdge2>(5, 2000, 4); }
 TEST(FirstContact, VertexVertexInThePlaneAsOracle) { compare_with_oracle<VertexVertex2>(6, 4000, 3); }
+
+/// All pairs of many times of contact, equal ones included, in the order that the oracle says.
+TEST(SlowFirstContact, MillionPairsOfTimesCompareAsOracle) {
+  Random random(7);
+  std::vector<std::pair<TimeOfImpact, oracle::Time>> times;
+  while (times.size() < 1500) {
+    const auto how = test::all_coordinates[static_cast<std::size_t>(random.below(5))];
+    const auto query = test::random_query<VertexFace3>(random, how);
+    const auto answer = first_contact(query);
+    if (!answer || answer->time == TimeOfImpact()) continue;
+    times.emplace_back(answer->time, *oracle::first_contact(test::motion(query)).time);
+  }
+  std::array<int, 2> equal{};
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto order = times[i].first <=> times[j].first;
+      ASSERT_EQ((order > 0) - (order < 0), times[i].second.compare(times[j].second));
+      ASSERT_EQ(times[i].first == times[j].first, order == 0);
+      ++equal[order == 0];
+    }
+  }
+  EXPECT_GT(equal[0] + equal[1], 1000000);
+  EXPECT_GT(equal[1], 10000);
+}
 
 // --- made backwards from a known time
 

@@ -154,5 +154,29 @@ TEST(TimeOfImpact, LowerIsMpfrRoundedDown) {
   EXPECT_GT(seen, 500);
 }
 
+/// lower() by its definition, by signs that are evaluated here. A root of even multiplicity shows no change of sign,
+/// nor do two roots between neighbouring doubles; those few are left to the comparison.
+TEST(SlowTimeOfImpact, LowerOfAMillionRoots) {
+  Random random(4);
+  int seen = 0, shown_by_signs = 0;
+  while (seen < 1000000) {
+    std::vector<long> c;
+    for (int k = 1 + random.below(4); k >= 0; --k)
+      c.push_back(static_cast<long>(random.bits() >> (20 + random.below(40))));
+    c[static_cast<std::size_t>(random.below(static_cast<int>(c.size())))] *= -1;
+    c.push_back(1 + random.below(1000000));
+    const Polynomial p = polynomial(c);
+    for (const auto& root : roots_in_unit_interval(p)) {
+      const double lower = TimeOfImpact(root).lower();
+      const Dyadic below = Dyadic::from_double(lower), above = Dyadic::from_double(std::nextafter(lower, 2.0));
+      const bool shown = p.sign_at(below) == 0 || p.sign_at(below) * p.sign_at(above) < 0;
+      ASSERT_TRUE(shown || (root.compare(below) >= 0 && root.compare(above) < 0));
+      shown_by_signs += shown;
+      ++seen;
+    }
+  }
+  EXPECT_GT(shown_by_signs, seen / 100 * 99);
+}
+
 }  // namespace
 }  // namespace noli
