@@ -17,12 +17,6 @@ const Polynomial* simplest(const std::vector<Polynomial>& polynomials) {
   return best;
 }
 
-std::optional<Time> first_of(const std::vector<Time>& ascending, const Condition& condition) {
-  const auto found =
-      std::find_if(ascending.begin(), ascending.end(), [&](const Time& t) { return holds_at(condition, t); });
-  return found == ascending.end() ? std::nullopt : std::optional(*found);
-}
-
 }  // namespace
 
 bool Clause::holds_at(const Time& t) const {
@@ -55,15 +49,17 @@ bool holds_after(const Condition& condition, const Time& t) {
   return std::any_of(condition.begin(), condition.end(), [&](const Clause& clause) { return clause.holds_after(t); });
 }
 
+std::optional<Time> first_of(const std::vector<Time>& ascending, const Condition& condition) {
+  const auto found =
+      std::find_if(ascending.begin(), ascending.end(), [&](const Time& t) { return holds_at(condition, t); });
+  return found == ascending.end() ? std::nullopt : std::optional(*found);
+}
+
 std::optional<Time> first_time(const Condition& condition) {
   std::vector<Time> times;
   for (const Clause& clause : condition) std::ranges::move(clause.critical_times(), std::back_inserter(times));
   sort_distinct(times);
   return first_of(times, condition);
-}
-
-std::optional<Time> first_time(const Condition& condition, const Polynomial& necessary) {
-  return first_of(Time::roots_of(necessary), condition);
 }
 
 }  // namespace noli::oracle

@@ -37,7 +37,7 @@ bool holds_after(const Condition& condition, const Time& t);
 /// The least time in [0, 1] at which a closed condition holds.
 std::optional<Time> first_time(const Condition& condition);
 
-/// The same when the condition is known to imply necessary = 0, for a polynomial that is not zero.
-std::optional<Time> first_time(const Condition& condition, const Polynomial& necessary);
+/// The first of some ascending times at which it holds.
+std::optional<Time> first_of(const std::vector<Time>& ascending, const Condition& condition);
 
 }  // namespace noli::oracle

@@ -12,34 +12,34 @@ namespace {
 struct Closest {
   Polynomial gram;                  ///< G; positive iff the closest points of the affine hulls are unique
   std::vector<Polynomial> weights;  ///< G times the weights of the points
-  Polynomial squared;               ///< G times the squared distance of the affine hulls
 };
 
-/// A point against the affine hull of three, and two lines against each other: `volume` is the determinant of the three
-/// differences.
 Closest vertex_face(const Vector& v, const Vector& f0, const Vector& f1, const Vector& f2) {
   const Vector p = v - f0, e1 = f1 - f0, e2 = f2 - f0;
   const Polynomial g11 = dot(e1, e1), g12 = dot(e1, e2), g22 = dot(e2, e2), b1 = dot(p, e1), b2 = dot(p, e2);
   const Polynomial gram = g11 * g22 - g12 * g12, w1 = g22 * b1 - g12 * b2, w2 = g11 * b2 - g12 * b1;
-  const Polynomial volume = dot(p, cross(e1, e2));
-  return {gram, {gram - w1 - w2, w1, w2}, volume * volume};
+  return {gram, {gram - w1 - w2, w1, w2}};
 }
 
 Closest edge_edge(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1) {
   const Vector u = a1 - a0, v = b1 - b0, w = b0 - a0;
   const Polynomial uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const Polynomial gram = uu * vv - uv * uv, s = uw * vv - uv * vw, r = uv * uw - uu * vw;
-  const Polynomial volume = dot(w, cross(u, v));
-  return {gram, {gram - s, s, gram - r, r}, volume * volume};
+  return {gram, {gram - s, s, gram - r, r}};
 }
 
 Closest vertex_edge(const Vector& v, const Vector& e0, const Vector& e1) {
   const Vector p = v - e0, e = e1 - e0;
   const Polynomial ee = dot(e, e), pe = dot(p, e);
-  return {ee, {ee - pe, pe}, ee * dot(p, p) - pe * pe};
+  return {ee, {ee - pe, pe}};
 }
 
-Closest vertex_vertex(const Vector& v, const Vector& w) { return {Polynomial::constant(1), {}, dot(v - w, v - w)}; }
+/// |e|^2 times the squared distance of v from the line of the edge.
+Polynomial squared_area(const Vector& v, const Vector& e0, const Vector& e1) {
+  const Vector p = v - e0, e = e1 - e0;
+  const Polynomial pe = dot(p, e);
+  return dot(e, e) * dot(p, p) - pe * pe;
+}
 
 /// The pairs of sub-features of the two features that have `n` points together, as indices of points: those of the
 /// first, then of the second.
@@ -81,51 +81,56 @@ Clause vertex_on_vertex(const Vector& v, const Vector& w) {
   return {{d[0], d[1], d[2]}, {}, {}};
 }
 
-ContactCondition solid_contact(const Motion& motion, const std::vector<Vector>& x) {
-  const Closest closest = whole(motion.pair, x);
-  ContactCondition result;
-  result.orientation = orientation(motion, x);
-  result.condition.push_back({{*result.orientation}, {closest.gram}, closest.weights});
-  for (const Points& i : vertex_edges(motion.pair)) {
-    result.condition.push_back(vertex_on_edge(x[i[0]], x[i[1]], x[i[2]]));
-  }
-  result.interior = closest.weights;
-  result.interior.push_back(closest.gram);
-  return result;
-}
-
-Clause near(const Closest& closest, const Polynomial& squared_distance) {
+/// Within the distance, if the affine hulls are at the distance whose square is `squared` over G.
+Clause near(const Closest& closest, const Polynomial& squared, const Polynomial& squared_distance) {
   Clause clause{{}, {closest.gram}, closest.weights};
-  clause.not_negative.push_back(closest.gram * squared_distance - closest.squared);
+  clause.not_negative.push_back(closest.gram * squared_distance - squared);
   return clause;
 }
 
 }  // namespace
 
-Polynomial orientation(const Motion& motion, const std::vector<Vector>& x) {
-  if (motion.pair == Pair::edge_edge) return dot(x[2] - x[0], cross(x[1] - x[0], x[3] - x[2]));
-  return dot(x[0] - x[1], cross(x[2] - x[1], x[3] - x[1]));
+std::optional<Polynomial> orientation(const Motion& motion, const std::vector<Vector>& x) {
+  switch (motion.pair) {
+    case Pair::vertex_face: return dot(x[0] - x[1], cross(x[2] - x[1], x[3] - x[1]));
+    case Pair::edge_edge: return dot(x[2] - x[0], cross(x[1] - x[0], x[3] - x[2]));
+    case Pair::vertex_edge: break;
+    case Pair::vertex_vertex: return std::nullopt;
+  }
+  if (motion.dimension == 2) return cross(x[1] - x[0], x[2] - x[0])[2];
+  return std::nullopt;
 }
 
-ContactCondition contact_condition(const Motion& motion, const std::vector<Vector>& x) {
-  if (is_solid(motion.pair)) return solid_contact(motion, x);
-  if (motion.pair == Pair::vertex_vertex) return {{vertex_on_vertex(x[0], x[1])}, {}, {}};
-  ContactCondition result{{vertex_on_edge(x[0], x[1], x[2])}, {}, {}};
-  if (motion.dimension == 2) {
-    result.orientation = result.condition[0].zero[2];
-    result.interior = vertex_edge(x[0], x[1], x[2]).weights;
+ContactCondition contact_condition(const Motion& motion, const std::vector<Vector>& x,
+                                   const std::optional<Polynomial>& orientation) {
+  ContactCondition result;
+  if (is_solid(motion.pair)) {
+    const Closest closest = whole(motion.pair, x);
+    result.condition.push_back({{orientation.value()}, {closest.gram}, closest.weights});
+    result.interior = closest.weights;
+    result.interior.push_back(closest.gram);
   }
+  for (const auto& [v, e0, e1] : vertex_edges(motion.pair)) {
+    result.condition.push_back(vertex_on_edge(x[v], x[e0], x[e1]));
+  }
+  if (motion.pair == Pair::vertex_edge) result.interior = vertex_edge(x[0], x[1], x[2]).weights;
+  if (motion.pair == Pair::vertex_vertex) result.condition.push_back(vertex_on_vertex(x[0], x[1]));
   return result;
 }
 
 Condition nearness_condition(const Motion& motion, const std::vector<Vector>& x, const Integer& distance) {
-  const Polynomial squared = Polynomial::constant(distance * distance);
+  const Polynomial limit = Polynomial::constant(distance * distance);
   Condition condition;
-  if (is_solid(motion.pair)) condition.push_back(near(whole(motion.pair, x), squared));
-  for (const Points& i : vertex_edges(motion.pair)) {
-    condition.push_back(near(vertex_edge(x[i[0]], x[i[1]], x[i[2]]), squared));
+  if (is_solid(motion.pair)) {
+    const Polynomial volume = orientation(motion, x).value();
+    condition.push_back(near(whole(motion.pair, x), volume * volume, limit));
   }
-  for (const auto& [i, j] : vertex_vertices(motion.pair)) condition.push_back(near(vertex_vertex(x[i], x[j]), squared));
+  for (const auto& [v, e0, e1] : vertex_edges(motion.pair)) {
+    condition.push_back(near(vertex_edge(x[v], x[e0], x[e1]), squared_area(x[v], x[e0], x[e1]), limit));
+  }
+  for (const auto& [v, w] : vertex_vertices(motion.pair)) {
+    condition.push_back({{}, {}, {limit - dot(x[v] - x[w], x[v] - x[w])}});
+  }
   return condition;
 }
 

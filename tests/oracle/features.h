@@ -16,21 +16,21 @@
 
 namespace noli::oracle {
 
+/// What vanishes in every contact: the determinant of the four points of vertex_face and edge_edge in 3D, of the three
+/// of vertex_edge in 2D; nothing for the others.
+std::optional<Polynomial> orientation(const Motion& motion, const std::vector<Vector>& x);
+
 /// When two features are in contact.
 struct ContactCondition {
   Condition condition;
-  /// What has to vanish in every contact: the determinant of the four points in 3D, of the three points of vertex_edge
-  /// in 2D.
-  std::optional<Polynomial> orientation;
-  /// Positive at a contact that is relatively interior to both features, whose points span a plane (vertex_edge in 2D:
-  /// a line).
+  /// Positive at a contact that is relatively interior to both features and whose points span a plane (vertex_edge in
+  /// 2D: a line). Only for those features that have an orientation.
   std::vector<Polynomial> interior;
 };
 
-/// The orientation of vertex_face and edge_edge alone, to see quickly that it has no root.
-Polynomial orientation(const Motion& motion, const std::vector<Vector>& x);
-
-ContactCondition contact_condition(const Motion& motion, const std::vector<Vector>& x);
+/// `orientation` is that of the same motion.
+ContactCondition contact_condition(const Motion& motion, const std::vector<Vector>& x,
+                                   const std::optional<Polynomial>& orientation);
 
 /// Within `distance`, in the unit of x: closed.
 Condition nearness_condition(const Motion& motion, const std::vector<Vector>& x, const Integer& distance);

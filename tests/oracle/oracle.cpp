@@ -27,30 +27,15 @@ int order(const std::array<Coordinates, 4>& x, Pair pair, std::size_t axis) {
   return a.greatest < b.least ? -1 : a.least > b.greatest ? 1 : 0;
 }
 
-bool crosses(const ContactCondition& contact, const Time& t) {
-  if (!contact.orientation || t.compare(Dyadic{0, 0}) == 0 || t.compare(Dyadic{1, 0}) == 0) return false;
+bool crosses(const ContactCondition& contact, const std::optional<Polynomial>& orientation, const Time& t) {
+  if (!orientation || t.compare(Dyadic{0, 0}) == 0 || t.compare(Dyadic{1, 0}) == 0) return false;
   const auto positive = [&](const Polynomial& p) { return t.sign_of(p) > 0; };
-  return std::all_of(contact.interior.begin(), contact.interior.end(), positive) &&
-         t.changes_sign(*contact.orientation);
+  return std::all_of(contact.interior.begin(), contact.interior.end(), positive) && t.changes_sign(*orientation);
 }
 
-Kind kind_at(const ContactCondition& contact, const Time& t) {
+Kind kind_at(const ContactCondition& contact, const std::optional<Polynomial>& orientation, const Time& t) {
   if (t.compare(Dyadic{1, 0}) != 0 && holds_after(contact.condition, t)) return Kind::persistent;
-  return crosses(contact, t) ? Kind::crossing : Kind::touching;
-}
-
-std::optional<Time> first_time(const ContactCondition& contact) {
-  if (contact.orientation && !contact.orientation->is_zero()) {
-    return first_time(contact.condition, *contact.orientation);
-  }
-  return first_time(contact.condition);
-}
-
-/// Whether vertex_face or edge_edge never become coplanar.
-bool orientation_keeps_sign(const Motion& motion, const std::vector<Vector>& x) {
-  if (motion.pair != Pair::vertex_face && motion.pair != Pair::edge_edge) return false;
-  const Polynomial p = orientation(motion, x);
-  return !p.is_zero() && Time::roots_of(p).empty();
+  return crosses(contact, orientation, t) ? Kind::crossing : Kind::touching;
 }
 
 }  // namespace
@@ -66,11 +51,15 @@ bool axis_separates(const Motion& motion) {
 Answer first_contact(const Motion& motion) {
   if (axis_separates(motion)) return {};
   const std::vector<Vector> x = integer_paths(motion, Unit::per_axis).x;
-  if (orientation_keeps_sign(motion, x)) return {};
-  const ContactCondition contact = contact_condition(motion, x);
-  std::optional<Time> time = first_time(contact);
+  // Where the orientation is not zero throughout, its roots are the only candidates, and often there is none.
+  const std::optional<Polynomial> necessary = orientation(motion, x);
+  const bool few = necessary && !necessary->is_zero();
+  const std::vector<Time> candidates = few ? Time::roots_of(*necessary) : std::vector<Time>();
+  if (few && candidates.empty()) return {};
+  const ContactCondition contact = contact_condition(motion, x, necessary);
+  std::optional<Time> time = few ? first_of(candidates, contact.condition) : first_time(contact.condition);
   if (!time) return {};
-  return {kind_at(contact, *time), std::move(time)};
+  return {kind_at(contact, necessary, *time), std::move(time)};
 }
 
 std::optional<Time> first_within(const Motion& motion, double distance) {

@@ -124,6 +124,22 @@ TEST_P(Sampling, NeverContradicts) {
   EXPECT_GT(contacts, 0);
 }
 
+TEST_P(Sampling, WithinDistanceZeroIsContactAndMoreIsNoLater) {
+  std::mt19937_64 random(12);
+  const auto [pair, dimension] = GetParam();
+  for (int i = 0; i < 60; ++i) {
+    const Motion motion = random_motion(pair, dimension, random);
+    const auto contact = first_contact(motion).time, none = first_within(motion, 0), some = first_within(motion, .75);
+    ASSERT_EQ(contact.has_value(), none.has_value());
+    if (!contact) continue;
+    EXPECT_EQ(contact->compare(*none), 0);
+    ASSERT_TRUE(some);
+    EXPECT_LE(some->compare(*none), 0);
+    EXPECT_EQ(some->compare(*none) == 0, none->compare(0.0) == 0)
+        << "features that are not in contact are .75 apart first";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Oracle, Sampling,
                          testing::Values(std::pair(Pair::vertex_face, 3), std::pair(Pair::edge_edge, 3),
                                          std::pair(Pair::vertex_edge, 3), std::pair(Pair::vertex_vertex, 3),
