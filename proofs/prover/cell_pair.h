@@ -92,8 +92,11 @@ class CellPairs {
   }
 
   static bool share_vertex(const Cell& a, const Cell& b) {
-    const auto in_b = [&b](VertexId v) { return (v == b.vertices[0]) | (v == b.vertices[1]) | (v == b.vertices[2]); };
-    return (in_b(a.vertices[0]) | in_b(a.vertices[1]) | in_b(a.vertices[2])) != 0;
+    int same = 0;  // added up, not branched on
+    for (const VertexId v : a.vertices) {
+      for (const VertexId w : b.vertices) same += v == w ? 1 : 0;
+    }
+    return same != 0;
   }
 
   static Shared find_shared(const Cell& a, const Cell& b) {

@@ -23,12 +23,12 @@
 //   empty          pair(x, y)           -> nothing: x or y has no vertex
 //   features       pair(x, y)           -> nothing: see below
 //   cell           self(x)              -> nothing: x is a leaf
-// What no direction settled is taken apart into pairs of features, and every such pair belongs to one pair of cells:
-// that of the least cells that have the features. `features` says that of the pairs of features of the two parts those
-// which belong to their two cells have been decided, by `decided` while the obligation (or one before it of the same
-// two cells) was on top; the others are decided at, or covered by a direction of, the obligation of the cells they
-// belong to. In the same way `at_begin` says whether the two parts on top meet at the beginning of the step; a pair of
-// cells for which one part is known to meet need not say it of the others.
+// What no direction settled is taken apart into pairs of features, and each of these belongs to one pair of cells: that
+// of the least cells that have the two features. `features` says that each pair of features of the two parts is apart
+// from what `direction` settled (here for other parts, or in the obligation of the cells it belongs to), or was told by
+// `decided`, here or in the obligation it belongs to; never twice. `at_begin` says whether the two parts on top meet at
+// the beginning of the step; it comes before `features`, but not again for a pair of cells of which some parts are
+// known to meet.
 //
 // What this does not do: it writes no file and checks nothing.
 #pragma once

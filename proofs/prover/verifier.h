@@ -15,8 +15,11 @@
 //       edge_edge     every edge of a face and every loose edge, against every other
 //       vertex_edge   loose points against loose edges       vertex_vertex  loose points against loose points
 //   2D  vertex_edge   every vertex of a cell against every edge      vertex_vertex  loose points against loose points
-// each pair once, only pairs that share no vertex. In 3D all other incidences of features are contained in these; a
-// vertex on an edge of a face is also on the face. Vertices are who they are by index.
+// each pair once, only pairs that share no vertex and belong to two different cells (with `strict` also: in 3D each
+// corner of a face against the edge opposite to it, as vertex_edge; in 2D the pairs of one cell; the two ends of a
+// loose edge, as vertex_vertex). An edge is a pair of vertex ids, whichever cells list it and how often; a face that is
+// listed twice is two faces. In 3D all other incidences of features are contained in these; a vertex on an edge of a
+// face is also on the face. Vertices are who they are by index.
 //
 // What this does not do: it writes no proof file (it reports its steps to a StepSink, from which one can be written),
 // it knows no thickness, and it does not read files.
@@ -89,9 +92,10 @@ struct VerifyResult {
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
 };
 
-/// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions. Deterministic: the result
-/// depends on the input and on `dimension`, `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by
-/// `stop` or `deadline`). Memory is linear in the mesh. Throws std::bad_alloc.
+/// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is below
+/// that, and there are fewer than 2^31 cells. Deterministic: the result depends on the input and on `dimension`,
+/// `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by `stop` or `deadline`), not on the number of
+/// threads or on who listens. Memory is linear in the mesh. Throws std::bad_alloc, and what `sink` and `progress` throw.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "scenes.h"
 
 namespace noli::testing {
@@ -340,6 +343,36 @@ TEST(Verifier, ProgressGoesFromSomethingToAll) {
   EXPECT_GT(told.front(), 0);
   EXPECT_EQ(told.back(), 1);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+}
+
+TEST(Verifier, ScaleDoesNotChangeAnything) {
+  const Step step = two_sheets(5, 12, 0.8);
+  const VerifyResult plain = verify(step);
+  ASSERT_GT(plain.contact_count(), 0u);
+  for (const double scale : {0x1p1010, 0x1p600, 0x1p-600, 0x1p-940}) {
+    Step scaled = step;
+    for (auto* x : {&scaled.x_t0, &scaled.x_t1}) {
+      for (Position& p : *x) {
+        for (double& c : p) c *= scale;
+      }
+    }
+    const VerifyResult result = verify(scaled);
+    EXPECT_EQ(result.contacts, plain.contacts);
+    EXPECT_EQ(result.reports, plain.reports);
+    EXPECT_EQ(result.initial_intersections, plain.initial_intersections);
+  }
+}
+
+TEST(Verifier, TheGreatestCoordinatesAreAllowed) {
+  constexpr double most = std::numeric_limits<double>::max();
+  Step step;
+  step.face({-most, -most, 0}, {most, -most, 0}, {0, most, 0});
+  step.mesh.points = {step.vertex({0, 0, -most}, {0, 0, most}), step.vertex({most, most, -most}, {most, most, most})};
+  const VerifyResult result = verify(step);
+  EXPECT_EQ(result.contacts, (std::array<std::uint64_t, 4>{1, 0, 0, 0}));
+  ASSERT_TRUE(result.first);
+  EXPECT_EQ(result.first->first.begin, 0.5);
+  EXPECT_EQ(result.first->first.end, 0.5);
 }
 
 TEST(Verifier, ThreadsDoNotChangeAnything) {
