@@ -66,7 +66,7 @@ struct VerifyOptions {
   int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is not looked at
   int threads = 0;          ///< 0: all there are
   bool initial = true;      ///< look for intersections at the beginning of the step
-  bool first_only = false;  ///< stop at any contact; which one is found is deterministic all the same
+  bool first_only = false;  ///< stop at any contact or initial intersection; at which is deterministic all the same
   bool strict = false;      ///< also the vertex-disjoint features of one cell (a face that degenerates)
   std::size_t max_reports =
       100;  ///< at most so many contacts and initial intersections are listed; counts are always exact
@@ -92,10 +92,11 @@ struct VerifyResult {
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
 };
 
-/// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is below
-/// that, and there are fewer than 2^31 cells. Deterministic: the result depends on the input and on `dimension`,
-/// `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by `stop` or `deadline`), not on the number of
-/// threads or on who listens. Memory is linear in the mesh. Throws std::bad_alloc, and what `sink` and `progress` throw.
+/// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is
+/// below that, and there are fewer than 2^31 cells. Deterministic: the result depends on the input and on `dimension`,
+/// `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by `stop` or `deadline`), not on the number
+/// of threads or on who listens. Memory is linear in the mesh. Throws std::bad_alloc, and what `sink` and `progress`
+/// throw.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 
