@@ -11,8 +11,6 @@
 namespace noli::repository {
 namespace {
 
-namespace fs = std::filesystem;
-
 CommandResult verify_generated(const std::string& kind) {
   const TemporaryFolder folder;
   const std::string where = quoted(folder.path().string());
