@@ -22,7 +22,7 @@ Integer numerator_over(const Dyadic& a, unsigned long exponent) { return shifted
 /// multiplied by.
 Integer eliminate(std::vector<Integer>& r, const Polynomial& b) {
   const std::size_t n = static_cast<std::size_t>(b.degree()), k = r.size() - 1 - n;
-  const Integer factor = sgn(b.leading()) > 0 ? r.back() : Integer(-r.back());
+  Integer factor = sgn(b.leading()) > 0 ? r.back() : Integer(-r.back());
   const Integer scale = abs(b.leading());
   for (Integer& x : r) x *= scale;
   for (std::size_t i = 0; i <= n; ++i) mpz_submul(r[i + k].get_mpz_t(), factor.get_mpz_t(), b[i].get_mpz_t());
