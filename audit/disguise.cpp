@@ -81,7 +81,7 @@ Generated finish(Made made, Random& random, const AxisExponents& exponents) {
 
 Generated finish(Made made, Random& random) {
   const int exponent = -static_cast<int>(random.below(41));
-  return finish(std::move(made), random, {exponent, exponent, exponent});
+  return finish(made, random, {exponent, exponent, exponent});
 }
 
 }  // namespace noli::audit

@@ -27,8 +27,8 @@ std::vector<double> simpler(double x) {
 
 class Minimiser {
  public:
-  Minimiser(AnyQuery query, const std::function<bool(const AnyQuery&)>& fails, std::size_t budget)
-      : query_(std::move(query)), complexity_(complexity(query_)), fails_(fails), budget_(budget) {}
+  Minimiser(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& fails, std::size_t budget)
+      : query_(query), complexity_(complexity(query_)), fails_(fails), budget_(budget) {}
 
   AnyQuery run() {
     for (bool progress = true; progress && budget_ > 0;) {
