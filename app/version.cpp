@@ -13,7 +13,8 @@
 namespace noli::app {
 
 std::string version_text() {
-  const std::string rounding = rounding_self_test() ? "passed" : "FAILED: every decision falls to exact arithmetic";
+  const RoundingReport& report = rounding_self_test();
+  const std::string rounding = report ? "passed" : fmt::format("FAILED: {}", report.text());
   return fmt::format("noli {}\ncommit {}\nGMP {}\nMPFR {}\nCGAL {}\nBoost {}.{}.{}\nrounding self-test {}\n",
                      NOLI_VERSION, NOLI_COMMIT, gmp_version, mpfr_get_version(), CGAL_STR(CGAL_VERSION),
                      BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, rounding);

@@ -9,8 +9,9 @@ namespace noli::bench {
 void MedianReporter::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.aggregate_name != "median") continue;
-    medians_[run.run_name.function_name] =
-        run.GetAdjustedRealTime() * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit);
+    const bool by_hand = run.run_name.time_type == "manual_time";
+    const double time = by_hand ? run.GetAdjustedRealTime() : run.GetAdjustedCPUTime();
+    medians_[run.run_name.function_name] = time * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit);
   }
   ConsoleReporter::ReportRuns(runs);
 }

@@ -13,7 +13,8 @@ namespace noli::bench {
 
 constexpr int passes = 5;
 
-/// Prints as usual, and remembers the median time of every benchmark by its name, in nanoseconds a pass.
+/// Prints as usual, and remembers the median time of every benchmark by its name, in nanoseconds a pass: the time of
+/// the processor, which other work on the machine disturbs least, or what the benchmark measured itself.
 class MedianReporter : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
@@ -32,6 +33,8 @@ struct BadFrame {
   std::string name, file, content;
   std::vector<std::string> parts;
 };
+
+void PrintTo(const BadFrame& bad, std::ostream* out) { *out << bad.name; }
 
 class BadFrames : public testing::TestWithParam<BadFrame> {};
 
@@ -87,6 +90,8 @@ struct BadQueries {
   std::vector<std::string> parts;
 };
 
+void PrintTo(const BadQueries& bad, std::ostream* out) { *out << bad.name; }
+
 class BadQueryFiles : public testing::TestWithParam<BadQueries> {};
 
 TEST_P(BadQueryFiles, AreRefused) {
@@ -114,7 +119,6 @@ const std::vector<BadQueries> bad_queries = {
     {"no_integer", "vertex-vertex.csv", rows("0.5,1,0,1,0,1,0"), {}, {"line 3"}},
     {"columns", "vertex-vertex.csv", rows("0,1,0,1,0"), {}, {"line 3"}},
     {"no_kind", "queries.csv", rows(), {}, {"--kind"}},
-    {"unknown_kind", "queries.csv", rows(), {"--kind", "edge-face"}, {"edge-face"}},
     {"no_such_kind_in_2d", "queries.csv", rows() + rows(), {"--kind", "edge-edge", "--dimension", "2"}, {"edge_edge"}}};
 
 INSTANTIATE_TEST_SUITE_P(All, BadQueryFiles, testing::ValuesIn(bad_queries),
@@ -126,6 +130,8 @@ struct BadLine {
   Arguments arguments;
   std::vector<std::string> parts;
 };
+
+void PrintTo(const BadLine& bad, std::ostream* out) { *out << bad.name; }
 
 class BadLines : public testing::TestWithParam<BadLine> {};
 
@@ -159,6 +165,7 @@ const std::vector<BadLine> bad_lines = {
     {"max_reports", {"verify", "%1", "%2", "--max-reports=-1"}, {"--max-reports"}},
     {"contradiction", {"verify", "%1", "%2", "--keep-going", "--first-only"}, {"--first-only"}},
     {"missing_queries", {"ccd", "/nowhere/edge-edge.csv"}, {"/nowhere/edge-edge.csv"}},
+    {"unknown_kind", {"ccd", "/nowhere/queries.csv", "--kind", "edge-face"}, {"edge-face"}},
     {"missing_info", {"info", "/nowhere/frame.obj"}, {"/nowhere/frame.obj"}},
     {"fuzz_what", {"fuzz"}, {}},
     {"fuzz_count", {"fuzz", "queries", "--count", "0"}, {"--count"}},

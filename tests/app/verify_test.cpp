@@ -141,15 +141,20 @@ TEST_F(Verify, TakesASingleFrameAtRest) {
   const auto touching = folder.write("touching.ply", two_triangles(0));
   const auto pierced = folder.write("pierced.ply", sail_through_deck());
   EXPECT_EQ(json_of({"verify", apart, "--static"}, 0)["steps"], 1);
-  const Json json = json_of({"verify", touching, "--static"}, 1);
+  const Json json = json_of({"verify", touching, "--static", "--dimension", "3"}, 1);
   EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
   EXPECT_EQ(json["first"]["kind"], "persistent");
   EXPECT_EQ(json["first_time"], 0.0);
+  // The same frame is flat: in its plane one face covers the other, and no vertex touches an edge.
+  const Json flat = json_of({"verify", touching, "--static"}, 1);
+  EXPECT_EQ(flat["statement"]["dimension"], 2);
+  EXPECT_EQ(flat["initial_intersections"], 1);
   EXPECT_EQ(json_of({"verify", pierced, "--static"}, 1)["initial_intersections"], 1);
-  // Intersections of a later frame are not those of an earlier one: all frames are looked at.
-  EXPECT_EQ(json_of({"verify", folder.write("sail.ply", sail_through_deck()), touching, "--static", "--keep-going"},
-                    1)["steps"],
-            2);
+  // Intersections of every frame count, not only of the first.
+  const Json later = json_of({"verify", apart, pierced, apart, "--static", "--keep-going"}, 1);
+  EXPECT_EQ(later["steps"], 3);
+  EXPECT_EQ(later["initial_intersections"], 1);
+  EXPECT_EQ(later["initial_reports"]["intersections"][0]["step"], 2);
 }
 
 TEST_F(Verify, LooksAtOneCellWhenStrict) {
