@@ -24,6 +24,7 @@ constexpr std::size_t sample_size = 1'000'000;
 struct Kind {
   std::string name;
   std::size_t candidates = 0, contacts = 0, sampled = 0;
+  StageCounters stages;
 };
 
 template <class Query>
@@ -32,12 +33,14 @@ Kind register_kind(const std::string& name, std::vector<Candidate> candidates, c
   const auto query = [&](const Candidate& candidate) {
     return query_of<Query>(candidate, frame_t0.positions, frame_t1.positions);
   };
-  Kind kind{name, candidates.size(), count_true(candidates, [&](const Candidate& c) { return meet(query(c)); }), 0};
+  Kind kind{name, candidates.size(), 0, 0, {}};
+  kind.contacts = count_true(candidates, [&](const Candidate& c) { return meet(query(c), &kind.stages); });
   shuffle(candidates, 1);
   candidates.resize(std::min(candidates.size(), sample_size));
-  kind.sampled = candidates.size();
-  const auto work = std::make_shared<std::vector<Query>>();
-  for (const Candidate& candidate : candidates) work->push_back(query(candidate));
+  std::vector<Query> sample;
+  for (const Candidate& candidate : candidates) sample.push_back(query(candidate));
+  const auto work = std::make_shared<std::vector<Query>>(workload(sample));
+  kind.sampled = work->size();
   register_passes("textbook/" + name,
                   [work] { return count_true(*work, [](const Query& q) { return textbook_meet(q); }); });
   register_passes("noli/" + name, [work] { return count_true(*work, [](const Query& q) { return meet(q); }); });
@@ -62,7 +65,7 @@ class PairBench {
       if (ns(kind, "textbook/") > 0) row(kind, table);
     }
     const double ratio = pooled("noli/") / pooled("textbook/");
-    if (pooled("textbook/") > 0) table.row({name_ + ", pooled", "", "", "", "", fmt::format("{:.2f}", ratio)});
+    if (pooled("textbook/") > 0) table.row({name_ + ", pooled", "", "", "", "", fmt::format("{:.2f}", ratio), ""});
   }
 
   /// Time of all candidates, from the mean of the sample, in ns. 0 when it was not measured.
@@ -81,7 +84,7 @@ class PairBench {
   void row(const Kind& kind, Table& table) const {
     table.row({kind.name, fmt::format("{}", kind.candidates), fmt::format("{}", kind.contacts),
                fmt::format("{:.1f}", ns(kind, "textbook/")), fmt::format("{:.1f}", ns(kind, "noli/")),
-               fmt::format("{:.2f}", ns(kind, "noli/") / ns(kind, "textbook/"))});
+               fmt::format("{:.2f}", ns(kind, "noli/") / ns(kind, "textbook/")), shares(kind.stages, kind.candidates)});
   }
 
   std::string name_;
@@ -96,7 +99,8 @@ int main(int argc, char** argv) {
   using namespace noli::bench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 3;
-  Table table({"candidates", "number", "in contact", "textbook ns", "noli ns", "ratio"});
+  Table table({"candidates", "number", "in contact", "textbook ns", "noli ns", "ratio",
+               "% comparison / direction / bernstein / interval / fixed / gmp"});
   double textbook = 0, noli = 0;
   for (const FramePair& pair : frame_pairs()) {
     if (pair.name == "rod-twist-clean") continue;  // nothing moves far there, and nothing touches
@@ -105,7 +109,7 @@ int main(int argc, char** argv) {
     textbook += bench.pooled("textbook/");
     noli += bench.pooled("noli/");
   }
-  if (textbook > 0) table.row({"all, pooled", "", "", "", "", fmt::format("{:.2f}", noli / textbook)});
+  if (textbook > 0) table.row({"all, pooled", "", "", "", "", fmt::format("{:.2f}", noli / textbook), ""});
   std::fputs(("\n" + table.text()).c_str(), stdout);
   return textbook > 0 ? 0 : 3;
 }

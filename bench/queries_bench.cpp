@@ -91,15 +91,6 @@ StageCounters stages(const QueryFile& file) {
   return counters;
 }
 
-std::string shares(const StageCounters& counters, std::size_t queries) {
-  std::string text;
-  for (const Stage stage : all_stages) {
-    const double share = 100 * static_cast<double>(counters[stage]) / static_cast<double>(queries);
-    text += fmt::format("{}{:.1f}", text.empty() ? "" : " / ", share);
-  }
-  return text;
-}
-
 /// Time of all queries of some files, by two methods.
 struct Pool {
   std::string name;

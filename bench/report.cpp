@@ -21,6 +21,15 @@ const double* MedianReporter::median_ns(const std::string& name) const {
   return found == medians_.end() ? nullptr : &found->second;
 }
 
+std::string shares(const StageCounters& counters, std::size_t queries) {
+  std::string text;
+  for (const Stage stage : all_stages) {
+    const double share = 100 * static_cast<double>(counters[stage]) / static_cast<double>(queries);
+    text += fmt::format("{}{:.1f}", text.empty() ? "" : " / ", share);
+  }
+  return text;
+}
+
 Table::Table(const std::vector<std::string>& head) {
   row(head);
   row(std::vector<std::string>(head.size(), "---"));

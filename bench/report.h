@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "noli/kernel/stages.h"
+
 namespace noli::bench {
 
 constexpr int passes = 5;
@@ -46,6 +48,9 @@ std::size_t count_true(const std::vector<Query>& queries, Decide&& decide) {
   for (const Query& query : queries) count += decide(query);
   return count;
 }
+
+/// How much of the work each stage decided, in per cent: "31.2 / 57.0 / ...".
+std::string shares(const StageCounters& counters, std::size_t queries);
 
 /// A Markdown table: a row of cells at a time.
 class Table {
