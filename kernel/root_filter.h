@@ -100,19 +100,32 @@ class RootSearch {
     return after == Verdict::apart ? before : after;
   }
 
+  /// The piece has one root. A sliver as narrow as double allows is tried only when the first one was too wide.
   Verdict settle_root(const Cubic& f, double bound, double begin, double width) {
     const Root root = halley(f);
-    const double low = std::max(0.0, root.x - root.reach), high = std::min(1.0, root.x + root.reach);
     const double value_bound = bound + cubic_.level;
+    const Verdict verdict = settle_sliver(f, root, value_bound, begin, width);
+    if (verdict != Verdict::unknown) return verdict;
+    const Verdict sharper = settle_sliver(f, sharpened(f, root, value_bound), value_bound, begin, width);
+    return sharper == Verdict::unknown ? lost(begin) : sharper;
+  }
+
+  /// One more step, and the reach that the noise of f leaves.
+  static Root sharpened(const Cubic& f, const Root& root, double value_bound) {
+    const double d0 = f[1] - f[0], d1 = f[2] - f[1], d2 = f[3] - f[2];
+    const double slope = 3 * bernstein::value_at(std::array<double, 3>{d0, d1, d2}, root.x);
+    const double x = std::clamp(root.x - bernstein::value_at(f, root.x) / slope, 0.0, 1.0);
+    return {x, std::max(0x1p-46, 4 * value_bound / std::abs(slope))};
+  }
+
+  Verdict settle_sliver(const Cubic& f, const Root& root, double value_bound, double begin, double width) {
+    const double low = std::max(0.0, root.x - root.reach), high = std::min(1.0, root.x + root.reach);
     const int before = sign(bernstein::value_at(f, low), value_bound);
-    if (before * sign(bernstein::value_at(f, high), value_bound) >= 0) return lost(begin);
+    if (before * sign(bernstein::value_at(f, high), value_bound) >= 0) return Verdict::unknown;
     constexpr double outward = 0x1p-50;  // above the rounding of times, which stay in [0, 1]
     const double t = begin + width * root.x, reach = width * root.reach + outward;
     const Verdict verdict = inside_(t, reach, before);
-    if (verdict == Verdict::unknown) {
-      near_border_ = true;
-      return lost(begin);
-    }
+    near_border_ |= verdict == Verdict::unknown;
     if (verdict == Verdict::contact) {
       enclosure_ = {std::max(0.0, std::min(first_lost_, t - reach - outward)), std::min(1.0, t + reach + outward)};
     }

@@ -39,9 +39,10 @@ const std::map<std::string, Ceilings> ceilings = {
     {"erleben-cube-cliff-edges-edge-edge-0.csv", {38, 0, 0}},
     {"erleben-cube-cliff-edges-vertex-face-0.csv", {41, 1, 0}},
     {"erleben-cube-internal-edges-edge-edge-0.csv", {5, 0, 0}},
-    {"erleben-cube-internal-edges-vertex-face-0.csv", {8, 0, 0}},
+    {"erleben-cube-internal-edges-vertex-face-0.csv", {9, 0, 0}},
     {"erleben-spikes-edge-edge-0.csv", {17, 0, 0}},
     {"erleben-spikes-vertex-face-0.csv", {10, 0, 0}},
+    {"erleben-wedges-edge-edge-0.csv", {7, 0, 0}},
     {"unit-tests-edge-edge-0.csv", {13, 0, 0}},
     {"unit-tests-vertex-face-0.csv", {15, 0, 0}},
 };
