@@ -10,6 +10,7 @@
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
 #include "noli/audit/fuzz_queries.h"
+#include "noli/kernel/parallel.h"
 
 namespace noli::app {
 namespace {
@@ -73,7 +74,7 @@ Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& repor
   json["generators"] = Json::array();
   for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
   json["stages"] = stages_json(report.stages);
-  json["timing"] = {{"seconds", seconds}, {"threads", options.threads}};
+  json["timing"] = {{"seconds", seconds}, {"threads", options.threads > 0 ? options.threads : hardware_threads()}};
   return json;
 }
 

@@ -43,12 +43,6 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// The parser in which --help was asked for, which may be that of a subcommand.
-const CLI::App& innermost(const CLI::App& app) {
-  const auto chosen = app.get_subcommands();
-  return chosen.empty() ? app : innermost(*chosen.front());
-}
-
 ExitCode parse_and_run(int argc, char** argv) {
   CLI::App app(description, "noli");
   app.footer(footer);
@@ -58,7 +52,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    write_standard_output(innermost(app).help());
+    write_standard_output(app.help());  // of the subcommand, where one was given
     return ExitCode::holds;
   } catch (const CLI::CallForVersion&) {
     write_standard_output(version_text());

@@ -99,8 +99,7 @@ int main(int argc, char** argv) {
   using namespace noli::bench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 3;
-  Table table({"candidates", "number", "in contact", "textbook ns", "noli ns", "ratio",
-               "% comparison / direction / bernstein / interval / fixed / gmp"});
+  Table table({"candidates", "number", "in contact", "textbook ns", "noli ns", "ratio", shares_head()});
   double textbook = 0, noli = 0;
   for (const FramePair& pair : frame_pairs()) {
     if (pair.name == "rod-twist-clean") continue;  // nothing moves far there, and nothing touches

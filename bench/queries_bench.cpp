@@ -149,7 +149,7 @@ void add_row(const QueryFile& file, const MedianReporter& reporter, Table& table
 
 void print_table(const std::vector<QueryFile>& files, const MedianReporter& reporter) {
   Table table({"file", "queries", "textbook ns", "noli ns", "ratio", "oracle ns", "textbook f.p./f.n.",
-               "noli f.p./f.n.", "slowest noli µs", "% comparison / direction / bernstein / interval / fixed / gmp"});
+               "noli f.p./f.n.", "slowest noli µs", shares_head()});
   Pools pools;
   for (const QueryFile& file : files) add_row(file, reporter, table, pools);
   pools.rows(table);

@@ -21,6 +21,12 @@ const double* MedianReporter::median_ns(const std::string& name) const {
   return found == medians_.end() ? nullptr : &found->second;
 }
 
+std::string shares_head() {
+  std::string text;
+  for (const Stage stage : all_stages) text += fmt::format("{}{}", text.empty() ? "% " : " / ", name(stage));
+  return text;
+}
+
 std::string shares(const StageCounters& counters, std::size_t queries) {
   std::string text;
   for (const Stage stage : all_stages) {

@@ -49,6 +49,9 @@ std::size_t count_true(const std::vector<Query>& queries, Decide&& decide) {
   return count;
 }
 
+/// The head of a column of shares(): "% comparison / direction / ...".
+std::string shares_head();
+
 /// How much of the work each stage decided, in per cent: "31.2 / 57.0 / ...".
 std::string shares(const StageCounters& counters, std::size_t queries);
 
