@@ -38,6 +38,7 @@ Kind register_kind(const std::string& name, std::vector<Candidate> candidates, c
   shuffle(candidates, 1);
   candidates.resize(std::min(candidates.size(), sample_size));
   std::vector<Query> sample;
+  sample.reserve(candidates.size());
   for (const Candidate& candidate : candidates) sample.push_back(query(candidate));
   const auto work = std::make_shared<std::vector<Query>>(workload(sample));
   kind.sampled = work->size();

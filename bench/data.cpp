@@ -29,6 +29,7 @@ QueryFile read(const std::filesystem::path& path, QueryKind kind) {
   const auto records = read_query_csv(path, kind);
   QueryFile file;
   file.name = path.stem().string();
+  file.labels.reserve(records.size());
   for (const QueryRecord& record : records) file.labels.push_back(record.label.value());
   if (kind == QueryKind::vertex_face) {
     file.queries = typed<VertexFace3>(records);

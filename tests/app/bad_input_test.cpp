@@ -52,7 +52,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), with);
 }
 
-std::string without_end(std::string text, std::size_t count) { return text.substr(0, text.size() - count); }
+std::string without_end(const std::string& text, std::size_t count) { return text.substr(0, text.size() - count); }
 
 /// A header of about a hundred bytes that promises a thousand million elements.
 std::string huge_promise(const std::string& format) {

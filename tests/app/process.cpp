@@ -61,6 +61,7 @@ pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& opt
   std::vector<std::string> words = {NOLI_COMMAND};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const pid_t child = ::fork();

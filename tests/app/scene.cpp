@@ -2,7 +2,6 @@
 #include "noli/tests/app/scene.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cstdio>
