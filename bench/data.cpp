@@ -61,6 +61,7 @@ std::vector<QueryFile> read_query_files() {
   if (paths.empty()) say_skipped(folder);
   std::sort(paths.begin(), paths.end());
   std::vector<QueryFile> files;
+  files.reserve(paths.size());
   for (const auto& path : paths) files.push_back(read(path, *kind_from_file_name(path)));
   return files;
 }
