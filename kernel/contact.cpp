@@ -24,16 +24,11 @@ const Decision undecided{Verdict::unknown, {}};
 
 // --- The floating-point stages, by kind of query -----------------------------------------------------------------------
 
-/// `axis`: along which the configuration looks large, for the stages to come.
+/// Kept out of line, like all later stages: most queries end before it, and should not pay for its registers.
 template <class Filter, class Query>
-Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis) {
-  const Filter filter(query);
-  axis = filter.axis();
+[[gnu::noinline]] Decision bernstein_stage(const Query& query, const filter::Vec<double, 3>& normal, StageCounters& counters) {
+  const Filter filter(query, normal);
   if (!filter.usable()) return undecided;
-  if (filter.separated()) {
-    counters.count(Stage::direction);
-    return {};
-  }
   bool near_border = false;
   Decision decision = filter::search_roots(filter, near_border);
   if (decision.verdict == Verdict::unknown && !near_border) {
@@ -41,6 +36,18 @@ Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis
   }
   if (decision.verdict != Verdict::unknown) counters.count(Stage::bernstein);
   return decision;
+}
+
+/// `axis`: along which the configuration looks large, for the stages to come.
+template <class Filter, class Query>
+Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis) {
+  const filter::Separation separation = filter::separate(query);
+  if (separation.separated) {
+    counters.count(Stage::direction);
+    return {};
+  }
+  axis = filter::largest_component(separation.normal);
+  return bernstein_stage<Filter>(query, separation.normal, counters);
 }
 
 Decision float_stages(const VertexFace3& query, StageCounters& counters, std::size_t& axis) {
@@ -76,7 +83,7 @@ Decision exact_decision(const Query<Pair, Dim>& query, const exact::ExponentRang
 }
 
 template <FeaturePair Pair, int Dim>
-Decision fixed_stage(const Query<Pair, Dim>& query, StageCounters& counters, std::size_t axis) {
+[[gnu::noinline]] Decision fixed_stage(const Query<Pair, Dim>& query, StageCounters& counters, std::size_t axis) {
   const exact::ExponentRange range = exact::exponent_range(query);
   Decision decision = undecided;
   if (range.bits() <= one_limb_bits) {
@@ -91,7 +98,7 @@ Decision fixed_stage(const Query<Pair, Dim>& query, StageCounters& counters, std
 // --- Integers of any width ----------------------------------------------------------------------------------------------
 
 template <FeaturePair Pair, int Dim>
-Decision gmp_stage(const Query<Pair, Dim>& query, StageCounters& counters) {
+[[gnu::noinline]] Decision gmp_stage(const Query<Pair, Dim>& query, StageCounters& counters) {
   counters.count(Stage::gmp);
   const auto first = first_contact(query);
   if (!first) return {};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The floating-point stages: comparisons, a separating direction, and Bernstein coefficients in plain double with error bounds.
+// Bernstein coefficients in plain double, with error bounds: the stage after those of direction_filter.h.
 //
 // Notation
-//   u = 2^-53         half an ulp of 1; arithmetic rounds to nearest and is not contracted
+//   u = 2^-53         as in direction_filter.h
 //   m_x               the largest magnitude of a computed component of the moving vector x, over both ends of the step
 //
 // Error bounds, to first order in u; the constants used are a few per cent larger, which covers the higher orders and the rounding of
@@ -13,7 +13,6 @@
 //   scaled inside     at most 4 m_a m_b, error 20u m_a m_b. c - w x u: bounds add up, and the subtraction adds 4u of each
 //   determinant       at one end 46u m_a m_b m_c; the scaled coefficients are at most 18 m_a m_b m_c, their error 168u m_a m_b m_c
 //   de Casteljau      a level adds at most 3u times the largest coefficient: 162u m_a m_b m_c for a cubic, 24u m_a m_b for an inside
-//   n . d             11u |n| m_d (components' maxima); a sum of up to three of these: 48u |n| max m
 //   inside at t       a vector at time t is off by 4u m, an inside by 20u m_a m_b (c - w x u: 22u of the sum); while t moves by r, a vector moves by
 //                     at most 2 r m, an inside by 8 r m_a m_b and a term in r^2
 // Products neither overflow nor lose bits to underflow that matter when all m_x are within 2^-300 and 2^300, which is tested.
@@ -24,11 +23,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 
 #include "noli/kernel/bernstein.h"
+#include "noli/kernel/direction_filter.h"
 #include "noli/kernel/formula.h"
 #include "noli/kernel/query.h"
 #include "noli/kernel/root_filter.h"
@@ -37,9 +36,6 @@ namespace noli::filter {
 
 using bernstein::Verdict;
 using formula::Moving;
-using formula::Vec;
-
-constexpr double u = 0x1p-53;
 
 /// Certain signs of doubles with known error bounds (see bernstein.h for what is asked of it).
 template <std::size_t Insides>
@@ -76,30 +72,6 @@ struct DoubleSigns {
   }
 };
 
-// --- Stage: comparison ---------------------------------------------------------------------------------------------
-
-/// Whether on some axis the two features are in the same strict order at both ends. Exact: nothing is computed.
-template <FeaturePair Pair, int Dim>
-bool ordered_on_an_axis(const Query<Pair, Dim>& q) {
-  constexpr std::size_t first = first_size(Pair), size = point_count(Pair);
-  const auto range = [](const auto& x, std::size_t axis, std::size_t from, std::size_t to) {
-    double low = x[from][axis], high = low;
-    for (std::size_t i = from + 1; i < to; ++i) {
-      low = std::min(low, x[i][axis]);
-      high = std::max(high, x[i][axis]);
-    }
-    return std::pair{low, high};
-  };
-  for (std::size_t axis = 0; axis < Dim; ++axis) {
-    const auto [a_low_t0, a_high_t0] = range(q.x_t0, axis, 0, first);
-    const auto [b_low_t0, b_high_t0] = range(q.x_t0, axis, first, size);
-    const auto [a_low_t1, a_high_t1] = range(q.x_t1, axis, 0, first);
-    const auto [b_low_t1, b_high_t1] = range(q.x_t1, axis, first, size);
-    if (((a_high_t0 < b_low_t0) & (a_high_t1 < b_low_t1)) | ((a_low_t0 > b_high_t0) & (a_low_t1 > b_high_t1))) return true;
-  }
-  return false;
-}
-
 // --- Differences of a query ------------------------------------------------------------------------------------------
 
 template <FeaturePair Pair, int Dim>
@@ -108,21 +80,13 @@ Moving<double, Dim> difference(const Query<Pair, Dim>& q, std::size_t to, std::s
 }
 
 template <std::size_t Dim>
-double magnitude(const Vec<double, Dim>& x) {
-  double m = 0;
-  for (const double c : x) m = std::max(m, std::abs(c));
-  return m;
-}
-
-template <std::size_t Dim>
 double magnitude(const Moving<double, Dim>& x) {
   return std::max(magnitude(x.at_t0), magnitude(x.at_t1));
 }
 
 /// Whether the error bounds hold: nothing overflows or underflows. False too for what is not a number.
-inline bool in_range(std::initializer_list<double> magnitudes) {
-  const auto [low, high] = std::minmax(magnitudes);
-  return low > 0x1p-300 && high < 0x1p300;
+inline bool in_range(const std::array<double, 3>& m) {
+  return std::min({m[0], m[1], m[2]}) > 0x1p-300 && std::max({m[0], m[1], m[2]}) < 0x1p300;
 }
 
 inline std::size_t largest_component(const Vec<double, 3>& n) {
@@ -130,27 +94,6 @@ inline std::size_t largest_component(const Vec<double, 3>& n) {
   if (x >= y) return x >= z ? 0 : 2;
   return y >= z ? 1 : 2;
 }
-
-inline Vec<double, 3> cross(const Vec<double, 3>& a, const Vec<double, 3>& b) {
-  return {formula::cross_component(a, b, 0), formula::cross_component(a, b, 1), formula::cross_component(a, b, 2)};
-}
-
-/// Twice the vector at mid-time.
-inline Vec<double, 3> twice_at_middle(const Moving<double, 3>& x) {
-  return {x.at_t0[0] + x.at_t1[0], x.at_t0[1] + x.at_t1[1], x.at_t0[2] + x.at_t1[2]};
-}
-
-/// Whether all values are on one side of zero, by more than the bound.
-struct OneSide {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  bool beyond(double bound) const { return low > bound || high < -bound; }
-};
 
 /// Where moving vectors are at time t, seen along the axis in which `normal` is largest.
 class PlaneView {
@@ -203,34 +146,18 @@ struct InsideSigns {
 
 // --- vertex_face -----------------------------------------------------------------------------------------------------
 
-/// What the filters of one query share: differences, their magnitudes, and the normal at mid-time.
+/// `normal`: that of direction_filter.h, which tells the axis along which to look.
 class VertexFaceFilter {
  public:
-  explicit VertexFaceFilter(const VertexFace3& q)
+  VertexFaceFilter(const VertexFace3& q, const Vec<double, 3>& normal)
       : query_(q),
+        normal_(normal),
         forms_{{difference(q, 1, 0), difference(q, 2, 0), difference(q, 3, 0)}},
-        m_{magnitude(forms_.d[0]), magnitude(forms_.d[1]), magnitude(forms_.d[2])} {
-    const Vec<double, 3> middle = twice_at_middle(forms_.d[0]);
-    normal_ = cross(formula::operator-(twice_at_middle(forms_.d[1]), middle),
-                    formula::operator-(twice_at_middle(forms_.d[2]), middle));
-  }
-
-  bool usable() const { return in_range({m_[0], m_[1], m_[2]}); }
-
-  /// The face's normal at mid-time separates the vertex from the face at both ends.
-  bool separated() const {
-    const double n = magnitude(normal_);
-    if (!(n > 0x1p-600)) return false;
-    OneSide side;
-    for (const auto& d : forms_.d) {
-      side.add(formula::dot(normal_, d.at_t0));
-      side.add(formula::dot(normal_, d.at_t1));
-    }
-    return side.beyond(16 * u * n * std::max({m_[0], m_[1], m_[2]}));
-  }
+        m_{magnitude(forms_.d[0]), magnitude(forms_.d[1]), magnitude(forms_.d[2])} {}
 
   std::size_t axis() const { return largest_component(normal_); }
   const formula::VertexFace<double>& forms() const { return forms_; }
+  bool usable() const { return in_range({m_[0], m_[1], m_[2]}); }
   double volume() const { return m_[0] * m_[1] * m_[2]; }
 
   /// What the insides say, seen along the axis, on all of [t - reach, t + reach].
@@ -247,44 +174,33 @@ class VertexFaceFilter {
   }
 
   DoubleSigns<3> signs() const {
-    const double volume = m_[0] * m_[1] * m_[2] * u;
+    const double v = volume() * u;
     const std::array<double, 3> area = {m_[0] * m_[1] * u, m_[1] * m_[2] * u, m_[2] * m_[0] * u};
-    return {176 * volume, 168 * volume, {21 * area[0], 21 * area[1], 21 * area[2]}, {25 * area[0], 25 * area[1], 25 * area[2]}};
+    return {176 * v, 168 * v, {21 * area[0], 21 * area[1], 21 * area[2]}, {25 * area[0], 25 * area[1], 25 * area[2]}};
   }
 
  private:
   const VertexFace3& query_;
+  Vec<double, 3> normal_;
   formula::VertexFace<double> forms_;
   std::array<double, 3> m_;
-  Vec<double, 3> normal_;
 };
 
 // --- edge_edge -------------------------------------------------------------------------------------------------------
 
 class EdgeEdgeFilter {
  public:
-  explicit EdgeEdgeFilter(const EdgeEdge3& q)
+  EdgeEdgeFilter(const EdgeEdge3& q, const Vec<double, 3>& normal)
       : query_(q),
+        normal_(normal),
         forms_{difference(q, 1, 0), difference(q, 3, 2), difference(q, 2, 0)},
         mu_(magnitude(forms_.u)),
         mv_(magnitude(forms_.v)),
-        mw_(magnitude(forms_.w)),
-        normal_(cross(twice_at_middle(forms_.u), twice_at_middle(forms_.v))) {}
-
-  bool usable() const { return in_range({mu_, mv_, mw_}); }
-
-  /// The common normal at mid-time separates the edges at both ends.
-  bool separated() const {
-    const double n = magnitude(normal_);
-    if (!(n > 0x1p-600)) return false;
-    OneSide side;
-    add_differences(side, forms_.u.at_t0, forms_.v.at_t0, forms_.w.at_t0);
-    add_differences(side, forms_.u.at_t1, forms_.v.at_t1, forms_.w.at_t1);
-    return side.beyond(60 * u * n * std::max({mu_, mv_, mw_}));
-  }
+        mw_(magnitude(forms_.w)) {}
 
   std::size_t axis() const { return largest_component(normal_); }
   const formula::EdgeEdge<double>& forms() const { return forms_; }
+  bool usable() const { return in_range({mu_, mv_, mw_}); }
   double volume() const { return mu_ * mv_ * mw_; }
 
   /// What the insides say, seen along the axis, on all of [t - reach, t + reach].
@@ -292,8 +208,11 @@ class EdgeEdgeFilter {
     const PlaneView view(normal_, t);
     const Vec<double, 2> du = view(forms_.u), dv = view(forms_.v), dw = view(forms_.w);
     const double wu = formula::cross(dw, du), wv = formula::cross(dw, dv), c = formula::cross(du, dv);
-    const double bound = 25 * u + 9 * reach, size_wu = bound * (mw_ * mu_), size_wv = bound * (mw_ * mv_), size_c = bound * (mu_ * mv_);
-    const auto collinear = [&](const std::array<std::size_t, 3>& points) { return view.share_a_coordinate(query_, points); };
+    const double bound = 25 * u + 9 * reach;
+    const double size_wu = bound * (mw_ * mu_), size_wv = bound * (mw_ * mv_), size_c = bound * (mu_ * mv_);
+    const auto collinear = [&](const std::array<std::size_t, 3>& points) {
+      return view.share_a_coordinate(query_, points);
+    };
     InsideSigns signs;  // a0 a1 b0, a0 a1 b1, a0 b0 b1, a1 b0 b1
     signs.add(wu, size_wu, [&] { return collinear({0, 1, 2}); });
     signs.add(c - wu, size_c + size_wu, [&] { return collinear({0, 1, 3}); });
@@ -303,27 +222,18 @@ class EdgeEdgeFilter {
   }
 
   DoubleSigns<4> signs() const {
-    const double volume = mu_ * mv_ * mw_ * u, wu = mw_ * mu_ * u, wv = mw_ * mv_ * u, uv = mu_ * mv_ * u;
-    return {176 * volume,
-            168 * volume,
+    const double v = volume() * u, wu = mw_ * mu_ * u, wv = mw_ * mv_ * u, uv = mu_ * mv_ * u;
+    return {176 * v,
+            168 * v,
             {21 * wu, 25 * (uv + wu), 21 * wv, 25 * (uv + wv)},
             {25 * wu, 25 * (uv + wu), 25 * wv, 25 * (uv + wv)}};
   }
 
  private:
-  /// n . (b_j - a_i) for the four pairs of ends.
-  void add_differences(OneSide& side, const Vec<double, 3>& du, const Vec<double, 3>& dv, const Vec<double, 3>& dw) const {
-    const double nu = formula::dot(normal_, du), nv = formula::dot(normal_, dv), nw = formula::dot(normal_, dw);
-    side.add(nw);
-    side.add(nw - nu);
-    side.add(nw + nv);
-    side.add((nw + nv) - nu);
-  }
-
   const EdgeEdge3& query_;
+  Vec<double, 3> normal_;
   formula::EdgeEdge<double> forms_;
   double mu_, mv_, mw_;
-  Vec<double, 3> normal_;
 };
 
 // --- Stage: bernstein --------------------------------------------------------------------------------------------------

@@ -106,9 +106,10 @@ template <class Filter, class Query>
 void add_float_stages(const Query& q, bool truth, StageResult& direction, StageResult& roots, StageResult& search,
                       StageResult& interval) {
   if (rounding_self_test().directed_ok) interval.add(interval_filter::decide(q).verdict, truth);
-  const Filter filter(q);
+  const filter::Separation separation = filter::separate(q);
+  if (separation.separated) direction.add(Verdict::apart, truth);
+  const Filter filter(q, separation.normal);
   if (!filter.usable()) return;
-  if (filter.separated()) direction.add(Verdict::apart, truth);
   bool near_border = false;
   roots.add(filter::search_roots(filter, near_border).verdict, truth);
   search.add(filter::search(filter.forms(), filter.axis(), filter.signs()).verdict, truth);
