@@ -160,8 +160,9 @@ class VertexFaceFilter {
   bool usable() const { return in_range({m_[0], m_[1], m_[2]}); }
   double volume() const { return m_[0] * m_[1] * m_[2]; }
 
-  /// What the insides say, seen along the axis, on all of [t - reach, t + reach].
-  Verdict inside(double t, double reach) const {
+  /// What the insides say, seen along the axis, on all of [low, high].
+  Verdict inside(double low, double high) const {
+    const double t = 0.5 * (low + high), reach = (high - t) + 2 * u;
     const PlaneView view(normal_, t);
     const Vec<double, 2> d0 = view(forms_.d[0]), d1 = view(forms_.d[1]), d2 = view(forms_.d[2]);
     const double bound = 25 * u + 9 * reach;
@@ -203,8 +204,9 @@ class EdgeEdgeFilter {
   bool usable() const { return in_range({mu_, mv_, mw_}); }
   double volume() const { return mu_ * mv_ * mw_; }
 
-  /// What the insides say, seen along the axis, on all of [t - reach, t + reach].
-  Verdict inside(double t, double reach) const {
+  /// What the insides say, seen along the axis, on all of [low, high].
+  Verdict inside(double low, double high) const {
+    const double t = 0.5 * (low + high), reach = (high - t) + 2 * u;
     const PlaneView view(normal_, t);
     const Vec<double, 2> du = view(forms_.u), dv = view(forms_.v), dw = view(forms_.w);
     const double wu = formula::cross(dw, du), wv = formula::cross(dw, dv), c = formula::cross(du, dv);
@@ -246,7 +248,7 @@ template <class Filter>
 Decision search_roots(const Filter& filter, bool& near_border) {
   const double volume = filter.volume() * u;
   const RoundedCubic cubic{bernstein::scaled_coefficients(filter.forms().coplanarity()), 176 * volume, 168 * volume};
-  const auto inside = [&filter](double t, double reach, int) { return filter.inside(t, reach); };
+  const auto inside = [&filter](double low, double high, int) { return filter.inside(low, high); };
   RootSearch search(cubic, inside);
   const Decision decision = search.run(subdivision_depth);
   near_border = search.near_border();

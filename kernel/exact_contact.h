@@ -315,7 +315,7 @@ class CodimensionOne {
     const auto approximation = rounded(f);
     const double bound = 0x1p-49 * largest(approximation);
     const filter::RoundedCubic cubic{approximation, bound, bound};
-    const auto inside = [&](double t, double reach, int f_before) { return inside_at_root(f, {t - reach, t + reach, f_before}); };
+    const auto inside = [&](double low, double high, int f_before) { return inside_at_root(f, {low, high, f_before}); };
     const Decision decision = filter::RootSearch(cubic, inside).run(cubic_depth);
     return decision.verdict == Verdict::unknown ? decide_double_root(f) : decision;
   }

@@ -6,7 +6,7 @@
 // Notation
 //   f                 the cubic, as scaled Bernstein coefficients on a piece of the step; a sign of a coefficient is *certain* when
 //                     its magnitude is above `bound`
-//   sliver            [x - reach, x + reach], at whose ends f has certain, opposite signs
+//   sliver            the part of the piece that is within `reach` of x; f has certain, opposite signs at its ends, and just one root in it
 // One certain change of sign (Descartes) is one root: a few safeguarded steps of Halley's method propose where, and the signs at the ends of a sliver
 // prove it. Two roots are separated by splitting where f seems to have its extremum.
 //
@@ -63,8 +63,8 @@ struct RoundedCubic {
   double level;  ///< of what one run of de Casteljau adds to that
 };
 
-/// The search. inside(t, reach, f_before) is asked about each root, which is within `reach` of t, in ascending order until it answers
-/// `contact`; f_before is the sign of f before the root.
+/// The search. inside(low, high, f_before) is asked about each root, in ascending order until it answers `contact`: the root is between
+/// low and high, no other root is (but within 2^-49 beyond), and f_before is the sign of f before it.
 template <class Inside>
 class RootSearch {
  public:
@@ -123,12 +123,10 @@ class RootSearch {
     const int before = sign(bernstein::value_at(f, low), value_bound);
     if (before * sign(bernstein::value_at(f, high), value_bound) >= 0) return Verdict::unknown;
     constexpr double outward = 0x1p-50;  // above the rounding of times, which stay in [0, 1]
-    const double t = begin + width * root.x, reach = width * root.reach + outward;
-    const Verdict verdict = inside_(t, reach, before);
+    const double first = begin + width * low - outward, last = begin + width * high + outward;
+    const Verdict verdict = inside_(first, last, before);
     near_border_ |= verdict == Verdict::unknown;
-    if (verdict == Verdict::contact) {
-      enclosure_ = {std::max(0.0, std::min(first_lost_, t - reach - outward)), std::min(1.0, t + reach + outward)};
-    }
+    if (verdict == Verdict::contact) enclosure_ = {std::max(0.0, std::min(first_lost_, first)), std::min(1.0, last)};
     return verdict;
   }
 
