@@ -42,13 +42,19 @@ WholeQuery arriving(const QueryType& type, Random& random, Hour hour) {
   return passing(type, meeting(type, Place::border, random_ratios(random), d).x, v, hour);
 }
 
+Meeting random_meeting(const QueryType& type, Place place, Random& random) {
+  const Ratios ratios = random_ratios(random);
+  return meeting(type, place, ratios, any_directions(random, type.dimension - 1));
+}
+
 /// All in the floor, each point with a displacement of its own.
 Made flat(const QueryType& type, Random& random) {
   const Directions d = any_directions(random, 2);
   WholePoints v{};
   for (Whole& displacement : v) displacement = random_whole(random, 2, 1 << 14);
   const Place place = random.one_in(2) ? Place::inside : Place::missed;
-  return {passing(type, meeting(type, place, random_ratios(random), d).x, v, any_hour(random)), {}};
+  const Meeting m = meeting(type, place, random_ratios(random), d);
+  return {passing(type, m.x, v, any_hour(random)), {}};
 }
 
 Made flat_with(ContactKind kind, const QueryType& type, Random& random) {
@@ -77,7 +83,7 @@ Generated coplanar(const QueryType& type, const Answers& declared, Random& rando
   const ContactKind kind = random_answer(declared, random);
   if (type == vertex_edge_3d) return finish(in_a_plane(kind, random), random);
   Made made = random.one_in(3) ? flat(type, random) : flat_with(kind, type, random);
-  carry(made.query, random_whole(random, 3, 1 << 10), random_whole(random, 3, 1 << 10));
+  carry_anywhere(made.query, random, 3, 1 << 10);
   return finish(made, random);
 }
 
@@ -93,8 +99,7 @@ Generated at_the_ends(const QueryType& type, const Answers& declared, Random& ra
   if (kind != ContactKind::touching && kind != ContactKind::apart) {
     return finish(recipe(kind, type, flavour, random), random);
   }
-  const Meeting m =
-      meeting(type, random.one_of(meeting_places), random_ratios(random), any_directions(random, type.dimension - 1));
+  const Meeting m = random_meeting(type, random.one_of(meeting_places), random);
   Hour hour = first_or_last_moment(random);
   const bool beyond = kind == ContactKind::apart;
   hour.k = hour.k == 1 ? (beyond ? -1 : 0) : hour.n + (beyond ? 1 : 0);
@@ -122,9 +127,9 @@ WholePoints tangential(const QueryType& type, const Meeting& m, Random& random) 
 
 Generated double_roots(const QueryType& type, const Answers& declared, Random& random) {
   if (random.one_in(3)) return finish(recipe(random_answer(declared, random), type, plain, random), random);
-  const Meeting m = meeting(type, random.one_in(4) ? Place::border : Place::inside, random_ratios(random),
-                            any_directions(random, type.dimension - 1));
-  return finish({passing(type, m.x, tangential(type, m, random), any_hour(random)), {}}, random);
+  const Meeting m = random_meeting(type, random.one_in(4) ? Place::border : Place::inside, random);
+  const WholePoints v = tangential(type, m, random);
+  return finish({passing(type, m.x, v, any_hour(random)), {}}, random);
 }
 
 /// In contact at 1/4 and at 3/4, or nearly so; the orientation has the same sign at both ends if its third root is not
@@ -168,7 +173,7 @@ Generated sliding(const QueryType& type, const Answers& declared, Random& random
     return finish(carried(type, random.one_of(meeting_places), plain, random), random);
   }
   Made made = gliding(kind, type, random);
-  carry(made.query, random_whole(random, type.dimension, 1 << 16), random_whole(random, type.dimension, 1 << 16));
+  carry_anywhere(made.query, random, type.dimension, 1 << 16);
   return finish(made, random);
 }
 
@@ -180,7 +185,7 @@ Generated rotations(const QueryType& type, const Answers& declared, Random& rand
   const Place place = kind == ContactKind::apart      ? Place::missed
                       : kind == ContactKind::crossing ? Place::inside
                                                       : random.one_of(meeting_places);
-  const Meeting m = meeting(type, place, random_ratios(random), any_directions(random, type.dimension - 1));
+  const Meeting m = random_meeting(type, place, random);
   WholePoints v = approach(random, type, {any_directions, 1, 4, any_hour});
   const std::int64_t turn = random.between(-3, 3), shrink = random.between(-2, 2);
   for (std::size_t i = 0; i < v.size(); ++i) {

@@ -45,7 +45,8 @@ Generated grid(const QueryType& type, const Answers& declared, Random& random) {
 /// q is p times a small number, but for a step of 1.
 Directions nearly_parallel_directions(Random& random, int axes) {
   const Whole p = random_direction(random, axes, std::int64_t{1} << random.between(8, 30));
-  Whole q = random.between(1, 3) * (random.one_in(2) ? p : Whole{} - p);
+  const std::int64_t multiple = random.between(1, 3);
+  Whole q = multiple * (random.one_in(2) ? p : Whole{} - p);
   q[random.below(static_cast<std::uint64_t>(axes))] += random.between(-1, 1);
   return {p, q};
 }

@@ -77,8 +77,7 @@ Made carried(const QueryType& type, Place place, const Flavour& flavour, Random&
   const Directions before = flavour.directions(random, type.dimension),
                    after = flavour.directions(random, type.dimension);
   WholeQuery query{type, meeting(type, place, ratios, before).x, meeting(type, place, ratios, after).x};
-  carry(query, random_whole(random, type.dimension, flavour.speed),
-        random_whole(random, type.dimension, flavour.speed));
+  carry_anywhere(query, random, type.dimension, flavour.speed);
   return {query, ContactKind::persistent};
 }
 

@@ -55,4 +55,9 @@ void carry(WholeQuery& query, const Whole& by_t0, const Whole& by_t1) {
   }
 }
 
+void carry_anywhere(WholeQuery& query, Random& random, int axes, std::int64_t size) {
+  const Whole by_t0 = random_whole(random, axes, size);
+  carry(query, by_t0, random_whole(random, axes, size));
+}
+
 }  // namespace noli::audit
