@@ -14,6 +14,9 @@
 // What this does not do: no time at which only a polynomial of degree 3 vanishes. It has no closed form within the numbers at hand.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+
 #include "noli/kernel/formula.h"
 #include "noli/kernel/wide.h"
 
