@@ -117,7 +117,7 @@ std::string ccd_text(const CcdOutcome& outcome) {
 ExitCode run(CcdArguments& arguments) {
   CcdRequest& request = arguments.request;
   if (!arguments.kind.empty()) request.pair = kinds.at(arguments.kind);
-  const Output output(arguments.json);
+  const Output output(arguments.json, request.files);
   const CcdOutcome outcome = run_ccd(request);
   output.write(ccd_text(outcome), ccd_json(request, outcome));
   return exit_code(outcome);

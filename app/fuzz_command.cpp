@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <memory>
+#include <string>
 
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
@@ -25,6 +29,19 @@ constexpr const char* queries_footer =
     "  noli fuzz queries --for 60s --seed 1\n"
     "  noli fuzz queries --count 1000000 --threads 2 --out findings --json result.json";
 
+/// Decimal digits only: what CLI11 makes of signs, leading zeros and numbers that do not fit is not what a reader would
+/// expect.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
+  const auto problem = [=](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
+    if (whole && value >= least && value <= greatest) return {};
+    return fmt::format("{}: expected a whole number from {} to {}", text, least, greatest);
+  };
+  return CLI::Validator(problem, "");
+}
+
 struct FuzzArguments {
   audit::FuzzOptions options;
   std::string duration = "60s";
@@ -37,12 +54,12 @@ constexpr std::array<ContactKind, 4> kinds = {ContactKind::apart, ContactKind::t
 
 const char* verdict(const audit::FuzzReport& report) {
   if (report.findings_total > 0) return "finding";
-  return report.interrupted ? "undecided" : "no_difference";
+  return report.interrupted || report.queries == 0 ? "undecided" : "no_difference";
 }
 
 ExitCode exit_code(const audit::FuzzReport& report) {
   if (report.findings_total > 0) return ExitCode::refuted;
-  return report.interrupted ? ExitCode::undecided : ExitCode::holds;
+  return report.interrupted || report.queries == 0 ? ExitCode::undecided : ExitCode::holds;
 }
 
 Json answers_json(const std::array<std::uint64_t, 4>& answers) {
@@ -111,7 +128,7 @@ double share(const audit::FuzzOptions& options, const audit::FuzzProgress& progr
 ExitCode run(FuzzArguments& arguments, bool for_given) {
   audit::FuzzOptions& options = arguments.options;
   if (for_given || !options.count) options.time_limit = parse_duration(arguments.duration, "--for");
-  const Output output(arguments.json);
+  const Output output(arguments.json, {});
   require_writable_folder(arguments.out, "--out");
   options.out = arguments.out;
   options.stop = &interrupted();
@@ -141,9 +158,12 @@ Command add_fuzz_queries(CLI::App& app) {
           ->capture_default_str()
           ->type_name("TIME");
   command->add_option("--count", options.count, "Stop after so many queries")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, std::uint64_t{1} << 60))
       ->type_name("N");
-  command->add_option("--seed", options.seed, "What the queries depend on")->capture_default_str()->type_name("S");
+  command->add_option("--seed", options.seed, "What the queries depend on")
+      ->capture_default_str()
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->type_name("S");
   command->add_option("--threads", options.threads, "How many threads; 0: all there are")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");

@@ -90,7 +90,7 @@ std::string info_text(const Json& files) {
 }
 
 ExitCode run(const InfoArguments& arguments) {
-  const Output output(arguments.json);
+  const Output output(arguments.json, arguments.files);
   Json files = Json::array();
   for (const auto& path : arguments.files) files.push_back(is_csv(path) ? query_info(path) : mesh_info(path));
   output.write(info_text(files), {{"verdict", "described"}, {"files", files}});

@@ -65,6 +65,13 @@ std::string link_target(const std::string& path) {
   return error ? path : target.string();
 }
 
+/// Whether standard output goes to this very file (a terminal or pipe may take both).
+bool is_standard_output(const std::string& path) {
+  struct stat file = {}, out = {};
+  if (::stat(path.c_str(), &file) != 0 || ::fstat(STDOUT_FILENO, &out) != 0) return false;
+  return S_ISREG(file.st_mode) && file.st_dev == out.st_dev && file.st_ino == out.st_ino;
+}
+
 bool can_write(const std::string& path) {
   if (path.empty()) return errno = ENOENT, false;
   std::error_code error;
@@ -99,8 +106,18 @@ bool write_device(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-Output::Output(std::optional<std::string> json_path) : json_path_(std::move(json_path)) {
+Output::Output(std::optional<std::string> json_path, const std::vector<std::filesystem::path>& inputs)
+    : json_path_(std::move(json_path)) {
   if (!json_path_ || *json_path_ == "-") return;
+  for (const auto& input : inputs) {
+    std::error_code error;
+    if (std::filesystem::equivalent(input, *json_path_, error)) {
+      throw UsageError("--json " + *json_path_ + ": is read too; expected a file that is not");
+    }
+  }
+  if (is_standard_output(*json_path_)) {
+    throw UsageError("--json " + *json_path_ + ": standard output goes there; expected another file, or '-'");
+  }
   if (!can_write(*json_path_)) throw UsageError("--json " + *json_path_ + ": cannot be written: " + reason());
 }
 

@@ -6,8 +6,10 @@
 // output carries the JSON document and nothing else.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "noli/app/json.h"
 
@@ -16,8 +18,9 @@ namespace noli::app {
 class Output {
  public:
   /// `json_path`: where the JSON goes, "-" for standard output, nothing for nowhere.
-  /// Throws UsageError when a file cannot be written there; leaves nothing behind.
-  explicit Output(std::optional<std::string> json_path);
+  /// `inputs`: files that the command reads; none of them may be the JSON, nor may the file that standard output goes
+  /// to. Throws UsageError when a file cannot be written there; leaves nothing behind.
+  Output(std::optional<std::string> json_path, const std::vector<std::filesystem::path>& inputs);
 
   /// Writes the results. A file is written under another name first and then renamed: it is complete or absent. It
   /// comes before the text, so that no verdict is printed by a run that fails. Throws WriteError.

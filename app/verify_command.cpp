@@ -43,7 +43,7 @@ ExitCode exit_code(Verdict verdict) {
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
-  const Output output(arguments.json);
+  const Output output(arguments.json, request.frames);
   const VerifyOutcome outcome = run_verify(request);
   output.write(verify_text(request, outcome), verify_json(request, outcome));
   return exit_code(outcome.verdict);
@@ -69,7 +69,8 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("TIME");
   command
       .add_option("--dimension", request.dimension,
-                  "2 or 3; by default 2 if all z of the first two frames are equal, else 3")
+                  "2 or 3; by default 2 if all z of the first two frames are equal, else 3. A later frame that leaves "
+                  "the plane is then refused")
       ->check(CLI::IsMember({2, 3}))
       ->type_name("2|3");
 }

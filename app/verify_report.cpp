@@ -167,7 +167,8 @@ class Text {
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
     }
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
-      line("The counts are partial ({}).", why_incomplete(outcome_));
+      line("What is said is of what was settled so far ({}): there may be more contacts, and earlier ones.",
+           why_incomplete(outcome_));
     }
   }
 

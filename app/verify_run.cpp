@@ -134,8 +134,9 @@ class Run {
     Progress progress("verify");
     const VerifyOptions asked = options(progress);
     VerifyResult result = verify_step(mesh_, sequence_.x_t0(), sequence_.x_t1(), asked);
-    const bool counted_before = request_.keep_going && !request_.constant_motion && sequence_.step() > 0;
-    if (counted_before && result.contact_count() > 0) drop_contacts_at_begin(asked, result);
+    const bool any_at_begin = meeting_at_end_;
+    meeting_at_end_ = !request_.constant_motion && result.contact_count() > 0;
+    if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(asked, result);
     outcome_.complete = result.complete;
     add_counts(result);
     add_reports(result);
@@ -215,6 +216,8 @@ class Run {
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::optional<IdenticalVertices> classes_;
   Mesh mesh_;
+  /// Whether some pair of features met in the step before: only then can one meet where the next step begins.
+  bool meeting_at_end_ = false;
   VerifyOutcome outcome_;
 };
 

@@ -50,8 +50,8 @@ Whole random_direction(Random& random, int axes, std::int64_t size);
 
 /// Adds the same vector to all points at t = 0, and another to all at t = 1.
 void carry(WholeQuery& query, const Whole& by_t0, const Whole& by_t1);
-/// The same by two vectors drawn one after the other: as arguments of one call they would be drawn in an order that each compiler
-/// chooses.
+/// The same by two vectors drawn one after the other: as arguments of one call they would be drawn in an order that
+/// each compiler chooses.
 void carry_anywhere(WholeQuery& query, Random& random, int axes, std::int64_t size);
 
 }  // namespace noli::audit

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact decided on Bernstein coefficients, with subdivision: for a coplanarity polynomial and its insides (formula.h).
+// Contact decided on Bernstein coefficients, with subdivision: for a coplanarity polynomial and its insides
+// (formula.h).
 //
 // Notation
-//   f                 the coplanarity polynomial, degree n; g_k the insides, of degree 2 (1 in the plane), all in the Bernstein basis of
+//   f                 the coplanarity polynomial, degree n; g_k the insides, of degree 2 (1 in the plane), all in the
+//   Bernstein basis of
 //                     a piece of the step and up to a positive factor, the same for all coefficients of one polynomial
 //   certain sign      of a number: +1, -1, or 0 for "not known"
 // On a piece, by the convex hull property of the coefficients:
-//   no contact  when all coefficients of f have one certain sign, or when some g_j is certainly positive and some g_k certainly
+//   no contact  when all coefficients of f have one certain sign, or when some g_j is certainly positive and some g_k
+//   certainly
 //               negative throughout
 //   contact     when all g_k have the same certain sign throughout and f has certain, opposite signs at the two ends
-// When f certainly has exactly one root in the piece (Descartes), a few Newton steps shrink the piece to a sliver around it on which
-// the g_k are judged; otherwise the piece is split where f seems to have its extremum.
+// When f certainly has exactly one root in the piece (Descartes), a few Newton steps shrink the piece to a sliver
+// around it on which the g_k are judged; otherwise the piece is split where f seems to have its extremum.
 //
-// What this does not do: it never decides that f is zero somewhere without changing sign, nor that a contact lies on the border of a
-// feature. Such queries come out as `unknown`. Newton's method only proposes; what counts are the signs at the ends.
+// What this does not do: it never decides that f is zero somewhere without changing sign, nor that a contact lies on
+// the border of a feature. Such queries come out as `unknown`. Newton's method only proposes; what counts are the signs
+// at the ends.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +33,8 @@ namespace noli::bernstein {
 
 enum class Verdict { apart, contact, unknown };
 
-/// A piece [begin, begin + width] of the step and the polynomials on it. g_sign: the certain sign of g_k on the whole piece, if known;
-/// the coefficients of such a g_k are no longer kept up to date.
+/// A piece [begin, begin + width] of the step and the polynomials on it. g_sign: the certain sign of g_k on the whole
+/// piece, if known; the coefficients of such a g_k are no longer kept up to date.
 template <class T, std::size_t Degree, std::size_t Insides, std::size_t InsideDegree>
 struct Piece {
   using Number = T;
@@ -52,7 +56,8 @@ std::array<T, N> scaled_coefficients(std::array<T, N> form) {
   return form;
 }
 
-/// de Casteljau at x: `right` enters as the coefficients on [0, 1] and leaves as those on [x, 1]; returns those on [0, x].
+/// de Casteljau at x: `right` enters as the coefficients on [0, 1] and leaves as those on [x, 1]; returns those on [0,
+/// x].
 template <class T, std::size_t N>
 std::array<T, N> split_at(std::array<T, N>& right, const T& x) {
   const T y = T(1) - x;
@@ -101,13 +106,14 @@ struct ProposedRoot {
   double slope;  ///< |derivative| near x
 };
 
-/// A root in (0, 1), about; c has opposite signs at the ends. A few safeguarded Newton steps: when one is shorter than 2^-17, the error
-/// left is about its square.
+/// A root in (0, 1), about; c has opposite signs at the ends. A few safeguarded Newton steps: when one is shorter than
+/// 2^-17, the error left is about its square.
 template <std::size_t N>
 ProposedRoot proposed_root(const std::array<double, N>& c) {
   std::array<double, N> a;  // power basis
   if constexpr (N == 4) {
-    a = {c[0], 3 * (c[1] - c[0]), 3 * ((c[2] - c[1]) - (c[1] - c[0])), (c[3] - c[2]) - 2 * (c[2] - c[1]) + (c[1] - c[0])};
+    a = {c[0], 3 * (c[1] - c[0]), 3 * ((c[2] - c[1]) - (c[1] - c[0])),
+         (c[3] - c[2]) - 2 * (c[2] - c[1]) + (c[1] - c[0])};
   } else {
     a = {c[0], 2 * (c[1] - c[0]), (c[2] - c[1]) - (c[1] - c[0])};
   }

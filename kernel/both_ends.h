@@ -2,7 +2,8 @@
 //
 // A number at both ends of the step, side by side in one register: the first stages do the same to both.
 //
-// Every operation is that of double on each of the two, so results do not depend on whether a machine has such registers.
+// Every operation is that of double on each of the two, so results do not depend on whether a machine has such
+// registers.
 //
 // What this does not do: comparisons with NaN are false, as for double; min and max of a NaN are unspecified.
 #pragma once

@@ -15,18 +15,21 @@ using bernstein::Verdict;
 using filter::Decision;
 
 /// Bits of a coordinate that the widths in exact_contact.h leave room for, with one and with two limbs.
-/// A difference of coordinates has B + 1 bits, a cross product's coefficient 2 B + 5, a determinant's 3 B + 9; the largest number in
-/// exact_times.h 16 B + 52, in 16 C limbs with the sign.
+/// A difference of coordinates has B + 1 bits, a cross product's coefficient 2 B + 5, a determinant's 3 B + 9; the
+/// largest number in exact_times.h 16 B + 54 in 16 C limbs, 18 B + 57 in 18 C or, at the roots of a cubic with a double
+/// root, 21 B + 59 in 21 C; with the sign.
 constexpr int one_limb_bits = 59;
 constexpr int two_limb_bits = 123;
 
 const Decision undecided{Verdict::unknown, {}};
 
-// --- The floating-point stages, by kind of query -----------------------------------------------------------------------
+// --- The floating-point stages, by kind of query
+// -----------------------------------------------------------------------
 
 /// Kept out of line, like all later stages: most queries end before it, and should not pay for its registers.
 template <class Filter, class Query>
-[[gnu::noinline]] Decision bernstein_stage(const Query& query, const filter::Vec<double, 3>& normal, StageCounters& counters) {
+[[gnu::noinline]] Decision bernstein_stage(const Query& query, const filter::Vec<double, 3>& normal,
+                                           StageCounters& counters) {
   const Filter filter(query, normal);
   if (!filter.usable()) return undecided;
   bool near_border = false;
@@ -67,7 +70,8 @@ Decision float_stages(const Query<Pair, Dim>&, StageCounters&, std::size_t&) {
 // --- Exact integers of fixed width -----------------------------------------------------------------------------------
 
 template <std::size_t C, FeaturePair Pair, int Dim>
-Decision exact_decision(const Query<Pair, Dim>& query, const exact::ExponentRange& range, [[maybe_unused]] std::size_t axis) {
+Decision exact_decision(const Query<Pair, Dim>& query, const exact::ExponentRange& range,
+                        [[maybe_unused]] std::size_t axis) {
   const auto points = exact::scaled<C>(query, range);
   if constexpr (Pair == FeaturePair::vertex_face) {
     const exact::VertexFaceProblem<C> problem(points);
@@ -95,7 +99,8 @@ template <FeaturePair Pair, int Dim>
   return decision;
 }
 
-// --- Integers of any width ----------------------------------------------------------------------------------------------
+// --- Integers of any width
+// ----------------------------------------------------------------------------------------------
 
 template <FeaturePair Pair, int Dim>
 [[gnu::noinline]] Decision gmp_stage(const Query<Pair, Dim>& query, StageCounters& counters) {

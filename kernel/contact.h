@@ -2,11 +2,11 @@
 //
 // Did the two features of a query meet during the step? Exact, for any finite doubles.
 //
-// The answer is that of real arithmetic on the given coordinates: features and the time interval are closed, so a touch counts, and
-// so does a contact at exactly t = 0 or t = 1. There is no tolerance.
+// The answer is that of real arithmetic on the given coordinates: features and the time interval are closed, so a touch
+// counts, and so does a contact at exactly t = 0 or t = 1. There is no tolerance.
 //
-// What this does not do: it does not say what kind of contact it is or exactly when it begins (kernel/first_contact.h), nor does it
-// know a thickness (kernel/thickness.h).
+// What this does not do: it does not say what kind of contact it is or exactly when it begins (kernel/first_contact.h),
+// nor does it know a thickness (kernel/thickness.h).
 #pragma once
 
 #include <optional>
@@ -22,10 +22,11 @@ struct TimeEnclosure {
   double end = 1;
 };
 
-/// If the features meet at some t in [0, 1]: an interval that contains the first such t, mostly narrower than 2^-20 but never
-/// promised to be. Otherwise nothing.
-/// Defined for vertex_face, edge_edge, vertex_edge, vertex_vertex in 3D and for vertex_edge, vertex_vertex in 2D.
-/// Counts the stage that decided in `counters` when given. Precondition: finite coordinates.
+/// If the features meet at some t in [0, 1]: an interval that contains the first such t, mostly narrower than 2^-20 but
+/// never promised to be. Otherwise nothing. Defined for vertex_face, edge_edge, vertex_edge, vertex_vertex in 3D and
+/// for vertex_edge, vertex_vertex in 2D. Counts the stage that decided in `counters` when given. Preconditions: finite
+/// coordinates; the floating-point environment rounds to nearest (do not call it while a CGAL::Interval_nt protector is
+/// alive).
 template <FeaturePair Pair, int Dim>
 std::optional<TimeEnclosure> contact(const Query<Pair, Dim>& query, StageCounters* counters = nullptr);
 

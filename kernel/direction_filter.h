@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first two stages, by which most pairs of features that are apart are found to be: an axis on which they are in the same strict
-// order at both ends of the step, and the direction normal to both at mid-time.
+// The first two stages, by which most pairs of features that are apart are found to be: an axis on which they are in
+// the same strict order at both ends of the step, and the direction normal to both at mid-time.
 //
 // Notation
 //   u = 2^-53         half an ulp of 1; arithmetic rounds to nearest and is not contracted
-//   n                 the direction, any vector of doubles; n . (b - a) > 0 for all points a of the one feature and b of the other at
+//   n                 the direction, any vector of doubles; n . (b - a) > 0 for all points a of the one feature and b
+//   of the other at
 //                     both ends separates them all the time, because it is linear in between
 //   m                 the largest magnitude of a computed difference of coordinates
-// Error bound: a computed difference has a relative error of u, so n . d is off by at most 11u |n| m (components' maxima) to first
-// order, and a sum of three of these by 48u |n| m; 16u and 60u are used, which covers the higher orders and the rounding of the
-// bound. Nothing overflows, and nothing that underflows matters, when |n| > 2^-600 and m is within 2^-300 and 2^300.
+// Error bound: a computed difference has a relative error of u, so n . d is off by at most 11u |n| m (components'
+// maxima) to first order, and a sum of three of these by 48u |n| m; 16u and 60u are used, which covers the higher
+// orders and the rounding of the bound. Nothing overflows, and nothing that underflows matters, when |n| > 2^-600 and m
+// is within 2^-300 and 2^300.
 //
 // What this does not do: a pair that it does not separate may still be apart.
 #pragma once
@@ -112,8 +114,8 @@ inline Separation separate(const VertexFace3& q) {
   return {normal, on_one_side(min(min(s0, s1), s2), max(max(s0, s1), s2), sizes, normal, 16)};
 }
 
-/// The common normal of the edges at mid-time. With w from the one edge to the other, the differences between them are w, w - u,
-/// w + v and w + v - u.
+/// The common normal of the edges at mid-time. With w from the one edge to the other, the differences between them are
+/// w, w - u, w + v and w + v - u.
 inline Separation separate(const EdgeEdge3& q) {
   const EndVectors du = end_difference(q, 1, 0), dv = end_difference(q, 3, 2), dw = end_difference(q, 2, 0);
   const Vec<double, 3> normal = cross(twice_at_middle(du), twice_at_middle(dv));

@@ -6,16 +6,19 @@
 //   u = 2^-53         as in direction_filter.h
 //   m_x               the largest magnitude of a computed component of the moving vector x, over both ends of the step
 //
-// Error bounds, to first order in u; the constants used are a few per cent larger, which covers the higher orders and the rounding of
-// the bounds themselves. A computed difference of two coordinates has a relative error of u.
-//   cross product     at one end, a component is at most 2 m_a m_b, its error 8u m_a m_b (each of two products carries 3u, the
+// Error bounds, to first order in u; the constants used are a few per cent larger, which covers the higher orders and
+// the rounding of the bounds themselves. A computed difference of two coordinates has a relative error of u.
+//   cross product     at one end, a component is at most 2 m_a m_b, its error 8u m_a m_b (each of two products carries
+//   3u, the
 //                     subtraction u of the result); the middle coefficient is at most 4 m_a m_b, its error 20u m_a m_b
-//   scaled inside     at most 4 m_a m_b, error 20u m_a m_b. c - w x u: bounds add up, and the subtraction adds 4u of each
-//   determinant       at one end 46u m_a m_b m_c; the scaled coefficients are at most 18 m_a m_b m_c, their error 168u m_a m_b m_c
-//   de Casteljau      a level adds at most 3u times the largest coefficient: 162u m_a m_b m_c for a cubic, 24u m_a m_b for an inside
-//   inside at t       a vector at time t is off by 4u m, an inside by 20u m_a m_b (c - w x u: 22u of the sum); while t moves by r, a vector moves by
-//                     at most 2 r m, an inside by 8 r m_a m_b and a term in r^2
-// Products neither overflow nor lose bits to underflow that matter when all m_x are within 2^-300 and 2^300, which is tested.
+//   scaled inside     at most 4 m_a m_b, error 20u m_a m_b. c - w x u: bounds add up, and the subtraction adds 4u of
+//   each determinant       at one end 46u m_a m_b m_c; the scaled coefficients are at most 18 m_a m_b m_c, their error
+//   168u m_a m_b m_c de Casteljau      a level adds at most 3u times the largest coefficient: 162u m_a m_b m_c for a
+//   cubic, 24u m_a m_b for an inside inside at t       a vector at time t is off by 4u m, an inside by 20u m_a m_b (c -
+//   w x u: 22u of the sum); while t moves by r, a vector moves by
+//                     at most 2 r m, an inside by (8 r + 8 r^2) m_a m_b, which is below 9 r m_a m_b for r < 1/8
+// Products neither overflow nor lose bits to underflow that matter when all m_x are within 2^-300 and 2^300, which is
+// tested.
 //
 // What this does not do: it does not decide coplanar, touching or otherwise degenerate queries; it says `unknown`.
 #pragma once
@@ -105,8 +108,8 @@ class PlaneView {
     return {x.at_t0[i_] * s_ + x.at_t1[i_] * t_, x.at_t0[j_] * s_ + x.at_t1[j_] * t_};
   }
 
-  /// Whether three points are collinear in this view all the time because they have one of its two coordinates in common at both
-  /// ends. The inside that they make is then zero throughout, exactly.
+  /// Whether three points are collinear in this view all the time because they have one of its two coordinates in
+  /// common at both ends. The inside that they make is then zero throughout, exactly.
   template <class Query>
   bool share_a_coordinate(const Query& q, const std::array<std::size_t, 3>& points) const {
     return share(q.x_t0, q.x_t1, points, i_) || share(q.x_t0, q.x_t1, points, j_);
@@ -114,7 +117,8 @@ class PlaneView {
 
  private:
   template <class Points>
-  static bool share(const Points& x_t0, const Points& x_t1, const std::array<std::size_t, 3>& points, std::size_t axis) {
+  static bool share(const Points& x_t0, const Points& x_t1, const std::array<std::size_t, 3>& points,
+                    std::size_t axis) {
     const auto [a, b, c] = points;
     return x_t0[a][axis] == x_t0[b][axis] && x_t0[b][axis] == x_t0[c][axis] && x_t1[a][axis] == x_t1[b][axis] &&
            x_t1[b][axis] == x_t1[c][axis];
@@ -124,8 +128,8 @@ class PlaneView {
   double s_, t_;
 };
 
-/// Gathers the certain signs of insides. One that is zero throughout does not keep the others from deciding: when these have the same
-/// strict sign the view is not degenerate, and the contact is on the border of a feature.
+/// Gathers the certain signs of insides. One that is zero throughout does not keep the others from deciding: when these
+/// have the same strict sign the view is not degenerate, and the contact is on the border of a feature.
 struct InsideSigns {
   bool some_positive = false, some_negative = false, all_positive = true, all_negative = true;
 
@@ -238,7 +242,8 @@ class EdgeEdgeFilter {
   double mu_, mv_, mw_;
 };
 
-// --- Stage: bernstein --------------------------------------------------------------------------------------------------
+// --- Stage: bernstein
+// --------------------------------------------------------------------------------------------------
 
 /// How often a piece of the step may be split. After three, what is left is nearly always degenerate.
 constexpr int subdivision_depth = 3;

@@ -2,13 +2,14 @@
 //
 // Contact decided in exact integers of fixed width.
 //
-// Notation (formula.h): f is the coplanarity form; a *time* is an object of exact_times.h with the exact sign of quadratic forms.
-// The features meet at some time of the step iff they meet at an end, or at a root of f inside, or, when f is zero
-// throughout, at a root inside of one of the forms on whose signs the answer depends: the set of contact times is closed, and
-// between such roots nothing changes.
+// Notation (formula.h): f is the coplanarity form; a *time* is an object of exact_times.h with the exact sign of
+// quadratic forms. The features meet at some time of the step iff they meet at an end, or at a root of f inside, or,
+// when f is zero throughout, at a root inside of one of the forms on whose signs the answer depends: the set of contact
+// times is closed, and between such roots nothing changes.
 //
-// What this does not do: when double precision, applied to the exact coefficients of a cubic f, cannot tell its roots apart and none is
-// double, or when it cannot tell a root of f from one of an inside's beyond 2^-44, the answer is `unknown`.
+// What this does not do: when double precision, applied to the exact coefficients of a cubic f, cannot tell its roots
+// apart and none is double, or when it cannot tell a root of f from one of an inside's beyond 2^-44, the answer is
+// `unknown`.
 #pragma once
 
 #include <algorithm>
@@ -146,8 +147,9 @@ class CodimensionOne {
     return false;
   }
 
-  /// Root by root in double, now on the exact coefficients; where that does not tell the sign of an inside at a root, exactly. Error
-  /// bounds: a coefficient is rounded to 2^-51 of itself and multiplied once; a run of de Casteljau has three levels of 3 * 2^-53.
+  /// Root by root in double, now on the exact coefficients; where that does not tell the sign of an inside at a root,
+  /// exactly. Error bounds: a coefficient is rounded to 2^-51 of itself and multiplied once; a run of de Casteljau has
+  /// three levels of 3 * 2^-53.
   Decision decide_cubic(const Cubic<C>& f) {
     const auto approximation = rounded(f);
     const double bound = 0x1p-49 * largest(approximation);
@@ -175,8 +177,8 @@ class CodimensionOne {
     return open || positive == negative ? Verdict::unknown : Verdict::contact;
   }
 
-  /// The sign of g at a root alpha of f: that of g before alpha, changed once by each root of g in between. Whether a root of g comes
-  /// before alpha is told by the sign of f there.
+  /// The sign of g at a root alpha of f: that of g before alpha, changed once by each root of g in between. Whether a
+  /// root of g comes before alpha is told by the sign of f there.
   static std::optional<int> sign_at_root(const SignedForm<2 * C>& g, const Cubic<C>& f, const RootOfCubic& root) {
     constexpr double margin = 0x1p-44;  // far above the error of an approximate root
     if (is_zero(g.exact())) return 0;
@@ -186,16 +188,19 @@ class CodimensionOne {
       const double t = time.approximate();
       if (t < root.low - margin || t > root.high + margin) return false;
       const int f_there = time.sign(f);
-      if (t < root.low + margin || t > root.high - margin) sign = std::nullopt;
-      else if (f_there == 0) sign = 0;
-      else if (f_there == root.f_before) sign = -*sign;
+      if (t < root.low + margin || t > root.high - margin)
+        sign = std::nullopt;
+      else if (f_there == 0)
+        sign = 0;
+      else if (f_there == root.f_before)
+        sign = -*sign;
       return !sign || *sign == 0;
     });
     return sign;
   }
 
-  /// A cubic with a double root has rational roots: the double one at (9 f0 f3 - f1 f2) / (2 (f2^2 - 3 f1 f3)), unless it is triple,
-  /// and the simple one at -f2 / f3 minus twice that.
+  /// A cubic with a double root has rational roots: the double one at (9 f0 f3 - f1 f2) / (2 (f2^2 - 3 f1 f3)), unless
+  /// it is triple, and the simple one at -f2 / f3 minus twice that.
   Decision decide_double_root(const Cubic<C>& f) {
     const Wide<C> two(2), three(3), nine(9);
     auto t = narrowed(nine * (f[0] * f[3])) - f[1] * f[2];
@@ -242,11 +247,13 @@ class CodimensionOne {
   std::array<std::optional<View<C, insides_count>>, 3> views_;
 };
 
-/// Decides the other problems: the features meet iff all of `zero` vanish and `not_positive` is not positive at the same time.
+/// Decides the other problems: the features meet iff all of `zero` vanish and `not_positive` is not positive at the
+/// same time.
 template <std::size_t L, std::size_t N>
 class ZeroSet {
  public:
-  ZeroSet(const std::array<SignedForm<L>, N>& zero, const SignedForm<L>& not_positive) : zero_(zero), not_positive_(not_positive) {}
+  ZeroSet(const std::array<SignedForm<L>, N>& zero, const SignedForm<L>& not_positive)
+      : zero_(zero), not_positive_(not_positive) {}
 
   Decision decide() const {
     if (holds(EndTime{false})) return contact_in({0, 0});
@@ -289,7 +296,8 @@ Decision decide_vertex_edge(const std::array<Moving<Wide<C>, Dim>, 3>& x) {
   return ZeroSet<2 * C, Between<C, Dim>::cross_count>(between.zero, between.not_positive).decide();
 }
 
-/// Two vertices: every coordinate of their difference vanishes. Each, of degree 1, is raised to degree 2 by the factor s + t = 1.
+/// Two vertices: every coordinate of their difference vanishes. Each, of degree 1, is raised to degree 2 by the factor
+/// s + t = 1.
 template <std::size_t C, std::size_t Dim>
 Decision decide_vertex_vertex(const std::array<Moving<Wide<C>, Dim>, 2>& x) {
   const auto d = x[1] - x[0];

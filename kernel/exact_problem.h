@@ -4,10 +4,10 @@
 //
 // Notation (formula.h)
 //   C                 limbs of a coordinate; a form of degree 2 then takes 2 C, one of degree 3 takes 3 C
-//   view              the configuration seen along one axis: its insides, and the form that is zero when it is degenerate in this view
-//   time              an object of exact_times.h, with the exact sign of quadratic forms
-// Given that the points are coplanar at a time, the features meet iff, in a view that is not degenerate then, no inside has a sign opposite to
-// that form's. When every view is degenerate, they meet iff one of the `degenerate_parts` holds.
+//   view              the configuration seen along one axis: its insides, and the form that is zero when it is
+//   degenerate in this view time              an object of exact_times.h, with the exact sign of quadratic forms
+// Given that the points are coplanar at a time, the features meet iff, in a view that is not degenerate then, no inside
+// has a sign opposite to that form's. When every view is degenerate, they meet iff one of the `degenerate_parts` holds.
 //
 // What this does not do: it finds no times.
 #pragma once
@@ -53,17 +53,19 @@ double largest(const std::array<double, N>& c) {
   return size;
 }
 
-/// A quadratic form, and its coefficients rounded to double: these mostly suffice for the sign at a time that is known to 2^-45, and
-/// spare the long products.
+/// A quadratic form, and its coefficients rounded to double: these mostly suffice for the sign at a time that is known
+/// to 2^-45, and spare the long products.
 template <std::size_t L>
 class SignedForm {
  public:
   SignedForm() = default;
-  explicit SignedForm(const Form<Wide<L>, 2>& form) : exact_(form), rounded_(rounded(form)), bound_(0x1p-40 * largest(rounded_)) {}
+  explicit SignedForm(const Form<Wide<L>, 2>& form)
+      : exact_(form), rounded_(rounded(form)), bound_(0x1p-40 * largest(rounded_)) {}
 
   const Form<Wide<L>, 2>& exact() const { return exact_; }
 
-  /// The sign at times near t, if it is certain.
+  /// The sign at all times within 2^-45 of t, if it is certain. Precondition: t in [0, 1], or not a number: then
+  /// nothing is certain.
   std::optional<int> certain_sign(double t) const {
     const double value = bernstein::value_at(rounded_, t);
     if (value > bound_) return 1;
@@ -115,11 +117,13 @@ struct View {
   std::array<SignedForm<2 * C>, Insides> insides;
   SignedForm<2 * C> degenerate;
 
-  View(const std::array<Quadratic<C>, Insides>& forms, const Quadratic<C>& degenerate_form) : degenerate(degenerate_form) {
+  View(const std::array<Quadratic<C>, Insides>& forms, const Quadratic<C>& degenerate_form)
+      : degenerate(degenerate_form) {
     for (std::size_t k = 0; k < Insides; ++k) insides[k] = SignedForm<2 * C>(forms[k]);
   }
 
-  /// Given that the points are coplanar and the view is not degenerate: whether no inside has the sign opposite to `orientation`.
+  /// Given that the points are coplanar and the view is not degenerate: whether no inside has the sign opposite to
+  /// `orientation`.
   template <class Time>
   bool contact(const Time& time, double t, int orientation) const {
     for (const auto& g : insides) {

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Times of a step at which a polynomial of degree 2 vanishes, in closed form, and the exact sign of other quadratic forms at them.
+// Times of a step at which a polynomial of degree 2 vanishes, in closed form, and the exact sign of other quadratic
+// forms at them.
 //
 // Notation (formula.h)
-//   z = t / s         in (0, infinity) for t inside the step: a form of degree n is a polynomial in z, c[0] + c[1] z + ... + c[n] z^n
-//   p                 the form that vanishes, D = p1^2 - 4 p0 p2
-//   g                 a form of degree 2 or 3 whose sign is asked for
+//   z = t / s         in (0, infinity) for t inside the step: a form of degree n is a polynomial in z, c[0] + c[1] z +
+//   ... + c[n] z^n p                 the form that vanishes, D = p1^2 - 4 p0 p2 g                 a form of degree 2 or
+//   3 whose sign is asked for
 //
-// Widths: for coefficients of p below 2^P and of g below 2^G in magnitude, the largest number that arises is below
-// 2^(4 P + 2 G + 2 P + 10) for a g of degree 2, and 2^(6 P + 2 G + 2 P + 10) for one of degree 3; its type has as many limbs as the
-// same sum over limbs.
+// Widths: for coefficients of p below 2^P and of g below 2^G in magnitude, the largest number that arises in a sign is
+// below 2^(4 P + 2 G + 7) for a g of degree 2, and 2^(6 P + 2 G + 7) for one of degree 3 (at a RationalTime with s and
+// t below 2^P, less). With p in W and g in L limbs it is computed in 4 W + 2 L and 6 W + 2 L limbs.
 //
-// What this does not do: no time at which only a polynomial of degree 3 vanishes. It has no closed form within the numbers at hand.
+// What this does not do: no time at which only a polynomial of degree 3 vanishes. It has no closed form within the
+// numbers at hand.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "noli/kernel/formula.h"
 #include "noli/kernel/wide.h"
@@ -35,7 +38,7 @@ struct EndTime {
   double approximate() const { return at_t1 ? 1 : 0; }
 };
 
-/// The rational time t / (s + t), s, t > 0.
+/// The rational time t / (s + t), s > 0. Inside the step iff t > 0; signs may be asked of others too.
 template <std::size_t W>
 struct RationalTime {
   Wide<W> s, t;
@@ -49,9 +52,10 @@ struct RationalTime {
     const auto ss = s * s, st = s * t, tt = t * t;
     return (g[0] * (ss * s) + g[1] * (ss * t) + g[2] * (st * t) + g[3] * (tt * t)).sign();
   }
+  /// Not a number when s or t is beyond the range of double; callers then take the exact way.
   double approximate() const {
-    const double a = s.approximate(), b = t.approximate();
-    return b / (a + b);
+    const double a = s.approximate(), b = t.approximate(), sum = a + b;
+    return std::isfinite(sum) ? b / sum : std::numeric_limits<double>::quiet_NaN();
   }
 };
 
@@ -103,7 +107,8 @@ Wide<2 * W> discriminant(const Form<Wide<W>, 2>& p) {
   return p[1] * p[1] - (twice + twice);
 }
 
-/// Calls visit(time) for each time inside the step at which p0 s + p1 t is zero; stops when visit returns true, and returns that.
+/// Calls visit(time) for each time inside the step at which p0 s + p1 t is zero; stops when visit returns true, and
+/// returns that.
 template <std::size_t W, class Visit>
 bool any_linear_root(const Wide<W>& p0, const Wide<W>& p1, Visit&& visit) {
   const int sign0 = p0.sign(), sign1 = p1.sign();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The stage between exact integers of fixed width and GMP: Bernstein coefficients in CGAL::Interval_nt, for queries whose exponents do
-// not fit the fixed width, or that double precision could not settle.
+// The stage between exact integers of fixed width and GMP: Bernstein coefficients in CGAL::Interval_nt, for queries
+// whose exponents do not fit the fixed width, or that double precision could not settle.
 //
 // What this does not do: like every filter it is silent about degenerate queries. It needs directed rounding to work
 // (kernel/rounding.h) and must not be called when it does not.

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The quick way through the Bernstein stage in double: when the roots of the coplanarity cubic can be told apart, only the insides
-// at those roots matter.
+// The quick way through the Bernstein stage in double: when the roots of the coplanarity cubic can be told apart, only
+// the insides at those roots matter.
 //
 // Notation
-//   f                 the cubic, as scaled Bernstein coefficients on a piece of the step; a sign of a coefficient is *certain* when
+//   f                 the cubic, as scaled Bernstein coefficients on a piece of the step; a sign of a coefficient is
+//   *certain* when
 //                     its magnitude is above `bound`
-//   sliver            the part of the piece that is within `reach` of x; f has certain, opposite signs at its ends, and just one root in it
-// One certain change of sign (Descartes) is one root: a few safeguarded steps of Halley's method propose where, and the signs at the ends of a sliver
-// prove it. Two roots are separated by splitting where f seems to have its extremum.
+//   sliver            the part of the piece that is within `reach` of x; f has certain, opposite signs at its ends, and
+//   just one root in it
+// One certain change of sign (Descartes) is one root: a few safeguarded steps of Halley's method propose where, and the
+// signs at the ends of a sliver prove it. Two roots are separated by splitting where f seems to have its extremum.
 //
-// What this does not do: it says `unknown` when f is nearly zero at an end of the step or a root is nearly double; bernstein.h looks
-// at more.
+// What this does not do: it says `unknown` when f is nearly zero at an end of the step or a root is nearly double;
+// bernstein.h looks at more.
 #pragma once
 
 #include <algorithm>
@@ -48,8 +50,10 @@ inline Root halley(const Cubic& c) {
     const bool before_root = (f < 0) == (a0 < 0);
     low = before_root ? x : low;
     high = before_root ? high : x;
-    double next = x - f * df / (df * df - f * half_ddf);
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    const double square = df * df, curvature = f * half_ddf;
+    double next = x - f * df / (square - curvature);
+    // Near an extremum of f the step is short without being near a root.
+    if (!(next >= low && next <= high) || square < std::abs(curvature)) next = 0.5 * (low + high);
     step = next - x;
     x = next;
   }
@@ -63,8 +67,8 @@ struct RoundedCubic {
   double level;  ///< of what one run of de Casteljau adds to that
 };
 
-/// The search. inside(low, high, f_before) is asked about each root, in ascending order until it answers `contact`: the root is between
-/// low and high, no other root is (but within 2^-49 beyond), and f_before is the sign of f before it.
+/// The search. inside(low, high, f_before) is asked about each root, in ascending order until it answers `contact`: the
+/// root is between low and high, no other root is (but within 2^-49 beyond), and f_before is the sign of f before it.
 template <class Inside>
 class RootSearch {
  public:
@@ -120,6 +124,8 @@ class RootSearch {
 
   Verdict settle_sliver(const Cubic& f, const Root& root, double value_bound, double begin, double width) {
     const double low = std::max(0.0, root.x - root.reach), high = std::min(1.0, root.x + root.reach);
+    if (!(high - low < 0.125))
+      return Verdict::unknown;  // nothing would be certain on it, and error bounds are for short ones
     const int before = sign(bernstein::value_at(f, low), value_bound);
     if (before * sign(bernstein::value_at(f, high), value_bound) >= 0) return Verdict::unknown;
     constexpr double outward = 0x1p-50;  // above the rounding of times, which stay in [0, 1]

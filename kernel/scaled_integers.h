@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The coordinates of a query as integers: all multiplied by one power of two. Exact; contact and its time do not change.
+// The coordinates of a query as integers: all multiplied by one power of two. Exact; contact and its time do not
+// change.
 #pragma once
 
 #include <algorithm>
@@ -65,7 +66,8 @@ ExponentRange exponent_range(const Query<Pair, Dim>& q) {
 
 /// The moving points of a query, times 2^-range.low. Precondition: range.bits() < 64 C.
 template <std::size_t C, FeaturePair Pair, int Dim>
-std::array<formula::Moving<Wide<C>, Dim>, point_count(Pair)> scaled(const Query<Pair, Dim>& q, const ExponentRange& range) {
+std::array<formula::Moving<Wide<C>, Dim>, point_count(Pair)> scaled(const Query<Pair, Dim>& q,
+                                                                    const ExponentRange& range) {
   const auto integer = [&range](double x) {
     if (x == 0) return Wide<C>();
     const OddBinary parts(x);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The stages a decision passes through, each certain when it answers and silent otherwise, and how often each one answered.
+// The stages a decision passes through, each certain when it answers and silent otherwise, and how often each one
+// answered.
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ enum class Stage {
   direction,   ///< a separating direction, with a proved floating-point error bound
   bernstein,   ///< Bernstein coefficients with bisection, in double with a proved error bound
   fixed,       ///< exact integers of fixed width, without allocation
-  interval,    ///< Bernstein coefficients in interval arithmetic (CGAL::Interval_nt), for exponents that do not fit the fixed width
+  interval,    ///< Bernstein coefficients in interval arithmetic (CGAL::Interval_nt), for exponents that do not fit the
+               ///< fixed width
   gmp          ///< exact integers of any width
 };
 

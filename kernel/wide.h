@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Signed integers of a fixed number of 64-bit limbs, without allocation. Products widen, so they are exact; sums keep the width of the
-// wider operand, and it is the caller's business to leave enough bits free (exact.h counts them).
+// Signed integers of a fixed number of 64-bit limbs, without allocation. Products widen, so they are exact; sums keep
+// the width of the wider operand, and it is the caller's business to leave enough bits free (contact.cpp counts them).
 //
 // What this does not do: no division, no text, no overflow checks at run time.
 #pragma once
@@ -25,15 +25,15 @@ class Wide {
   }
   /// Sign extension.
   template <std::size_t M>
-    requires(M < N)
-  constexpr explicit Wide(const Wide<M>& narrow) {
+  requires(M < N) constexpr explicit Wide(const Wide<M>& narrow) {
     limbs_.fill(narrow.is_negative() ? ~std::uint64_t{0} : 0);
     for (std::size_t i = 0; i < M; ++i) limbs_[i] = narrow.limb(i);
   }
 
   /// mantissa * 2^shift. Precondition: it fits, with the sign bit.
   static constexpr Wide shifted(std::int64_t mantissa, unsigned shift) {
-    const std::uint64_t magnitude = mantissa < 0 ? 0 - static_cast<std::uint64_t>(mantissa) : static_cast<std::uint64_t>(mantissa);
+    const std::uint64_t magnitude =
+        mantissa < 0 ? 0 - static_cast<std::uint64_t>(mantissa) : static_cast<std::uint64_t>(mantissa);
     Wide result;
     const std::size_t limb = shift / 64, bit = shift % 64;
     result.limbs_[limb] = magnitude << bit;
@@ -129,7 +129,8 @@ constexpr Wide<N + M> operator*(const Wide<N>& a, const Wide<M>& b) {
 
 /// Two limbs are what the machine multiplies by itself.
 constexpr Wide<2> operator*(const Wide<1>& a, const Wide<1>& b) {
-  const SignedDoubleLimb product = static_cast<SignedDoubleLimb>(static_cast<std::int64_t>(a.limb(0))) * static_cast<std::int64_t>(b.limb(0));
+  const SignedDoubleLimb product =
+      static_cast<SignedDoubleLimb>(static_cast<std::int64_t>(a.limb(0))) * static_cast<std::int64_t>(b.limb(0));
   Wide<2> result;
   result.limb(0) = static_cast<std::uint64_t>(product);
   result.limb(1) = static_cast<std::uint64_t>(static_cast<DoubleLimb>(product) >> 64);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a set of vertices is joined to: the cells of a mesh, by vertex index. No coordinates (see frames.h, world_lines.h).
+// What a set of vertices is joined to: the cells of a mesh, by vertex index. No coordinates (see frames.h,
+// world_lines.h).
 #pragma once
 
 #include <array>
@@ -14,9 +15,9 @@ using VertexId = std::uint32_t;
 /// Coordinates in the file's own unit of length. The same type as the kernel's point in three dimensions.
 using Position = std::array<double, 3>;
 
-/// Cells of a mesh. A *cell* is a face, a loose edge or a loose point: what the file lists. Its features are its vertices, edges
-/// and itself. Cells are numbered in this order: faces, then edges, then points.
-/// Invariant (checked by the readers): every index is below vertex_count. An index may occur twice in a cell: it is degenerate.
+/// Cells of a mesh. A *cell* is a face, a loose edge or a loose point: what the file lists. Its features are its
+/// vertices, edges and itself. Cells are numbered in this order: faces, then edges, then points. Invariant (checked by
+/// the readers): every index is below vertex_count. An index may occur twice in a cell: it is degenerate.
 struct Mesh {
   std::size_t vertex_count = 0;
   std::vector<std::array<VertexId, 3>> faces;

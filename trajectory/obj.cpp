@@ -34,15 +34,17 @@ class ObjParser {
  private:
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_, line_place(line_), problem); }
 
-  /// A line, joined with the next ones as long as it ends with a backslash.
+  /// A line, joined with the next ones as long as it ends with a backslash. A comment is not continued: it may end in a
+  /// Windows path.
   bool next_statement(std::string_view& statement) {
     if (!lines_.next(statement)) return false;
     line_ = lines_.number();
-    if (!statement.ends_with('\\')) return true;
+    if (!statement.ends_with('\\') || statement.find('#') != std::string_view::npos) return true;
     joined_.clear();
     do {
       joined_ += statement.substr(0, statement.size() - statement.ends_with('\\'));
       joined_ += ' ';
+      if (statement.find('#') != std::string_view::npos) break;
     } while (statement.ends_with('\\') && lines_.next(statement));
     statement = joined_;
     return true;

@@ -19,6 +19,16 @@ TEST(FuzzQueries, FindsNoDifferenceAndDependsOnTheSeedAlone) {
   EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(FuzzQueries, TakesWholeNumbersThatFitAndNoOthers) {
+  for (const char* const count : {"0", "-5", "1e3", "010", "18446744073709551615", "18446744073709551616"}) {
+    EXPECT_EQ(run_noli({"fuzz", "queries", "--count", count}).exit_code, 3) << count;
+  }
+  for (const char* const seed : {"-1", "010", "99999999999999999999999"}) {
+    EXPECT_EQ(run_noli({"fuzz", "queries", "--count", "1", "--seed", seed}).exit_code, 3) << seed;
+  }
+  EXPECT_EQ(run_noli({"fuzz", "queries", "--count", "1", "--seed", "18446744073709551615"}).exit_code, 0);
+}
+
 TEST(FuzzQueries, StopsWhenItsTimeIsOver) {
   const Folder folder;
   const Process process = run_noli({"fuzz", "queries", "--for", "300ms", "--out", folder.path("out")});

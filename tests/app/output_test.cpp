@@ -58,6 +58,13 @@ TEST_F(JsonOutput, TakesThePlaceOfTheTextOnStandardOutput) {
   EXPECT_EQ(nlohmann::json::parse(process.out)["verdict"], "described");
 }
 
+TEST_F(JsonOutput, IsNeverWrittenOverAnInput) {
+  const Process process = run(mesh);
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("is read too"), std::string::npos) << process.err;
+  EXPECT_EQ(run_noli({"info", mesh}).exit_code, 0);  // still a mesh
+}
+
 TEST_F(JsonOutput, ReplacesAFileWhole) {
   const auto path = folder.write("out.json", std::string(100'000, 'x'));
   EXPECT_EQ(run(path).exit_code, 0);

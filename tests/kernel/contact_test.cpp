@@ -82,7 +82,8 @@ TEST(Contact, VertexEdgeAndVertexVertexAgreeWithTheOracle) {
   compare_all<FeaturePair::vertex_vertex, 2>(2000);
 }
 
-// --- Each stage by itself: silent, or right ---------------------------------------------------------------------------
+// --- Each stage by itself: silent, or right
+// ---------------------------------------------------------------------------
 
 struct StageResult {
   int wrong = 0;
@@ -152,7 +153,8 @@ template <template <std::size_t> class Problem, FeaturePair Pair>
 void check_fixed_width() {
   StageResult one_limb, two_limbs;
   std::mt19937_64 random(8);
-  for (const Coordinates how : {Coordinates::tiny_grid, Coordinates::floats, Coordinates::doubles, Coordinates::nudged_grid}) {
+  for (const Coordinates how :
+       {Coordinates::tiny_grid, Coordinates::floats, Coordinates::doubles, Coordinates::nudged_grid}) {
     for (int i = 0; i < 1500; ++i) {
       const auto q = test::any_query<Pair, 3>(how, random);
       const bool truth = oracle::first_contact(test::motion_of(q)).time.has_value();
@@ -174,7 +176,8 @@ TEST(Stages, FixedWidthIsSilentOrRightForEdgeEdge) {
   check_fixed_width<exact::EdgeEdgeProblem, FeaturePair::edge_edge>();
 }
 
-// --- By hand -----------------------------------------------------------------------------------------------------------
+// --- By hand
+// -----------------------------------------------------------------------------------------------------------
 
 /// A vertex that falls on the face (0,0,0) (1,0,0) (0,1,0), from z_t0 to z_t1 above (x, y).
 VertexFace3 falling(double x, double y, double z_t0, double z_t1) {
@@ -202,7 +205,8 @@ TEST(Contact, AContactAtAnEndOfTheStepCounts) {
 }
 
 TEST(Contact, TwoCrossingsInOneStepAreSeen) {
-  // The face turns in the plane z = (2 t - 1) x, below the vertex 2 (t - 1/2)^2 high: through 1/8 at t = 1/4 and at t = 3/4.
+  // The face turns in the plane z = (2 t - 1) x, below the vertex 2 (t - 1/2)^2 high: through 1/8 at t = 1/4 and at t =
+  // 3/4.
   VertexFace3 q{{Point3{-0.5, -0.5, 0.125}, Point3{-1, -1, 1}, Point3{1, -1, -1}, Point3{0, 1, 0}},
                 {Point3{0.5, -0.5, 0.125}, Point3{-1, -1, -1}, Point3{1, -1, 1}, Point3{0, 1, 0}}};
   const auto first = contact(q);
@@ -230,6 +234,58 @@ TEST(Contact, EdgesThatOverlapOnALineMeet) {
   EXPECT_TRUE(meet(q));
   q.x_t1[2][0] = std::nextafter(1.0, 2.0);
   EXPECT_FALSE(meet(q));
+}
+
+/// At t = 1/2 the face is a point; the simple root of the cubic, t = 1/4, has numerator and denominator beyond the
+/// range of double.
+TEST(Contact, ARootTooLargeForDoubleIsStillARoot) {
+  for (const double x : {0x1p-80, 0x1p-112, 0x1p-115}) {
+    const VertexFace3 q{{Point3{x, 0, -2}, Point3{-1, -1, 0}, Point3{2, -1, 0}, Point3{-1, 2, 0}},
+                        {Point3{x, 0, 6}, Point3{-1, -1, 0}, Point3{-4, -1, 0}, Point3{-1, -4, 0}}};
+    EXPECT_FALSE(meet(q)) << x;
+    VertexFace3 hit = q;
+    hit.x_t0[0][0] = hit.x_t1[0][0] = -0.25 - x;
+    hit.x_t0[0][1] = hit.x_t1[0][1] = -0.25;
+    EXPECT_TRUE(meet(hit)) << x;
+  }
+}
+
+TEST(Contact, ARootNearTheBeginOfTheStepIsFoundOnBothItsSides) {
+  const double e = 0x1p-34, z = 0x1p-3;
+  EXPECT_TRUE(
+      meet(VertexFace3{{Point3{e, 0, -e * z}, Point3{0, -10, 0}, Point3{10, 0, 0}, Point3{0, 10, 0}},
+                       {Point3{1 + e, 0, (1 - e) * z}, Point3{0, -11, 0}, Point3{12, 0, 0}, Point3{0, 10, 0}}}));
+  EXPECT_TRUE(meet(
+      EdgeEdge3{{Point3{e, -10, -e * z}, Point3{e, 11, -e * z}, Point3{0, 0, 0}, Point3{10, 1, 0}},
+                {Point3{1 + e, -12, (1 - e) * z}, Point3{1 + e, 10, (1 - e) * z}, Point3{0, 0, 0}, Point3{13, 0, 0}}}));
+}
+
+TEST(Contact, TwoRootsNextToEachOtherAreKeptApart) {
+  const double first = 0.5 - 0x1p-24, second = 0.5 + 0x1p-24, t = first - 0x1p-28, z = 0x1p-12, y = 0x1p-30;
+  EXPECT_TRUE(meet(VertexFace3{
+      {Point3{-t / 4, y, -second * z}, Point3{0, 0, 0}, Point3{-first, 0, 0}, Point3{0, 1, 0}},
+      {Point3{(1 - t) / 4, y, (1 - second) * z}, Point3{0, 0, 0}, Point3{1 - first, 0, 0}, Point3{0, 2, 0}}}));
+  EXPECT_FALSE(meet(EdgeEdge3{{Point3{2, -1, 0}, Point3{2, -1, -1}, Point3{-1, 0, -2}, Point3{1, -2, 0}},
+                              {Point3{2, -1, 1}, Point3{-2, -2, 0}, Point3{-2, 1, 2}, Point3{-1, 0, 1}}}));
+}
+
+/// One axis shrunk by a power of two changes nothing but what double can still see.
+template <FeaturePair Pair>
+void compare_shrunk() {
+  std::mt19937_64 random(9);
+  for (int i = 0; i < 100'000; ++i) {
+    const auto q = test::any_query<Pair, 3>(Coordinates::tiny_grid, random);
+    auto shrunk = q;
+    for (auto* points : {&shrunk.x_t0, &shrunk.x_t1}) {
+      for (auto& point : *points) point[static_cast<std::size_t>(i) % 3] *= 0x1p-48;
+    }
+    ASSERT_EQ(meet(q), meet(shrunk)) << text(q);
+  }
+}
+
+TEST(Contact, ShrinkingAnAxisChangesNoAnswer) {
+  compare_shrunk<FeaturePair::vertex_face>();
+  compare_shrunk<FeaturePair::edge_edge>();
 }
 
 TEST(Contact, ExtremeScalesGiveTheSameAnswers) {

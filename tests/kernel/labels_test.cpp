@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Published queries with known truth: every label, and how far down the stages the queries of each file get. The ceilings keep a
-// silent loss of speed from passing as long as every answer stays right.
+// Published queries with known truth: every label, and how far down the stages the queries of each file get. The
+// ceilings keep a silent loss of speed from passing as long as every answer stays right.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -50,7 +50,9 @@ const std::map<std::string, Ceilings> ceilings = {
 void expect_shares(const std::string& file, const StageCounters& counters, std::size_t queries) {
   const auto found = ceilings.find(file);
   const Ceilings limit = found == ceilings.end() ? Ceilings{} : found->second;
-  const auto percent = [queries](std::uint64_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(queries); };
+  const auto percent = [queries](std::uint64_t n) {
+    return 100.0 * static_cast<double>(n) / static_cast<double>(queries);
+  };
   const std::uint64_t gmp = counters[Stage::gmp], interval = gmp + counters[Stage::interval];
   EXPECT_LE(percent(interval + counters[Stage::fixed]), limit.exact) << file;
   EXPECT_LE(percent(interval), limit.interval) << file;
@@ -65,7 +67,8 @@ bool meet_any(QueryKind kind, const QueryRecord& record, StageCounters& counters
 /// Queries that were once answered wrongly, as small as they could be made.
 TEST(Labels, QueriesOnceAnsweredWrongly) {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(NOLI_SOURCE_DIR) / "tests/kernel/queries")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(NOLI_SOURCE_DIR) / "tests/kernel/queries")) {
     const QueryKind kind = kind_from_file_name(entry.path()).value();
     StageCounters counters;
     for (const QueryRecord& record : read_query_csv(entry.path(), kind)) {

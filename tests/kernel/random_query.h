@@ -13,12 +13,12 @@ namespace noli::test {
 
 /// How the coordinates of a query are drawn.
 enum class Coordinates {
-  tiny_grid,   ///< integers from -2 to 2: nearly everything coincides
-  small_grid,  ///< integers from -9 to 9
-  floats,      ///< 24 bits in [-1, 1)
-  doubles,     ///< 53 bits in [-1, 1)
-  nudged_grid, ///< integers from -2 to 2, some moved by a few ulps
-  far_apart    ///< integers times powers of two from 2^-400 to 2^400
+  tiny_grid,    ///< integers from -2 to 2: nearly everything coincides
+  small_grid,   ///< integers from -9 to 9
+  floats,       ///< 24 bits in [-1, 1)
+  doubles,      ///< 53 bits in [-1, 1)
+  nudged_grid,  ///< integers from -2 to 2, some moved by a few ulps
+  far_apart     ///< integers times powers of two from 2^-400 to 2^400
 };
 
 constexpr std::array all_coordinates = {Coordinates::tiny_grid, Coordinates::small_grid,  Coordinates::floats,

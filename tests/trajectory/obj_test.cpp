@@ -6,6 +6,11 @@
 namespace noli {
 namespace {
 
+TEST(ObjComment, IsNotContinuedByABackslashAtItsEnd) {
+  const Frame frame = parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n# C:\\x\\\nf 1 2 3\nf 3 2 1 # D:\\\nf 2 1 3\n", "a.obj");
+  EXPECT_EQ(frame.mesh.faces.size(), 3U);
+}
+
 using testing::bits;
 using Faces = decltype(Mesh::faces);
 using Edges = decltype(Mesh::edges);
