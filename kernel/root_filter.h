@@ -38,12 +38,13 @@ struct Root {
   double reach;
 };
 
-/// About where the one root in (0, 1) is. After a step the error is about its cube, so its square is a generous reach.
-inline Root halley(const Cubic& c) {
+/// About where the one root in (0, 1) is: after the first step that is no longer than `last_step`. The error left is
+/// about the cube of that step, so its square is a generous reach.
+inline Root halley(const Cubic& c, double last_step) {
   const double d0 = c[1] - c[0], d1 = c[2] - c[1], d2 = c[3] - c[2], e0 = d1 - d0;
   const double a0 = c[0], a1 = 3 * d0, a2 = 3 * e0, a3 = (d2 - d1) - e0;
   double low = 0, high = 1, x = c[0] / (c[0] - c[3]), step = 1;
-  for (int i = 0; i < 8 && std::abs(step) > 0x1p-11; ++i) {
+  for (int i = 0; i < 8 && std::abs(step) > last_step; ++i) {
     const double f = ((a3 * x + a2) * x + a1) * x + a0;
     const double df = (3 * a3 * x + 2 * a2) * x + a1;
     const double half_ddf = 3 * a3 * x + a2;
@@ -104,10 +105,13 @@ class RootSearch {
     return after == Verdict::apart ? before : after;
   }
 
-  /// The piece has one root. A sliver as narrow as double allows is tried only when the first one was too wide.
+  /// The piece has one root. A rough sliver mostly does; narrower ones are tried when it was too wide or missed the
+  /// root.
   Verdict settle_root(const Cubic& f, double bound, double begin, double width) {
-    const Root root = halley(f);
     const double value_bound = bound + cubic_.level;
+    const Verdict rough = settle_sliver(f, halley(f, 0x1p-6), value_bound, begin, width);
+    if (rough != Verdict::unknown) return rough;
+    const Root root = halley(f, 0x1p-11);
     const Verdict verdict = settle_sliver(f, root, value_bound, begin, width);
     if (verdict != Verdict::unknown) return verdict;
     const Verdict sharper = settle_sliver(f, sharpened(f, root, value_bound), value_bound, begin, width);
