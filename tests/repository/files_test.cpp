@@ -44,7 +44,8 @@ TEST(Files, APlantedPathIsFound) {
   EXPECT_EQ(private_path("see " + root + "home/me/x"), root + "home/me");
   EXPECT_EQ(private_path(root + "work/x"), root + "work/x");
   EXPECT_EQ(private_path("-I\"" + root + "root/a b\""), root + "root/a");
-  EXPECT_EQ(private_path("/usr/include, https://example.org/home/page, .." + root + "work/x, $HOME" + root + "work/x"), "");
+  EXPECT_EQ(private_path("/usr/include, https://example.org/home/page, .." + root + "work/x, $HOME" + root + "work/x"),
+            "");
 }
 
 TEST(Files, CodeBeginsWithItsLicence) {
