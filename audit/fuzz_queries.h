@@ -5,12 +5,11 @@
 //
 // Notation
 //   block    queries_per_block queries of one generator. Block b is of generator b mod (number of generators), and its
-//   queries depend on
-//            the seed and b alone, so that a run gives the same queries whatever the number of threads.
+//            queries depend on the seed and b alone, so that a run gives the same queries whatever the number of
+//            threads.
 //   answer   apart, touching, crossing or persistent: the oracle's
 //   finding  a query on which the subject's answer is wrong: it is in contact or not, the kind, the least time rounded
-//   down to double, the
-//            enclosure of that time; or an answer of the oracle that the generator does not declare
+//            down to double, the enclosure of that time; or an answer of the oracle that the generator does not declare
 //
 // What this does not do: it does not look for crashes of the subject (libFuzzer targets do), nor time it.
 #pragma once

@@ -3,12 +3,12 @@
 // Queries made backwards from an answer: recipes whose truth is known by construction.
 //
 // approach   at t* = k / n all points are in the floor, where their hulls meet or not; before, every point of one
-// feature was strictly
-//            above every point of the other, afterwards it is strictly below. So t* is the only time at which they can
-//            meet. If they do and the points span the floor, the orientation has a simple root there: writing c_i > 0
-//            for the relative heights and w_i for the weights of the contact, sum w_i c_i is not zero.
+//            feature was strictly above every point of the other, afterwards it is strictly below. So t* is the only
+//            time at which they can meet. If they do and the points span the floor, the orientation has a simple root
+//            there: writing c_i > 0 for the relative heights and w_i for the weights of the contact, sum w_i c_i is not
+//            zero.
 // carried    at t = 0 and at t = 1 a point of one feature coincides with one of the other, with the same weights: so it
-// does at all times
+//            does at all times
 #pragma once
 
 #include <optional>

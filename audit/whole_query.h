@@ -5,8 +5,10 @@
 // Notation
 //   p, q        directions, from which the points at the time of contact are made
 //   floor       the coordinate (hyper)plane in which those points lie; the coordinate that is zero there is the height:
-//   the last one t* = k / n  the time of contact v           displacement of a point in one n-th of the step; so x_t0 =
-//   x - k v and x_t1 = x + (n - k) v, with t* rational and all else whole
+//               the last one
+//   t* = k / n  the time of contact
+//   v           displacement of a point in one n-th of the step; so x_t0 = x - k v and x_t1 = x + (n - k) v, with t*
+//               rational and all else whole
 #pragma once
 
 #include <array>

@@ -7,8 +7,7 @@
 //
 // Notation
 //   p, q, r           three differences of the query's points that are linearly dependent when the four points are
-//   coplanar;
-//                     p(t) = p + t dp, ...
+//                     coplanar; p(t) = p + t dp, ...
 //   c                 det(p(t), q(t), r(t)) = c[0] + c[1] t + c[2] t^2 + c[3] t^3
 // The cubic is cut at its critical points; on each monotone piece that changes sign a safeguarded Newton iteration
 // finds the root; at each root the barycentric coordinates, from the normal equations, decide.

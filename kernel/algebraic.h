@@ -5,8 +5,8 @@
 // Notation
 //   p                 a square-free integer polynomial
 //   [low, high]       dyadic: p has exactly one root in it, and the number is that root. Either p is not zero at low
-//   and high, which
-//                     then lie on different sides of the root, or low = high, the number is dyadic and p is linear
+//                     and high, which then lie on different sides of the root, or low = high, the number is dyadic and
+//                     p is linear
 //
 // Method: roots are separated by Descartes' rule on Bernstein coefficients with bisection (Collins and Akritas 1976;
 // Lane and Riesenfeld 1981), refined by quadratic interval refinement (Abbott 2014). Whether a polynomial is zero at a

@@ -5,13 +5,12 @@
 //
 // Notation
 //   f                 the coplanarity polynomial, degree n; g_k the insides, of degree 2 (1 in the plane), all in the
-//   Bernstein basis of
-//                     a piece of the step and up to a positive factor, the same for all coefficients of one polynomial
+//                     Bernstein basis of a piece of the step and up to a positive factor, the same for all coefficients
+//                     of one polynomial
 //   certain sign      of a number: +1, -1, or 0 for "not known"
 // On a piece, by the convex hull property of the coefficients:
 //   no contact  when all coefficients of f have one certain sign, or when some g_j is certainly positive and some g_k
-//   certainly
-//               negative throughout
+//               certainly negative throughout
 //   contact     when all g_k have the same certain sign throughout and f has certain, opposite signs at the two ends
 // When f certainly has exactly one root in the piece (Descartes), a few Newton steps shrink the piece to a sliver
 // around it on which the g_k are judged; otherwise the piece is split where f seems to have its extremum.

@@ -3,11 +3,10 @@
 // The kernel's predicates as functors over the points of a CGAL kernel, and times of impact as CGAL's algebraic numbers
 // and back.
 //
-//   noli::Vertex_face_contact_3<K>        does a moving vertex meet a moving face during the step?     -> bool
-//   noli::Vertex_face_time_of_impact_3<K> when first?                                        ->
-//   std::optional<noli::TimeOfImpact> noli::Vertex_face_first_contact_3<K>  when, and of what kind? ->
-//   std::optional<noli::FirstContact> and the same for Edge_edge_..._3, Vertex_edge_..._3, Vertex_vertex_..._3,
-//   Vertex_edge_..._2, Vertex_vertex_..._2
+//   noli::Vertex_face_contact_3<K>         does a moving vertex meet a moving face during the step?  -> bool
+//   noli::Vertex_face_time_of_impact_3<K>  when first?                -> std::optional<noli::TimeOfImpact>
+//   noli::Vertex_face_first_contact_3<K>   when, and of what kind?    -> std::optional<noli::FirstContact>
+// and the same for Edge_edge_..._3, Vertex_edge_..._3, Vertex_vertex_..._3, Vertex_edge_..._2, Vertex_vertex_..._2.
 // Each takes the points at t = 0, then the same at t = 1, in the order of kernel/query.h.
 //
 // Coordinates are doubles here. A kernel with another number type may be used as long as its coordinates happen to be

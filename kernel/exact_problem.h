@@ -5,7 +5,8 @@
 // Notation (formula.h)
 //   C                 limbs of a coordinate; a form of degree 2 then takes 2 C, one of degree 3 takes 3 C
 //   view              the configuration seen along one axis: its insides, and the form that is zero when it is
-//   degenerate in this view time              an object of exact_times.h, with the exact sign of quadratic forms
+//                     degenerate in this view
+//   time              an object of exact_times.h, with the exact sign of quadratic forms
 // Given that the points are coplanar at a time, the features meet iff, in a view that is not degenerate then, no inside
 // has a sign opposite to that form's. When every view is degenerate, they meet iff one of the `degenerate_parts` holds.
 //

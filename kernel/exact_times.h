@@ -5,8 +5,9 @@
 //
 // Notation (formula.h)
 //   z = t / s         in (0, infinity) for t inside the step: a form of degree n is a polynomial in z, c[0] + c[1] z +
-//   ... + c[n] z^n p                 the form that vanishes, D = p1^2 - 4 p0 p2 g                 a form of degree 2 or
-//   3 whose sign is asked for
+//                     ... + c[n] z^n
+//   p                 the form that vanishes, D = p1^2 - 4 p0 p2
+//   g                 a form of degree 2 or 3 whose sign is asked for
 //
 // Widths: for coefficients of p below 2^P and of g below 2^G in magnitude, the largest number that arises in a sign is
 // below 2^(4 P + 2 G + 7) for a g of degree 2, and 2^(6 P + 2 G + 7) for one of degree 3 (at a RationalTime with s and

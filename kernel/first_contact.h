@@ -5,9 +5,8 @@
 // Kinds, judged at the first time t* at which the features meet:
 //   persistent  they meet during a whole interval that begins at t* (of positive length, within the step)
 //   crossing    t* is inside the open step, the contact is of codimension one (vertex_face and edge_edge in 3D: at t*
-//   the four
-//               points span exactly a plane; vertex_edge in 2D: the three points span exactly a line), it is relatively
-//               interior to both features, and the orientation determinant changes sign at t*
+//               the four points span exactly a plane; vertex_edge in 2D: the three points span exactly a line), it is
+//               relatively interior to both features, and the orientation determinant changes sign at t*
 //   touching    every other contact
 //   apart       they do not meet
 #pragma once

@@ -7,17 +7,16 @@
 // Notation
 //   s = 1 - t         so that a point moving linearly is s x_t0 + t x_t1
 //   Form              a homogeneous polynomial in (s, t): c[0] s^n + c[1] s^(n-1) t + ... + c[n] t^n. Its values on s +
-//   t = 1 are those of
-//                     the polynomial; c[i] is binomial(n, i) times the Bernstein coefficient; c[0] and c[n] are the
-//                     values at the ends
+//                     t = 1 are those of the polynomial; c[i] is binomial(n, i) times the Bernstein coefficient; c[0]
+//                     and c[n] are the values at the ends
 //   vertex_face       d_i = f_i - v, i = 0, 1, 2. The face holds the vertex iff 0 is in the hull of the d_i
 //   edge_edge         u = a1 - a0, v = b1 - b0, w = b0 - a0
 //   coplanarity       det(d0, d1, d2), det(u, v, w): zero when the four points lie in a plane
 //   insides           2D areas (one component of a cross product), seen along a coordinate axis. In a contact they
-//   never have opposite
-//                     signs; when the points are coplanar and all insides have the same strict sign, there is a
-//                     contact. (vertex_face: the areas that 0 makes with the edges of the face. edge_edge: with c = u x
-//                     v, the numerators of the parameters of the crossing point and of their complements.)
+//                     never have opposite signs; when the points are coplanar and all insides have the same strict
+//                     sign, there is a contact. (vertex_face: the areas that 0 makes with the edges of the face.
+//                     edge_edge: with c = u x v, the numerators of the parameters of the crossing point and of their
+//                     complements.)
 //
 // What this does not do: it decides nothing. A sign that is zero or unknown is the business of the caller.
 #pragma once

@@ -7,8 +7,8 @@
 // judged at the first time t* of contact:
 //   persistent  in contact during a whole interval that begins at t*
 //   crossing    0 < t* < 1; vertex_face or edge_edge in 3D whose points span a plane at t*, or vertex_edge in 2D whose
-//   points span a line;
-//               relatively interior to both features; the orientation determinant changes sign at t*
+//               points span a line; relatively interior to both features; the orientation determinant changes sign at
+//               t*
 //   touching    any other contact
 #pragma once
 

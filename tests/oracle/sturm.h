@@ -4,8 +4,9 @@
 //
 // Notation
 //   sequence of (p, q)   p, q, then each the negative remainder of the two before, up to positive factors; the last is
-//   their gcd V(t)                 changes of sign along the sequence at t, zeros left out square-free          without
-//   multiple roots
+//                        their gcd
+//   V(t)                 changes of sign along the sequence at t, zeros left out
+//   square-free          without multiple roots
 //
 // Source: Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry, section 2.2 (Sturm and Sturm-Tarski queries).
 #pragma once
