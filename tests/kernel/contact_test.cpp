@@ -82,8 +82,7 @@ TEST(Contact, VertexEdgeAndVertexVertexAgreeWithTheOracle) {
   compare_all<FeaturePair::vertex_vertex, 2>(2000);
 }
 
-// --- Each stage by itself: silent, or right
-// ---------------------------------------------------------------------------
+// --- Each stage by itself: silent, or right -------------------------------------------------------------------------
 
 struct StageResult {
   int wrong = 0;
@@ -176,8 +175,7 @@ TEST(Stages, FixedWidthIsSilentOrRightForEdgeEdge) {
   check_fixed_width<exact::EdgeEdgeProblem, FeaturePair::edge_edge>();
 }
 
-// --- By hand
-// -----------------------------------------------------------------------------------------------------------
+// --- By hand --------------------------------------------------------------------------------------------------------
 
 /// A vertex that falls on the face (0,0,0) (1,0,0) (0,1,0), from z_t0 to z_t1 above (x, y).
 VertexFace3 falling(double x, double y, double z_t0, double z_t1) {
