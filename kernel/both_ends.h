@@ -27,6 +27,9 @@ class BothEnds {
   double at_t0() const { return _mm_cvtsd_f64(v_); }
   double at_t1() const { return _mm_cvtsd_f64(_mm_unpackhi_pd(v_, v_)); }
 
+  /// The two exchanged.
+  BothEnds swapped() const { return BothEnds(_mm_shuffle_pd(v_, v_, 1)); }
+
   friend BothEnds operator+(BothEnds a, BothEnds b) { return BothEnds(_mm_add_pd(a.v_, b.v_)); }
   friend BothEnds operator-(BothEnds a, BothEnds b) { return BothEnds(_mm_sub_pd(a.v_, b.v_)); }
   friend BothEnds operator*(BothEnds a, BothEnds b) { return BothEnds(_mm_mul_pd(a.v_, b.v_)); }
@@ -50,6 +53,9 @@ class BothEnds {
 
   double at_t0() const { return a_; }
   double at_t1() const { return b_; }
+
+  /// The two exchanged.
+  BothEnds swapped() const { return {b_, a_}; }
 
   friend BothEnds operator+(BothEnds x, BothEnds y) { return {x.a_ + y.a_, x.b_ + y.b_}; }
   friend BothEnds operator-(BothEnds x, BothEnds y) { return {x.a_ - y.a_, x.b_ - y.b_}; }

@@ -23,14 +23,13 @@ constexpr int two_limb_bits = 123;
 
 const Decision undecided{Verdict::unknown, {}};
 
-// --- The floating-point stages, by kind of query
-// -----------------------------------------------------------------------
+// --- The floating-point stages, by kind of query ---------------------------------------------------------------------
 
 /// Kept out of line, like all later stages: most queries end before it, and should not pay for its registers.
 template <class Filter, class Query>
-[[gnu::noinline]] Decision bernstein_stage(const Query& query, const filter::Vec<double, 3>& normal,
+[[gnu::noinline]] Decision bernstein_stage(const Query& query, const filter::Separation& separation,
                                            StageCounters& counters) {
-  const Filter filter(query, normal);
+  const Filter filter(query, separation);
   if (!filter.usable()) return undecided;
   bool near_border = false;
   Decision decision = filter::search_roots(filter, near_border);
@@ -50,7 +49,7 @@ Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis
     return {};
   }
   axis = filter::largest_component(separation.normal);
-  return bernstein_stage<Filter>(query, separation.normal, counters);
+  return bernstein_stage<Filter>(query, separation, counters);
 }
 
 Decision float_stages(const VertexFace3& query, StageCounters& counters, std::size_t& axis) {
@@ -99,8 +98,7 @@ template <FeaturePair Pair, int Dim>
   return decision;
 }
 
-// --- Integers of any width
-// ----------------------------------------------------------------------------------------------
+// --- Integers of any width -------------------------------------------------------------------------------------------
 
 template <FeaturePair Pair, int Dim>
 [[gnu::noinline]] Decision gmp_stage(const Query<Pair, Dim>& query, StageCounters& counters) {

@@ -5,9 +5,8 @@
 //
 // Notation
 //   u = 2^-53         half an ulp of 1; arithmetic rounds to nearest and is not contracted
-//   n                 the direction, any vector of doubles; n . (b - a) > 0 for all points a of the one feature and b
-//   of the other at
-//                     both ends separates them all the time, because it is linear in between
+//   n                 the direction, any vector of doubles; n . (b - a) > 0 for all points a of the one feature and
+//                     b of the other at both ends separates them all the time, because it is linear in between
 //   m                 the largest magnitude of a computed difference of coordinates
 // Error bound: a computed difference has a relative error of u, so n . d is off by at most 11u |n| m (components'
 // maxima) to first order, and a sum of three of these by 48u |n| m; 16u and 60u are used, which covers the higher
@@ -88,8 +87,10 @@ double magnitude(const Vec<double, Dim>& x) {
   return m;
 }
 
-/// A direction normal to both features at mid-time, and whether it separates them.
+/// The three differences that decide a query (d0, d1, d2 or u, v, w of formula.h), a direction normal to both features
+/// at mid-time, and whether it separates them.
 struct Separation {
+  std::array<EndVectors, 3> differences;
   Vec<double, 3> normal;
   bool separated;
 };
@@ -111,7 +112,7 @@ inline Separation separate(const VertexFace3& q) {
   const EndVectors n = constant(normal);
   const BothEnds s0 = dot(n, d0), s1 = dot(n, d1), s2 = dot(n, d2);
   const BothEnds sizes = max(max(magnitude(d0), magnitude(d1)), magnitude(d2));
-  return {normal, on_one_side(min(min(s0, s1), s2), max(max(s0, s1), s2), sizes, normal, 16)};
+  return {{d0, d1, d2}, normal, on_one_side(min(min(s0, s1), s2), max(max(s0, s1), s2), sizes, normal, 16)};
 }
 
 /// The common normal of the edges at mid-time. With w from the one edge to the other, the differences between them are
@@ -123,7 +124,7 @@ inline Separation separate(const EdgeEdge3& q) {
   const BothEnds nu = dot(n, du), nv = dot(n, dv), nw = dot(n, dw), zero(0.0);
   const BothEnds low = (nw - max(nu, zero)) + min(nv, zero), high = (nw - min(nu, zero)) + max(nv, zero);
   const BothEnds sizes = max(max(magnitude(du), magnitude(dv)), magnitude(dw));
-  return {normal, on_one_side(low, high, sizes, normal, 60)};
+  return {{du, dv, dw}, normal, on_one_side(low, high, sizes, normal, 60)};
 }
 
 }  // namespace noli::filter

@@ -8,15 +8,18 @@
 //
 // Error bounds, to first order in u; the constants used are a few per cent larger, which covers the higher orders and
 // the rounding of the bounds themselves. A computed difference of two coordinates has a relative error of u.
-//   cross product     at one end, a component is at most 2 m_a m_b, its error 8u m_a m_b (each of two products carries
-//   3u, the
-//                     subtraction u of the result); the middle coefficient is at most 4 m_a m_b, its error 20u m_a m_b
-//   scaled inside     at most 4 m_a m_b, error 20u m_a m_b. c - w x u: bounds add up, and the subtraction adds 4u of
-//   each determinant       at one end 46u m_a m_b m_c; the scaled coefficients are at most 18 m_a m_b m_c, their error
-//   168u m_a m_b m_c de Casteljau      a level adds at most 3u times the largest coefficient: 162u m_a m_b m_c for a
-//   cubic, 24u m_a m_b for an inside inside at t       a vector at time t is off by 4u m, an inside by 20u m_a m_b (c -
-//   w x u: 22u of the sum); while t moves by r, a vector moves by
-//                     at most 2 r m, an inside by (8 r + 8 r^2) m_a m_b, which is below 9 r m_a m_b for r < 1/8
+//   cross product     at one end, a component is at most 2 m_a m_b, its error 8u m_a m_b (each of two products
+//                     carries 3u, the subtraction u of the result); the middle coefficient is at most 4 m_a m_b,
+//                     its error 20u m_a m_b
+//   scaled inside     at most 4 m_a m_b, error 20u m_a m_b. c - w x u: bounds add up, and the subtraction adds 4u
+//                     of each
+//   determinant       at one end 46u m_a m_b m_c; the scaled coefficients are at most 18 m_a m_b m_c, their error
+//                     168u m_a m_b m_c
+//   de Casteljau      a level adds at most 3u times the largest coefficient: 162u m_a m_b m_c for a cubic,
+//                     24u m_a m_b for an inside
+//   inside at t       a vector at time t is off by 4u m, an inside by 20u m_a m_b (c - w x u: 22u of the sum);
+//                     while t moves by r, a vector moves by at most 2 r m, an inside by (8 r + 8 r^2) m_a m_b,
+//                     which is below 9 r m_a m_b for r < 1/8
 // Products neither overflow nor lose bits to underflow that matter when all m_x are within 2^-300 and 2^300, which is
 // tested.
 //
@@ -77,14 +80,30 @@ struct DoubleSigns {
 
 // --- Differences of a query ------------------------------------------------------------------------------------------
 
-template <FeaturePair Pair, int Dim>
-Moving<double, Dim> difference(const Query<Pair, Dim>& q, std::size_t to, std::size_t from) {
-  return {formula::operator-(q.x_t0[to], q.x_t0[from]), formula::operator-(q.x_t1[to], q.x_t1[from])};
+inline EndVectors swapped(const EndVectors& x) { return {x[0].swapped(), x[1].swapped(), x[2].swapped()}; }
+
+inline EndVectors cross(const EndVectors& a, const EndVectors& b) {
+  return {formula::cross_component(a, b, 0), formula::cross_component(a, b, 1), formula::cross_component(a, b, 2)};
 }
 
-template <std::size_t Dim>
-double magnitude(const Moving<double, Dim>& x) {
-  return std::max(magnitude(x.at_t0), magnitude(x.at_t1));
+inline double sum_of_ends(BothEnds x) { return x.at_t0() + x.at_t1(); }
+
+/// det(a, b, c), scaled. The formula is that of formula.h (a form's middle coefficients take one factor from each
+/// end), done for both ends at once.
+inline Cubic coplanarity(const EndVectors& a, const EndVectors& b, const EndVectors& c) {
+  const EndVectors ends = cross(a, b), mixed = cross(a, swapped(b));
+  const EndVectors middle = constant({sum_of_ends(mixed[0]), sum_of_ends(mixed[1]), sum_of_ends(mixed[2])});
+  const BothEnds outer = dot(c, ends), inner = dot(swapped(c), ends) + dot(c, middle);
+  return bernstein::scaled_coefficients(Cubic{outer.at_t0(), inner.at_t0(), inner.at_t1(), outer.at_t1()});
+}
+
+inline Moving<double, 3> moving(const EndVectors& x) {
+  return {{x[0].at_t0(), x[1].at_t0(), x[2].at_t0()}, {x[0].at_t1(), x[1].at_t1(), x[2].at_t1()}};
+}
+
+inline double largest_magnitude(const EndVectors& x) {
+  const BothEnds m = magnitude(x);
+  return std::max(m.at_t0(), m.at_t1());
 }
 
 /// Whether the error bounds hold: nothing overflows or underflows. False too for what is not a number.
@@ -102,10 +121,10 @@ inline std::size_t largest_component(const Vec<double, 3>& n) {
 class PlaneView {
  public:
   PlaneView(const Vec<double, 3>& normal, double t)
-      : i_((largest_component(normal) + 1) % 3), j_((i_ + 1) % 3), s_(1 - t), t_(t) {}
+      : i_((largest_component(normal) + 1) % 3), j_((i_ + 1) % 3), weights_(1 - t, t) {}
 
-  Vec<double, 2> operator()(const Moving<double, 3>& x) const {
-    return {x.at_t0[i_] * s_ + x.at_t1[i_] * t_, x.at_t0[j_] * s_ + x.at_t1[j_] * t_};
+  Vec<double, 2> operator()(const EndVectors& x) const {
+    return {sum_of_ends(x[i_] * weights_), sum_of_ends(x[j_] * weights_)};
   }
 
   /// Whether three points are collinear in this view all the time because they have one of its two coordinates in
@@ -125,7 +144,7 @@ class PlaneView {
   }
 
   std::size_t i_, j_;
-  double s_, t_;
+  BothEnds weights_;
 };
 
 /// Gathers the certain signs of insides. One that is zero throughout does not keep the others from deciding: when these
@@ -150,17 +169,18 @@ struct InsideSigns {
 
 // --- vertex_face -----------------------------------------------------------------------------------------------------
 
-/// `normal`: that of direction_filter.h, which tells the axis along which to look.
+/// `separation`: of the query; its normal tells the axis along which to look. Both must outlive the filter.
 class VertexFaceFilter {
  public:
-  VertexFaceFilter(const VertexFace3& q, const Vec<double, 3>& normal)
+  VertexFaceFilter(const VertexFace3& q, const Separation& separation)
       : query_(q),
-        normal_(normal),
-        forms_{{difference(q, 1, 0), difference(q, 2, 0), difference(q, 3, 0)}},
-        m_{magnitude(forms_.d[0]), magnitude(forms_.d[1]), magnitude(forms_.d[2])} {}
+        normal_(separation.normal),
+        d_(separation.differences),
+        m_{largest_magnitude(d_[0]), largest_magnitude(d_[1]), largest_magnitude(d_[2])} {}
 
   std::size_t axis() const { return largest_component(normal_); }
-  const formula::VertexFace<double>& forms() const { return forms_; }
+  formula::VertexFace<double> forms() const { return {{moving(d_[0]), moving(d_[1]), moving(d_[2])}}; }
+  Cubic coplanarity() const { return filter::coplanarity(d_[0], d_[1], d_[2]); }
   bool usable() const { return in_range({m_[0], m_[1], m_[2]}); }
   double volume() const { return m_[0] * m_[1] * m_[2]; }
 
@@ -168,7 +188,7 @@ class VertexFaceFilter {
   Verdict inside(double low, double high) const {
     const double t = 0.5 * (low + high), reach = (high - t) + 2 * u;
     const PlaneView view(normal_, t);
-    const Vec<double, 2> d0 = view(forms_.d[0]), d1 = view(forms_.d[1]), d2 = view(forms_.d[2]);
+    const Vec<double, 2> d0 = view(d_[0]), d1 = view(d_[1]), d2 = view(d_[2]);
     const double bound = 25 * u + 9 * reach;
     const auto collinear = [&](std::size_t a, std::size_t b) { return view.share_a_coordinate(query_, {0, a, b}); };
     InsideSigns signs;
@@ -186,8 +206,8 @@ class VertexFaceFilter {
 
  private:
   const VertexFace3& query_;
-  Vec<double, 3> normal_;
-  formula::VertexFace<double> forms_;
+  const Vec<double, 3>& normal_;
+  const std::array<EndVectors, 3>& d_;
   std::array<double, 3> m_;
 };
 
@@ -195,16 +215,19 @@ class VertexFaceFilter {
 
 class EdgeEdgeFilter {
  public:
-  EdgeEdgeFilter(const EdgeEdge3& q, const Vec<double, 3>& normal)
+  EdgeEdgeFilter(const EdgeEdge3& q, const Separation& separation)
       : query_(q),
-        normal_(normal),
-        forms_{difference(q, 1, 0), difference(q, 3, 2), difference(q, 2, 0)},
-        mu_(magnitude(forms_.u)),
-        mv_(magnitude(forms_.v)),
-        mw_(magnitude(forms_.w)) {}
+        normal_(separation.normal),
+        u_(separation.differences[0]),
+        v_(separation.differences[1]),
+        w_(separation.differences[2]),
+        mu_(largest_magnitude(u_)),
+        mv_(largest_magnitude(v_)),
+        mw_(largest_magnitude(w_)) {}
 
   std::size_t axis() const { return largest_component(normal_); }
-  const formula::EdgeEdge<double>& forms() const { return forms_; }
+  formula::EdgeEdge<double> forms() const { return {moving(u_), moving(v_), moving(w_)}; }
+  Cubic coplanarity() const { return filter::coplanarity(u_, v_, w_); }
   bool usable() const { return in_range({mu_, mv_, mw_}); }
   double volume() const { return mu_ * mv_ * mw_; }
 
@@ -212,7 +235,7 @@ class EdgeEdgeFilter {
   Verdict inside(double low, double high) const {
     const double t = 0.5 * (low + high), reach = (high - t) + 2 * u;
     const PlaneView view(normal_, t);
-    const Vec<double, 2> du = view(forms_.u), dv = view(forms_.v), dw = view(forms_.w);
+    const Vec<double, 2> du = view(u_), dv = view(v_), dw = view(w_);
     const double wu = formula::cross(dw, du), wv = formula::cross(dw, dv), c = formula::cross(du, dv);
     const double bound = 25 * u + 9 * reach;
     const double size_wu = bound * (mw_ * mu_), size_wv = bound * (mw_ * mv_), size_c = bound * (mu_ * mv_);
@@ -237,13 +260,12 @@ class EdgeEdgeFilter {
 
  private:
   const EdgeEdge3& query_;
-  Vec<double, 3> normal_;
-  formula::EdgeEdge<double> forms_;
+  const Vec<double, 3>& normal_;
+  const EndVectors &u_, &v_, &w_;
   double mu_, mv_, mw_;
 };
 
-// --- Stage: bernstein
-// --------------------------------------------------------------------------------------------------
+// --- Stage: bernstein ------------------------------------------------------------------------------------------------
 
 /// How often a piece of the step may be split. After three, what is left is nearly always degenerate.
 constexpr int subdivision_depth = 3;
@@ -252,7 +274,7 @@ constexpr int subdivision_depth = 3;
 template <class Filter>
 Decision search_roots(const Filter& filter, bool& near_border) {
   const double volume = filter.volume() * u;
-  const RoundedCubic cubic{bernstein::scaled_coefficients(filter.forms().coplanarity()), 176 * volume, 168 * volume};
+  const RoundedCubic cubic{filter.coplanarity(), 176 * volume, 168 * volume};
   const auto inside = [&filter](double low, double high, int) { return filter.inside(low, high); };
   RootSearch search(cubic, inside);
   const Decision decision = search.run(subdivision_depth);

@@ -4,11 +4,10 @@
 // the insides at those roots matter.
 //
 // Notation
-//   f                 the cubic, as scaled Bernstein coefficients on a piece of the step; a sign of a coefficient is
-//   *certain* when
-//                     its magnitude is above `bound`
-//   sliver            the part of the piece that is within `reach` of x; f has certain, opposite signs at its ends, and
-//   just one root in it
+//   f                 the cubic, as scaled Bernstein coefficients on a piece of the step; a sign of a coefficient
+//                     is *certain* when its magnitude is above `bound`
+//   sliver            the part of the piece that is within `reach` of x; f has certain, opposite signs at its ends,
+//                     and just one root in it
 // One certain change of sign (Descartes) is one root: a few safeguarded steps of Halley's method propose where, and the
 // signs at the ends of a sliver prove it. Two roots are separated by splitting where f seems to have its extremum.
 //

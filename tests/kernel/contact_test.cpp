@@ -13,6 +13,7 @@
 #include "noli/kernel/interval_filter.h"
 #include "noli/kernel/rounding.h"
 #include "noli/kernel/scaled_integers.h"
+#include "noli/tests/kernel/oracle_motion.h"
 #include "noli/tests/kernel/random_query.h"
 #include "noli/tests/oracle/oracle.h"
 
@@ -108,7 +109,7 @@ void add_float_stages(const Query& q, bool truth, StageResult& direction, StageR
   if (rounding_self_test().directed_ok) interval.add(interval_filter::decide(q).verdict, truth);
   const filter::Separation separation = filter::separate(q);
   if (separation.separated) direction.add(Verdict::apart, truth);
-  const Filter filter(q, separation.normal);
+  const Filter filter(q, separation);
   if (!filter.usable()) return;
   bool near_border = false;
   roots.add(filter::search_roots(filter, near_border).verdict, truth);
@@ -131,6 +132,26 @@ void check_float_stages() {
   expect_useful(roots);
   expect_useful(search);
   if (rounding_self_test().directed_ok) expect_useful(interval);
+}
+
+/// The cubic is computed for both ends at once; that it is the formula's is not only a matter of error bounds.
+template <class Filter, FeaturePair Pair>
+void expect_cubic_of_the_formula() {
+  std::mt19937_64 random(9);
+  for (const Coordinates how : test::all_coordinates) {
+    for (int i = 0; i < 500; ++i) {
+      const auto q = test::any_query<Pair, 3>(how, random);
+      const filter::Separation separation = filter::separate(q);
+      const Filter filter(q, separation);
+      if (!filter.usable()) continue;
+      EXPECT_EQ(filter.coplanarity(), bernstein::scaled_coefficients(filter.forms().coplanarity()));
+    }
+  }
+}
+
+TEST(Stages, BothEndsAtOnceGiveTheFormula) {
+  expect_cubic_of_the_formula<filter::VertexFaceFilter, FeaturePair::vertex_face>();
+  expect_cubic_of_the_formula<filter::EdgeEdgeFilter, FeaturePair::edge_edge>();
 }
 
 TEST(Stages, FloatingPointIsSilentOrRightForVertexFace) {
