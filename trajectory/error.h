@@ -5,15 +5,27 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace noli {
+
+/// The text on one line: control characters, which names of files may contain, as \n, \t or \x1b. All else stays.
+std::string on_one_line(std::string_view text);
 
 /// Bad input. what() is one line: "FILE:PLACE: what is wrong, and what was expected". PLACE is "line N" for text, "byte
 /// N" for binary content, and absent where the file as a whole is meant (missing, empty).
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& file, const std::string& place, const std::string& problem)
-      : std::runtime_error(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem) {}
+      : std::runtime_error(on_one_line(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem)) {}
+};
+
+/// A signal was handled while a reader waited for its file, a pipe for example, and the handler was installed without
+/// SA_RESTART: whoever did that wants the wait to end. what() is one line.
+class ReadInterrupted : public std::runtime_error {
+ public:
+  explicit ReadInterrupted(const std::string& file)
+      : std::runtime_error(on_one_line(file + ": interrupted while it was read")) {}
 };
 
 }  // namespace noli

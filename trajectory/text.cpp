@@ -27,14 +27,22 @@ std::size_t expected_size(const std::filesystem::path& path) {
   return error ? std::size_t{1} << 16 : static_cast<std::size_t>(size);
 }
 
+/// `error`: what errno said.
+[[noreturn]] void fail(const std::string& name, int error, const std::string& problem) {
+  if (error == EINTR) throw ReadInterrupted(name);
+  throw InputError(name, "", problem);
+}
+
 /// Reads to the end of the file, whatever size was expected.
-std::string read_to_end(std::FILE* file, std::size_t expected) {
+std::string read_to_end(std::FILE* file, std::size_t expected, const std::string& name) {
   std::string bytes(expected + 1, '\0');
   std::size_t used = 0;
   while (const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file)) {
+    if (std::ferror(file) != 0) break;  // another attempt might wait for more
     used += got;
     if (used == bytes.size()) bytes.resize(2 * used);
   }
+  if (std::ferror(file) != 0) fail(name, errno, "cannot be read to its end");
   bytes.resize(used);
   return bytes;
 }
@@ -57,9 +65,8 @@ std::string read_whole_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw InputError(name, "", "is a folder, expected a file");
   const OpenFile file(std::fopen(name.c_str(), "rb"));
-  if (!file) throw InputError(name, "", fmt::format("cannot be opened: {}", std::strerror(errno)));
-  std::string bytes = read_to_end(file.get(), expected_size(path));
-  if (std::ferror(file.get())) throw InputError(name, "", "cannot be read to its end");
+  if (!file) fail(name, errno, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  std::string bytes = read_to_end(file.get(), expected_size(path), name);
   if (bytes.empty()) throw InputError(name, "", "is empty");
   return bytes;
 }
