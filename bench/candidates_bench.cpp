@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "noli/bench/bench.h"
 #include "noli/bench/candidates.h"
 #include "noli/bench/data.h"
 #include "noli/bench/report.h"
@@ -94,12 +95,8 @@ class PairBench {
 };
 
 }  // namespace
-}  // namespace noli::bench
 
-int main(int argc, char** argv) {
-  using namespace noli::bench;
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 3;
+bool run() {
   Table table({"candidates", "number", "in contact", "textbook ns", "noli ns", "ratio", shares_head()});
   double textbook = 0, noli = 0;
   for (const FramePair& pair : frame_pairs()) {
@@ -111,5 +108,7 @@ int main(int argc, char** argv) {
   }
   if (textbook > 0) table.row({"all, pooled", "", "", "", "", fmt::format("{:.2f}", noli / textbook), ""});
   std::fputs(("\n" + table.text()).c_str(), stdout);
-  return textbook > 0 ? 0 : 3;
+  return textbook > 0;
 }
+
+}  // namespace noli::bench

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/bench/data.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <stdexcept>
+#include <array>
 
+#include "noli/tests/support/real_data.h"
 #include "noli/trajectory/query_csv.h"
 
 namespace noli::bench {
 namespace {
-
-void say_skipped(const std::filesystem::path& what) {
-  std::fputs(fmt::format("skipped: {} is not there (see NOLI_DATA)\n", what.string()).c_str(), stderr);
-}
 
 template <class Query>
 std::vector<Query> typed(const std::vector<QueryRecord>& records) {
@@ -46,48 +39,37 @@ bool is_measured(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::filesystem::path data_root() {
-  const char* const given = std::getenv("NOLI_DATA");
-  return given != nullptr ? std::filesystem::path(given) : std::filesystem::path(NOLI_SOURCE_DIR) / "../shared/data";
-}
-
 std::vector<QueryFile> read_query_files() {
-  const auto folder = data_root() / "queries";
+  std::vector<QueryFile> files;
+  const auto folder = test::real_data("queries");
+  if (!folder) return files;
   std::vector<std::filesystem::path> paths;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+  for (const auto& entry : std::filesystem::directory_iterator(*folder)) {
     if (is_measured(entry.path())) paths.push_back(entry.path());
   }
-  if (paths.empty()) say_skipped(folder);
   std::sort(paths.begin(), paths.end());
-  std::vector<QueryFile> files;
   files.reserve(paths.size());
   for (const auto& path : paths) files.push_back(read(path, *kind_from_file_name(path)));
   return files;
 }
 
 std::optional<QueryFile> read_query_file(const std::string& name) {
-  const auto path = data_root() / "queries" / (name + ".csv");
-  if (std::filesystem::exists(path)) return read(path, kind_from_file_name(path).value());
-  say_skipped(path);
-  return std::nullopt;
+  const auto path = test::real_data("queries/" + name + ".csv");
+  if (!path) return std::nullopt;
+  return read(*path, kind_from_file_name(*path).value());
 }
 
 std::vector<FramePair> frame_pairs() {
-  const auto root = data_root() / "frames";
-  std::vector<FramePair> pairs = {{"cloth-funnel", "227.ply", "228.ply"},
-                                  {"armadillo-rollers", "326.ply", "327.ply"},
-                                  {"cloth-ball", "cloth_ball92.ply", "cloth_ball93.ply"},
-                                  {"rod-twist-clean", "0.ply", "1.ply"}};
-  for (FramePair& pair : pairs) {
-    pair.path_t0 = root / pair.name / pair.path_t0;
-    pair.path_t1 = root / pair.name / pair.path_t1;
+  constexpr std::array<std::array<const char*, 3>, 4> known = {{{"cloth-funnel", "227.ply", "228.ply"},
+                                                                {"armadillo-rollers", "326.ply", "327.ply"},
+                                                                {"cloth-ball", "cloth_ball92.ply", "cloth_ball93.ply"},
+                                                                {"rod-twist-clean", "0.ply", "1.ply"}}};
+  std::vector<FramePair> pairs;
+  for (const auto& [name, t0, t1] : known) {
+    const std::string folder = std::string("frames/") + name + "/";
+    const auto path_t0 = test::real_data(folder + t0), path_t1 = test::real_data(folder + t1);
+    if (path_t0 && path_t1) pairs.push_back({name, *path_t0, *path_t1});
   }
-  std::erase_if(pairs, [](const FramePair& pair) {
-    const bool there = std::filesystem::exists(pair.path_t0) && std::filesystem::exists(pair.path_t1);
-    if (!there) say_skipped(pair.path_t0.parent_path());
-    return !there;
-  });
   return pairs;
 }
 

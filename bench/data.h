@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Real data for the benchmarks, and how queries are laid out in memory before they are timed.
+// Real data (tests/support/real_data.h) for the benchmarks, and how queries are laid out in memory before they are
+// timed.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,6 @@
 
 namespace noli::bench {
 
-/// The folder of the environment variable NOLI_DATA, else ../shared/data beside the source tree. It need not exist.
-std::filesystem::path data_root();
-
 /// The queries of a file, of the kind that its name says.
 struct QueryFile {
   std::string name;  ///< of the file, without extension
@@ -30,8 +28,8 @@ struct QueryFile {
   std::size_t size() const { return labels.size(); }
 };
 
-/// All labelled vertex-face and edge-edge files of data_root()/queries, by name. Says on standard error when there are
-/// none.
+/// All labelled vertex-face and edge-edge files among the real queries, by name. Says on standard error when they are
+/// not there.
 std::vector<QueryFile> read_query_files();
 
 /// One of them; nothing when it is not there.
@@ -43,7 +41,7 @@ struct FramePair {
   std::filesystem::path path_t0, path_t1;
 };
 
-/// The pairs of data_root()/frames that are there; those that are not are named on standard error.
+/// The real pairs of frames that are there; those that are not are named on standard error.
 std::vector<FramePair> frame_pairs();
 
 /// Puts items in an order that depends on the seed alone.

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "noli/bench/bench.h"
 #include "noli/bench/child.h"
 #include "noli/bench/data.h"
 #include "noli/bench/report.h"
@@ -120,12 +121,8 @@ void print_tables(const std::vector<FramePair>& pairs, const MedianReporter& rep
 }
 
 }  // namespace
-}  // namespace noli::bench
 
-int main(int argc, char** argv) {
-  using namespace noli::bench;
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 3;
+bool run() {
   const auto pairs = frame_pairs();
   Peaks peaks;
   const bool has_unit = read_query_file("armadillo-rollers-vertex-face").has_value();
@@ -142,5 +139,7 @@ int main(int argc, char** argv) {
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   print_tables(pairs, reporter, peaks);
-  return 0;
+  return true;  // the sheets need no data
 }
+
+}  // namespace noli::bench

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "noli/bench/bench.h"
 #include "noli/bench/data.h"
 #include "noli/bench/report.h"
 #include "noli/bench/textbook.h"
@@ -157,12 +158,8 @@ void print_table(const std::vector<QueryFile>& files, const MedianReporter& repo
 }
 
 }  // namespace
-}  // namespace noli::bench
 
-int main(int argc, char** argv) {
-  using namespace noli::bench;
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 3;
+bool run() {
   const auto files = read_query_files();
   for (const QueryFile& file : files) {
     std::visit([&](const auto& queries) { register_file(file.name, queries); }, file.queries);
@@ -170,5 +167,7 @@ int main(int argc, char** argv) {
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   print_table(files, reporter);
-  return files.empty() ? 3 : 0;
+  return !files.empty();
 }
+
+}  // namespace noli::bench

@@ -3,42 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
-
 #include "noli/trajectory/write_ply.h"
 
 namespace noli::app_tests {
-
-Folder::Folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "noli-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  root_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code error;
-  std::filesystem::remove_all(root_, error);
-}
-
-std::string Folder::write(const std::string& name, std::string_view content) const {
-  std::ofstream out(root_ / name, std::ios::binary);
-  out << content;
-  if (!out.flush()) throw std::runtime_error("cannot write " + name);
-  return path(name);
-}
-
-std::vector<std::string> Folder::names() const {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(root_))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 std::string ply_text(const std::vector<Position>& points, const std::vector<std::array<VertexId, 3>>& faces) {
   std::string text = fmt::format(
@@ -77,21 +44,6 @@ std::string sheets(std::size_t faces, double height) {
   }
   frame.mesh.vertex_count = frame.positions.size();
   return format_ply(frame, PlyEncoding::binary_little_endian);
-}
-
-std::optional<std::string> real_data(const std::string& name) {
-  const char* const given = std::getenv("NOLI_DATA");
-  const std::filesystem::path root =
-      given != nullptr ? given : std::filesystem::path(NOLI_SOURCE_DIR) / "../shared/data";
-  if (std::filesystem::exists(root / name)) return (root / name).string();
-  std::printf("skipped: %s is not there (see NOLI_DATA)\n", (root / name).c_str());
-  return std::nullopt;
-}
-
-std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error("cannot read " + path);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace noli::app_tests

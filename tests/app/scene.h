@@ -3,32 +3,33 @@
 // Small input for the command: a folder that vanishes with the test, and meshes that are known by heart.
 #pragma once
 
-#include <filesystem>
-#include <optional>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "noli/tests/support/real_data.h"
+#include "noli/tests/support/temporary_folder.h"
 #include "noli/trajectory/mesh.h"
 
 namespace noli::app_tests {
 
-/// A new empty folder, removed at the end of the scope.
+using test::read_text;
+using test::real_data;
+
+/// A temporary folder whose paths are words of a command line.
 class Folder {
  public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string path(const std::string& name) const { return (root_ / name).string(); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
   /// Writes a file and returns its path.
-  std::string write(const std::string& name, std::string_view content) const;
+  std::string write(const std::string& name, std::string_view content) const {
+    return folder_.write(name, content).string();
+  }
   /// Names of the files in it, sorted.
-  std::vector<std::string> names() const;
+  std::vector<std::string> names() const { return folder_.names(); }
 
  private:
-  std::filesystem::path root_;
+  test::TemporaryFolder folder_;
 };
 
 /// An ASCII PLY file of these points, with these faces.
@@ -44,10 +45,5 @@ std::string sail_through_deck();
 
 /// Two sheets of about `faces` faces in all that move together and never touch. Binary PLY.
 std::string sheets(std::size_t faces, double height);
-
-/// A file of real data, or nothing when the data are not there; then says what is skipped.
-std::optional<std::string> real_data(const std::string& name);
-
-std::string read_text(const std::string& path);
 
 }  // namespace noli::app_tests

@@ -4,21 +4,15 @@
 // ceilings keep a silent loss of speed from passing as long as every answer stays right.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 
 #include "noli/kernel/contact.h"
+#include "noli/tests/support/real_data.h"
 #include "noli/trajectory/query_csv.h"
 
 namespace noli {
 namespace {
-
-std::filesystem::path queries_folder() {
-  const char* data = std::getenv("NOLI_DATA");
-  const std::filesystem::path root = data != nullptr ? data : std::filesystem::path(NOLI_SOURCE_DIR) / "../shared/data";
-  return root / "queries";
-}
 
 template <FeaturePair Pair>
 bool meet_record(const QueryRecord& record, StageCounters& counters) {
@@ -80,9 +74,10 @@ TEST(Labels, QueriesOnceAnsweredWrongly) {
 }
 
 TEST(Labels, AllAgreeAndFewQueriesGetFar) {
-  if (!std::filesystem::exists(queries_folder())) GTEST_SKIP() << "skipped: no folder " << queries_folder();
+  const auto folder = test::real_data("queries");
+  if (!folder) GTEST_SKIP() << "no real data";
   std::size_t queries = 0, contacts = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(queries_folder())) {
+  for (const auto& entry : std::filesystem::directory_iterator(*folder)) {
     const QueryKind kind = kind_from_file_name(entry.path()).value();
     const auto records = read_query_csv(entry.path(), kind);
     StageCounters counters;

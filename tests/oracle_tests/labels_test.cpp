@@ -4,21 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
 #include "noli/tests/oracle/oracle.h"
+#include "noli/tests/support/real_data.h"
 #include "noli/trajectory/query_csv.h"
 
 namespace noli::oracle {
 namespace {
-
-std::filesystem::path queries_folder() {
-  const char* data = std::getenv("NOLI_DATA");
-  const std::filesystem::path root = data ? data : std::filesystem::path(NOLI_SOURCE_DIR) / "../shared/data";
-  return root / "queries";
-}
 
 Motion motion_of(QueryKind kind, const QueryRecord& record) {
   Motion motion;
@@ -33,9 +27,10 @@ Motion motion_of(QueryKind kind, const QueryRecord& record) {
 }
 
 TEST(OracleLabels, AgreesWithEveryLabel) {
-  if (!std::filesystem::exists(queries_folder())) GTEST_SKIP() << "skipped: no folder " << queries_folder();
+  const auto folder = test::real_data("queries");
+  if (!folder) GTEST_SKIP() << "no real data";
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(queries_folder())) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(*folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::size_t queries = 0, apart = 0;
   for (const auto& file : files) {

@@ -4,21 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
+#include <optional>
+#include <string>
 
 #include "brute_force.h"
+#include "noli/tests/support/real_data.h"
 #include "noli/trajectory/ply.h"
 
 namespace noli::testing {
 namespace {
-
-std::filesystem::path frame_file(const char* name) {
-  const char* folder = std::getenv("NOLI_DATA");
-  const std::filesystem::path data =
-      folder != nullptr ? folder : std::filesystem::path(NOLI_SOURCE_DIR) / "../shared/data";
-  return data / "frames" / name;
-}
 
 struct Pair {
   const char* name;
@@ -35,9 +29,13 @@ constexpr Pair pairs[] = {
     {"rod_twist_clean", "rod-twist-clean/0.ply", "rod-twist-clean/1.ply", 0, 0, 1000},
 };
 
-Step read(const Pair& pair) {
-  const Frame begin = read_ply(frame_file(pair.t0)), end = read_ply(frame_file(pair.t1));
-  return {begin.mesh, begin.positions, end.positions};
+/// Nothing when the files are not there.
+std::optional<Step> read(const Pair& pair) {
+  const auto t0 = test::real_data(std::string("frames/") + pair.t0),
+             t1 = test::real_data(std::string("frames/") + pair.t1);
+  if (!t0 || !t1) return std::nullopt;
+  const Frame begin = read_ply(*t0), end = read_ply(*t1);
+  return Step{begin.mesh, begin.positions, end.positions};
 }
 
 class Frames : public ::testing::TestWithParam<Pair> {};
@@ -45,9 +43,9 @@ INSTANTIATE_TEST_SUITE_P(All, Frames, ::testing::ValuesIn(pairs),
                          [](const auto& p) { return std::string(p.param.name); });
 
 TEST_P(Frames, HaveTheKnownContacts) {
-  if (!std::filesystem::exists(frame_file(GetParam().t0))) GTEST_SKIP() << "skipped, no such file: " << GetParam().t0;
-  const Step step = read(GetParam());
-  const VerifyResult result = verify_step(step.mesh, step.x_t0, step.x_t1, {});
+  const auto step = read(GetParam());
+  if (!step) GTEST_SKIP() << "no real data";
+  const VerifyResult result = verify_step(step->mesh, step->x_t0, step->x_t1, {});
   EXPECT_TRUE(result.complete);
   EXPECT_EQ(result.contacts, (std::array<std::uint64_t, 4>{GetParam().vertex_face, GetParam().edge_edge, 0, 0}));
   EXPECT_EQ(result.first.has_value(), result.contact_count() > 0);
@@ -77,8 +75,9 @@ std::vector<Box> sorted_boxes(const Step& step) {
 }
 
 TEST(FramesSlow, InitialIntersectionsAreThoseOfBruteForce) {
-  if (!std::filesystem::exists(frame_file(pairs[0].t0))) GTEST_SKIP() << "skipped, no such file: " << pairs[0].t0;
-  const Step step = read(pairs[0]);
+  const auto pair = read(pairs[0]);
+  if (!pair) GTEST_SKIP() << "no real data";
+  const Step& step = *pair;
   const std::vector<Box> boxes = sorted_boxes(step);
   std::set<std::pair<std::uint32_t, std::uint32_t>> truth;
   std::size_t asked = 0;

@@ -36,7 +36,7 @@ bool is_code(const fs::path& path) {
 }
 
 TEST(Files, NoneNamesAPathOfOneMachine) {
-  for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) EXPECT_EQ(private_path(read_file(file)), "") << file;
+  for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) EXPECT_EQ(private_path(read_text(file)), "") << file;
 }
 
 TEST(Files, APlantedPathIsFound) {
@@ -53,7 +53,7 @@ TEST(Files, CodeBeginsWithItsLicence) {
   for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) {
     if (!is_code(file)) continue;
     ++seen;
-    EXPECT_TRUE(states_licence(read_file(file))) << file;
+    EXPECT_TRUE(states_licence(read_text(file))) << file;
   }
   EXPECT_GT(seen, 20);
 }
@@ -69,7 +69,7 @@ TEST(Files, APlaceOfTheLicenceIsJudged) {
 TEST(Files, HeadersAreReadOnce) {
   for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) {
     if (file.extension() != ".h") continue;
-    EXPECT_NE(read_file(file).find("\n#pragma once\n"), std::string::npos) << file;
+    EXPECT_NE(read_text(file).find("\n#pragma once\n"), std::string::npos) << file;
   }
 }
 

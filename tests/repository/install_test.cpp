@@ -57,7 +57,7 @@ TEST(InstallSlow, WhatIsInstalledStandsOnItsOwn) {
   for (const fs::path& file : files_below(folder.path())) {
     if (file.extension() != ".cmake" && file.extension() != ".h") continue;
     ++seen;
-    const std::string text = read_file(file);
+    const std::string text = read_text(file);
     EXPECT_EQ(text.find(NOLI_SOURCE_DIR), std::string::npos) << file;
     EXPECT_EQ(text.find(NOLI_BINARY_DIR), std::string::npos) << file;
   }

@@ -26,7 +26,7 @@ TEST(Layering, TheProjectKeepsTheTable) {
 
 TEST(Layering, TheScanSeesTheProject) {
   const fs::path verifier = fs::path("proofs") / "prover" / "verifier.h";
-  const auto found = includes(read_file(fs::path(NOLI_SOURCE_DIR) / verifier));
+  const auto found = includes(read_text(fs::path(NOLI_SOURCE_DIR) / verifier));
   int kernel = 0;
   int trajectory = 0;
   for (const Include& include : found) {

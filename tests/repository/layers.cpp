@@ -87,7 +87,7 @@ std::vector<std::string> layering_violations(const fs::path& root) {
     const fs::path file = path.lexically_relative(root);
     const std::string from = layer_of(file);
     if (!is_cpp(path) || !table().contains(from)) continue;
-    for (const Include& include : includes(read_file(path))) {
+    for (const Include& include : includes(read_text(path))) {
       const std::string place = file.string() + ":" + std::to_string(include.line) + ": ";
       if (include.target.empty()) violations.push_back(place + "includes what a macro names, which nobody can check");
       const auto to = included_layer(root, file, include.target);

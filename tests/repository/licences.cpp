@@ -90,7 +90,7 @@ std::vector<CompileCommand> compile_commands(const fs::path& build) {
   static const std::regex output(R"( -o \S+)");
   static const std::regex input(R"( -c .*$)");
   std::vector<CompileCommand> commands;
-  for (const auto& entry : nlohmann::json::parse(read_file(build / "compile_commands.json"))) {
+  for (const auto& entry : nlohmann::json::parse(read_text(build / "compile_commands.json"))) {
     const std::string command = std::regex_replace(entry.at("command").get<std::string>(), output, "");
     commands.push_back({entry.at("file").get<std::string>(), std::regex_replace(command, input, ""),
                         entry.at("directory").get<std::string>()});
@@ -120,7 +120,7 @@ std::vector<fs::path> files_read(const CompileCommand& command, const fs::path& 
 std::vector<std::string> licence_violations(const std::vector<fs::path>& files) {
   std::vector<std::string> violations;
   for (const fs::path& file : files) {
-    const std::string problem = objection(file, read_file(file));
+    const std::string problem = objection(file, read_text(file));
     if (!problem.empty()) violations.push_back(file.string() + " " + problem);
   }
   return violations;

@@ -59,7 +59,7 @@ TEST_F(Setup, InstallsAsRoot) {
   user(0);
   apt();
   EXPECT_EQ(setup().exit_code, 0);
-  EXPECT_EQ(read_file(log()), "-q update\n-q install -y --no-install-recommends libcgal-dev\n");
+  EXPECT_EQ(read_text(log()), "-q update\n-q install -y --no-install-recommends libcgal-dev\n");
 }
 
 TEST_F(Setup, InstallsWithSudo) {
@@ -68,7 +68,7 @@ TEST_F(Setup, InstallsWithSudo) {
   apt();
   sudo();
   EXPECT_EQ(setup().exit_code, 0);
-  EXPECT_EQ(read_file(log()), "sudo\n-q update\nsudo\n-q install -y --no-install-recommends libcgal-dev\n");
+  EXPECT_EQ(read_text(log()), "sudo\n-q update\nsudo\n-q install -y --no-install-recommends libcgal-dev\n");
 }
 
 TEST_F(Setup, PrintsTheLineToRunWithoutSudo) {

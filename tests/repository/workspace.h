@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files, temporary folders and commands, as the tests of this folder need them.
+// Files and commands, as the tests of this folder need them.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "noli/tests/support/temporary_folder.h"
+
 namespace noli::repository {
 
-/// The whole file. Throws std::runtime_error when it cannot be read.
-std::string read_file(const std::filesystem::path& path);
+using test::read_text;
+using test::TemporaryFolder;
+
 /// Writes the file, and makes the folders it is in.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
@@ -31,19 +34,5 @@ CommandResult run(const std::string& command);
 
 /// The text as one word of a shell command.
 std::string quoted(const std::string& text);
-
-/// A new empty folder, removed with all that is in it at the end of the scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace noli::repository

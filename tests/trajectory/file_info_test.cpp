@@ -8,7 +8,7 @@ namespace noli {
 namespace {
 
 TEST(FileInfo, CountsEverything) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const FileInfo info =
       describe_file(folder.write("a.obj",
                                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv -5 7 0\nv 0 0 -0\nv 9 9 0\nv 3 3 0\n"
@@ -30,7 +30,7 @@ TEST(FileInfo, CountsEverything) {
 }
 
 TEST(FileInfo, NamesFormatAndNumberType) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto info = [&](const std::string& format, const std::string& properties, const std::string& body) {
     return describe_file(folder.write(
         "a.ply", "ply\nformat " + format + " 1.0\nelement vertex 1\n" + properties + "end_header\n" + body));
@@ -60,7 +60,7 @@ TEST(FileInfo, NotPlanar) {
 }
 
 TEST(FileInfo, BadFilesAreErrors) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THROW(describe_file(folder / "none.ply"), InputError);
   EXPECT_THROW(describe_file(folder.write("a.txt", "v 0 0 0\n")), InputError);
 }

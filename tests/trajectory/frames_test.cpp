@@ -9,8 +9,8 @@
 namespace noli {
 namespace {
 
+using test::TemporaryFolder;
 using testing::input_error;
-using testing::TemporaryFolder;
 
 const std::string face_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 

@@ -73,7 +73,7 @@ TEST(Merge, MeshRefersToTheFirstOfEachClass) {
 }
 
 TEST(Merge, ReadsAllFrames) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto write = [&](const std::string& name, const Positions& x) {
     write_ply(folder / name,
               {.mesh = {.vertex_count = x.size(), .faces = {}, .edges = {}, .points = {}}, .positions = x},

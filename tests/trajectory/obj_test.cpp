@@ -91,7 +91,7 @@ TEST_P(ObjErrors, SaysWhatAndWhere) {
 }
 
 TEST(ObjFiles, MissingAndEmpty) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EQ(testing::input_error([&] { read_obj(folder / "none.obj"); }),
             (folder / "none.obj").string() + ": cannot be opened: No such file or directory");
   EXPECT_EQ(testing::input_error([&] { read_obj(folder.write("empty.obj", "")); }),

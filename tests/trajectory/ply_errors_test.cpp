@@ -125,7 +125,7 @@ TEST_P(PlyErrors, SaysWhatAndWhere) {
 }
 
 TEST(PlyFiles, MissingEmptyAndFolder) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto message = [](const std::filesystem::path& path) { return testing::input_error([&] { read_ply(path); }); };
   EXPECT_EQ(message(folder / "none.ply"),
             (folder / "none.ply").string() + ": cannot be opened: No such file or directory");

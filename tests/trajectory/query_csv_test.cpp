@@ -154,7 +154,7 @@ RC_GTEST_PROP(QueryCsv, RoundTripBitForBit, ()) {
 }
 
 TEST(QueryCsv, WritesFiles) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::vector<QueryRecord> queries{{.x_t0 = {{{1, 2, 3}}}, .x_t1 = {{{0.5, 0, 1e300}}}, .label = true}};
   write_query_csv(folder / "q.csv", QueryKind::vertex_vertex, queries);
   EXPECT_EQ(read_query_csv(folder / "q.csv", QueryKind::vertex_vertex), queries);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The readers on files that others made; skipped, visibly, where they are not there.
+#include "noli/tests/support/real_data.h"
 #include "noli/trajectory/file_info.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/query_csv.h"
@@ -30,9 +31,9 @@ INSTANTIATE_TEST_SUITE_P(All, RealFrames, ::testing::ValuesIn(real_frames),
                          [](const auto& real) { return real.param.name; });
 
 TEST_P(RealFrames, HaveTheKnownCounts) {
-  const auto path = testing::data_folder() / GetParam().path;
-  NOLI_REQUIRE_DATA(path);
-  const FileInfo info = describe_file(path);
+  const auto path = test::real_data(GetParam().path);
+  if (!path) GTEST_SKIP() << "no real data";
+  const FileInfo info = describe_file(*path);
   EXPECT_EQ(info.format, GetParam().format);
   EXPECT_EQ(info.number_type, GetParam().number_type);
   EXPECT_EQ(info.vertices, GetParam().vertices);
@@ -43,9 +44,9 @@ TEST_P(RealFrames, HaveTheKnownCounts) {
 }
 
 TEST(RealSequences, SuccessiveFramesHaveOneMesh) {
-  const auto folder = testing::data_folder() / "frames" / "cloth-ball";
-  NOLI_REQUIRE_DATA(folder);
-  FrameSequence sequence({folder / "cloth_ball92.ply", folder / "cloth_ball93.ply"});
+  const auto folder = test::real_data("frames/cloth-ball");
+  if (!folder) GTEST_SKIP() << "no real data";
+  FrameSequence sequence({*folder / "cloth_ball92.ply", *folder / "cloth_ball93.ply"});
   ASSERT_TRUE(sequence.next());
   EXPECT_EQ(sequence.x_t0().size(), 46598u);
   EXPECT_EQ(sequence.x_t1().size(), 46598u);
@@ -71,11 +72,11 @@ INSTANTIATE_TEST_SUITE_P(All, RealQueryFiles, ::testing::ValuesIn(real_queries),
                          [](const auto& real) { return real.param.name; });
 
 TEST_P(RealQueryFiles, AreLabelledAndExact) {
-  const auto path = testing::data_folder() / "queries" / GetParam().file;
-  NOLI_REQUIRE_DATA(path);
-  const auto kind = kind_from_file_name(path);
+  const auto path = test::real_data(std::string("queries/") + GetParam().file);
+  if (!path) GTEST_SKIP() << "no real data";
+  const auto kind = kind_from_file_name(*path);
   ASSERT_TRUE(kind.has_value());
-  const auto queries = read_query_csv(path, *kind);
+  const auto queries = read_query_csv(*path, *kind);
   EXPECT_EQ(queries.size(), GetParam().queries);
   std::size_t positive = 0;
   for (const QueryRecord& query : queries) positive += query.label.value_or(false);

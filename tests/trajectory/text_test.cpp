@@ -81,8 +81,14 @@ TEST(Text, QuotedWordsFitALine) {
   EXPECT_EQ(in_quotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 
+TEST(Text, OneLine) {
+  EXPECT_EQ(on_one_line("a b/\xc3\xa9.ply"), "a b/\xc3\xa9.ply");
+  EXPECT_EQ(on_one_line(std::string("\n\t\r\0\x1b\x7f", 6)), "\\n\\t\\x0d\\x00\\x1b\\x7f");
+  EXPECT_STREQ(InputError("a\nb", "line 1", "wrong").what(), "a\\nb: line 1: wrong");
+}
+
 TEST(Text, WholeFiles) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string content(100000, '\0');
   EXPECT_EQ(read_whole_file(folder.write("zeros", content)), content);
   if (std::filesystem::exists("/dev/null")) {

@@ -67,7 +67,7 @@ RC_GTEST_PROP(WritePly, RoundTrip, ()) {
 }
 
 TEST(WritePly, Files) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_ply(folder / "a.ply", sample, PlyEncoding::binary_little_endian);
   EXPECT_EQ(read_ply(folder / "a.ply").mesh, sample.mesh);
   EXPECT_THROW(write_ply(folder / "no/a.ply", sample, PlyEncoding::ascii), std::system_error);
