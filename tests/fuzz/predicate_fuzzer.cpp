@@ -16,6 +16,7 @@
 
 #include "noli/kernel/contact.h"
 #include "noli/kernel/first_contact.h"
+#include "noli/tests/kernel/oracle_motion.h"
 #include "noli/tests/oracle/oracle.h"
 
 namespace {
@@ -64,30 +65,10 @@ noli::Query<Pair, Dim> decode(Bytes& bytes, bool raw) {
   return query;
 }
 
-constexpr noli::oracle::Pair oracle_pair(FeaturePair pair) {
-  constexpr std::array pairs = {noli::oracle::Pair::vertex_face, noli::oracle::Pair::edge_edge,
-                                noli::oracle::Pair::vertex_edge, noli::oracle::Pair::vertex_vertex};
-  return pairs[static_cast<std::size_t>(pair)];
-}
-
-template <FeaturePair Pair, int Dim>
-noli::oracle::Motion motion(const noli::Query<Pair, Dim>& query) {
-  noli::oracle::Motion motion;
-  motion.pair = oracle_pair(Pair);
-  motion.dimension = Dim;
-  for (std::size_t i = 0; i < query.size; ++i) {
-    for (std::size_t k = 0; k < Dim; ++k) {
-      motion.x_t0[i][k] = query.x_t0[i][k];
-      motion.x_t1[i][k] = query.x_t1[i][k];
-    }
-  }
-  return motion;
-}
-
 template <FeaturePair Pair, int Dim>
 void compare(Bytes& bytes, bool raw) {
   const auto query = decode<Pair, Dim>(bytes, raw);
-  const noli::oracle::Answer truth = noli::oracle::first_contact(motion(query));
+  const noli::oracle::Answer truth = noli::oracle::first_contact(noli::test::motion_of(query));
   const auto enclosure = noli::contact(query);
   const auto first = noli::first_contact(query);
   require(enclosure.has_value() == truth.time.has_value());

@@ -7,18 +7,14 @@
 #include <vector>
 
 #include "noli/kernel/algebraic.h"
+#include "noli/tests/kernel/polynomials.h"
 #include "noli/tests/kernel/random_numbers.h"
 
 namespace noli {
 namespace {
 
+using test::polynomial;
 using test::Random;
-
-Polynomial polynomial(const std::vector<long>& c) {
-  std::vector<Integer> coefficients;
-  for (const long x : c) coefficients.emplace_back(x);
-  return Polynomial(std::move(coefficients));
-}
 
 /// den t - num
 Polynomial factor(long num, long den) { return polynomial({-num, den}); }

@@ -102,7 +102,7 @@ void check_functors(std::uint64_t seed) {
   Random random(seed);
   std::array<int, 2> answers{};
   for (int i = 0; i < 300; ++i) {
-    const auto q = test::random_query<VertexFace3>(random, test::Coordinates::small_integers);
+    const auto q = test::random_query<VertexFace3>(random, test::Spread::small_integers);
     const auto expected = first_contact(q);
     ++answers[expected.has_value()];
     ASSERT_EQ((ask<K>(Vertex_face_contact_3<K>(), q)), expected.has_value());

@@ -41,7 +41,7 @@ void compare_with_oracle(std::uint64_t seed, int count, int kinds_possible) {
   std::optional<std::pair<TimeOfImpact, oracle::Time>> previous;
   for (int i = 0; i < count; ++i) {
     const Query query = test::random_query<Query>(random);
-    const auto expected = oracle::first_contact(test::motion(query));
+    const auto expected = oracle::first_contact(test::motion_of(query));
     const auto answer = first_contact(query);
     const ContactKind kind = answer ? answer->kind : ContactKind::apart;
     ASSERT_EQ(name(kind), oracle::name(expected.kind)) << "query " << i;
@@ -71,11 +71,11 @@ TEST(SlowFirstContact, MillionPairsOfTimesCompareAsOracle) {
   Random random(7);
   std::vector<std::pair<TimeOfImpact, oracle::Time>> times;
   while (times.size() < 1500) {
-    const auto how = test::all_coordinates[static_cast<std::size_t>(random.below(5))];
+    const auto how = test::all_spreads[static_cast<std::size_t>(random.below(5))];
     const auto query = test::random_query<VertexFace3>(random, how);
     const auto answer = first_contact(query);
     if (!answer || answer->time == TimeOfImpact()) continue;
-    times.emplace_back(answer->time, *oracle::first_contact(test::motion(query)).time);
+    times.emplace_back(answer->time, *oracle::first_contact(test::motion_of(query)).time);
   }
   std::array<int, 2> equal{};
   for (std::size_t i = 0; i < times.size(); ++i) {

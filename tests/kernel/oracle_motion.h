@@ -9,7 +9,7 @@
 namespace noli::test {
 
 template <FeaturePair Pair, int Dim>
-oracle::Motion motion(const Query<Pair, Dim>& query) {
+oracle::Motion motion_of(const Query<Pair, Dim>& query) {
   oracle::Motion result;
   constexpr std::array pairs = {oracle::Pair::vertex_face, oracle::Pair::edge_edge, oracle::Pair::vertex_edge,
                                 oracle::Pair::vertex_vertex};

@@ -14,25 +14,24 @@
 namespace noli::test {
 
 /// How coordinates are drawn.
-enum class Coordinates { tiny_integers, small_integers, integers, nearly_integers, doubles, any_magnitude };
-constexpr std::array all_coordinates = {Coordinates::tiny_integers, Coordinates::small_integers,
-                                        Coordinates::integers,      Coordinates::nearly_integers,
-                                        Coordinates::doubles,       Coordinates::any_magnitude};
+enum class Spread { tiny_integers, small_integers, integers, nearly_integers, doubles, any_magnitude };
+constexpr std::array all_spreads = {Spread::tiny_integers,   Spread::small_integers, Spread::integers,
+                                    Spread::nearly_integers, Spread::doubles,        Spread::any_magnitude};
 
-inline double random_coordinate(Random& random, Coordinates how) {
+inline double random_coordinate(Random& random, Spread how) {
   switch (how) {
-    case Coordinates::tiny_integers: return random.around_zero(1);
-    case Coordinates::small_integers: return random.around_zero(2);
-    case Coordinates::integers: return random.around_zero(20);
-    case Coordinates::nearly_integers: return random.around_zero(4) + random.around_zero(1) * 0x1p-50;
-    case Coordinates::doubles: return random.unit() - 0.5;
-    case Coordinates::any_magnitude: return random.around_zero(2) * std::ldexp(1.0, random.around_zero(1) * 1000);
+    case Spread::tiny_integers: return random.around_zero(1);
+    case Spread::small_integers: return random.around_zero(2);
+    case Spread::integers: return random.around_zero(20);
+    case Spread::nearly_integers: return random.around_zero(4) + random.around_zero(1) * 0x1p-50;
+    case Spread::doubles: return random.unit() - 0.5;
+    case Spread::any_magnitude: return random.around_zero(2) * std::ldexp(1.0, random.around_zero(1) * 1000);
   }
   return 0;
 }
 
 template <class Query>
-Query random_query(Random& random, Coordinates how) {
+Query random_query(Random& random, Spread how) {
   Query q;
   constexpr auto size = static_cast<int>(Query::size);
   for (auto* points : {&q.x_t0, &q.x_t1}) {
@@ -60,7 +59,7 @@ Query random_query(Random& random, Coordinates how) {
 
 template <class Query>
 Query random_query(Random& random) {
-  return random_query<Query>(random, all_coordinates[static_cast<std::size_t>(random.below(all_coordinates.size()))]);
+  return random_query<Query>(random, all_spreads[static_cast<std::size_t>(random.below(all_spreads.size()))]);
 }
 
 }  // namespace noli::test

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "noli/kernel/query.h"
-#include "noli/tests/oracle/motion.h"
 
 namespace noli::test {
 
@@ -60,20 +59,6 @@ Query<Pair, Dim> any_query(Coordinates how, std::mt19937_64& random) {
     if (choice == 4) q.x_t1[i] = q.x_t1[random() % q.size];
   }
   return q;
-}
-
-template <FeaturePair Pair, int Dim>
-oracle::Motion motion_of(const Query<Pair, Dim>& q) {
-  oracle::Motion motion;
-  motion.pair = static_cast<oracle::Pair>(Pair);
-  motion.dimension = Dim;
-  for (std::size_t i = 0; i < q.size; ++i) {
-    for (std::size_t axis = 0; axis < Dim; ++axis) {
-      motion.x_t0[i][axis] = q.x_t0[i][axis];
-      motion.x_t1[i][axis] = q.x_t1[i][axis];
-    }
-  }
-  return motion;
 }
 
 }  // namespace noli::test

@@ -12,8 +12,8 @@
 namespace noli {
 namespace {
 
-using test::Coordinates;
 using test::Random;
+using test::Spread;
 
 double random_eta(Random& random) {
   switch (random.below(5)) {
@@ -31,10 +31,10 @@ void compare_with_oracle(std::uint64_t seed, int count) {
   Random random(seed);
   std::array<int, 2> answers{};
   for (int i = 0; i < count; ++i) {
-    const auto how = test::all_coordinates[static_cast<std::size_t>(random.below(5))];
+    const auto how = test::all_spreads[static_cast<std::size_t>(random.below(5))];
     const Query query = test::random_query<Query>(random, how);
     const double eta = random_eta(random);
-    const auto expected = oracle::first_within(test::motion(query), eta);
+    const auto expected = oracle::first_within(test::motion_of(query), eta);
     const auto answer = first_within(query, eta);
     ++answers[answer.has_value()];
     ASSERT_EQ(answer.has_value(), expected.has_value()) << "query " << i << " eta " << eta;

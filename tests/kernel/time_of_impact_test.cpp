@@ -8,18 +8,14 @@
 #include <vector>
 
 #include "noli/kernel/time_of_impact.h"
+#include "noli/tests/kernel/polynomials.h"
 #include "noli/tests/kernel/random_numbers.h"
 
 namespace noli {
 namespace {
 
+using test::polynomial;
 using test::Random;
-
-Polynomial polynomial(const std::vector<long>& c) {
-  std::vector<Integer> coefficients;
-  for (const long x : c) coefficients.emplace_back(x);
-  return Polynomial(std::move(coefficients));
-}
 
 /// The square root of 1/2.
 TimeOfImpact root_of_half() { return TimeOfImpact(roots_in_unit_interval(polynomial({-1, 0, 2})).at(0)); }

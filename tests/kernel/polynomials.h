@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Polynomials as tests write them down.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "noli/kernel/polynomial.h"
+
+namespace noli::test {
+
+/// c[0] + c[1] t + ... + c[n] t^n
+inline Polynomial polynomial(const std::vector<long>& c) {
+  std::vector<Integer> coefficients;
+  for (const long x : c) coefficients.emplace_back(x);
+  return Polynomial(std::move(coefficients));
+}
+
+}  // namespace noli::test
