@@ -195,7 +195,7 @@ class Search {
   }
 
   /// What the insides say on the whole piece. Fills in the signs that have become certain.
-  struct InsideSigns {
+  struct SignSummary {
     bool positive = false, negative = false, open = false;
 
     void add(int sign) {
@@ -207,8 +207,8 @@ class Search {
     bool agree() const { return !open && positive != negative; }
   };
 
-  static InsideSigns inside_signs(Piece& piece, const Signs& signs) {
-    InsideSigns result;
+  static SignSummary inside_signs(Piece& piece, const Signs& signs) {
+    SignSummary result;
     for (std::size_t k = 0; k < Piece::insides; ++k) {
       if (piece.g_sign[k] == 0) piece.g_sign[k] = common_sign(piece.g[k], [&](const T& x) { return signs.g(k, x); });
       result.add(piece.g_sign[k]);
@@ -229,7 +229,7 @@ class Search {
     std::array<int, n> sign;
     for (std::size_t i = 0; i < n; ++i) sign[i] = signs.f(piece.f[i]);
     if (common_sign(piece.f, [&](const T& x) { return signs.f(x); }) != 0) return Judgement::apart;
-    const InsideSigns insides = inside_signs(piece, signs);
+    const SignSummary insides = inside_signs(piece, signs);
     if (insides.disagree()) return Judgement::apart;
     if (sign.front() * sign.back() >= 0) return sign == std::array<int, n>{} ? Judgement::hopeless : Judgement::open;
     const bool one = n == 3 || sign[1] == sign.front() || sign[n - 2] == sign.back();
@@ -252,7 +252,7 @@ class Search {
 
   /// The one root of f in the piece is between low and high.
   Verdict judge_sliver(const Piece& piece, const Signs& signs, double low, double high) {
-    InsideSigns insides;
+    SignSummary insides;
     for (std::size_t k = 0; k < Piece::insides; ++k) {
       insides.add(piece.g_sign[k] != 0 ? piece.g_sign[k] : signs.g_on(k, piece.g[k], low, high));
     }
