@@ -7,7 +7,9 @@
 
 #include "noli/app/ccd_run.h"
 #include "noli/app/commands.h"
+#include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -91,7 +93,7 @@ std::string counts_text(const CcdCounts& counts) {
 
 void append_file(const CcdFile& file, std::string& text) {
   const auto out = std::back_inserter(text);
-  const std::string path = file.path.string();
+  const std::string path = on_one_line(file.path.string());
   fmt::format_to(out, "{}: {}, {}, {:.1f} ns a query\n", path, name(file.pair), counts_text(file.counts),
                  file.counts.ns_per_query);
   for (const auto& [query, label] : file.disagreements) {
@@ -136,7 +138,7 @@ Command add_ccd(CLI::App& app) {
                    "vertex-face, edge-edge, vertex-edge or vertex-vertex; by default the file's name says")
       ->check(CLI::IsMember({"vertex-face", "edge-edge", "vertex-edge", "vertex-vertex"}))
       ->type_name("KIND");
-  command->add_option("--dimension", request.dimension, "2 ignores z")->check(CLI::IsMember({2, 3}))->type_name("2|3");
+  command->add_option("--dimension", request.dimension, "2 ignores z")->check(is_dimension())->type_name("2|3");
   command->add_flag("--times", request.times, "Print kind and time of every contact (17 digits, rounded down)");
   command
       ->add_option("--max-reports", request.max_reports,
@@ -144,10 +146,7 @@ Command add_ccd(CLI::App& app) {
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
-  command
-      ->add_option("--json", arguments->json,
-                   "Write everything as JSON to this file; '-': to standard output, in place of the text")
-      ->type_name("OUT");
+  add_json_option(*command, arguments->json);
   return {command, [arguments] { return run(*arguments); }};
 }
 

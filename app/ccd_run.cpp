@@ -11,6 +11,7 @@
 #include "noli/app/progress.h"
 #include "noli/audit/any_query.h"
 #include "noli/kernel/contact.h"
+#include "noli/trajectory/error.h"
 #include "noli/trajectory/query_csv.h"
 
 namespace noli::app {
@@ -105,6 +106,17 @@ void require_decided(const CcdFile& file, int dimension) {
                    " queries in 2 dimensions; expected vertex-edge or vertex-vertex");
 }
 
+/// The queries of all files. The outcome is not complete when the user would not wait for them.
+std::vector<std::vector<QueryRecord>> read_all(CcdOutcome& outcome) {
+  std::vector<std::vector<QueryRecord>> records;
+  try {
+    for (const CcdFile& file : outcome.files) records.push_back(read_query_csv(file.path, audit::file_kind(file.pair)));
+  } catch (const ReadInterrupted&) {
+    outcome.complete = false;
+  }
+  return records;
+}
+
 }  // namespace
 
 CcdCounts& CcdCounts::operator+=(const CcdCounts& other) {
@@ -133,12 +145,11 @@ FeaturePair query_kind(const std::filesystem::path& path, std::optional<FeatureP
 
 CcdOutcome run_ccd(const CcdRequest& request) {
   CcdOutcome outcome;
-  std::vector<std::vector<QueryRecord>> records;
   for (const auto& path : request.files) {
     outcome.files.push_back({path, query_kind(path, request.pair), {}, {}, {}});
     require_decided(outcome.files.back(), request.dimension);
-    records.push_back(read_query_csv(path, audit::file_kind(outcome.files.back().pair)));
   }
+  const auto records = read_all(outcome);
   Progress progress("ccd");
   for (std::size_t i = 0; i < outcome.files.size() && outcome.complete; ++i) {
     progress.show(static_cast<double>(i) / static_cast<double>(outcome.files.size()));

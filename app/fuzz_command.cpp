@@ -11,10 +11,12 @@
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
 #include "noli/audit/fuzz_queries.h"
 #include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -109,7 +111,8 @@ std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
-                   finding.difference, finding.file.empty() ? "not saved" : "saved as " + finding.file.string());
+                   finding.difference,
+                   finding.file.empty() ? "not saved" : "saved as " + on_one_line(finding.file.string()));
   }
   text += "Answers of the oracle:\n";
   for (const auto& generator : report.generators) append_generator(generator, text);
@@ -164,16 +167,11 @@ Command add_fuzz_queries(CLI::App& app) {
       ->capture_default_str()
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S");
-  command->add_option("--threads", options.threads, "How many threads; 0: all there are")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("N");
+  add_threads_option(*command, options.threads);
   command->add_option("--out", arguments->out, "Folder for findings, made when there is one")
       ->capture_default_str()
       ->type_name("DIR");
-  command
-      ->add_option("--json", arguments->json,
-                   "Write everything as JSON to this file; '-': to standard output, in place of the text")
-      ->type_name("OUT");
+  add_json_option(*command, arguments->json);
   return {command, [arguments, duration] { return run(*arguments, duration->count() > 0); }};
 }
 

@@ -8,8 +8,10 @@
 
 #include "noli/app/ccd_run.h"
 #include "noli/app/commands.h"
+#include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/audit/any_query.h"
+#include "noli/trajectory/error.h"
 #include "noli/trajectory/file_info.h"
 #include "noli/trajectory/query_csv.h"
 
@@ -81,7 +83,7 @@ std::string as_text(const Json& value) {
 std::string info_text(const Json& files) {
   std::string text = fmt::format("verdict described files {}\n", files.size());
   for (const Json& file : files) {
-    text += as_text(file["file"]) + '\n';
+    text += on_one_line(as_text(file["file"])) + '\n';
     for (const auto& [key, value] : file.items()) {
       if (key != "file") text += fmt::format("  {} {}\n", key, as_text(value));
     }
@@ -104,10 +106,7 @@ Command add_info(CLI::App& app) {
   command->footer(footer);
   const auto arguments = std::make_shared<InfoArguments>();
   command->add_option("files", arguments->files, "PLY, OBJ or CSV files")->required()->type_name("FILE");
-  command
-      ->add_option("--json", arguments->json,
-                   "Write everything as JSON to this file; '-': to standard output, in place of the text")
-      ->type_name("OUT");
+  add_json_option(*command, arguments->json);
   return {command, [arguments] { return run(*arguments); }};
 }
 

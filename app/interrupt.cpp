@@ -11,10 +11,10 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may writ
 
 extern "C" void request_stop(int) { stop_requested.store(true, std::memory_order_relaxed); }
 
+/// Without SA_RESTART, so that waiting for a pipe that nobody writes to ends too (ReadInterrupted).
 void on_signal(int signal, void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;  // or reading a file would fail half-way
   sigaction(signal, &action, nullptr);
 }
 

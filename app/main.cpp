@@ -32,12 +32,12 @@ constexpr const char* footer =
     "`noli COMMAND --help` says more.";
 
 ExitCode complain(ExitCode code, const std::string& message) {
-  std::fputs(fmt::format("noli: {}\n", message).c_str(), stderr);
+  std::fputs(fmt::format("noli: {}\n", on_one_line(message)).c_str(), stderr);
   return code;
 }
 
-/// CLI11 describes a fault in a sentence or two; the user gets one line.
-std::string one_line(std::string text) {
+/// CLI11 describes a fault in a line or two; the user gets one.
+std::string joined_lines(std::string text) {
   for (char& c : text) c = c == '\n' ? ' ' : c;
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
@@ -58,7 +58,7 @@ ExitCode parse_and_run(int argc, char** argv) {
     write_standard_output(version_text());
     return ExitCode::holds;
   } catch (const CLI::ParseError& error) {
-    return complain(ExitCode::bad_input, one_line(error.what()) + " (see noli --help)");
+    return complain(ExitCode::bad_input, joined_lines(error.what()) + " (see noli --help)");
   }
   for (const Command& command : commands) {
     if (command.parser->parsed()) return command.run();
@@ -71,6 +71,8 @@ ExitCode guarded(int argc, char** argv) {
     return parse_and_run(argc, argv);
   } catch (const InputError& error) {
     return complain(ExitCode::bad_input, error.what());
+  } catch (const ReadInterrupted& error) {
+    return complain(ExitCode::undecided, error.what());
   } catch (const UsageError& error) {
     return complain(ExitCode::bad_input, error.what());
   } catch (const WriteError& error) {

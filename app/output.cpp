@@ -18,10 +18,12 @@ namespace {
 
 std::string reason() { return std::strerror(errno); }
 
-/// A file that is written beside its place and moved there in the end; removed if that does not come to pass.
+/// A file beside the one that it is to become; removed if that does not come to pass. Its name is short, so that it is
+/// not too long where the target's is not.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& target) : name_(target + ".XXXXXX"), descriptor_(::mkstemp(name_.data())) {}
+  explicit TemporaryFile(const std::filesystem::path& target)
+      : name_((target.parent_path() / ".noli-XXXXXX").string()), descriptor_(::mkstemp(name_.data())) {}
   ~TemporaryFile() {
     if (!is_open()) return;
     ::close(descriptor_);
@@ -33,11 +35,21 @@ class TemporaryFile {
   bool is_open() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
 
-  /// mkstemp gives the file to its owner alone; a result has the permissions of any new file.
+  /// Gives it the owner and permissions of the file that it replaces, or the permissions of any new file (mkstemp gives
+  /// a file to its owner alone).
+  bool take_permissions_for(const std::string& target) const {
+    struct stat old = {};
+    if (::stat(target.c_str(), &old) != 0) {
+      const mode_t mask = ::umask(0);
+      ::umask(mask);
+      return ::fchmod(descriptor_, 0666 & ~mask) == 0;
+    }
+    const bool same_owner = old.st_uid == ::geteuid() && old.st_gid == ::getegid();
+    if (!same_owner && ::fchown(descriptor_, old.st_uid, old.st_gid) != 0) return false;
+    return ::fchmod(descriptor_, old.st_mode & 0777) == 0;
+  }
+
   bool move_to(const std::string& target) {
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    if (::fchmod(descriptor_, 0666 & ~mask) != 0) return false;
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     if (closed == 0 && ::rename(name_.c_str(), target.c_str()) == 0) return true;
@@ -72,13 +84,19 @@ bool is_standard_output(const std::string& path) {
   return S_ISREG(file.st_mode) && file.st_dev == out.st_dev && file.st_ino == out.st_ino;
 }
 
+/// Whether a file that exists may be written but not replaced: its folder is not ours to change, or it is a mount
+/// point. Judged by why replacing it failed.
+bool must_be_kept(int error) { return error == EACCES || error == EPERM || error == EBUSY; }
+
 bool can_write(const std::string& path) {
   if (path.empty()) return errno = ENOENT, false;
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return errno = EISDIR, false;
-  const bool exists = ::access(path.c_str(), F_OK) == 0;
+  struct stat status = {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (!exists && errno != ENOENT) return false;
+  if (exists && S_ISDIR(status.st_mode)) return errno = EISDIR, false;
   if (exists && ::access(path.c_str(), W_OK) != 0) return false;
-  return !is_replaced(path) || TemporaryFile(link_target(path)).is_open();
+  if (!is_replaced(path) || TemporaryFile(link_target(path)).is_open()) return true;
+  return exists && must_be_kept(errno);
 }
 
 bool write_all(int descriptor, const std::string& text) {
@@ -94,14 +112,22 @@ bool write_all(int descriptor, const std::string& text) {
 bool replace_file(const std::string& path, const std::string& text) {
   const std::string target = link_target(path);
   TemporaryFile file(target);
-  return file.is_open() && write_all(file.descriptor(), text) && file.move_to(target);
+  return file.is_open() && write_all(file.descriptor(), text) && file.take_permissions_for(target) &&
+         file.move_to(target);
 }
 
-bool write_device(const std::string& path, const std::string& text) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+/// A device, a pipe, or a file that must be kept.
+bool write_in_place(const std::string& path, const std::string& text) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   if (descriptor < 0) return false;
   const bool written = write_all(descriptor, text);
   return ::close(descriptor) == 0 && written;
+}
+
+bool write_file(const std::string& path, const std::string& text) {
+  if (!is_replaced(path)) return write_in_place(path, text);
+  if (replace_file(path, text)) return true;
+  return must_be_kept(errno) && ::access(path.c_str(), F_OK) == 0 && write_in_place(path, text);
 }
 
 }  // namespace
@@ -124,9 +150,7 @@ Output::Output(std::optional<std::string> json_path, const std::vector<std::file
 void Output::write(const std::string& text, const Json& json) const {
   if (!json_path_) return write_standard_output(text);
   if (*json_path_ == "-") return write_standard_output(to_text(json));
-  const bool written =
-      is_replaced(*json_path_) ? replace_file(*json_path_, to_text(json)) : write_device(*json_path_, to_text(json));
-  if (!written) throw WriteError(*json_path_ + ": cannot be written: " + reason());
+  if (!write_file(*json_path_, to_text(json))) throw WriteError(*json_path_ + ": cannot be written: " + reason());
   write_standard_output(text);
 }
 

@@ -22,8 +22,10 @@ class Output {
   /// to. Throws UsageError when a file cannot be written there; leaves nothing behind.
   Output(std::optional<std::string> json_path, const std::vector<std::filesystem::path>& inputs);
 
-  /// Writes the results. A file is written under another name first and then renamed: it is complete or absent. It
-  /// comes before the text, so that no verdict is printed by a run that fails. Throws WriteError.
+  /// Writes the results. A file is written under another name first and then renamed: it is complete or absent, and has
+  /// the owner and permissions of the one that it replaces. A file that may be written but not replaced (in a folder
+  /// without write permission, say) is written in place. It comes before the text, so that no verdict is printed by a
+  /// run that fails. Throws WriteError.
   void write(const std::string& text, const Json& json) const;
 
  private:

@@ -4,6 +4,7 @@
 
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/verify_report.h"
 #include "noli/app/verify_run.h"
@@ -54,13 +55,8 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   command.add_option("frames", request.frames, "PLY or OBJ files, in the order of time")
       ->required()
       ->type_name("FRAMES");
-  command
-      .add_option("--json", arguments.json,
-                  "Write everything as JSON to this file; '-': to standard output, in place of the text")
-      ->type_name("OUT");
-  command.add_option("--threads", request.threads, "How many threads; 0: all there are")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("N");
+  add_json_option(command, arguments.json);
+  add_threads_option(command, request.threads);
   command.add_option("--max-reports", request.max_reports, "List at most so many contacts; counts are always exact")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
@@ -71,7 +67,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       .add_option("--dimension", request.dimension,
                   "2 or 3; by default 2 if all z of the first two frames are equal, else 3. A later frame that leaves "
                   "the plane is then refused")
-      ->check(CLI::IsMember({2, 3}))
+      ->check(is_dimension())
       ->type_name("2|3");
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/verify_run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -22,11 +23,12 @@ namespace {
 
 Motion motion_of(const VerifyRequest& request) { return request.constant_motion ? Motion::constant : Motion::linear; }
 
-/// A frame that is not there is noticed before the work begins, not an hour later.
+/// A frame that is not there is noticed before the work begins, not an hour later. Nothing is opened: that would wait
+/// for the writer of a pipe, and take its only reader away from it.
 void require_readable(const std::vector<std::filesystem::path>& paths) {
   for (const auto& path : paths) {
     std::error_code error;
-    if (std::filesystem::is_directory(path, error) || !std::ifstream(path)) {
+    if (std::filesystem::is_directory(path, error) || ::access(path.c_str(), R_OK) != 0) {
       throw InputError(path.string(), "", "cannot be opened; expected a PLY or OBJ file");
     }
   }
@@ -43,7 +45,7 @@ class Run {
   VerifyOutcome operator()() {
     const Stopwatch watch;
     if (request_.merge_identical) find_classes();
-    while (!stopped() && outcome_.complete && read_next_step()) {
+    while (!stopped() && outcome_.complete && read_next(sequence_)) {
       if (sequence_.step() == 0) begin();
       require_plane();
       verify();
@@ -61,22 +63,26 @@ class Run {
     return outcome_.interrupted || outcome_.out_of_time;
   }
 
-  bool read_next_step() {
+  /// Whether there was another step. Not when the user would not wait for it.
+  bool read_next(FrameSequence& sequence) {
     const Stopwatch watch;
-    const bool read = sequence_.next();
+    bool read = false;
+    try {
+      read = sequence.next();
+    } catch (const ReadInterrupted&) {
+      outcome_.interrupted = true;
+    }
     outcome_.read_seconds += watch.seconds();
     return read;
   }
 
   /// The first pass of --merge-identical.
   void find_classes() {
-    const Stopwatch watch;
     FrameSequence frames(request_.frames, Motion::constant);
-    while (!stopped() && frames.next()) {
+    while (!stopped() && read_next(frames)) {
       if (!classes_) classes_.emplace(frames.mesh().vertex_count);
       classes_->refine(frames.x_t0());
     }
-    outcome_.read_seconds += watch.seconds();
   }
 
   /// What the first step tells about all of them.

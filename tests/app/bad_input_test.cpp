@@ -162,6 +162,9 @@ const std::vector<BadLine> bad_lines = {
     {"endless_time", {"verify", "%1", "%2", "--time-limit", "1e300h"}, {"--time-limit"}},
     {"unknown_unit", {"verify", "%1", "%2", "--time-limit", "5parsec"}, {"--time-limit"}},
     {"dimension", {"verify", "%1", "%2", "--dimension", "4"}, {"--dimension"}},
+    {"half_dimension", {"verify", "%1", "%2", "--dimension", "2.5"}, {"--dimension", "2.5", "expected 2 or 3"}},
+    {"half_dimension_ccd", {"ccd", "%1", "--dimension", "2.5"}, {"--dimension", "2.5", "expected 2 or 3"}},
+    {"two_lines", {"verify", "%1", "%2", "--time-limit", "1\n2"}, {"1\\n2"}},
     {"max_reports", {"verify", "%1", "%2", "--max-reports=-1"}, {"--max-reports"}},
     {"contradiction", {"verify", "%1", "%2", "--keep-going", "--first-only"}, {"--first-only"}},
     {"missing_queries", {"ccd", "/nowhere/edge-edge.csv"}, {"/nowhere/edge-edge.csv"}},
@@ -185,6 +188,14 @@ TEST(BadInput, AMeshOfNothingIsRefused) {
   const Folder folder;
   const auto path = folder.write("points.obj", "v 0 0 0\nv 1 0 0\n");
   expect_refusal(folder, {"verify", path, path}, {path, "no faces, edges or points"});
+}
+
+TEST(BadInput, AFileNameOfTwoLinesIsToldOnOne) {
+  const Folder folder;
+  expect_refusal(folder, {"verify", folder.path("a\n.ply"), "b.ply"}, {"a\\n.ply"});
+  expect_refusal(folder, {"info", folder.write("c\n\x1b.ply", "")}, {"c\\n\\x1b.ply: is empty"});
+  const auto good = folder.write("d\t\n.ply", two_triangles(1));
+  EXPECT_NE(run_noli({"info", good}).out.find("d\\t\\n.ply\n"), std::string::npos);
 }
 
 TEST(BadInput, APromiseOfAThousandMillionElementsTakesNoMemory) {

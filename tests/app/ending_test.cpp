@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How the command ends when the user, a limit or the machine puts an end to it: never in 0.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -53,6 +55,37 @@ TEST_P(EndedBySignal, FuzzLeavesValidJson) {
   const Json json = Json::parse(read_text(folder.path("result.json")));
   EXPECT_EQ(json["verdict"], "undecided");
   EXPECT_EQ(json["findings"], 0);
+}
+
+TEST_P(EndedBySignal, WhileAPipeIsWaitedFor) {
+  const Folder folder;
+  const auto good = folder.write("good.ply", two_triangles(1));
+  const auto pipe = folder.path("pipe.ply"), queries = folder.path("edge-edge.csv");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600) + ::mkfifo(queries.c_str(), 0600), 0);
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", pipe, good},
+                                                    {"verify", good, pipe, "--merge-identical"},
+                                                    {"ccd", queries}}) {
+    auto with_json = arguments;
+    with_json.insert(with_json.end(), {"--json", "-"});
+    const Process process = run_noli(with_json, sends(GetParam()));
+    EXPECT_EQ(process.exit_code, 2) << process.err;
+    EXPECT_EQ(Json::parse(process.out)["verdict"], "undecided");
+  }
+  const Process info = run_noli({"info", pipe}, sends(GetParam()));
+  EXPECT_EQ(info.exit_code, 2);
+  EXPECT_EQ(info.err, "noli: " + pipe + ": interrupted while it was read\n");
+}
+
+TEST_P(EndedBySignal, WhileTheRestOfAPipeIsWaitedFor) {
+  const Folder folder;
+  const auto pipe = folder.path("pipe.ply");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int writer = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);  // does not wait for a reader
+  ASSERT_EQ(::write(writer, "ply\n", 4), 4);
+  const Process process = run_noli({"verify", pipe, folder.write("good.ply", two_triangles(1))}, sends(GetParam()));
+  ::close(writer);
+  EXPECT_EQ(process.exit_code, 2) << process.err;
+  EXPECT_NE(process.out.find("Undecided (interrupted)"), std::string::npos) << process.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EndedBySignal, testing::Values(SIGINT, SIGTERM),

@@ -87,6 +87,43 @@ TEST_F(JsonOutput, IsReadableByWhomNewFilesAre) {
   EXPECT_EQ(static_cast<unsigned>(permissions), 0644u);
 }
 
+TEST_F(JsonOutput, KeepsThePermissionsOfTheFileThatItReplaces) {
+  const auto path = folder.write("out.json", "old");
+  std::filesystem::permissions(path, std::filesystem::perms(0640));
+  EXPECT_EQ(run(path).exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read_text(path))["verdict"], "described");
+  EXPECT_EQ(static_cast<unsigned>(std::filesystem::status(path).permissions()), 0640u);
+}
+
+TEST_F(JsonOutput, IsWrittenInPlaceWhereTheFolderMayNotChange) {
+  std::filesystem::create_directory(folder.path("closed"));
+  const auto writable = folder.write("closed/writable.json", std::string(100'000, 'x'));
+  const auto readable = folder.write("closed/readable.json", "old");
+  std::filesystem::permissions(readable, std::filesystem::perms(0444));
+  std::filesystem::permissions(folder.path("closed"), std::filesystem::perms(0555));
+  ProcessOptions options;
+  options.obey_permissions = true;
+  const auto exit_code = [&](const std::string& out) {
+    return run_noli({"info", mesh, "--json", out}, options).exit_code;
+  };
+  EXPECT_EQ(exit_code(writable), 0);
+  EXPECT_EQ(exit_code(readable), 3);
+  EXPECT_EQ(exit_code(folder.path("closed/new.json")), 3);
+  std::filesystem::permissions(folder.path("closed"), std::filesystem::perms(0755));  // so that it can be removed
+  EXPECT_EQ(nlohmann::json::parse(read_text(writable))["verdict"], "described");
+  EXPECT_EQ(read_text(readable), "old");
+}
+
+TEST_F(JsonOutput, MayHaveTheLongestNameThereIs) {
+  const auto longest = folder.path(std::string(250, 'n') + ".json");
+  EXPECT_EQ(run(longest).exit_code, 0);
+  EXPECT_EQ(run(longest).exit_code, 0);  // replaced
+  EXPECT_EQ(nlohmann::json::parse(read_text(longest))["verdict"], "described");
+  const auto names = folder.names();
+  EXPECT_EQ(run(folder.path(std::string(251, 'n') + ".json")).exit_code, 3);
+  EXPECT_EQ(folder.names(), names);
+}
+
 TEST_F(JsonOutput, StaysJsonWhenANameIsNoText) {
   const auto odd = folder.write("odd\xff\".ply", two_triangles(1));
   const Process process = run_noli({"info", odd, "--json", "-"});

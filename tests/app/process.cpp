@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/capability.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -48,6 +50,10 @@ void set_up_child(const ProcessOptions& options, const Pipe& out, const Pipe& er
     ::dup2(::open(options.standard_output.c_str(), O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
   } else {
     ::dup2(out.write_end(), STDOUT_FILENO);
+  }
+  // Root may do without the capability; nobody else has it.
+  if (options.obey_permissions && ::geteuid() == 0 && ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0) != 0) {
+    ::_exit(126);
   }
   if (options.close_standard_output) ::close(STDOUT_FILENO);
   if (options.address_space) {

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
@@ -212,6 +216,15 @@ TEST_F(Verify, ReadsObjAndMixesFormats) {
       folder.write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 1\nv 1.5 1 1\nv 1 1.5 1\nf 1 2 3\nf -3 -2 -1\n");
   const auto ply = folder.write("b.ply", two_triangles(-1));
   EXPECT_EQ(json_of({"verify", obj, ply}, 1)["contacts"], vertex_face_contacts(3));
+}
+
+TEST_F(Verify, ReadsAFrameFromAPipe) {
+  const auto pipe = folder.path("pipe.ply");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe) << two_triangles(1); });
+  const Json json = json_of({"verify", pipe, folder.write("b.ply", two_triangles(-1))}, 1);
+  writer.join();
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
 }
 
 TEST_F(Verify, AcceptsTheFlagOfALaterChecker) {

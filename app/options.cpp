@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/options.h"
+
+namespace noli::app {
+
+void add_json_option(CLI::App& command, std::optional<std::string>& path) {
+  command
+      .add_option("--json", path,
+                  "Write everything as JSON to this file; '-': to standard output, in place of the text")
+      ->type_name("OUT");
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "How many threads; 0: all there are")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+}
+
+CLI::Validator is_dimension() {
+  return CLI::Validator(
+      [](const std::string& text) { return text == "2" || text == "3" ? "" : text + ": expected 2 or 3"; }, "");
+}
+
+}  // namespace noli::app

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options that several commands have, in the same words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace noli::app {
+
+/// --json OUT: where Output writes the document.
+void add_json_option(CLI::App& command, std::optional<std::string>& path);
+
+/// --threads N: 0 for all there are.
+void add_threads_option(CLI::App& command, int& threads);
+
+/// Accepts 2 and 3.
+CLI::Validator is_dimension();
+
+}  // namespace noli::app
