@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How long the steps of forces may be (acm 1.4).
+//
+// Notation
+//   m_i       mass of vertex i; infinite if pinned or scripted: such vertices do not count below
+//   g_j,i     gradient at vertex i of measure j of a force, c_j its stiffness (force.h)
+//   kappa_i   of a force at a vertex: sum over j of c_j |g_j,i| (sum over k of |g_j,k|) / m_i [1/s^2]
+//   Omega_i   of a vertex: 2 sum over the forces of one kind at i of kappa_i
+//   h         of a force: factor * 2 / sqrt(max over its vertices of Omega_i)
+//
+// In a shape without stress, sum kappa_i is a row of a Gershgorin bound on M^-1 Hess V in the coordinates, blocks taken by
+// their norms: the largest squared frequency of all forces of the kind is at most the largest sum. Verlet's step for
+// them is stable up to 2 / frequency. The 2 in Omega leaves room for as much stiffness of other kinds at the vertex.
+//
+// What this does not do: the bound is that of the shape given, usually the start; stress and large strain add stiffness
+// that it does not see. It knows nothing of resonance between steps (resonance.h).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "noli/integrator/model.h"
+
+namespace noli::integrator {
+
+/// Omega_i / 2 that one force adds to each of its vertices [1/s^2].
+template <class F, class S, int Dim>
+std::array<S, F::size> squared_frequencies(const F& force, const std::vector<Vec<S, Dim>>& x,
+                                           const std::vector<S>& inverse_mass) {
+  using std::sqrt;
+  Stencil<S, Dim, F::size> at;
+  for (std::size_t i = 0; i < F::size; ++i) at[i] = x[force.vertices[i]];
+  const auto gradients = force.measure_gradients(at);
+  const auto stiffness = force.stiffness();
+  std::array<S, F::size> result{};
+  for (std::size_t j = 0; j < F::measures; ++j) {
+    std::array<S, F::size> norms;
+    S sum(0);
+    for (std::size_t i = 0; i < F::size; ++i) {
+      norms[i] = sqrt(gradients[j][i].squaredNorm());
+      if (inverse_mass[force.vertices[i]] != S(0)) sum += norms[i];
+    }
+    for (std::size_t i = 0; i < F::size; ++i) {
+      result[i] += stiffness[j] * norms[i] * sum * inverse_mass[force.vertices[i]];
+    }
+  }
+  return result;
+}
+
+/// A step for each force of a list [s]; infinite for forces that move nothing. x, inverse_mass: one for each vertex, 0
+/// for what is pinned or scripted.
+template <class F, class S, int Dim>
+std::vector<double> stable_steps(const ForceList<F>& list, const std::vector<Vec<S, Dim>>& x,
+                                 const std::vector<S>& inverse_mass, double factor = 0.5) {
+  std::vector<S> half_omega(x.size(), S(0));
+  for (const F& force : list.forces) {
+    const auto kappa = squared_frequencies(force, x, inverse_mass);
+    for (std::size_t i = 0; i < F::size; ++i) half_omega[force.vertices[i]] += kappa[i];
+  }
+  std::vector<double> steps;
+  steps.reserve(list.forces.size());
+  for (const F& force : list.forces) {
+    S greatest(0);
+    for (const VertexId i : force.vertices) greatest = std::max(greatest, half_omega[i]);
+    steps.push_back(factor * 2 / std::sqrt(static_cast<double>(S(2) * greatest)));
+  }
+  return steps;
+}
+
+/// The step of each force above which a scene is refused: without the factor of safety.
+template <class F, class S, int Dim>
+std::vector<double> stability_limits(const ForceList<F>& list, const std::vector<Vec<S, Dim>>& x,
+                                     const std::vector<S>& inverse_mass) {
+  return stable_steps(list, x, inverse_mass, 1);
+}
+
+}  // namespace noli::integrator
