@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/trajectory/block_file.h"
+#include "noli/trajectory/bytes.h"
+#include "noli/trajectory/crc32c.h"
+
+namespace noli {
+
+std::string block_format::block_header(FourLetters kind, std::uint64_t length) {
+  std::string bytes;
+  put(bytes, kind);
+  put(bytes, length);
+  return bytes;
+}
+
+Sha256Digest next_running_hash(const Sha256Digest& a, const Sha256Digest& b) {
+  Sha256 hash;
+  hash.update(bytes_of(a));
+  hash.update(bytes_of(b));
+  return hash.digest();
+}
+
+BlockWriter::BlockWriter(std::unique_ptr<Sink> sink, FourLetters content) : sink_(std::move(sink)) {
+  std::string header(block_format::magic);
+  put(header, block_format::version);
+  put(header, content);
+  write(header);
+}
+
+BlockWriter::BlockWriter(std::unique_ptr<Sink> sink, const CommitPoint& committed)
+    : sink_(std::move(sink)), committed_(committed) {
+  discard();
+}
+
+void BlockWriter::write(std::string_view bytes) {
+  sink_->write(bytes);
+  hash_.update(bytes);
+  size_ += bytes.size();
+}
+
+void BlockWriter::append(FourLetters kind, std::string_view payload) {
+  const std::string header = block_format::block_header(kind, payload.size());
+  std::string checksum;
+  put(checksum, crc32c(payload, crc32c(header)));
+  write(header);
+  write(payload);
+  write(checksum);
+}
+
+void BlockWriter::commit() {
+  const Sha256Digest group = hash_.digest();
+  const Sha256Digest running = next_running_hash(committed_.running, group);
+  std::string payload;
+  put(payload, committed_.groups);
+  payload.append(bytes_of(group)).append(bytes_of(running));
+  sink_->sync();
+  append(block_format::commit, payload);
+  sink_->sync();
+  committed_ = {size_, committed_.groups + 1, running};
+  hash_ = {};
+}
+
+void BlockWriter::discard() {
+  sink_->truncate(committed_.offset);
+  size_ = committed_.offset;
+  hash_ = {};
+}
+
+}  // namespace noli

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Numbers as bytes, little-endian whatever the machine, and back with every read checked. Doubles are their IEEE 754
+// binary64 bits. Internal to the files of a run.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace noli {
+
+/// An unsigned integer or double.
+template <class T>
+concept PlainNumber = std::is_unsigned_v<T> || std::is_same_v<T, double>;
+
+template <PlainNumber T>
+void put(std::string& out, T value) {
+  if constexpr (std::is_same_v<T, double>) {
+    put(out, std::bit_cast<std::uint64_t>(value));
+  } else {
+    for (std::size_t i = 0; i < sizeof(T); ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
+  }
+}
+
+/// Precondition: `bytes` has at least sizeof(T).
+template <PlainNumber T>
+T get(const char* bytes) {
+  if constexpr (std::is_same_v<T, double>) {
+    return std::bit_cast<double>(get<std::uint64_t>(bytes));
+  } else {
+    T value = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      value |= static_cast<T>(static_cast<T>(static_cast<unsigned char>(bytes[i])) << (8 * i));
+    return value;
+  }
+}
+
+/// All numbers of an array, at once where the machine has them in this order.
+template <PlainNumber T>
+void put_all(std::string& out, std::span<const T> values) {
+  if constexpr (std::endian::native == std::endian::little) {
+    if (!values.empty()) out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  } else {
+    for (const T value : values) put(out, value);
+  }
+}
+
+/// Precondition: `bytes` has at least values.size_bytes().
+template <PlainNumber T>
+void get_all(const char* bytes, std::span<T> values) {
+  if constexpr (std::endian::native == std::endian::little) {
+    if (!values.empty()) std::memcpy(values.data(), bytes, values.size_bytes());
+  } else {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<T>(bytes + i * sizeof(T));
+  }
+}
+
+}  // namespace noli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CRC-32C (Castagnoli), as RFC 3720 appendix B.4 defines it: it finds what a disk or a transfer spoils, not what somebody
+// means to change (sha256.h is for that).
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace noli {
+
+/// The CRC of `bytes`; of a longer text in parts, `crc` being that of the part before: crc32c(b, crc32c(a)) = crc32c(ab).
+std::uint32_t crc32c(std::string_view bytes, std::uint32_t crc = 0);
+
+}  // namespace noli

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "noli/trajectory/bytes.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/run_checks.h"
+#include "noli/trajectory/run_file.h"
+#include "noli/trajectory/run_payload.h"
+#include "noli/trajectory/text.h"
+
+namespace noli {
+namespace {
+
+std::string letters_of(FourLetters kind) {
+  std::string text;
+  put(text, kind);
+  return in_quotes(text);
+}
+
+/// Which kinds may come after `before` in a window; a window ends with its commit.
+std::vector<FourLetters> successors(FourLetters before, RecordMode record) {
+  switch (before) {
+    case run_kind::window: return {record == RecordMode::full ? run_kind::lines : run_kind::lines_hash};
+    case run_kind::lines_hash:
+    case run_kind::frame: return {run_kind::frame, run_kind::ends};
+    case run_kind::lines:
+    case run_kind::ends: return {run_kind::velocities};
+    case run_kind::velocities: return {run_kind::state};
+    case run_kind::state: return {block_format::commit};
+    default: return {run_kind::window};
+  }
+}
+
+/// Whether every world line begins and ends at just these times.
+bool spans(const WorldLines& lines, double begin, double end) {
+  for (VertexId v = 0; v < lines.vertex_count(); ++v) {
+    if (!same_bits(lines.times(v).front(), begin) || !same_bits(lines.times(v).back(), end)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RunReader::RunReader(const std::filesystem::path& folder) : blocks_(trajectory_path(folder), run_kind::content) {
+  read_scene();
+}
+
+RunReader::RunReader(std::string bytes, std::string name)
+    : blocks_(std::move(bytes), std::move(name), run_kind::content) {
+  read_scene();
+}
+
+void RunReader::fail(const Block& block, const std::string& problem) const {
+  throw InputError(blocks_.name(), byte_place(block.offset), problem);
+}
+
+Block RunReader::scene_block(FourLetters kind) {
+  auto block = blocks_.next();
+  if (!block) throw InputError(blocks_.name(), "", "ends before its first commit; expected header, mesh and labels");
+  if (block->kind != kind) {
+    fail(*block, fmt::format("expected block {}, found {}", letters_of(kind), letters_of(block->kind)));
+  }
+  return std::move(*block);
+}
+
+void RunReader::read_scene() {
+  const Block head = scene_block(run_kind::head);
+  scene_.header = run_block::decode_head({blocks_.name(), head});
+  const Block mesh = scene_block(run_kind::mesh);
+  scene_.mesh = run_block::decode_mesh({blocks_.name(), mesh});
+  const Block labels = scene_block(run_kind::labels);
+  scene_.labels = run_block::decode_labels({blocks_.name(), labels}, scene_.mesh.vertex_count);
+  scene_block(block_format::commit);
+}
+
+/// The blocks of the next window, without its commit; nothing when there is no commit.
+std::optional<std::vector<Block>> RunReader::window_blocks() {
+  std::vector<Block> blocks;
+  FourLetters before = block_format::commit;
+  while (auto block = blocks_.next()) {
+    const auto expected = successors(before, scene_.header.record);
+    if (std::find(expected.begin(), expected.end(), block->kind) == expected.end()) {
+      fail(*block, fmt::format("expected block {}, found {}", letters_of(expected.back()), letters_of(block->kind)));
+    }
+    if (block->kind == block_format::commit) return blocks;
+    before = block->kind;
+    blocks.push_back(std::move(*block));
+  }
+  return std::nullopt;
+}
+
+void RunReader::decode_full(const std::vector<Block>& blocks, RunWindow& window) const {
+  const Block& block = blocks[1];
+  window.lines = run_block::decode_lines({blocks_.name(), block}, scene_.header.dimension, scene_.mesh.vertex_count);
+  if (!spans(*window.lines, window.begin, window.end)) {
+    fail(block, fmt::format("world lines from {:.17g} to {:.17g} in a window from {:.17g} to {:.17g}",
+                            window.lines->first_time(), window.lines->last_time(), window.begin, window.end));
+  }
+  window.breakpoints = count_breakpoints(*window.lines);
+  window.positions = positions_at_end(*window.lines);
+  if (!last_) return;
+  const std::string problem = position_problem(*last_, positions_at_begin(*window.lines));
+  if (!problem.empty()) fail(block, problem);
+}
+
+void RunReader::decode_frames(const std::vector<Block>& blocks, RunWindow& window) const {
+  const std::uint32_t dimension = scene_.header.dimension;
+  const std::size_t vertex_count = scene_.mesh.vertex_count;
+  const run_block::LinesHash hash = run_block::decode_lines_hash({blocks_.name(), blocks[1]});
+  window.breakpoints = hash.breakpoints;
+  window.lines_hash = hash.hash;
+  const std::size_t ends = blocks.size() - 3;
+  for (std::size_t i = 2; i < ends; ++i) {
+    window.frames.push_back(run_block::decode_frame({blocks_.name(), blocks[i]}, dimension, vertex_count));
+  }
+  window.positions = run_block::decode_vectors({blocks_.name(), blocks[ends]}, dimension, vertex_count);
+  const WindowEnd end{window.end, window.positions};
+  const std::string problem = frames_problem(window.index, window.begin, end, window.frames);
+  if (!problem.empty()) fail(blocks[2], problem);
+}
+
+std::optional<RunWindow> RunReader::next_window() {
+  std::optional<std::vector<Block>> blocks = window_blocks();
+  if (!blocks) return std::nullopt;
+  const run_block::WindowTimes times = run_block::decode_window({blocks_.name(), blocks->front()});
+  RunWindow window;
+  window.index = times.index;
+  window.begin = times.begin;
+  window.end = times.end;
+  if (window.index != windows() - 1) {
+    fail(blocks->front(), fmt::format("window {} where window {} was expected", window.index, windows() - 1));
+  }
+  const std::string problem = last_ ? time_problem(*last_, window.begin) : "";
+  if (!problem.empty()) fail(blocks->front(), problem);
+  scene_.header.record == RecordMode::full ? decode_full(*blocks, window) : decode_frames(*blocks, window);
+  window.velocities = run_block::decode_vectors({blocks_.name(), (*blocks)[blocks->size() - 2]},
+                                                scene_.header.dimension, scene_.mesh.vertex_count);
+  window.state = std::move(blocks->back().payload);
+  last_ = WindowEnd{window.end, window.positions};
+  return window;
+}
+
+std::string RunReader::open_window_message() const {
+  return fmt::format("{}: ends in an open window at {}", blocks_.name(), byte_place(open_window().value()));
+}
+
+}  // namespace noli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The compression function of SHA-256 (FIPS 180-4, section 6.2.2). Internal to sha256.cpp and its tests.
+//
+// Two ways to the same result: plain C++, and the processor's instructions for it where there are any (nine times as
+// fast; a run hashes every breakpoint it records).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace noli {
+
+using Sha256State = std::array<std::uint32_t, 8>;
+
+/// Takes whole blocks of 64 bytes into the state; the faster way that this processor has.
+void sha256_blocks(Sha256State& state, std::string_view blocks);
+
+void sha256_blocks_plain(Sha256State& state, std::string_view blocks);
+
+/// Whether this processor has the instructions, and the way by them. Precondition of the latter: the former.
+bool has_sha_instructions();
+void sha256_blocks_by_instructions(Sha256State& state, std::string_view blocks);
+
+}  // namespace noli
