@@ -6,7 +6,8 @@
 // Notation
 //   x0, x1    the common edge, e = x1 - x0, L = |e|; x2, x3 the opposite vertices, a = x2 - x0, b = x3 - x0
 //   n1, n2    e x a and b x e, the triangles' normals; N1, N2 their squared lengths
-//   theta     the angle from n1 to n2 about e, in (-pi, pi], zero if flat; the measure.
+//   theta     the angle from n1 to n2 about e, in (-pi, pi], zero if flat, negative if folded towards the normals; the
+//             measure.
 //             cos theta = n1.n2 / sqrt(N1 N2); sin theta = -L n1.b / sqrt(N1 N2), because n1 x n2 = -(n1.b) e
 //   V         K (1 - cos(theta - theta0)), see forces/angle.h
 //   K         rigidity L0^2 / A0, A0 the sum of the areas, all at rest. In the terms of Discrete Shells this is

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Each force against differences of its energy in 60 digits, against closed forms, and where it has no direction.
+#include <gtest/gtest.h>
+
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "noli/integrator/books.h"
+#include "noli/integrator/model.h"
+#include "noli/tests/integrator/big.h"
+#include "noli/tests/integrator/shapes.h"
+
+namespace noli {
+namespace {
+
+using integrator::Angle;
+using integrator::EdgeSpring;
+using integrator::Hinge;
+using integrator::Membrane;
+using integrator::Stencil;
+using integrator::Turning;
+using integrator::Vec;
+using test::Big;
+using test::Random;
+
+constexpr int shapes = 100;
+
+template <class S, int Dim, std::size_t N>
+S greatest(const Stencil<S, Dim, N>& x) {
+  S result(0);
+  for (const auto& point : x) result = std::max(result, S(point.cwiseAbs().maxCoeff()));
+  return result;
+}
+
+template <class S, int Dim, std::size_t N>
+Stencil<S, Dim, N> minus(const Stencil<S, Dim, N>& a, const Stencil<S, Dim, N>& b) {
+  Stencil<S, Dim, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = a[i] - b[i];
+  return result;
+}
+
+/// Central differences of a function of a stencil; their error is of the order of 1e-38.
+template <class Function, int Dim, std::size_t N>
+Stencil<Big, Dim, N> differences(const Function& f, Stencil<Big, Dim, N> x) {
+  const Big step("1e-20");
+  Stencil<Big, Dim, N> result;
+  for (std::size_t i = 0; i < N; ++i) {
+    for (int d = 0; d < Dim; ++d) {
+      const Big at = x[i][d];
+      x[i][d] = at + step;
+      const Big above = f(x);
+      x[i][d] = at - step;
+      result[i][d] = (above - f(x)) / (2 * step);
+      x[i][d] = at;
+    }
+  }
+  return result;
+}
+
+Big square_length(const Vec<Big, 3>& v) { return v.squaredNorm(); }
+
+Big arc_tangent(const Big& sine, const Big& cosine) { return boost::multiprecision::atan2(sine, cosine); }
+
+/// What the forces say they measure, written again in another way.
+template <int Dim>
+std::vector<Big> measures(const EdgeSpring<Big, Dim>&, const Stencil<Big, Dim, 2>& x) {
+  return {boost::multiprecision::sqrt((x[1] - x[0]).squaredNorm())};
+}
+
+std::vector<Big> measures(const Membrane<Big>& f, const Stencil<Big, 3, 3>& x) {
+  // Rest edges r, s in the plane; Green strain from the changes of squared lengths.
+  const Big r = 1 / f.b11, sy = 1 / f.b22, sx = -f.b12 * r * sy;
+  const Big rr = square_length(x[1] - x[0]) - r * r, ss = square_length(x[2] - x[0]) - (sx * sx + sy * sy);
+  const Big rs = (x[1] - x[0]).dot(x[2] - x[0]) - r * sx;
+  const Big e11 = rr / (2 * r * r), e12 = (rs / 2 - e11 * r * sx) / (r * sy);
+  return {e11, (ss / 2 - e11 * sx * sx - 2 * e12 * sx * sy) / (sy * sy), e12};
+}
+
+std::vector<Big> measures(const Hinge<Big>&, const Stencil<Big, 3, 4>& x) {
+  const Vec<Big, 3> e = x[1] - x[0], n1 = (x[0] - x[2]).cross(x[1] - x[2]), n2 = (x[1] - x[3]).cross(x[0] - x[3]);
+  const Big length = boost::multiprecision::sqrt(e.squaredNorm());
+  return {arc_tangent(n1.cross(n2).dot(e) / length, n1.dot(n2))};
+}
+
+std::vector<Big> measures(const Turning<Big>&, const Stencil<Big, 2, 3>& x) {
+  const Vec<Big, 2> a = x[1] - x[0], b = x[2] - x[1];
+  return {arc_tangent(a[0] * b[1] - a[1] * b[0], a.dot(b))};
+}
+
+template <class F>
+class Elastic : public testing::Test {
+ public:
+  static constexpr std::size_t size = F::size;
+  using X = Stencil<double, F::dimension, size>;
+  static F force(Random& random) { return test::random_force<F>(random); }
+  static X shape(Random& random) { return test::random_stencil<size, F::dimension>(random, 1); }
+};
+
+using AllForces =
+    testing::Types<EdgeSpring<double, 2>, EdgeSpring<double, 3>, Membrane<double>, Hinge<double>, Turning<double>>;
+TYPED_TEST_SUITE(Elastic, AllForces);
+
+TYPED_TEST(Elastic, GradientIsThatOfTheEnergy) {
+  Random random(1);
+  for (int i = 0; i < shapes; ++i) {
+    const auto force = this->force(random);
+    const auto x = this->shape(random);
+    const auto big = test::convert<Big>(force);
+    const auto expected = differences([&](const auto& at) { return big.energy(at); }, test::to_big(x));
+    const Big scale = greatest(expected);
+    EXPECT_LE(greatest(minus(big.gradient(test::to_big(x)), expected)), Big("1e-30") * scale);
+    EXPECT_LE(greatest(minus(test::to_big(force.gradient(x)), expected)), Big("1e-12") * scale);
+  }
+}
+
+TYPED_TEST(Elastic, MeasureGradientsAreThoseOfTheMeasures) {
+  Random random(2);
+  for (int i = 0; i < shapes; ++i) {
+    const auto force = this->force(random);
+    const auto x = this->shape(random);
+    const auto big = test::convert<Big>(force);
+    const auto gradients = big.measure_gradients(test::to_big(x));
+    for (std::size_t j = 0; j < gradients.size(); ++j) {
+      const auto expected = differences([&](const auto& at) { return measures(big, at)[j]; }, test::to_big(x));
+      EXPECT_LE(greatest(minus(gradients[j], expected)), Big("1e-30") * greatest(expected)) << "measure " << j;
+    }
+  }
+}
+
+/// Measures less what they are at rest.
+template <int Dim>
+std::vector<Big> strains(const EdgeSpring<Big, Dim>& f, const Stencil<Big, Dim, 2>& x) {
+  return {measures(f, x)[0] - f.rest_length};
+}
+
+std::vector<Big> strains(const Membrane<Big>& f, const Stencil<Big, 3, 3>& x) { return measures(f, x); }
+
+template <class F, int Dim, std::size_t N>
+std::vector<Big> strains(const F& f, const Stencil<Big, Dim, N>& x) {
+  const Big half_turn = boost::math::constants::pi<Big>();
+  Big delta = measures(f, x)[0] - arc_tangent(f.rest.sine, f.rest.cosine);
+  if (delta > half_turn) delta -= 2 * half_turn;
+  if (delta < -half_turn) delta += 2 * half_turn;
+  return {delta};
+}
+
+/// The energy is at most that of springs on the measures, of the stiffness that step estimates use.
+TYPED_TEST(Elastic, StiffnessBoundsTheEnergy) {
+  Random random(3);
+  for (int i = 0; i < shapes; ++i) {
+    const auto force = test::convert<Big>(this->force(random));
+    const auto x = test::to_big(this->shape(random));
+    const auto s = strains(force, x);
+    Big bound(0);
+    for (std::size_t j = 0; j < s.size(); ++j) bound += force.stiffness()[j] * s[j] * s[j] / 2;
+    EXPECT_GT(force.energy(x), 0);
+    EXPECT_LE(force.energy(x), bound * (1 + Big("1e-30")));
+    EXPECT_GE(force.energy(x), bound / 50) << "the bound is idle";
+  }
+}
+
+TYPED_TEST(Elastic, NeitherPushesNorTurnsAsAWhole) {
+  constexpr int Dim = TypeParam::dimension;
+  Random random(4);
+  for (int i = 0; i < shapes; ++i) {
+    const auto force = this->force(random);
+    const auto x = this->shape(random);
+    auto all = force.measure_gradients(x);
+    const auto check = [&](const auto& g) {
+      Vec<double, Dim> sum = Vec<double, Dim>::Zero();
+      integrator::Moment<double, Dim> turn = integrator::Moment<double, Dim>::Zero();
+      for (std::size_t k = 0; k < g.size(); ++k) {
+        sum += g[k];
+        turn += integrator::moment<double, Dim>(x[k], g[k]);
+      }
+      EXPECT_LE(sum.cwiseAbs().maxCoeff(), 1e-15 * greatest(g));
+      EXPECT_LE(turn.cwiseAbs().maxCoeff(), 1e-13 * greatest(g));
+    };
+    check(force.gradient(x));
+    for (const auto& g : all) check(g);
+  }
+}
+
+/// A turn by 36.87... degrees: cosine 0.8, sine 0.6.
+Vec<double, 3> moved(const Vec<double, 3>& x) {
+  return {0.8 * x[0] - 0.6 * x[1] + 3, 0.6 * x[0] + 0.8 * x[1] - 2, x[2] + 1};
+}
+Vec<double, 2> moved(const Vec<double, 2>& x) { return {0.8 * x[0] - 0.6 * x[1] + 3, 0.6 * x[0] + 0.8 * x[1] - 2}; }
+
+template <class F>
+void expect_no_force_at_rest(const F& force, Stencil<double, F::dimension, F::size> rest, double scale) {
+  for (const bool move : {false, true}) {
+    if (move) {
+      for (auto& point : rest) point = moved(point);
+    }
+    EXPECT_LE(greatest(force.gradient(rest)), 1e-12 * scale);
+    EXPECT_LE(force.energy(rest), 1e-24 * scale);
+  }
+}
+
+TEST(RestTest, NoForceWhereTheForceWasMade) {
+  Random random(5);
+  for (int i = 0; i < shapes; ++i) {
+    // Shapes that are not slivers: a scaled unit shape, disturbed.
+    const auto r = test::random_stencil<4, 3>(random, 0.2);
+    const Vec<double, 3> x0 = r[0], x1 = r[1] + Vec<double, 3>(1, 0, 0), x2 = r[2] + Vec<double, 3>(0, 1, 0),
+                         x3 = r[3] + Vec<double, 3>(0.5, -1, 0.5);
+    expect_no_force_at_rest(Membrane<double>::from_rest({0, 1, 2}, {x0, x1, x2}, {1, 0.3, 1}), {x0, x1, x2}, 10);
+    expect_no_force_at_rest(Hinge<double>::from_rest({0, 1, 2, 3}, {x0, x1, x2, x3}, 1), {x0, x1, x2, x3}, 10);
+    const Stencil<double, 2, 3> row = {x0.head<2>(), x1.head<2>(), x2.head<2>()};
+    expect_no_force_at_rest(Turning<double>::from_rest({0, 1, 2}, row, 1), row, 10);
+  }
+}
+
+TEST(MembraneTest, EnergyOfAStretchedTriangle) {
+  const double E = 7, nu = 0.25, th = 0.5;
+  const Stencil<double, 3, 3> rest = {Vec<double, 3>(0, 0, 0), {2, 0, 0}, {0.5, 1, 0}};
+  const auto membrane = Membrane<double>::from_rest({0, 1, 2}, rest, {E, nu, th});
+  const auto stretched = [&](double p, double q, double shear) {
+    Stencil<double, 3, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) x[i] = {p * rest[i][0] + shear * rest[i][1], 1, q * rest[i][1]};
+    return x;
+  };
+  const double area = 1, mu = E / (2 * (1 + nu)), lambda = E * nu / (1 - nu * nu);
+  for (const double p : {0.5, 1.0, 1.5}) {
+    for (const double q : {0.0, 1.0, 1.25}) {
+      for (const double g : {-0.5, 0.0, 0.25}) {
+        const double e11 = (p * p - 1) / 2, e22 = (g * g + q * q - 1) / 2, e12 = p * g / 2;
+        const double expected =
+            th * area * (mu * (e11 * e11 + e22 * e22 + 2 * e12 * e12) + lambda / 2 * (e11 + e22) * (e11 + e22));
+        EXPECT_NEAR(membrane.energy(stretched(p, q, g)), expected, 1e-14);
+      }
+    }
+  }
+}
+
+/// Pulled along one axis and free across, a small strain e takes the energy E/2 e^2 a volume: nu drops out.
+TEST(MembraneTest, UniaxialStressMeasuresYoungsModulus) {
+  const double E = 7, nu = 0.25, e = 1e-5;
+  const Stencil<double, 3, 3> rest = {Vec<double, 3>(0, 0, 0), {2, 0, 0}, {0.5, 1, 0}};
+  auto x = rest;
+  for (auto& point : x) point = {(1 + e) * point[0], (1 - nu * e) * point[1], 0};
+  EXPECT_NEAR(Membrane<double>::from_rest({0, 1, 2}, rest, {E, nu, 0.5}).energy(x) / (E / 2 * e * e * 0.5), 1, 1e-4);
+}
+
+/// The edge along y; side 1 in the direction -x, side 2 turned up from +x by theta.
+Stencil<double, 3, 4> folded(double theta) {
+  return {Vec<double, 3>(0, 0, 0), {0, 2, 0}, {-1, 0.5, 0}, {1.5 * std::cos(theta), 1, 1.5 * std::sin(theta)}};
+}
+
+/// Turns by phi.
+Stencil<double, 2, 3> turned(double phi) {
+  return {Vec<double, 2>(-2, 0), {0, 0}, {1.5 * std::cos(phi), 1.5 * std::sin(phi)}};
+}
+
+constexpr double pi = std::numbers::pi;
+
+TEST(HingeTest, EnergyOfAFoldedHinge) {
+  const double rigidity = 3, K = rigidity * 4 / 2.5;  // L0 = 2; areas 1 and 1.5
+  for (const double theta0 : {-2.5, -0.5, 0.0, 1.0, 3.0}) {
+    const auto hinge = Hinge<double>::from_rest({0, 1, 2, 3}, folded(theta0), rigidity);
+    EXPECT_NEAR(hinge.constant, K, 1e-14);
+    for (const double theta : {-3.0, -1.0, -0.1, 0.0, 0.2, 1.5, 2.9}) {
+      EXPECT_NEAR(hinge.energy(folded(theta)), K * (1 - std::cos(theta - theta0)), 1e-13);
+    }
+  }
+}
+
+/// Folding towards the normals is a negative angle.
+TEST(HingeTest, SignOfTheAngle) {
+  const auto up = Hinge<double>::from_rest({0, 1, 2, 3}, folded(0.5), 1);
+  const auto flat = Hinge<double>::from_rest({0, 1, 2, 3}, folded(0), 1);
+  const auto down = Hinge<double>::from_rest({0, 1, 2, 3}, folded(-0.5), 1);
+  EXPECT_NEAR(up.rest.sine, -std::sin(0.5), 1e-15);
+  EXPECT_NEAR(down.rest.sine, std::sin(0.5), 1e-15);
+  EXPECT_NEAR(up.rest.cosine, std::cos(0.5), 1e-15);
+  EXPECT_GT(flat.gradient(folded(0.5))[3][2], 0);   // energy rises upward
+  EXPECT_LT(flat.gradient(folded(-0.5))[3][2], 0);  // and downward
+  EXPECT_LT(up.gradient(folded(0))[3][2], 0);
+  EXPECT_GT(down.gradient(folded(0))[3][2], 0);
+}
+
+TEST(HingeTest, SmallAnglesKeepTheirDigits) {
+  const auto hinge = Hinge<double>::from_rest({0, 1, 2, 3}, folded(0), 1);
+  EXPECT_NEAR(hinge.energy(folded(1e-9)) / (hinge.constant / 2 * 1e-18), 1, 1e-12);
+}
+
+/// A regular mesh on a cylinder: rigidity/2 times the curvature squared an area.
+TEST(HingeTest, ABentStripHasTheEnergyOfAPlate) {
+  const double rigidity = 3, curvature = 0.01;
+  // The three edges about a rectangle of 1 x 0.7 (diagonal, upright, level), whose pattern fills the plane.
+  const auto at = [&](double x, double y) { return Vec<double, 3>(x, y, curvature * x * x / 2); };
+  const auto energy = [&](std::array<std::array<double, 2>, 4> p) {
+    Stencil<double, 3, 4> rest, bent;
+    for (std::size_t i = 0; i < 4; ++i) {
+      rest[i] = {p[i][0], p[i][1], 0};
+      bent[i] = at(p[i][0], p[i][1]);
+    }
+    return Hinge<double>::from_rest({0, 1, 2, 3}, rest, rigidity).energy(bent);
+  };
+  const double b = 0.7, area = b;
+  const double sum = energy({{{0, 0}, {1, b}, {0, b}, {1, 0}}}) + energy({{{0, 0}, {0, b}, {-1, 0}, {1, b}}}) +
+                     energy({{{0, 0}, {1, 0}, {1, b}, {0, -b}}});
+  EXPECT_NEAR(sum / area, rigidity / 2 * curvature * curvature, 1e-3 * rigidity * curvature * curvature);
+  // Equilateral triangles: three edges for two triangles.
+  const double s = 1, h = s * std::sqrt(3) / 2;
+  const double equilateral = energy({{{0, 0}, {s, 0}, {s / 2, h}, {s / 2, -h}}}) +
+                             energy({{{0, 0}, {s / 2, h}, {-s / 2, h}, {s, 0}}}) +
+                             energy({{{0, 0}, {-s / 2, h}, {-s, 0}, {s / 2, h}}});
+  EXPECT_NEAR(equilateral / (s * h), rigidity / 2 * curvature * curvature, 1e-3 * rigidity * curvature * curvature);
+}
+
+TEST(HingeTest, FlexuralRigidity) { EXPECT_DOUBLE_EQ(integrator::flexural_rigidity(12.0, 0.5, 2.0), 8 / 0.75); }
+
+TEST(TurningTest, EnergyOfATurn) {
+  const double rigidity = 3, K = rigidity / 1.75;
+  for (const double phi0 : {-2.5, 0.0, 1.0}) {
+    const auto turning = Turning<double>::from_rest({0, 1, 2}, turned(phi0), rigidity);
+    EXPECT_NEAR(turning.constant, K, 1e-14);
+    EXPECT_NEAR(turning.rest.sine, std::sin(phi0), 1e-15);  // positive to the left
+    EXPECT_NEAR(turning.rest.cosine, std::cos(phi0), 1e-15);
+    for (const double phi : {-3.0, -0.1, 0.0, 1.5, 2.9}) {
+      EXPECT_NEAR(turning.energy(turned(phi)), K * (1 - std::cos(phi - phi0)), 1e-13);
+    }
+  }
+  const auto straight = Turning<double>::from_rest({0, 1, 2}, turned(0), 1);
+  EXPECT_GT(straight.gradient(turned(0.5))[2][1], 0);
+  EXPECT_LT(straight.gradient(turned(-0.5))[2][1], 0);
+}
+
+/// The moment is greatest at a right angle from rest, and falls beyond.
+TEST(TurningTest, WeakensBeyondARightAngle) {
+  const auto straight = Turning<double>::from_rest({0, 1, 2}, turned(0), 1);
+  const auto moment = [&](double phi) {
+    return greatest(straight.gradient(turned(phi))) / greatest(straight.measure_gradients(turned(phi))[0]);
+  };
+  EXPECT_LT(moment(1.2), moment(pi / 2));
+  EXPECT_LT(moment(2.0), moment(pi / 2));
+  EXPECT_LT(moment(pi), 1e-15);
+}
+
+template <int Dim, std::size_t N>
+void expect_zero(const Stencil<double, Dim, N>& x) {
+  for (const auto& point : x) EXPECT_EQ(point, (Vec<double, Dim>::Zero()));
+}
+
+TEST(DegenerateTest, NoAngleNoForce) {
+  const auto hinge = Hinge<double>::from_rest({0, 1, 2, 3}, folded(1), 1);
+  const Vec<double, 3> o(0, 0, 0), p(1, 0, 0), q(0, 1, 0), r(3, 0, 0);
+  for (const Stencil<double, 3, 4>& x : {Stencil<double, 3, 4>{o, o, o, o},
+                                         {o, p, r, q},
+                                         {o, p, q, r},
+                                         {o, o, p, q},
+                                         {o, p, o, q},
+                                         {1e-200 * o, 1e-200 * p, 1e-200 * q, -1e-200 * q}}) {
+    expect_zero(hinge.gradient(x));
+    expect_zero(hinge.measure_gradients(x)[0]);
+    EXPECT_EQ(hinge.energy(x), hinge.constant);
+  }
+  const auto turning = Turning<double>::from_rest({0, 1, 2}, turned(1), 1);
+  const Vec<double, 2> a(1, 2), b(3, 5);
+  for (const Stencil<double, 2, 3>& x : {Stencil<double, 2, 3>{a, a, a}, {a, a, b}, {a, b, b}}) {
+    expect_zero(turning.gradient(x));
+    expect_zero(turning.measure_gradients(x)[0]);
+    EXPECT_EQ(turning.energy(x), turning.constant);
+  }
+  // Back on itself there is an angle, and a force if it is not the one opposite to rest.
+  EXPECT_GT(greatest(turning.gradient({a, b, a})), 0);
+}
+
+TEST(DegenerateTest, ACrushedTrianglePushesBack) {
+  const Vec<double, 3> o(0, 0, 0), p(1, 0, 0), q(0, 1, 0);
+  const auto membrane = Membrane<double>::from_rest({0, 1, 2}, {o, p, q}, {1, 0.3, 1});
+  EXPECT_TRUE(std::isfinite(membrane.energy({o, p, 0.5 * p})));
+  EXPECT_GT(greatest(membrane.gradient({o, p, 0.5 * p})), 0);
+  expect_zero(membrane.gradient({o, o, o}));  // no direction to push in
+}
+
+TEST(DegenerateTest, RestShapesWithoutShapeAreRefused) {
+  const Vec<double, 3> o(0, 0, 0), p(0.1, 0.2, 0.3), q(1, 0, 1), r = 3 * p, far(1e200, 0, 0);
+  const double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
+  const auto membrane = [](auto... x) { return Membrane<double>::from_rest({0, 1, 2}, {x...}, {1, 0.3, 1}); };
+  EXPECT_NO_THROW(membrane(o, p, q));
+  EXPECT_THROW(membrane(o, o, q), std::invalid_argument);
+  EXPECT_THROW(membrane(o, p, o), std::invalid_argument);
+  EXPECT_THROW(membrane(o, q, q), std::invalid_argument);
+  EXPECT_THROW(membrane(o, p, r), std::invalid_argument);
+  EXPECT_THROW(membrane(o, p, far), std::invalid_argument);
+  EXPECT_THROW(membrane(o, p, Vec<double, 3>(none, 0, 0)), std::invalid_argument);
+  EXPECT_THROW(membrane(o, p, Vec<double, 3>(infinite, 0, 0)), std::invalid_argument);
+  const auto hinge = [](auto... x) { return Hinge<double>::from_rest({0, 1, 2, 3}, {x...}, 1); };
+  EXPECT_NO_THROW(hinge(o, p, q, Vec<double, 3>(-q)));
+  EXPECT_THROW(hinge(o, o, q, q), std::invalid_argument);
+  EXPECT_THROW(hinge(o, p, q, r), std::invalid_argument);
+  EXPECT_THROW(hinge(o, p, r, q), std::invalid_argument);
+  EXPECT_THROW(hinge(o, p, q, far), std::invalid_argument);
+  EXPECT_THROW(hinge(o, p, q, Vec<double, 3>(none, 0, 0)), std::invalid_argument);
+  const auto turning = [](auto... x) { return Turning<double>::from_rest({0, 1, 2}, {x...}, 1); };
+  const Vec<double, 2> a(0.1, 0.2), b(3, 5);
+  EXPECT_NO_THROW(turning(a, b, a));
+  EXPECT_THROW(turning(a, a, b), std::invalid_argument);
+  EXPECT_THROW(turning(a, b, b), std::invalid_argument);
+  EXPECT_THROW(turning(a, b, Vec<double, 2>(none, 0)), std::invalid_argument);
+  EXPECT_THROW(turning(a, b, Vec<double, 2>(1e200, 0)), std::invalid_argument);
+}
+
+TEST(AngleTest, DifferenceAndOneMinusCosine) {
+  const auto angle = [](double t) { return Angle<double>{std::cos(t), std::sin(t)}; };
+  for (const double t : {-3.0, -1.0, 0.0, 0.5, 2.0}) {
+    for (const double u : {-2.0, 0.25, 3.0}) {
+      const auto difference = angle(t) - angle(u);
+      EXPECT_NEAR(difference.cosine, std::cos(t - u), 1e-15);
+      EXPECT_NEAR(difference.sine, std::sin(t - u), 1e-15);
+    }
+    EXPECT_NEAR(integrator::one_minus_cosine(angle(t)), 1 - std::cos(t), 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace noli
