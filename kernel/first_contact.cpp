@@ -1,92 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/kernel/first_contact.h"
 
-#include <algorithm>
-#include <vector>
-
-#include "noli/kernel/contact_condition.h"
+#include "noli/kernel/first_contact_search.h"
 #include "noli/kernel/integer_coordinates.h"
 
 namespace noli {
 namespace {
-
-struct At {
-  AlgebraicNumber& t;
-  int sign(const Polynomial& p) const { return t.sign_of(p); }
-};
-
-/// An instant after t that is as near as it need be.
-struct JustAfter {
-  AlgebraicNumber& t;
-
-  int sign(const Polynomial& p) const {
-    for (Polynomial d = p; !d.is_zero(); d = d.derivative()) {
-      if (const int s = t.sign_of(d)) return s;
-    }
-    return 0;
-  }
-};
-
-/// Whether the multiplicity of the root t of p is odd.
-bool changes_sign(const Polynomial& p, AlgebraicNumber& t) {
-  bool odd = true;
-  for (Polynomial d = p.derivative(); t.sign_of(d) == 0; d = d.derivative()) odd = !odd;
-  return odd;
-}
-
-bool strictly_inside_step(const AlgebraicNumber& t) {
-  return t.compare(Dyadic{}) > 0 && t.compare(Dyadic::from_integer(1)) < 0;
-}
-
-/// Contacts happen only at roots of f, so none lasts.
-template <class Condition>
-std::optional<FirstContact> first_among_roots(Condition& condition, const Polynomial& f) {
-  for (AlgebraicNumber& t : roots_in_unit_interval(f)) {
-    const At time{t};
-    if (!condition.holds(time)) continue;
-    const bool crossing = strictly_inside_step(t) && condition.transversal(time) && changes_sign(f, t);
-    return FirstContact{crossing ? ContactKind::crossing : ContactKind::touching, TimeOfImpact(std::move(t))};
-  }
-  return std::nullopt;
-}
-
-/// Where contact can begin when no equality has to hold, ascending.
-std::vector<AlgebraicNumber> critical_times(const std::vector<Polynomial>& critical) {
-  std::vector<AlgebraicNumber> times = {AlgebraicNumber(Dyadic::from_integer(1))};
-  for (const Polynomial& p : critical) {
-    if (p.degree() < 1) continue;
-    std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
-    std::move(roots.begin(), roots.end(), std::back_inserter(times));
-  }
-  std::sort(times.begin(), times.end());
-  return times;
-}
-
-template <class Condition>
-ContactKind kind_without_equality(Condition& condition, AlgebraicNumber& t) {
-  const bool more_to_come = t.compare(Dyadic::from_integer(1)) < 0;
-  return more_to_come && condition.holds(JustAfter{t}) ? ContactKind::persistent : ContactKind::touching;
-}
-
-/// The set of contact times is closed, and nothing changes between critical times.
-template <class Condition>
-std::optional<FirstContact> first_among_critical(Condition& condition) {
-  AlgebraicNumber start;
-  if (condition.holds(At{start})) return FirstContact{kind_without_equality(condition, start), TimeOfImpact(start)};
-  for (AlgebraicNumber& t : critical_times(condition.critical())) {
-    if (!condition.holds(At{t})) continue;
-    const ContactKind kind = kind_without_equality(condition, t);
-    return FirstContact{kind, TimeOfImpact(std::move(t))};
-  }
-  return std::nullopt;
-}
-
-template <FeaturePair Pair, class Points>
-std::optional<FirstContact> first_contact_of(const Points& points) {
-  auto condition = condition::make<Pair>(points);
-  const Polynomial* f = condition.equality();
-  return f != nullptr ? first_among_roots(condition, *f) : first_among_critical(condition);
-}
 
 /// Whether the forms of formula.h fit: sums of products of up to three differences of coordinates, at most 32 terms
 /// each.
@@ -100,9 +19,9 @@ bool fits(const exact::ExponentRange& range) {
 template <FeaturePair Pair, int Dim>
 std::optional<FirstContact> first_contact(const Query<Pair, Dim>& query) {
   const exact::ExponentRange range = exact::exponent_range(query);
-  if (fits<1>(range)) return first_contact_of<Pair>(exact::scaled<1>(query, range));
-  if (fits<2>(range)) return first_contact_of<Pair>(exact::scaled<2>(query, range));
-  return first_contact_of<Pair>(integer_points(query, range));
+  if (fits<1>(range)) return condition::first_contact_of<Pair>(exact::scaled<1>(query, range));
+  if (fits<2>(range)) return condition::first_contact_of<Pair>(exact::scaled<2>(query, range));
+  return condition::first_contact_of<Pair>(integer_points(query, range));
 }
 
 template std::optional<FirstContact> first_contact(const VertexFace3&);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// When features first meet whose points move linearly, each over a time of its own. Exact.
+//
+// Notation
+//   path    a point that moves linearly from x_t0 at t0 to x_t1 at t1: a segment of a world line
+//   piece   [begin, end]: a time within the paths of all points of a query, so that all move linearly in it
+//   s       (t - begin) / (end - begin), in [0, 1] for t in the piece
+//
+// A position at an end of the piece is x_t0 + (t - t0) / (t1 - t0) (x_t1 - x_t0), a rational number; all coordinates
+// are brought to a common denominator, which changes neither contact nor its time, and then decided as integers.
+//
+// What this does not do: it is not fast (tens of microseconds, with allocation). Where all paths begin and end with
+// the piece, kernel/contact.h says whether there is contact.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "noli/kernel/first_contact.h"
+#include "noli/kernel/query.h"
+
+namespace noli {
+
+template <int Dim>
+struct LinearPath {
+  double t0, t1;
+  Point<Dim> x_t0, x_t1;
+};
+
+/// Two features over a piece of time. Preconditions: everything is finite; t0 <= begin < end <= t1 for all paths.
+template <FeaturePair Pair, int Dim>
+struct MotionQuery {
+  std::array<LinearPath<Dim>, point_count(Pair)> paths;  ///< in the order of kernel/query.h
+  double begin, end;
+};
+
+/// The first contact within the piece, its time as s; or nothing.
+template <FeaturePair Pair, int Dim>
+std::optional<FirstContact> first_contact(const MotionQuery<Pair, Dim>& query);
+
+/// The kind of a contact at the border of two pieces that follow one another: crossing if the orientation determinant
+/// has opposite signs just before and just after it (and the contact is as kernel/first_contact.h asks of one),
+/// persistent if it lasts for some time after it, else touching. Preconditions: before.end == after.begin, the points
+/// are at the same places then, the features meet then and at no time of `before` but this.
+template <FeaturePair Pair, int Dim>
+ContactKind kind_at_border(const MotionQuery<Pair, Dim>& before, const MotionQuery<Pair, Dim>& after);
+
+}  // namespace noli

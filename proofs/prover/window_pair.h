@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The end of the recursion over groups in a window: two cells that no box has separated, or one cell by itself.
+//
+// Notation
+//   parts    as in proofs/prover/cell_pair.h: what is left of two cells when each shared vertex is dropped from one
+//   piece    a time [begin, end]; it is cut at breakpoints of the vertices in question only
+//   resists  no direction was found for two parts over a piece that has no breakpoint inside
+//
+// Two parts are settled by one direction over the window, or over the pieces into which it is cut. Where a piece
+// resists, each pair of features of the parts is settled in the same way over what is left of the window, and is
+// decided exactly over the pieces in which it resists; it counts once, in the first piece in which it meets.
+//
+// What this does not do: it never looks at cells other than the two.
+#pragma once
+
+#include "noli/proofs/prover/around.h"
+#include "noli/proofs/prover/direction_search.h"
+#include "noli/proofs/prover/feature_pairs.h"
+#include "noli/proofs/prover/initial.h"
+#include "noli/proofs/prover/window_cell.h"
+#include "noli/proofs/prover/window_features.h"
+#include "noli/proofs/prover/window_tally.h"
+
+namespace noli {
+
+template <int Dim>
+class WindowPairs {
+ public:
+  using Cell = WindowCell<Dim>;
+
+  WindowPairs(const WorldLines& lines, const WindowOptions& options, WindowTally& tally)
+      : lines_(lines), initial_(options.initial), strict_(options.strict), tally_(tally) {}
+
+  /// Settles the obligation about two different cells.
+  void settle(const Cell& a, const Cell& b) {
+    if (a.scripted && b.scripted) return;
+    Progress progress{a, b, pairs_owned(a, b)};
+    drop_shared(progress, {all_corners(a.corners), all_corners(b.corners)}, 0);
+    if (!progress.open) return;
+    ++tally_.cell_pairs;
+    if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
+  }
+
+  /// Settles the obligation about the features of one cell.
+  void settle_self(const Cell& c) {
+    if (c.scripted) return;
+    if (c.corners == 3) {
+      for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
+    } else if (strict_ && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1]) {
+      examine({FeaturePair::vertex_vertex, &c, corner_feature(0), &c, corner_feature(1)}, lines_.first_time());
+    }
+  }
+
+ private:
+  struct Parts {
+    CornerMask a, b;
+  };
+
+  struct Progress {
+    const Cell& a;
+    const Cell& b;
+    PairSet left;  ///< pairs of features which belong here and have not been settled
+    bool open = false;
+    bool meets_at_begin = false;
+  };
+
+  static constexpr int search_rounds = 10;
+
+  static CornerMask corners_at(const Cell& c, VertexId v) {
+    const int mask = (c.vertices[0] == v ? 1 : 0) | (c.vertices[1] == v ? 2 : 0) | (c.vertices[2] == v ? 4 : 0);
+    return static_cast<CornerMask>(mask & all_corners(c.corners));
+  }
+
+  /// Goes through the pairs of parts: drops the first vertex that they share from one and from the other.
+  void drop_shared(Progress& progress, Parts parts, std::size_t from) {
+    for (std::size_t i = from; i < progress.a.corners; ++i) {
+      if ((parts.a >> i & 1) == 0) continue;
+      const VertexId v = progress.a.vertices[i];
+      const auto in_b = static_cast<CornerMask>(corners_at(progress.b, v) & parts.b);
+      if (in_b == 0) continue;
+      drop_shared(progress, {static_cast<CornerMask>(parts.a & ~corners_at(progress.a, v)), parts.b}, i + 1);
+      drop_shared(progress, {parts.a, static_cast<CornerMask>(parts.b & ~in_b)}, i + 1);
+      return;
+    }
+    if (parts.a != 0 && parts.b != 0) settle_parts(progress, parts);
+  }
+
+  void settle_parts(Progress& progress, Parts parts) {
+    const Cell &a = progress.a, &b = progress.b;
+    const PairSet within = pairs_within(a, parts.a, b, parts.b);
+    const double begin = lines_.first_time(), end = lines_.last_time();
+    std::optional<double> resisting;
+    const bool closed = apart(a, parts.a, b, parts.b) || settle_over(a, parts.a, b, parts.b, begin, end,
+                                                                     [&](const Cell&, const Cell&, double at, double) {
+                                                                       resisting = at;
+                                                                       return false;
+                                                                     });
+    if (!closed) open(progress, parts, within, *resisting);
+    progress.left &= ~within;
+  }
+
+  void open(Progress& progress, Parts parts, PairSet within, double begin) {
+    const Cell &a = progress.a, &b = progress.b;
+    progress.open = true;
+    for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) examine(first_of(todo, a, b), begin);
+    if (initial_ && !progress.meets_at_begin && begin == lines_.first_time()) {
+      progress.meets_at_begin = meet_at_begin<Dim>(at_begin(a), parts.a, at_begin(b), parts.b);
+    }
+  }
+
+  /// The cell with its exact positions at T0.
+  Cell at_begin(const Cell& cell) const {
+    Cell c = cell;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Position& x = lines_.positions(c.vertices[std::min<std::size_t>(i, 2)]).front();
+      for (std::size_t k = 0; k < Dim; ++k) c.x[0][k][i] = x[k];
+    }
+    return c;
+  }
+
+  /// From the middle of the second part to the middle of the first, at mid-time, four times as long.
+  static Direction<Dim> between_middles(const PartPair<Dim>& pair) {
+    Direction<Dim> n;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      const auto &p = pair.d[0][k], &q = pair.d[1][k];
+      n[k] = ((p[0] + q[0]) + (p[1] + q[1]) + (p[2] + q[2])) - ((p[4] + q[4]) + (p[5] + q[5]) + (p[6] + q[6]));
+    }
+    return n;
+  }
+
+  static std::size_t place(CornerMask mask) { return static_cast<std::size_t>(std::countr_zero(mask)); }
+
+  /// Whether a direction was found that separates the parts, with the radii of their cells.
+  bool apart(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part) {
+    PartPair<Dim> pair = pair_of(a, a_part, b, b_part, place(a_part));
+    pair.reach = raised(pair.reach, margin_of(a, b));
+    const Direction<Dim> guess = between_middles(pair);
+    if (separates(pair, guess) != 0 || normal_separates(pair, a) || normal_separates(pair, b) ||
+        find_direction(pair, guess, {}, search_rounds)) {
+      ++tally_.obligations;
+      return true;
+    }
+    return false;
+  }
+
+  static bool normal_separates(const PartPair<Dim>& pair, const Cell& c) {
+    return Dim == 3 && c.corners == 3 && separates(pair, c.normal) != 0;
+  }
+
+  /// Settles two parts over [begin, end] by directions; calls resist(a, b, begin, end), with the chords of the piece, on
+  /// pieces that resist, in order, until one returns false, and returns whether none did.
+  template <class Resist>
+  bool settle_over(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, double begin, double end,
+                   const Resist& resist) {
+    const std::optional<double> cut = time_to_cut(a, a_part, b, b_part, begin, end);
+    if (cut) {
+      return settle_piece(a, a_part, b, b_part, begin, *cut, resist) &&
+             settle_piece(a, a_part, b, b_part, *cut, end, resist);
+    }
+    return resist(a, b, begin, end);
+  }
+
+  template <class Resist>
+  bool settle_piece(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, double begin, double end,
+                    const Resist& resist) {
+    const Cell a_now = over(a, a_part, lines_, begin, end), b_now = over(b, b_part, lines_, begin, end);
+    return apart(a_now, a_part, b_now, b_part) || settle_over(a_now, a_part, b_now, b_part, begin, end, resist);
+  }
+
+  /// The median of the breakpoints inside of the vertex that has most; nothing if none has any.
+  std::optional<double> time_to_cut(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, double begin,
+                                    double end) const {
+    std::size_t most = 0;
+    std::optional<double> cut;
+    const auto look = [&](const Cell& c, CornerMask part) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if ((part >> i & 1) == 0) continue;
+        const WorldLine line(lines_, c.vertices[i]);
+        const std::size_t first = line.segment_after(begin), last = line.segment_before(end);
+        if (last <= first || last - first <= most) continue;
+        most = last - first;
+        cut = line.t[first + 1 + (most - 1) / 2];
+      }
+    };
+    look(a, a_part);
+    look(b, b_part);
+    return cut;
+  }
+
+  /// A corner of a face against the edge opposite to it (proofs/prover/cell_pair.h).
+  void settle_opposite(const Cell& c, unsigned corner) {
+    const unsigned edge = (corner + 1) % 3;
+    const FeatureMask mask = corner_bit(static_cast<int>(corner)) | edge_bit(static_cast<int>(edge));
+    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0;
+    const bool wanted = strict_ || (Dim == 2 && (c.shared & mask) != 0);
+    const VertexId v = c.vertices[corner];
+    if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;
+    const FeatureQuestion<Dim> question{FeaturePair::vertex_edge, &c, corner_feature(corner), &c, edge_feature(edge)};
+    if (!apart(c, part_of(question.first), c, part_of(question.second))) examine(question, lines_.first_time());
+  }
+
+  static CornerMask part_of(const Feature& feature) {
+    CornerMask part = 0;
+    for (std::size_t i = 0; i < feature.size; ++i) part |= static_cast<CornerMask>(1 << feature.corners[i]);
+    return part;
+  }
+
+  /// Settles a pair of features over [begin, T1].
+  void examine(const FeatureQuestion<Dim>& question, double begin) {
+    const auto& a = static_cast<const Cell&>(*question.first_cell);
+    const auto& b = static_cast<const Cell&>(*question.second_cell);
+    std::optional<TimeEnclosure> first;
+    settle_piece(a, part_of(question.first), b, part_of(question.second), begin, lines_.last_time(),
+                 [&](const Cell& a_now, const Cell& b_now, double from, double to) {
+                   first = ask_piece({question.pair, &a_now, question.first, &b_now, question.second}, from, to);
+                   return !first;
+                 });
+    if (first) tally_.add_contact(canonical(question.pair, question.vertices(), *first));
+  }
+
+  static bool exact(const Cell& c) {
+    return std::all_of(c.radius.begin(), c.radius.end(), [](double r) { return r == 0; });
+  }
+
+  /// Decides a pair of features, which move linearly over [begin, end] along the chords of the cells.
+  std::optional<TimeEnclosure> ask_piece(const FeatureQuestion<Dim>& question, double begin, double end) {
+    const bool doubles =
+        exact(static_cast<const Cell&>(*question.first_cell)) && exact(static_cast<const Cell&>(*question.second_cell));
+    if (doubles) {
+      const auto s = ask(question, tally_.stages);
+      return s ? std::optional(enclosure_in_window(*s, begin, end)) : std::nullopt;
+    }
+    tally_.stages.count(Stage::gmp);
+    return meet_in_piece({question.pair, question.vertices()}, lines_, Dim, begin, end);
+  }
+
+  const WorldLines& lines_;
+  bool initial_, strict_;
+  WindowTally& tally_;
+};
+
+}  // namespace noli
