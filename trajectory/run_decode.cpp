@@ -24,9 +24,12 @@ class Payload {
   /// Fails unless exactly `count` items of `size` bytes are left. Nothing overflows: count is compared, not multiplied.
   void require(std::uint64_t count, std::uint64_t size, const char* what) {
     last_ = at_;
-    if (left() % size != 0 || left() / size != count) {
-      fail(fmt::format("{} bytes where {} of {} bytes each were expected: {}", left(), count, size, what));
-    }
+    if (left() % size == 0 && left() / size == count) return;
+    fail(fmt::format("expected {}, {} of {} bytes each, found {} bytes", what, count, size, left()));
+  }
+  void finish() {
+    last_ = at_;
+    if (left() > 0) fail(fmt::format("expected the end of the block, found {} more bytes", left()));
   }
 
   const char* take(std::uint64_t size) {
@@ -123,7 +126,7 @@ RunHeader decode_head(const Source& source) {
   header.window_length = payload.finite("window length");
   if (header.window_length <= 0)
     payload.fail(fmt::format("window length {}; expected more than 0", header.window_length));
-  payload.require(0, 1, "the end of the block");
+  payload.finish();
   return header;
 }
 
@@ -160,7 +163,7 @@ WindowTimes decode_window(const Source& source) {
   times.begin = payload.finite("time");
   times.end = payload.finite("time");
   if (!(times.begin < times.end)) payload.fail(fmt::format("a window from {} to {}", times.begin, times.end));
-  payload.require(0, 1, "the end of the block");
+  payload.finish();
   return times;
 }
 

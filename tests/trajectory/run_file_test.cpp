@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "run_samples.h"
@@ -165,6 +166,75 @@ TEST(RunFileInAFolder, IsWrittenByOneAtATime) {
   } catch (const std::system_error& error) {
     EXPECT_NE(std::string(error.what()).find("is being written by another process"), std::string::npos) << error.what();
   }
+}
+
+/// A window and a scene that fit, to be spoiled.
+struct Attempt {
+  RunScene scene = sample_run(2, RecordMode::frames, 0).scene;
+  OwnWindow window = sample_run(2, RecordMode::frames, 1).windows[0];
+};
+
+struct Refused {
+  const char* name;
+  void (*spoil)(Attempt&);
+  std::string problem;
+  friend void PrintTo(const Refused& refused, std::ostream* out) { *out << refused.name; }
+};
+
+const Refused refused[] = {
+    {"dimension", [](Attempt& a) { a.scene.header.dimension = 1; }, "the dimension is neither 2 nor 3"},
+    {"window_length", [](Attempt& a) { a.scene.header.window_length = 0; }, "the window length is not positive"},
+    {"labels", [](Attempt& a) { a.scene.labels.pop_back(); }, "not one label for each vertex"},
+    {"label", [](Attempt& a) { a.scene.labels[1] = 2; }, "a label that is not known"},
+    {"face", [](Attempt& a) { a.scene.mesh.faces[0][2] = 6; }, "a face beyond the mesh"},
+    {"edge", [](Attempt& a) { a.scene.mesh.edges[0][0] = 6; }, "an edge beyond the mesh"},
+    {"point", [](Attempt& a) { a.scene.mesh.points[0] = 6; }, "a point beyond the mesh"},
+    {"index", [](Attempt& a) { a.window.index = 1; }, "window 1 where 0 is due"},
+    {"velocities", [](Attempt& a) { a.window.velocities.pop_back(); },
+     "not a world line and a velocity for each vertex"},
+    {"infinite", [](Attempt& a) { a.window.velocities[1][0] = HUGE_VAL; },
+     "a velocity is not finite or leaves the plane"},
+    {"third_coordinate", [](Attempt& a) { a.window.lines = sample_run(3, RecordMode::full, 1).windows[0].lines; },
+     "a position leaves the plane"},
+    {"minus_zero", [](Attempt& a) { a.window.velocities[1][2] = -0.0; },
+     "a velocity is not finite or leaves the plane"},
+    {"frame_size", [](Attempt& a) { a.window.frames[0].positions.pop_back(); },
+     "a frame without a finite position for each vertex"},
+    {"frame_time", [](Attempt& a) { a.window.frames[1].time = 0; }, "a frame at 0 in a window from 0 to 0.25, after 0"},
+    {"frames_in_full", [](Attempt& a) { a.scene.header.record = RecordMode::full; }, "frames in a full record"},
+};
+
+class RunWriterRefuses : public ::testing::TestWithParam<Refused> {};
+INSTANTIATE_TEST_SUITE_P(All, RunWriterRefuses, ::testing::ValuesIn(refused),
+                         [](const auto& r) { return r.param.name; });
+
+TEST_P(RunWriterRefuses, WhatItCouldNotReadBack) {
+  Attempt attempt;
+  GetParam().spoil(attempt);
+  MemoryFile file;
+  try {
+    RunWriter writer(sink_to(file), attempt.scene);
+    append(writer, attempt.window);
+    ADD_FAILURE() << "it was written";
+  } catch (const std::logic_error& error) {
+    EXPECT_EQ(error.what(), "what was to be written to a run: " + GetParam().problem);
+  }
+}
+
+TEST(RunWriterRefusesWindows, ThatDoNotFollowBitForBit) {
+  const SampleRun run = sample_run(3, RecordMode::full, 2), other = sample_run(3, RecordMode::full, 2, 5);
+  MemoryFile file;
+  RunWriter writer(sink_to(file), run.scene);
+  EXPECT_THROW(writer.commit(), std::logic_error);
+  append(writer, run.windows[0]);
+  const std::string committed = file.bytes;
+  EXPECT_THROW(writer.append_window(other.windows[1].to_write()), std::logic_error) << "positions";
+  OwnWindow late = run.windows[0];
+  late.index = 1;
+  EXPECT_THROW(writer.append_window(late.to_write()), std::logic_error) << "times";
+  EXPECT_EQ(file.bytes, committed) << "what is refused is refused before any of it is written";
+  append(writer, run.windows[1]);
+  EXPECT_EQ(file.bytes, write_run(run).bytes);
 }
 
 }  // namespace
