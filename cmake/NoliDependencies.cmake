@@ -5,6 +5,7 @@ find_package(CGAL REQUIRED QUIET)  # brings GMP, MPFR and Boost
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
 if(NOLI_PARALLEL STREQUAL "TBB")
   find_package(TBB REQUIRED)
 endif()

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The inside of a Simulation: particles, clocks and the loop over events.
+//
+// Notation: that of integrator/simulation.h, and
+//   division  all forces of one kind, in the order of their numbers
+//   slot      what fires many forces in a row: a group of a division, or gravity
+//
+// With clocks of their own, forces are in a Calendar and only gravity has a slot. A division that is empty has no slot
+// and no event, so what a scene does not have costs nothing.
+#pragma once
+
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+#include "noli/integrator/calendar.h"
+#include "noli/integrator/groups.h"
+#include "noli/integrator/kick.h"
+#include "noli/integrator/scripts.h"
+#include "noli/integrator/simulation.h"
+
+namespace noli::integrator {
+
+template <class F>
+struct Division {
+  ForceList<F> list;
+  bool damped = false;    ///< some of them are; then all go the way of damped ones
+  std::size_t first = 0;  ///< number, among all forces of the calendar, of the first one
+};
+
+namespace detail {
+template <class Lists>
+struct DivisionsOf;
+template <class... F>
+struct DivisionsOf<std::tuple<const ForceList<F>&...>> {
+  using type = std::tuple<Division<F>...>;
+};
+
+/// Looks for what is not finite after each force.
+struct Watch : NoRecording {};
+}  // namespace detail
+
+template <class S, int Dim>
+class Engine {
+ public:
+  using Divisions = typename detail::DivisionsOf<decltype(std::declval<const Forces<S, Dim>&>().lists())>::type;
+
+  explicit Engine(Model<S, Dim> model)
+      : window_length_(model.window_length), clocks_(model.clocks), gravity_(model.gravity), timeline_(model.scripts) {
+    check(model);
+    make_particles(model);
+    take_forces(model);
+    if (!gravity_) return;
+    slots_.insert(slots_.begin(), {ForceKind::gravity, {{gravity_->step, 1}, 0, particles_.size(), {}}});
+  }
+
+  /// The state of all clocks follows from the time.
+  void resume(const Snapshot<S, Dim>& snapshot) {
+    windows_ = snapshot.windows;
+    const double t = time();
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      particles_[i].x = snapshot.x[i];
+      particles_[i].v = snapshot.v[i];
+      particles_[i].t = t;
+    }
+    for (Slot& slot : slots_) slot.group.clock.next = first_after(t, slot.group.clock.step);
+    timeline_.skip_to(t);
+    make_calendar();
+  }
+
+  double time() const { return static_cast<double>(windows_) * window_length_; }
+  std::uint64_t windows() const { return windows_; }
+  std::uint64_t events() const { return events_; }
+  const std::vector<Particle<S, Dim>>& particles() const { return particles_; }
+  const std::vector<S>& masses() const { return masses_; }
+  const Divisions& divisions() const { return divisions_; }
+  const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
+
+  template <class Recorder>
+  void run_window(Recorder& record, Books<S, Dim>& books) {
+    const double end = static_cast<double>(windows_ + 1) * window_length_;
+    record.reserve(particles_.size());
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      record.put(static_cast<VertexId>(i), particles_[i].t, particles_[i].x, true);
+    }
+    if (windows_ == 0) start(record, books);
+    while (run_next(end, record, books)) {
+    }
+    close(end, record);
+    ++windows_;
+  }
+
+  /// Groups and, with clocks of their own, forces that have the same step.
+  std::vector<StepGroup> groups() const {
+    std::vector<StepGroup> result;
+    for (const Slot& slot : slots_) {
+      result.push_back({slot.kind, slot.group.clock.step, slot.group.end - slot.group.begin});
+    }
+    if (clocks_ == Clocks::own) for_each_division([&](const auto& division) { add_steps(division, result); });
+    return result;
+  }
+
+  /// Calls f(h, t) of everything that fires at a multiple of its step; t is the last time it fired, or 0.
+  template <class Each>
+  void for_each_division(Each&& each) const {
+    std::apply([&](const auto&... division) { (each(division), ...); }, divisions_);
+  }
+
+ private:
+  struct Slot {
+    ForceKind kind;
+    Group group;
+  };
+
+  template <class Recorder>
+  using Now = Kicked<S, Dim, Recorder>;
+
+  static constexpr bool never(double t) { return t == std::numeric_limits<double>::infinity(); }
+
+  // --- Construction --------------------------------------------------------------------------------------------------
+
+  static void require(bool condition, const char* what) {
+    if (!condition) throw std::invalid_argument(what);
+  }
+
+  static void check(const Model<S, Dim>& model) {
+    const std::size_t n = model.x.size();
+    require(model.v.size() == n && model.mass.size() == n, "model: x, v and mass differ in size");
+    require(model.window_length > 0, "model: the window's length is not positive");
+    for (const S& m : model.mass) require(m > S(0), "model: a mass is not positive");
+    for (const VertexId v : model.pinned) require(v < n, "model: a pinned vertex is out of range");
+    for (const auto& s : model.scripts) {
+      require(s.vertex < n && !s.times.empty() && s.times.size() == s.positions.size(), "model: a script is none");
+    }
+    require(!model.gravity || model.gravity->step > 0, "model: gravity's step is not positive");
+    std::apply([&](const auto&... list) { (check_list(list, n), ...); }, model.forces.lists());
+  }
+
+  template <class F>
+  static void check_list(const ForceList<F>& list, std::size_t n) {
+    require(list.forces.size() == list.steps.size(), "model: forces and steps differ in number");
+    for (const double h : list.steps) require(h > 0 && std::isfinite(h), "model: a step is not positive and finite");
+    for (const F& force : list.forces) {
+      for (const VertexId v : force.vertices) require(v < n, "model: a force's vertex is out of range");
+    }
+  }
+
+  void make_particles(const Model<S, Dim>& model) {
+    masses_ = model.mass;
+    particles_.resize(model.x.size());
+    here_.resize(model.x.size());
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      particles_[i] = {model.x[i], 0, model.v[i], S(1) / model.mass[i]};
+    }
+    for (const VertexId i : model.pinned) {
+      particles_[i].inverse_mass = S(0);
+      particles_[i].v.setZero();
+    }
+    for (const auto& script : model.scripts) {
+      particles_[script.vertex].inverse_mass = S(0);
+      particles_[script.vertex].v.setZero();
+    }
+  }
+
+  void take_forces(Model<S, Dim>& model) {
+    auto lists = model.forces.lists();
+    take_lists(lists, std::make_index_sequence<std::tuple_size_v<Divisions>>{});
+    make_calendar();
+  }
+
+  template <class Lists, std::size_t... I>
+  void take_lists(Lists& lists, std::index_sequence<I...>) {
+    (take_list(std::get<I>(divisions_), std::get<I>(lists)), ...);
+  }
+
+  template <class F>
+  void take_list(Division<F>& division, ForceList<F>& list) {
+    division.list = std::move(list);
+    for (const F& force : division.list.forces) division.damped |= force.damping != S(0);
+    division.first = own_forces_;
+    if (clocks_ == Clocks::own) {
+      own_forces_ += division.list.forces.size();
+      return;
+    }
+    for (const Group& group : make_groups(division.list, window_length_)) slots_.push_back({F::kind, group});
+  }
+
+  void make_calendar() {
+    if (clocks_ != Clocks::own) return;
+    std::vector<double> steps;
+    for_each_division([&](const auto& d) { steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end()); });
+    calendar_ = Calendar(steps, time());
+  }
+
+  template <class F>
+  static void add_steps(const Division<F>& division, std::vector<StepGroup>& result) {
+    std::vector<double> steps = division.list.steps;
+    std::sort(steps.begin(), steps.end(), std::greater<>());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (i == 0 || steps[i] != steps[i - 1]) result.push_back({F::kind, steps[i], 0});
+      ++result.back().forces;
+    }
+  }
+
+  // --- The loop ------------------------------------------------------------------------------------------------------
+
+  template <class Recorder>
+  void start(Recorder& record, Books<S, Dim>& books) {
+    const Now<Recorder> now{particles_, record, 0};
+    while (timeline_.next_time() <= 0) turn(now);
+    if (gravity_) fall(now, S(0.5) * S(gravity_->step), books);
+    std::apply([&](auto&... division) { (start_division(now, division, books), ...); }, divisions_);
+  }
+
+  template <class Recorder, class F>
+  void start_division(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
+    for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
+      fire_one(now, division, i, S(0.5) * S(division.list.steps[i]), books);
+    }
+  }
+
+  /// The next event, or the next few. False when there is none up to `end`.
+  template <class Recorder>
+  bool run_next(double end, Recorder& record, Books<S, Dim>& books) {
+    Slot* slot = next_slot();
+    const double slot_time = slot != nullptr ? slot->group.clock.time() : std::numeric_limits<double>::infinity();
+    const double turn_time = timeline_.next_time();
+    if (turn_time <= end && turn_time <= slot_time && (calendar_.empty() || turn_time <= calendar_.front().time)) {
+      turn(Now<Recorder>{particles_, record, turn_time});
+      return true;
+    }
+    if (!calendar_.empty() && calendar_.front().time <= end && calendar_.front().time < slot_time) {
+      run_calendar(end, std::min(slot_time, turn_time), record, books);
+      return true;
+    }
+    if (slot_time > end) return false;
+    ++slot->group.clock.next;
+    fire_slot(Now<Recorder>{particles_, record, slot_time}, *slot, books);
+    return true;
+  }
+
+  /// The slot that fires next; of several, the first.
+  Slot* next_slot() {
+    Slot* best = nullptr;
+    double time = std::numeric_limits<double>::infinity();
+    for (Slot& slot : slots_) {
+      const double t = slot.group.clock.time();
+      if (t < time) {
+        time = t;
+        best = &slot;
+      }
+    }
+    return best;
+  }
+
+  template <class Recorder>
+  void turn(const Now<Recorder>& now) {
+    const Turn<S, Dim>& turn = timeline_.take();
+    now.record.reserve(1);
+    set_velocity(now, turn.vertex, turn.x, turn.v);
+  }
+
+  template <class Recorder>
+  void fire_slot(const Now<Recorder>& now, const Slot& slot, Books<S, Dim>& books) {
+    const S h(slot.group.clock.step);
+    if (slot.kind == ForceKind::gravity) return fall(now, h, books);
+    const auto fire_if = [&](const auto& division) {
+      using F = typename std::remove_cvref_t<decltype(division.list.forces)>::value_type;
+      if (F::kind == slot.kind) fire_group(now, division, slot.group, h, books);
+    };
+    for_each_division(fire_if);
+  }
+
+  /// Events of the calendar up to `end` that are before `other`.
+  template <class Recorder>
+  void run_calendar(double end, double other, Recorder& record, Books<S, Dim>& books) {
+    while (calendar_.front().time <= end && calendar_.front().time < other) {
+      const Calendar::Entry entry = calendar_.front();
+      const Now<Recorder> now{particles_, record, entry.time};
+      const S h(entry.clock.step);
+      look_ahead();
+      calendar_.advance();
+      fire_numbered(now, entry.event, h, books, std::make_index_sequence<std::tuple_size_v<Divisions>>{});
+    }
+  }
+
+  /// Forces that come next are anywhere in memory: asks for them, and for the particles of those that have come, before
+  /// they are needed.
+  void look_ahead() const {
+    constexpr std::size_t far = 8, near = 4;
+    if (calendar_.ahead() >= far) {
+      with_force(calendar_.ahead(far).event, [](const auto& force) { __builtin_prefetch(&force); });
+    }
+    if (calendar_.ahead() >= near) {
+      with_force(calendar_.ahead(near).event, [this](const auto& force) {
+        for (const VertexId v : force.vertices) __builtin_prefetch(&particles_[v], 1);
+      });
+    }
+  }
+
+  template <class Do>
+  void with_force(std::size_t number, const Do& act) const {
+    const auto try_division = [&](const auto& division) {
+      const std::size_t i = number - division.first;
+      if (i < division.list.forces.size()) act(division.list.forces[i]);
+    };
+    for_each_division(try_division);
+  }
+
+  template <class Recorder, std::size_t... I>
+  void fire_numbered(const Now<Recorder>& now, std::size_t number, const S& h, Books<S, Dim>& books,
+                     std::index_sequence<I...>) {
+    (void)(fire_if_in(now, std::get<I>(divisions_), number, h, books) || ...);
+  }
+
+  template <class Recorder, class F>
+  bool fire_if_in(const Now<Recorder>& now, const Division<F>& division, std::size_t number, const S& h,
+                  Books<S, Dim>& books) {
+    const std::size_t i = number - division.first;
+    if (i >= division.list.forces.size()) return false;
+    fire_one(now, division, i, h, books);
+    return true;
+  }
+
+  template <class Recorder, class F>
+  void fire_group(const Now<Recorder>& now, const Division<F>& division, const Group& group, const S& h,
+                  Books<S, Dim>& books) {
+    events_ += group.end - group.begin;
+    now.record.reserve(group.vertices.size());
+    if (division.damped) {
+      fire_group_as<true>(now, division, group, h, books.of(F::kind));
+    } else {
+      fire_group_as<false>(now, division, group, h, books.of(F::kind));
+    }
+  }
+
+  /// Flattened, like the next: what is called for each force is a few dozen operations on numbers that are best left in
+  /// registers. So is the account.
+  template <bool Damped, class Recorder, class F>
+  [[gnu::flatten]] void fire_group_as(const Now<Recorder>& now, const Division<F>& division, const Group& group,
+                                      const S& h, Account<S, Dim>& account) {
+    const std::span<const F> forces(division.list.forces.data() + group.begin, group.end - group.begin);
+    Account<S, Dim> sum;
+    sum.events = forces.size();
+    kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, sum);
+    account += sum;
+    if constexpr (std::is_same_v<Recorder, detail::Watch>) {
+      for (const F& force : forces) watch(now, force);
+    }
+  }
+
+  template <class Recorder, class F>
+  void fire_one(const Now<Recorder>& now, const Division<F>& division, std::size_t i, const S& h,
+                Books<S, Dim>& books) {
+    ++events_;
+    now.record.reserve(F::size);
+    if (division.damped) {
+      fire_one_as<true>(now, division.list.forces[i], h, books.of(F::kind));
+    } else {
+      fire_one_as<false>(now, division.list.forces[i], h, books.of(F::kind));
+    }
+  }
+
+  template <bool Damped, class Recorder, class F>
+  [[gnu::flatten]] void fire_one_as(const Now<Recorder>& now, const F& force, const S& h, Account<S, Dim>& account) {
+    kick<Damped>(now, force, h, account);
+    ++account.events;
+    if constexpr (std::is_same_v<Recorder, detail::Watch>) watch(now, force);
+  }
+
+  template <class Recorder>
+  void fall(const Now<Recorder>& now, const S& h, Books<S, Dim>& books) {
+    Account<S, Dim> sum;
+    const Vec<S, Dim> dv = h * gravity_->acceleration;
+    now.record.reserve(particles_.size());
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      const Particle<S, Dim>& p = particles_[i];
+      if (p.inverse_mass == S(0) || dv == Vec<S, Dim>::Zero()) continue;
+      const Vec<S, Dim> x = p.at(now.t), v = p.v + dv;
+      const Vec<S, Dim> impulse = masses_[i] * dv;
+      book<S, Dim>(sum, p.inverse_mass, x, impulse, p.v, v);
+      sum.impulse += impulse;
+      sum.angular_impulse += moment<S, Dim>(x, impulse);
+      set_velocity(now, static_cast<VertexId>(i), x, v);
+      ++sum.events;
+    }
+    events_ += sum.events;
+    books.of(ForceKind::gravity) += sum;
+  }
+
+  template <class Recorder>
+  void close(double end, Recorder& record) {
+    record.reserve(particles_.size());
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      Particle<S, Dim>& p = particles_[i];
+      if (p.t == end) continue;
+      p.x = p.at(end);
+      p.t = end;
+      record.put(static_cast<VertexId>(i), end, p.x, true);
+    }
+  }
+
+  template <class Recorder, class F>
+  void watch(const Now<Recorder>& now, const F& force) const {
+    for (const VertexId v : force.vertices) {
+      const Particle<S, Dim>& p = particles_[v];
+      if (p.x.allFinite() && p.v.allFinite()) continue;
+      throw NotFinite{now.t, F::kind, {force.vertices.begin(), force.vertices.end()}, v};
+    }
+  }
+
+  double window_length_;
+  Clocks clocks_;
+  std::optional<Gravity<S, Dim>> gravity_;
+  Timeline<S, Dim> timeline_;
+  std::vector<S> masses_;
+  std::vector<Particle<S, Dim>> particles_;
+  std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
+  Divisions divisions_;
+  std::vector<Slot> slots_;
+  Calendar calendar_;
+  std::size_t own_forces_ = 0;
+  std::uint64_t windows_ = 0;
+  std::uint64_t events_ = 0;
+};
+
+}  // namespace noli::integrator

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a force is.
+//
+// Notation
+//   V          the potential of one force, a function of the positions of its N vertices
+//   measure    s_j: what the potential depends on, unchanged by rigid motions (a length, a strain, an angle);
+//              V = V(s_1, ..., s_M)
+//
+// A force is a small value type. Asynchronous Contact Mechanics (Harmon et al. 2009, section 3) gives every force a
+// clock of its own; clocks are not here but in integrator/clocks.h, so that forces of one clock can be fired in a row.
+//
+// What this does not do: contact. Its layers are events of another kind.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <string_view>
+
+#include "noli/integrator/vector.h"
+#include "noli/trajectory/mesh.h"
+
+namespace noli::integrator {
+
+/// Also the order in which events of one time happen (design, "Dynamics"): by kind, then by number.
+enum class ForceKind : std::uint8_t { gravity, edge_spring, membrane, hinge, turning };
+constexpr std::size_t force_kinds = 5;
+
+constexpr std::string_view name(ForceKind kind) {
+  switch (kind) {
+    case ForceKind::gravity: return "gravity";
+    case ForceKind::edge_spring: return "edge_spring";
+    case ForceKind::membrane: return "membrane";
+    case ForceKind::hinge: return "hinge";
+    case ForceKind::turning: return "turning";
+  }
+  return "";
+}
+
+/// An elastic force on N = F::size vertices with M = F::measures measures. F::Scalar is its number type, F::dimension
+/// that of space.
+///   f.vertices         std::array<VertexId, N>: different vertices, in the order of the stencil
+///   f.gradient(x)      dV/dx_i for each vertex [N]: the force is its negative
+///   f.energy(x)        V(x) [J]
+///   f.measure_gradients(x)  ds_j/dx_i for each measure j, for damping
+///   f.stiffness()      for each measure, an upper bound of the sum over k of |d2V/ds_j ds_k| at rest, for step estimates
+///   f.damping          b_j = damping * stiffness()[j]: the damping force is -b_j (ds_j/dt) grad s_j [s]
+template <class F>
+concept ElasticForce = requires(const F f, const Stencil<typename F::Scalar, F::dimension, F::size>& x) {
+  { F::kind } -> std::convertible_to<ForceKind>;
+  { f.vertices } -> std::convertible_to<std::array<VertexId, F::size>>;
+  { f.gradient(x) } -> std::same_as<Stencil<typename F::Scalar, F::dimension, F::size>>;
+  { f.energy(x) } -> std::same_as<typename F::Scalar>;
+  {
+    f.measure_gradients(x)
+    } -> std::same_as<std::array<Stencil<typename F::Scalar, F::dimension, F::size>, F::measures>>;
+  { f.stiffness() } -> std::same_as<std::array<typename F::Scalar, F::measures>>;
+  { f.damping } -> std::convertible_to<typename F::Scalar>;
+};
+
+}  // namespace noli::integrator

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a run integrates: particles, forces with their steps, scripts. Built from a scene (integrator/scene), or by hand
+// in tests and benchmarks.
+//
+// Notation
+//   h        a force's step [s]; it fires at the times k h, k = 1, 2, ...
+//   window   a piece of simulated time [k W, (k + 1) W], W = window_length; its end is an event at which every particle
+//            is advanced, so W is part of what determines the run
+//
+// What this does not do: it does not say whether steps are stable (integrator/stable_step.h does).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "noli/integrator/forces/edge_spring.h"
+#include "noli/integrator/forces/hinge.h"
+#include "noli/integrator/forces/membrane.h"
+#include "noli/integrator/forces/turning.h"
+#include "noli/integrator/vector.h"
+#include "noli/trajectory/mesh.h"
+
+namespace noli::integrator {
+
+/// Forces of one kind, each with its step. Order is that of the mesh.
+template <class F>
+struct ForceList {
+  std::vector<F> forces;
+  std::vector<double> steps;  ///< h of each [s], positive
+
+  void add(const F& force, double step) {
+    forces.push_back(force);
+    steps.push_back(step);
+  }
+};
+
+/// A path that a vertex follows whatever acts on it: linear between breakpoints, at rest before the first and after the
+/// last. Its mass counts as infinite.
+template <class S, int Dim>
+struct Script {
+  VertexId vertex = 0;
+  std::vector<double> times;           ///< strictly ascending, not negative [s]
+  std::vector<Vec<S, Dim>> positions;  ///< one for each time
+};
+
+/// A constant acceleration of all particles that are not scripted, with a clock of its own.
+template <class S, int Dim>
+struct Gravity {
+  Vec<S, Dim> acceleration;  ///< [m/s^2]
+  double step = 0;           ///< h [s]
+};
+
+template <class S, int Dim>
+struct Forces;
+
+template <class S>
+struct Forces<S, 3> {
+  ForceList<EdgeSpring<S, 3>> edge_springs;
+  ForceList<Membrane<S>> membranes;
+  ForceList<Hinge<S>> hinges;
+
+  auto lists() { return std::tie(edge_springs, membranes, hinges); }
+  auto lists() const { return std::tie(edge_springs, membranes, hinges); }
+};
+
+template <class S>
+struct Forces<S, 2> {
+  ForceList<EdgeSpring<S, 2>> edge_springs;
+  ForceList<Turning<S>> turnings;
+
+  auto lists() { return std::tie(edge_springs, turnings); }
+  auto lists() const { return std::tie(edge_springs, turnings); }
+};
+
+enum class Clocks : std::uint8_t { grouped, own };
+
+template <class S, int Dim>
+struct Model {
+  Mesh mesh;                            ///< the cells, for verification; forces have vertices of their own
+  std::vector<Vec<S, Dim>> x;           ///< positions at time 0 [m]
+  std::vector<Vec<S, Dim>> v;           ///< velocities at time 0 [m/s]
+  std::vector<S> mass;                  ///< [kg], positive; the mass of pinned and scripted vertices does not matter
+  std::vector<VertexId> pinned;         ///< vertices that never move
+  std::vector<Script<S, Dim>> scripts;  ///< at most one a vertex; not for pinned ones
+  std::optional<Gravity<S, Dim>> gravity;
+  Forces<S, Dim> forces;
+  double window_length = 0;  ///< W [s], positive
+  Clocks clocks = Clocks::grouped;
+};
+
+}  // namespace noli::integrator

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Breakpoints as they come: one append-only stream in the order of events, put in order by vertex when the window is
+// done (a buffer for each vertex would cost several times as much).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "noli/integrator/vector.h"
+#include "noli/trajectory/mesh.h"
+#include "noli/trajectory/world_lines.h"
+
+namespace noli::integrator {
+
+/// Where a vertex was when an event changed its velocity, or at a window's end.
+template <class S, int Dim>
+struct Breakpoint {
+  Vec<S, Dim> x;
+  double t;
+  VertexId vertex;
+};
+
+/// The breakpoints of one window. A vertex has at most one at a time.
+template <class S, int Dim>
+class Recording {
+ public:
+  /// Makes room for so many more.
+  void reserve(std::size_t count) {
+    if (stream_.size() - size_ < count) grow(count);
+  }
+  /// Appends a breakpoint if it is wanted. Precondition: there is room, wanted or not.
+  void put(VertexId vertex, double t, const Vec<S, Dim>& x, bool wanted) {
+    stream_[size_] = {x, t, vertex};
+    size_ += wanted ? 1 : 0;
+  }
+
+  std::span<const Breakpoint<S, Dim>> stream() const { return {stream_.data(), size_}; }
+  /// Forgets the breakpoints and keeps their room for the next window.
+  void clear() { size_ = 0; }
+
+ private:
+  [[gnu::noinline]] void grow(std::size_t count) { stream_.resize(size_ + count + stream_.size() / 2); }
+
+  std::vector<Breakpoint<S, Dim>> stream_;
+  std::size_t size_ = 0;
+};
+
+/// For runs that nobody looks at.
+struct NoRecording {
+  void reserve(std::size_t) {}
+  template <class X>
+  void put(VertexId, double, const X&, bool) {}
+};
+
+/// The world lines of a window: the stream by vertex. Third coordinates of plane motion are zero. Throws InputError when
+/// they are none: fewer than two breakpoints of a vertex, or one that is not finite.
+template <int Dim>
+WorldLines world_lines(const Recording<double, Dim>& recording, std::size_t vertex_count);
+
+}  // namespace noli::integrator

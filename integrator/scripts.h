@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scripted vertices: the breakpoints of all paths, in the order in which they happen.
+//
+// What this does not do: it checks no paths (scenes are checked when they are read).
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "noli/integrator/model.h"
+
+namespace noli::integrator {
+
+/// From a breakpoint on: where a vertex is then, and its velocity until its next breakpoint.
+template <class S, int Dim>
+struct Turn {
+  double time;
+  VertexId vertex;
+  Vec<S, Dim> x;
+  Vec<S, Dim> v;
+};
+
+/// All turns of all scripts, by time, then vertex.
+template <class S, int Dim>
+class Timeline {
+ public:
+  Timeline() = default;
+
+  explicit Timeline(const std::vector<Script<S, Dim>>& scripts) {
+    for (const Script<S, Dim>& script : scripts) {
+      for (std::size_t j = 0; j < script.times.size(); ++j) turns_.push_back(turn(script, j));
+    }
+    std::sort(turns_.begin(), turns_.end(),
+              [](const auto& a, const auto& b) { return a.time != b.time ? a.time < b.time : a.vertex < b.vertex; });
+  }
+
+  /// Forgets the turns that are not after t.
+  void skip_to(double t) {
+    while (next_ < turns_.size() && turns_[next_].time <= t) ++next_;
+  }
+
+  double next_time() const {
+    return next_ < turns_.size() ? turns_[next_].time : std::numeric_limits<double>::infinity();
+  }
+  /// Precondition: next_time() is finite.
+  const Turn<S, Dim>& take() { return turns_[next_++]; }
+
+ private:
+  static Turn<S, Dim> turn(const Script<S, Dim>& script, std::size_t j) {
+    const bool last = j + 1 == script.times.size();
+    Vec<S, Dim> v = Vec<S, Dim>::Zero();
+    if (!last) v = (script.positions[j + 1] - script.positions[j]) / (S(script.times[j + 1]) - S(script.times[j]));
+    return {script.times[j], script.vertex, script.positions[j], v};
+  }
+
+  std::vector<Turn<S, Dim>> turns_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace noli::integrator

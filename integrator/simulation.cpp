@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/simulation.h"
+
+#include "noli/integrator/energy.h"
+#include "noli/integrator/engine.h"
+
+namespace noli::integrator {
+
+template <class S, int Dim>
+Simulation<S, Dim>::Simulation(Model<S, Dim> model) : engine_(std::make_unique<Engine<S, Dim>>(std::move(model))) {}
+
+template <class S, int Dim>
+Simulation<S, Dim>::Simulation(Model<S, Dim> model, const Snapshot<S, Dim>& snapshot) : Simulation(std::move(model)) {
+  engine_->resume(snapshot);
+}
+
+template <class S, int Dim>
+Simulation<S, Dim>::~Simulation() = default;
+template <class S, int Dim>
+Simulation<S, Dim>::Simulation(Simulation&&) noexcept = default;
+template <class S, int Dim>
+Simulation<S, Dim>& Simulation<S, Dim>::operator=(Simulation&&) noexcept = default;
+
+template <class S, int Dim>
+double Simulation<S, Dim>::time() const {
+  return engine_->time();
+}
+
+template <class S, int Dim>
+std::uint64_t Simulation<S, Dim>::windows() const {
+  return engine_->windows();
+}
+
+template <class S, int Dim>
+void Simulation<S, Dim>::run_window(Recording<S, Dim>& recording, Books<S, Dim>& books) {
+  engine_->run_window(recording, books);
+}
+
+template <class S, int Dim>
+void Simulation<S, Dim>::run_window(Books<S, Dim>& books) {
+  NoRecording nothing;
+  engine_->run_window(nothing, books);
+}
+
+template <class S, int Dim>
+Snapshot<S, Dim> Simulation<S, Dim>::snapshot() const {
+  Snapshot<S, Dim> result{engine_->windows(), {}, {}};
+  for (const auto& p : engine_->particles()) {
+    result.x.push_back(p.x);
+    result.v.push_back(p.v);
+  }
+  return result;
+}
+
+template <class S, int Dim>
+State<S, Dim> Simulation<S, Dim>::state() const {
+  return Ledger<S, Dim>(*engine_).state();
+}
+
+template <class S, int Dim>
+std::vector<Vec<S, Dim>> Simulation<S, Dim>::mean_velocities() const {
+  Ledger<S, Dim> ledger(*engine_);
+  ledger.state();
+  return ledger.mean_velocities();
+}
+
+template <class S, int Dim>
+std::uint64_t Simulation<S, Dim>::events() const {
+  return engine_->events();
+}
+
+template <class S, int Dim>
+std::vector<StepGroup> Simulation<S, Dim>::groups() const {
+  return engine_->groups();
+}
+
+template <class S, int Dim>
+bool Simulation<S, Dim>::finite() const {
+  for (const auto& p : engine_->particles()) {
+    if (!p.x.allFinite() || !p.v.allFinite()) return false;
+  }
+  return true;
+}
+
+template <class S, int Dim>
+NotFinite Simulation<S, Dim>::find_not_finite() {
+  detail::Watch watch;
+  Books<S, Dim> books;
+  try {
+    engine_->run_window(watch, books);
+  } catch (const NotFinite& found) {
+    return found;
+  }
+  // No force left it: a particle has run out of the numbers while nothing acted on it.
+  for (std::size_t i = 0; i < engine_->particles().size(); ++i) {
+    const auto& p = engine_->particles()[i];
+    if (!p.x.allFinite() || !p.v.allFinite()) return {engine_->time(), std::nullopt, {}, static_cast<VertexId>(i)};
+  }
+  throw std::logic_error("find_not_finite: all numbers of the window are finite");
+}
+
+template class Simulation<double, 2>;
+template class Simulation<double, 3>;
+
+}  // namespace noli::integrator

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The asynchronous variational integrator: Algorithm 1 of Harmon, Vouga, Smith, Tamstorf and Grinspun, "Asynchronous
+// Contact Mechanics" (2009), without contact: its events are forces, gravity, breakpoints of scripts and the ends of
+// windows.
+//
+// Notation
+//   event    (time, kind, number), in ascending order; kinds: scripts, then forces as in ForceKind, then a window's end.
+//            All impulses of one time act on the positions of that time
+//   kick     a force's impulse -h grad V on the velocities; at time 0 half of one, so that the scheme is of second order
+//            from the start
+//   window   [k W, (k + 1) W]; its end advances every particle to it
+//
+// The state at a window's end (Snapshot) determines all that follows: clocks are multiples of their steps.
+//
+// What this does not do: contact (certificates/), and choosing steps (integrator/stable_step.h).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "noli/integrator/books.h"
+#include "noli/integrator/model.h"
+#include "noli/integrator/recording.h"
+
+namespace noli::integrator {
+
+/// Positions and velocities of all vertices at a window's end.
+template <class S, int Dim>
+struct Snapshot {
+  std::uint64_t windows = 0;  ///< done; the time is fl(windows W)
+  std::vector<Vec<S, Dim>> x, v;
+};
+
+/// Energies and momenta at a window's end. Those of pinned and scripted vertices are not in them.
+template <class S, int Dim>
+struct State {
+  S kinetic{};       ///< of the velocities as they are, which is what the books add up to [J]
+  S kinetic_mean{};  ///< of the velocities half way through the kicks of this time: the one to plot [J]
+  std::array<S, force_kinds> potential{};  ///< by ForceKind; gravity's is measured from the origin [J]
+  Vec<S, Dim> momentum = Vec<S, Dim>::Zero();
+  Moment<S, Dim> angular_momentum = Moment<S, Dim>::Zero();  ///< about the origin
+  S speeds{};                                                ///< sum of m |v|, to measure drift of the momentum against
+  S moments{};                                               ///< sum of m |x| |v|
+
+  S potential_sum() const {
+    S sum{};
+    for (const S& p : potential) sum += p;
+    return sum;
+  }
+};
+
+/// One group of forces that fire together; with clocks of their own, one for each kind and step.
+struct StepGroup {
+  ForceKind kind;
+  double step;
+  std::uint64_t forces;
+};
+
+/// A number that is none appeared.
+struct NotFinite {
+  double time;
+  std::optional<ForceKind> kind;  ///< of the force that left it; nothing: free motion did
+  std::vector<VertexId> force;    ///< that force's vertices
+  VertexId vertex;                ///< whose velocity or position it is
+};
+
+/// integrator/engine.h
+template <class S, int Dim>
+class Engine;
+
+template <class S, int Dim>
+class Simulation {
+ public:
+  /// At time 0. Throws std::invalid_argument when the model is none (sizes that differ, vertices out of range, masses or
+  /// steps that are not positive): scenes are checked before, so this is for models made by hand.
+  explicit Simulation(Model<S, Dim> model);
+  /// At a window's end of an earlier run of the same model.
+  Simulation(Model<S, Dim> model, const Snapshot<S, Dim>& snapshot);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  double time() const;            ///< the last window's end
+  std::uint64_t windows() const;  ///< done
+
+  /// Runs the next window. Records each vertex at both its ends and at each change of velocity between; books work and
+  /// impulses.
+  void run_window(Recording<S, Dim>& recording, Books<S, Dim>& books);
+  /// The same without a recording: the same numbers.
+  void run_window(Books<S, Dim>& books);
+
+  Snapshot<S, Dim> snapshot() const;
+  State<S, Dim> state() const;
+  /// The velocities of this time: those of the snapshot less half of the kicks that act now. A run that begins with them
+  /// goes on as this one does; with their negatives, back.
+  std::vector<Vec<S, Dim>> mean_velocities() const;
+  /// Forces fired since time 0 of this object, start kicks included.
+  std::uint64_t events() const;
+  std::vector<StepGroup> groups() const;
+
+  /// Whether all positions and velocities are finite numbers.
+  bool finite() const;
+  /// Runs the next window, looking at each event, up to the first that leaves something that is not finite: to be asked
+  /// when finite() has become false, of a simulation that starts from the snapshot before. Throws std::logic_error when
+  /// there is none.
+  NotFinite find_not_finite();
+
+ private:
+  std::unique_ptr<Engine<S, Dim>> engine_;
+};
+
+extern template class Simulation<double, 2>;
+extern template class Simulation<double, 3>;
+
+}  // namespace noli::integrator
