@@ -4,11 +4,12 @@
 // operations.
 //
 // Notation
-//   a              the shared vertex that is the origin: d, q(x) and the error bound are those of
-//   proofs/prover/direction.h with r = a, so q(a) = 0 abc, ade       two faces around a corner: if n has b, c on its
-//   upper and d, e on its lower side of a, it separates (bc, ade) and (abc, de) abc, abd       two faces around an
-//   edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d) if it has c
-//                  above and d below both a and b; one direction each is tried for (bc, ad) and (ac, bd)
+//   a         the shared vertex that is the origin: d, q(x) and the error bound are those of proofs/prover/direction.h
+//             with r = a, so q(a) = 0
+//   abc, ade  two faces around a corner: if n has b, c on its upper and d, e on its lower side of a, it separates (bc,
+//             ade) and (abc, de)
+//   abc, abd  two faces around an edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d)
+//             if it has c above and d below both a and b; one direction each is tried for (bc, ad) and (ac, bd)
 //
 // What this does not do: what it does not settle it leaves to proofs/prover/cell_pair.h.
 #pragma once

@@ -4,10 +4,9 @@
 //
 // Notation
 //   shared   a vertex that both cells have. No direction separates cells that share one; but two simplices on them that
-//   share none
-//            miss each shared vertex on one side at least, so it is enough to settle all *parts* that arise by dropping
-//            each shared vertex from one side or the other: (bc, ade) and (abc, de) for abc and ade; (c, abd), (bc,
-//            ad), (ac, bd), (abc, d) for abc and abd
+//            share none miss each shared vertex on one side at least, so it is enough to settle all *parts* that arise
+//            by dropping each shared vertex from one side or the other: (bc, ade) and (abc, de) for abc and ade; (c,
+//            abd), (bc, ad), (ac, bd), (abc, d) for abc and abd
 //   open     a pair of parts for which no direction was found, over the whole step or over pieces of it
 //
 // The features of an open pair are taken to the kernel one by one, and whether it meets at the beginning of the step is

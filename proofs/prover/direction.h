@@ -4,11 +4,12 @@
 //
 // Notation
 //   u        2^-53; fl(.) rounds to nearest, so fl(x op y) = (x op y)(1 + e) + f with |e| <= u, and |f| <= 2^-1075 for
-//   products, 0 for sums r        the origin of the pair: one point r_t0, r_t1 for each end of the step d        fl(x -
-//   r), for each corner x of the two parts and each end reach    max |d_k|, over all corners, ends and axes;   |n|_1 =
-//   sum of |n_k| p(x)     fl(n.d), summed in the order of the axes;    q(x), at time s: fl(fl((1 - s) p_t0) + fl(s
-//   p_t1)), where s is a multiple of 2^-20,
-//            so that 1 - s is exact
+//            products, 0 for sums
+//   r        the origin of the pair: one point r_t0, r_t1 for each end of the step
+//   d        fl(x - r), for each corner x of the two parts and each end
+//   reach    max |d_k|, over all corners, ends and axes; |n|_1 = sum of |n_k|
+//   p(x)     fl(n.d), summed in the order of the axes
+//   q(x)     at time s: fl(fl((1 - s) p_t0) + fl(s p_t1)), where s is a multiple of 2^-20, so that 1 - s is exact
 //
 // Claim: if fl(q(a) - q(b)) > fl(16 u fl(4 |n|_1 reach)) + 2^-1022 for all corners a of the first part and b of the
 // second, then n.(a(s) - b(s)) > 0. Proof. Let R = |n|_1 reach. If some n_k or d_k is infinite or not a number, or 4 R

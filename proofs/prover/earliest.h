@@ -4,7 +4,7 @@
 //
 // Notation
 //   candidate  a contact whose enclosure begins no later than the least end of an enclosure seen so far: it may be the
-//   first
+//              first
 //
 // Contacts are ordered by exact first time, equal ones by canonical order (pair, then vertices), so the answer does not
 // depend on the order in which they come.

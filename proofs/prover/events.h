@@ -5,24 +5,22 @@
 //
 // Notation
 //   group       a node of one binary tree over the cells; a leaf holds one cell. A node over m > 1 successive entries
-//   of `leaf_cells`
-//               has the first m/2 of them (rounded down) in its left child and the others in its right
+//               of `leaf_cells` has the first m/2 of them (rounded down) in its left child and the others in its right
 //   part        some of the vertices of a group; at first all of them
 //   obligation  to show that over an interval of the step no simplex of one part meets a vertex-disjoint simplex of
-//   another (a
-//               pair: first, second), or that this holds for any two different cells of one group (a self)
+//               another (a pair: first, second), or that this holds for any two different cells of one group (a self)
 //
 // The steps rewrite a stack of obligations, which begins with the self of the whole tree over [0, 1]. Each step is
 // about the obligation on top; what replaces it is listed top first:
-//   split_self     self(x)              -> self(left), pair(left, right), self(right)           x is no leaf
-//   split_first    pair(x, y)           -> pair(left of x, y), pair(right of x, y)              x is no leaf
-//   split_second   pair(x, y)           -> pair(x, left of y), pair(x, right of y)              y is no leaf
-//   drop_vertex v  pair(x, y)           -> pair(x without v, y), pair(x, y without v)           x and y are leaves that
-//   share v halve          pair over [a, b]     -> the same over [a, m], the same over [m, b]           m = (a + b) / 2
-//   direction n    pair(x, y)           -> nothing: n.(a - b) > 0 for all a in x, b in y, at both ends of the interval
-//   empty          pair(x, y)           -> nothing: x or y has no vertex
-//   features       pair(x, y)           -> nothing: see below
-//   cell           self(x)              -> nothing: x is a leaf
+//   split_self     self(x)           -> self(left), pair(left, right), self(right)  x is no leaf
+//   split_first    pair(x, y)        -> pair(left of x, y), pair(right of x, y)     x is no leaf
+//   split_second   pair(x, y)        -> pair(x, left of y), pair(x, right of y)     y is no leaf
+//   drop_vertex v  pair(x, y)        -> pair(x without v, y), pair(x, y without v)  x and y are leaves that share v
+//   halve          pair over [a, b]  -> the same over [a, m], the same over [m, b]  m = (a + b) / 2
+//   direction n    pair(x, y)        -> nothing: n.(a - b) > 0 for all a in x, b in y, at both ends of the interval
+//   empty          pair(x, y)        -> nothing: x or y has no vertex
+//   features       pair(x, y)        -> nothing: see below
+//   cell           self(x)           -> nothing: x is a leaf
 // What no direction settled is taken apart into pairs of features, and each of these belongs to one pair of cells: that
 // of the least cells that have the two features. `features` says that each pair of features of the two parts is apart
 // from what `direction` settled (here for other parts, or in the obligation of the cells it belongs to), or was told by

@@ -5,7 +5,7 @@
 // Notation
 //   a, b       two different cells; a_i, b_j their corners; e_i the edge of a face from corner i to corner i + 1
 //   PairSet    bits, in 3D: i (0 to 2) a_i against the face b; 3 + j: b_j against the face a; 8 + 3 i + j: edge i of a
-//   against edge j of b;
+//              against edge j of b;
 //              in 2D: 3 i + j: a_i against edge j of b; 9 + 3 j + i: b_j against edge i of a.
 //              In both: 20 the loose point a against the loose edge b (3D), 21 the reverse (3D), 22 two loose points
 //

@@ -5,8 +5,7 @@
 // Notation
 //   corner   a place in a cell's list of vertices; edge i of a face goes from corner i to corner i + 1, cyclically
 //   owner    of a vertex, or of an edge as a pair of vertex ids: the least cell that has it. A pair of features is
-//   examined where the
-//            obligations of its two owners are
+//            examined where the obligations of its two owners are
 //   listed   a cell such that no cell of its kind (face, loose edge, loose point) before it has the same vertices
 //
 // What this does not do: it looks at no coordinates.

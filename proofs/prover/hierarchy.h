@@ -4,13 +4,11 @@
 //
 // Notation
 //   node     a run of `count` entries of the leaf order; node i of count m > 1 has its left child, of count m / 2, at i
-//   + 1
-//            and its right child right after the left one's 2 (m / 2) - 1 nodes
+//            + 1 and its right child right after the left one's 2 (m / 2) - 1 nodes
 //   box      least and greatest coordinate of the group, per axis, at t = 0 and at t = 1 (not the box swept in between)
 //   phi      a map of coordinates to float, one for each axis and end: subtract the middle of the scene, scale by a
-//   power of two,
-//            round. Every step is monotone (rounding is), so phi(a) > phi(b) implies a > b: boxes are kept as floats
-//            and yet an order found between them is exact
+//            power of two, round. Every step is monotone (rounding is), so phi(a) > phi(b) implies a > b: boxes are
+//            kept as floats and yet an order found between them is exact
 //
 // If on one axis the boxes of two groups are in the same strict order at t = 0 and at t = 1, the axis is a separating
 // direction for the whole step.

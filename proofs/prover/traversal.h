@@ -5,8 +5,7 @@
 // Notation
 //   obligation  as in proofs/prover/events.h: a pair of groups, or one with itself
 //   grain       obligations about at most so many cells are put off, when a list to put them on is given: that is how
-//   the work is cut into
-//               tasks which do not depend on the number of threads
+//               the work is cut into tasks which do not depend on the number of threads
 //
 // What this does not do: it makes no threads and adds nothing up.
 #pragma once

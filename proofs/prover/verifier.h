@@ -6,7 +6,7 @@
 //   cell        a face, a loose edge or a loose point of the mesh; its features are its vertices, edges and itself
 //   x_t0, x_t1  positions of the vertices at the beginning and at the end of the step; between them each moves linearly
 //   obligation  a pair of groups of cells (or a group with itself) whose vertex-disjoint features have to be shown
-//   apart
+//               apart
 //
 // The verifier walks a hierarchy of groups. An obligation is closed by one separating direction when there is one; else
 // the larger group is split; a pair of cells that no direction separates is taken apart into its pairs of features, and
