@@ -49,7 +49,7 @@ void reduce(Residues& a, const Residues& b) {
 Polynomial pseudo_remainder(const Polynomial& a, const Polynomial& b) {
   std::vector<Integer> r;
   for (int i = 0; i <= a.degree(); ++i) r.push_back(a[static_cast<std::size_t>(i)]);
-  const std::size_t size = static_cast<std::size_t>(b.degree() + 1);
+  const std::size_t size = static_cast<std::size_t>(b.degree()) + 1;
   while (r.size() >= size) {
     const Integer factor = r.back();
     const std::size_t shift = r.size() - size;
@@ -184,7 +184,7 @@ Polynomial gcd(const Polynomial& a, const Polynomial& b) {
 Polynomial quotient(const Polynomial& a, const Polynomial& b) {
   std::vector<Integer> r, q;
   for (int i = 0; i <= a.degree(); ++i) r.push_back(a[static_cast<std::size_t>(i)]);
-  const std::size_t size = static_cast<std::size_t>(b.degree() + 1);
+  const std::size_t size = static_cast<std::size_t>(b.degree()) + 1;
   while (r.size() >= size) {
     const Integer factor = r.back();
     for (Integer& earlier : q) earlier *= b.leading();

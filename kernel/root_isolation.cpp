@@ -135,7 +135,7 @@ class Isolation {
     return true;
   }
 
-  bool found_dyadic(Dyadic root) {
+  bool found_dyadic(const Dyadic& root) {
     dyadic_root_ = root.reduced();
     return false;
   }
