@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/body_forces.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "noli/integrator/scene/connectivity.h"
+#include "noli/integrator/scene/curve.h"
+
+namespace noli::integrator {
+namespace {
+
+/// Of springs in a row: compliances add. Written so that factors in the range of double do not overflow.
+double in_series(double f, double g) { return f == g ? f : 2 / (1 / f + 1 / g); }
+
+/// What all parts of the work need.
+template <int Dim>
+struct Work {
+  const Scene& scene;
+  std::size_t index;
+  const BodyMesh& mesh;
+  BuiltBody& built;
+  SourcedForces<Dim>& forces;
+  const Body& body = scene.bodies[index];
+  const Field field = field_of_body(scene, index);
+
+  const ElasticMaterial* elastic() const { return std::get_if<ElasticMaterial>(&body.material.kind); }
+  const SpringMaterial* springs() const { return std::get_if<SpringMaterial>(&body.material.kind); }
+
+  template <std::size_t N>
+  Stencil<double, Dim, N> rest(const std::array<VertexId, N>& ids) const {
+    Stencil<double, Dim, N> x;
+    for (std::size_t i = 0; i < N; ++i) x[i] = to_vec(mesh.rest[ids[i]]).template head<Dim>();
+    return x;
+  }
+  template <std::size_t N>
+  std::array<VertexId, N> in_scene(std::array<VertexId, N> ids) const {
+    for (VertexId& id : ids) id += built.first;
+    return ids;
+  }
+  template <std::size_t N>
+  Origin origin(const std::array<VertexId, N>& cell) const {
+    return {static_cast<std::uint32_t>(index), centre(mesh.start, cell)};
+  }
+  template <class Cells>
+  double factor(const Cells& cell) const {
+    return stiffness_factor(body, centre(mesh.start, cell));
+  }
+  /// Makes a force; what it refuses is the mesh's fault.
+  template <class Make>
+  auto made(const char* what, std::size_t number, Make&& make) const {
+    try {
+      return make();
+    } catch (const std::invalid_argument& error) {
+      field["mesh"].fail(fmt::format("expected cells with a size; at {} {}: {}", what, number, error.what()));
+    }
+  }
+};
+
+template <int Dim>
+void add_spring(Work<Dim>& work, const std::array<VertexId, 2>& edge, double constant) {
+  const auto x = work.rest(edge);
+  const double length = std::sqrt((x[1] - x[0]).squaredNorm());
+  EdgeSpring<double, Dim> spring;
+  spring.vertices = work.in_scene(edge);
+  spring.constant = constant;
+  spring.rest_length = length;
+  spring.damping = work.body.material.damping;
+  work.forces.edge_springs.add(spring, work.origin(edge));
+}
+
+/// Springs of loose edges.
+template <int Dim>
+void stretch_curves(Work<Dim>& work) {
+  const auto& edges = work.mesh.shape.mesh.edges;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    double constant = 0;
+    if (const ElasticMaterial* m = work.elastic()) {
+      const auto x = work.rest(edges[e]);
+      const double length = std::sqrt((x[1] - x[0]).squaredNorm());
+      if (!(length > 0)) work.field["mesh"].fail(fmt::format("expected edges with a length; edge {} has none", e));
+      constant = m->young * m->thickness * m->width / length;
+    } else {
+      constant = work.springs()->edge_stiffness;
+    }
+    if (constant > 0) add_spring(work, edges[e], constant * work.factor(edges[e]));
+  }
+}
+
+/// Turning angles where two loose edges meet.
+void bend_curves(Work<2>& work) {
+  const Joints found = joints(work.mesh.shape.mesh);
+  work.built.crowded += found.branchings;
+  double rigidity = 0;
+  if (const ElasticMaterial* m = work.elastic()) {
+    rigidity = m->bending * m->young * m->thickness * m->thickness * m->thickness * m->width / 12;
+  } else {
+    rigidity = work.springs()->bending_stiffness;
+  }
+  if (!(rigidity > 0)) return;
+  const auto& edges = work.mesh.shape.mesh.edges;
+  for (const Joint& joint : found.joints) {
+    const double factor = in_series(work.factor(edges[joint.edges[0]]), work.factor(edges[joint.edges[1]]));
+    const auto make = [&] {
+      return Turning<double>::from_rest(work.in_scene(joint.vertices), work.rest(joint.vertices), factor * rigidity,
+                                        work.body.material.bending_damping);
+    };
+    work.forces.turnings.add(work.made("vertex", joint.vertices[1], make), work.origin(std::array{joint.vertices[1]}));
+  }
+}
+
+void stretch_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
+  if (const SpringMaterial* springs = work.springs()) {
+    for (const FaceEdge& edge : edges) {
+      if (springs->edge_stiffness > 0) add_spring(work, edge.ends, springs->edge_stiffness * work.factor(edge.ends));
+    }
+    return;
+  }
+  const ElasticMaterial& m = *work.elastic();
+  const auto& faces = work.mesh.shape.mesh.faces;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto make = [&] {
+      const SheetMaterial<double> sheet{m.young * work.factor(faces[f]), m.poisson, m.thickness};
+      return Membrane<double>::from_rest(work.in_scene(faces[f]), work.rest(faces[f]), sheet,
+                                         work.body.material.damping);
+    };
+    work.forces.membranes.add(work.made("face", f, make), work.origin(faces[f]));
+  }
+}
+
+/// Two faces, and not the same three vertices twice.
+bool bends(const FaceEdge& edge) { return edge.count == 2 && edge.opposite[0] != edge.opposite[1]; }
+
+void bend_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
+  double rigidity = 0;
+  if (const ElasticMaterial* m = work.elastic()) {
+    rigidity = m->bending * flexural_rigidity(m->young, m->poisson, m->thickness);
+  } else {
+    rigidity = work.springs()->bending_stiffness;
+  }
+  if (!(rigidity > 0)) return;
+  const auto& faces = work.mesh.shape.mesh.faces;
+  for (const FaceEdge& edge : edges) {
+    if (!bends(edge)) continue;
+    const double factor = in_series(work.factor(faces[edge.faces[0]]), work.factor(faces[edge.faces[1]]));
+    const std::array ids{edge.ends[0], edge.ends[1], edge.opposite[0], edge.opposite[1]};
+    const auto make = [&] {
+      return Hinge<double>::from_rest(work.in_scene(ids), work.rest(ids), factor * rigidity,
+                                      work.body.material.bending_damping);
+    };
+    work.forces.hinges.add(work.made("face", edge.faces[0], make), work.origin(edge.ends));
+  }
+}
+
+}  // namespace
+
+void add_forces(const Scene& scene, std::size_t body, const BodyMesh& mesh, BuiltBody& built,
+                SourcedForces<3>& forces) {
+  Work<3> work{scene, body, mesh, built, forces};
+  const std::vector<FaceEdge> edges = face_edges(mesh.shape.mesh);
+  for (const FaceEdge& edge : edges) {
+    built.open_edges += edge.count == 1;
+    built.crowded += edge.count >= 2 && !bends(edge);
+  }
+  if (work.body.stretch) stretch_curves(work);
+  if (work.body.stretch) stretch_sheets(work, edges);
+  if (work.body.bend) bend_sheets(work, edges);
+}
+
+void add_forces(const Scene& scene, std::size_t body, const BodyMesh& mesh, BuiltBody& built,
+                SourcedForces<2>& forces) {
+  Work<2> work{scene, body, mesh, built, forces};
+  if (work.body.stretch) stretch_curves(work);
+  if (work.body.bend) bend_curves(work);
+}
+
+}  // namespace noli::integrator

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The elastic forces of one body (see build_model.h for which), without steps.
+#pragma once
+
+#include "noli/integrator/model.h"
+#include "noli/integrator/scene/body_mesh.h"
+#include "noli/integrator/scene/build_model.h"
+
+namespace noli::integrator {
+
+/// Where a force comes from.
+struct Origin {
+  std::uint32_t body = 0;
+  Position centre{};  ///< at the start
+};
+
+/// Forces of one kind, of all bodies, each with its origin.
+template <class F>
+struct Sourced {
+  std::vector<F> forces;
+  std::vector<Origin> origins;
+
+  void add(const F& force, const Origin& origin) {
+    forces.push_back(force);
+    origins.push_back(origin);
+  }
+};
+
+template <int Dim>
+struct SourcedForces;
+
+template <>
+struct SourcedForces<3> {
+  Sourced<EdgeSpring<double, 3>> edge_springs;
+  Sourced<Membrane<double>> membranes;
+  Sourced<Hinge<double>> hinges;
+  auto lists() { return std::tie(edge_springs, membranes, hinges); }
+};
+
+template <>
+struct SourcedForces<2> {
+  Sourced<EdgeSpring<double, 2>> edge_springs;
+  Sourced<Turning<double>> turnings;
+  auto lists() { return std::tie(edge_springs, turnings); }
+};
+
+/// Appends the forces of a body whose first vertex is built.first; counts in `built` where there is no bending. Throws
+/// InputError for cells without size.
+void add_forces(const Scene& scene, std::size_t body, const BodyMesh& mesh, BuiltBody& built, SourcedForces<3>& forces);
+void add_forces(const Scene& scene, std::size_t body, const BodyMesh& mesh, BuiltBody& built, SourcedForces<2>& forces);
+
+}  // namespace noli::integrator

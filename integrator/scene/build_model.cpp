@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/build_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "noli/integrator/scene/body_forces.h"
+#include "noli/integrator/scene/body_mesh.h"
+#include "noli/integrator/scene/build_scripts.h"
+#include "noli/integrator/scene/curve.h"
+#include "noli/integrator/scene/place.h"
+#include "noli/integrator/scene/select.h"
+#include "noli/integrator/stable_step.h"
+
+namespace noli::integrator {
+namespace {
+
+template <int Dim>
+Vec<double, Dim> cut(const Vec3& x) {
+  return x.head<Dim>();
+}
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec3 centre_of_mass(const std::vector<Position>& x, const std::vector<double>& mass) {
+  Vec3 sum = Vec3::Zero();
+  double total = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum += mass[i] * to_vec(x[i]);
+    total += mass[i];
+  }
+  return sum / total;
+}
+
+template <std::size_t N>
+void append(std::vector<std::array<VertexId, N>>& cells, const std::vector<std::array<VertexId, N>>& more,
+            VertexId first) {
+  for (std::array<VertexId, N> cell : more) {
+    for (VertexId& i : cell) i += first;
+    cells.push_back(cell);
+  }
+}
+
+/// Cells, positions, velocities, masses and pins of one body.
+template <int Dim>
+void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, BuiltBody& built,
+              Model<double, Dim>& model) {
+  const Body& body = scene.bodies[index];
+  const Mesh& mesh = made.shape.mesh;
+  append(model.mesh.faces, mesh.faces, built.first);
+  append(model.mesh.edges, mesh.edges, built.first);
+  for (const VertexId i : mesh.points) model.mesh.points.push_back(built.first + i);
+  model.mesh.vertex_count += mesh.vertex_count;
+  std::vector<Position> x = made.start;
+  perturb(x, body.perturb, scene.seed, index, scene.dimension);
+  const Vec3 centre = centre_of_mass(x, made.mass), spin = to_vec(body.spin);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    model.x.push_back(cut<Dim>(to_vec(x[i])));
+    model.v.push_back(cut<Dim>(to_vec(body.velocity) + cross(spin, to_vec(x[i]) - centre)));
+    model.mass.push_back(made.mass[i]);
+    built.mass += made.mass[i];
+  }
+  for (const VertexId i : made.pinned) {
+    model.pinned.push_back(built.first + i);
+    model.v[built.first + i].setZero();
+  }
+  built.pinned = made.pinned.size();
+}
+
+template <int Dim>
+std::vector<double> inverse_masses(const Model<double, Dim>& model) {
+  std::vector<double> inverse;
+  for (const double m : model.mass) inverse.push_back(1 / m);
+  for (const VertexId i : model.pinned) inverse[i] = 0;
+  for (const auto& script : model.scripts) inverse[script.vertex] = 0;
+  return inverse;
+}
+
+/// A step that the scene gives, and where.
+struct Given {
+  std::optional<double> step;
+  std::optional<std::size_t> patch;
+};
+
+/// By the last patch that has one and the force's centre in it, or the body.
+Given given_step(const Body& body, const Position& centre, std::optional<double> GivenSteps::*which) {
+  Given given{body.steps.*which, {}};
+  for (std::size_t p = 0; p < body.patches.size(); ++p) {
+    const Patch& patch = body.patches[p];
+    if (patch.steps.*which && contains(patch.box, centre)) given = {patch.steps.*which, p};
+  }
+  return given;
+}
+
+bool bends(ForceKind kind) { return kind == ForceKind::hinge || kind == ForceKind::turning; }
+
+[[noreturn]] void refuse_step(const Scene& scene, std::size_t body, const Given& given, ForceKind kind, double limit) {
+  const Field at = field_of_body(scene, body);
+  const Field steps = given.patch ? at["patches"][*given.patch]["steps"] : at["steps"];
+  steps[bends(kind) ? "bend" : "stretch"].fail(
+      fmt::format("expected at most {} [s], the limit of stability of a {}, or \"allow_unstable\": true, found {}",
+                  limit, name(kind), *given.step));
+}
+
+/// Times must be multiples of the step that double precision can tell apart.
+[[noreturn]] void refuse_stiffness(const Scene& scene, std::size_t body, ForceKind kind, double limit) {
+  field_of_body(scene, body)["material"].fail(
+      fmt::format("expected steps that can be counted over the duration; the limit of stability of a {} is {} [s]: too "
+                  "stiff, or too light",
+                  name(kind), limit));
+}
+
+/// Leaves out what moves nothing, and gives the rest their steps.
+template <class F, int Dim>
+ForceList<F> with_steps(const Scene& scene, Sourced<F>&& sourced, const std::vector<Vec<double, Dim>>& x,
+                        const std::vector<double>& inverse_mass, std::vector<BuiltBody>& built) {
+  ForceList<F> list;
+  std::vector<Origin> origins;
+  for (std::size_t i = 0; i < sourced.forces.size(); ++i) {
+    const auto& ids = sourced.forces[i].vertices;
+    const bool idle = std::all_of(ids.begin(), ids.end(), [&](VertexId v) { return inverse_mass[v] == 0; });
+    if (idle) {
+      ++built[sourced.origins[i].body].idle_forces;
+    } else {
+      list.forces.push_back(sourced.forces[i]);
+      origins.push_back(sourced.origins[i]);
+    }
+  }
+  const std::vector<double> limits = stability_limits(list, x, inverse_mass);
+  const auto which = bends(F::kind) ? &GivenSteps::bend : &GivenSteps::stretch;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    if (!(limits[i] * 0x1p50 > scene.duration)) refuse_stiffness(scene, origins[i].body, F::kind, limits[i]);
+    const Given given = given_step(scene.bodies[origins[i].body], origins[i].centre, which);
+    if (given.step > limits[i] && !scene.allow_unstable) refuse_step(scene, origins[i].body, given, F::kind, limits[i]);
+    list.steps.push_back(given.step.value_or(std::min(scene.step_factor * limits[i], scene.window)));
+  }
+  return list;
+}
+
+template <int Dim>
+double longest_step(const Forces<double, Dim>& forces) {
+  double longest = 0;
+  std::apply(
+      [&longest](const auto&... lists) {
+        for (const std::vector<double>* steps : {&lists.steps...}) {
+          for (const double h : *steps) longest = std::max(longest, h);
+        }
+      },
+      forces.lists());
+  return longest;
+}
+
+template <int Dim>
+void add_gravity(const Scene& scene, Model<double, Dim>& model) {
+  if (scene.gravity == Position{}) return;
+  double step = scene.window / 16;
+  if (const double longest = longest_step(model.forces); longest > 0) step = std::min(step, longest);
+  model.gravity = {cut<Dim>(to_vec(scene.gravity)), scene.gravity_step.value_or(step)};
+}
+
+}  // namespace
+
+template <int Dim>
+BuiltScene<Dim> build_model(const Scene& scene) {
+  BuiltScene<Dim> result;
+  Model<double, Dim>& model = result.model;
+  model.window_length = scene.window;
+  model.clocks = scene.steps;
+  std::vector<BodyMesh> meshes;
+  SourcedForces<Dim> sourced;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    meshes.push_back(make_body(scene, i));
+    const Mesh& mesh = meshes.back().shape.mesh;
+    BuiltBody& built = result.bodies.emplace_back();
+    built = {scene.bodies[i].name, static_cast<VertexId>(model.x.size()), mesh.vertex_count, mesh.faces.size(),
+             mesh.edges.size()};
+    add_body(scene, i, meshes.back(), built, model);
+    add_forces(scene, i, meshes.back(), built, sourced);
+  }
+  add_scripts(scene, meshes, result.bodies, model);
+  const std::vector<double> inverse_mass = inverse_masses(model);
+  auto from = sourced.lists();
+  auto to = model.forces.lists();
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    ((std::get<I>(to) = with_steps(scene, std::move(std::get<I>(from)), model.x, inverse_mass, result.bodies)), ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
+  add_gravity(scene, model);
+  return result;
+}
+
+template BuiltScene<2> build_model<2>(const Scene&);
+template BuiltScene<3> build_model<3>(const Scene&);
+
+}  // namespace noli::integrator

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the forces of a mesh are: edges of faces, pairs of faces at an edge, pairs of loose edges at a vertex.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "noli/trajectory/mesh.h"
+
+namespace noli::integrator {
+
+/// An edge of faces, with the first two of them.
+struct FaceEdge {
+  std::array<VertexId, 2> ends{};      ///< in the order of the first face
+  std::array<VertexId, 2> opposite{};  ///< the third vertex of the first face, of the second
+  std::array<std::uint32_t, 2> faces{};
+  std::uint32_t count = 0;  ///< of faces: 1 at the border, 2 inside, more where sheets meet
+};
+
+/// In the order in which the faces first mention them. Precondition: no face has a vertex twice.
+std::vector<FaceEdge> face_edges(const Mesh& mesh);
+
+/// A vertex at which exactly two loose edges meet: a, middle, b; a is of the edge that comes first.
+struct Joint {
+  std::array<VertexId, 3> vertices{};
+  std::array<std::uint32_t, 2> edges{};
+};
+
+struct Joints {
+  std::vector<Joint> joints;   ///< by their middles
+  std::size_t branchings = 0;  ///< vertices with more than two loose edges
+};
+
+/// Precondition: no edge has a vertex twice.
+Joints joints(const Mesh& mesh);
+
+}  // namespace noli::integrator

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/curve.h"
+#include "noli/integrator/scene/generators.h"
+#include "noli/integrator/scene/turn.h"
+
+namespace noli::integrator {
+
+Shape make_shape(const Chain& chain) {
+  Shape shape;
+  for (const Vec3& x : along_curve(chain.points, chain.segments, chain.smooth)) shape.add(to_position(x));
+  for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, i + 1});
+  shape.sets = {{"first", {0}}, {"last", {chain.segments}}};
+  return shape;
+}
+
+Shape make_shape(const Ring& ring) {
+  Shape shape;
+  for (VertexId i = 0; i < ring.segments; ++i) {
+    const CosSin at = part_of_turn(i, ring.segments);
+    shape.add({ring.radius * at.cos, ring.radius * at.sin, 0});
+    shape.mesh.edges.push_back({i, (i + 1) % ring.segments});
+  }
+  return shape;
+}
+
+}  // namespace noli::integrator

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// JSON from a file, with errors that a person can find: line and column.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace noli::integrator {
+
+/// Objects keep the order of the file.
+using Json = nlohmann::ordered_json;
+
+/// Parses the whole text; `file` is what errors call it. Throws InputError with line and column: text that is not JSON,
+/// numbers beyond the range of double, a field that an object has twice.
+Json parse_json(std::string_view text, const std::string& file);
+
+/// A value as a message shows it: JSON on one line, shortened when long.
+std::string brief(const Json& value);
+
+}  // namespace noli::integrator

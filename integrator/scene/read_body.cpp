@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/read_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "noli/integrator/scene/nearest.h"
+
+namespace noli::integrator {
+namespace {
+
+Box read_box(const Field& f) {
+  const Box box{f[0].vector(), f[1].vector()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(box.low[axis] <= box.high[axis]))
+      f.fail("expected the lowest corner, then the highest, found " + brief(f.json()));
+  }
+  return box;
+}
+
+Deform read_deform(const Field& f) {
+  Deform deform{f["stretch"].vector(), f["twist"].number()};
+  if (f.dimension() == 2) deform.stretch[2] = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(deform.stretch[axis] > 0))
+      f["stretch"].fail("expected factors greater than 0, found " + brief(f["stretch"].json()));
+  }
+  if (f.dimension() == 2 && deform.twist != 0) f["twist"].fail("expected 0 in a scene of dimension 2");
+  return deform;
+}
+
+Quaternion read_quaternion(const Field& f) {
+  const Quaternion quaternion{f.numbers<4>()};
+  if (quaternion == Quaternion{{0, 0, 0, 0}}) f.fail("expected a quaternion that is not zero");
+  return quaternion;
+}
+
+decltype(Transform::rotate) read_rotation(const Field& f) {
+  const bool plane = f.dimension() == 2;
+  if (plane && !f.has("degrees")) f.fail("expected the field \"degrees\", as the scene has dimension 2");
+  for (const std::string_view name : {"axis", "quaternion"}) {
+    if (plane && f.has(name)) f[name].fail("expected \"degrees\" alone, as the scene has dimension 2");
+  }
+  if (plane) return AxisTurn{{0, 0, 1}, f["degrees"].number()};
+  if (f.has("quaternion")) {
+    if (f.has("axis") || f.has("degrees")) f.fail("expected either \"quaternion\" or \"axis\" and \"degrees\"");
+    return read_quaternion(f["quaternion"]);
+  }
+  if (!f.has("axis") || !f.has("degrees")) f.fail("expected both fields \"axis\" and \"degrees\"");
+  return AxisTurn{f["axis"].direction(), f["degrees"].number()};
+}
+
+Transform read_transform(const Field& f) {
+  Transform transform{f["scale"].number(), {}, f["translate"].vector()};
+  if (f.has("rotate")) transform.rotate = read_rotation(f["rotate"]);
+  return transform;
+}
+
+Position read_spin(const Field& f) {
+  if (f.dimension() == 3) {
+    if (f.json().is_number()) f.fail("expected 3 numbers, as the scene has dimension 3, found " + brief(f.json()));
+    return f.vector();
+  }
+  if (!f.json().is_number()) f.fail("expected one number, as the scene has dimension 2, found " + brief(f.json()));
+  return {0, 0, f.number()};
+}
+
+ElasticMaterial read_elastic(const Field& f) {
+  const double thickness = f["thickness"].number();
+  return {f["young"].number(),
+          f["poisson"].number(),
+          f["density"].number(),
+          thickness,
+          f.number_if("width").value_or(thickness),
+          f["bending"].number()};
+}
+
+SpringMaterial read_springs(const Field& f) {
+  SpringMaterial springs{f["edge_stiffness"].number(), f["bending_stiffness"].number(), MassPer::area, 0};
+  int masses = 0;
+  const auto mass = [&](const char* name, MassPer per) {
+    if (!f.has(name)) return;
+    ++masses;
+    springs.mass_per = per;
+    springs.mass = f[name].number();
+  };
+  mass("mass_per_area", MassPer::area);
+  mass("mass_per_length", MassPer::length);
+  mass("mass_per_vertex", MassPer::vertex);
+  if (masses != 1)
+    f.fail("expected exactly one of the fields \"mass_per_area\", \"mass_per_length\", \"mass_per_vertex\"");
+  return springs;
+}
+
+Material read_material(const Field& f) {
+  Material material;
+  if (f.has("young")) {
+    material.kind = read_elastic(f);
+  } else {
+    material.kind = read_springs(f);
+  }
+  material.damping = f["damping"].number();
+  material.bending_damping = f.number_if("bending_damping").value_or(material.damping);
+  return material;
+}
+
+/// Steps are at most as long as a window.
+std::optional<double> read_step(const Field& f, std::string_view name) {
+  const std::optional<double> step = f.number_if(name);
+  if (step && *step > f.window())
+    f[name].fail(fmt::format("expected at most the window, {} [s], found {}", f.window(), *step));
+  return step;
+}
+
+GivenSteps read_steps(const Field& f) { return {read_step(f, "stretch"), read_step(f, "bend")}; }
+
+Patch read_patch(const Field& f) {
+  return {read_box(f["box"]), f["stiffness_factor"].number(), f["density_factor"].number(), read_steps(f["steps"])};
+}
+
+bool lists(const Field& f, std::string_view word) {
+  return std::find(f.json().begin(), f.json().end(), word) != f.json().end();
+}
+
+ScriptPath read_path(const Field& f) {
+  ScriptPath path;
+  for (const Field& point : f.items()) {
+    const double t = point["t"].number();
+    if (!path.times.empty() && !(t > path.times.back())) {
+      point["t"].fail(fmt::format("expected a time after the one before it, {} [s], found {}", path.times.back(), t));
+    }
+    path.times.push_back(t);
+    path.moves.push_back(point["move"].vector());
+  }
+  return path;
+}
+
+ScriptFrames read_frames(const Field& f) {
+  return {f["files"].json().get<std::vector<std::string>>(), f["rate"].number(), f["from"].number()};
+}
+
+std::size_t find_body(const Field& name, const std::vector<Body>& bodies) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == name.text()) return i;
+    names.push_back(bodies[i].name);
+  }
+  name.fail(fmt::format("no body has the name {}; the nearest is {}", brief(name.json()),
+                        Json(nearest(name.text(), names)).dump()));
+}
+
+}  // namespace
+
+Selection read_selection(const Field& selection) {
+  Selection parts;
+  for (const Field& part : selection.items()) {
+    if (part.json().is_object()) {
+      parts.emplace_back(read_box(part["box"]));
+    } else if (part.json().is_string()) {
+      parts.emplace_back(part.text());
+    } else {
+      parts.emplace_back(part.count<VertexId>());
+    }
+  }
+  return parts;
+}
+
+Body read_body(const Field& f, std::size_t index) {
+  Body body;
+  body.name = f.has("name") ? f["name"].text() : fmt::format("body{}", index);
+  body.mesh = read_mesh_source(f["mesh"]);
+  body.deform = read_deform(f["deform"]);
+  body.transform = read_transform(f["transform"]);
+  body.perturb = f["perturb"].number();
+  body.velocity = f["velocity"].vector();
+  if (f.has("spin")) body.spin = read_spin(f["spin"]);
+  body.material = read_material(f["material"]);
+  for (const Field& patch : f["patches"].items()) body.patches.push_back(read_patch(patch));
+  body.stretch = lists(f["forces"], "stretch");
+  body.bend = lists(f["forces"], "bend");
+  body.steps = read_steps(f["steps"]);
+  body.pin = read_selection(f["pin"]);
+  return body;
+}
+
+ScriptedVertices read_script(const Field& f, const std::vector<Body>& bodies) {
+  ScriptedVertices script;
+  script.body = find_body(f["body"], bodies);
+  script.vertices = read_selection(f["vertices"]);
+  if (f.has("path") == f.has("frames")) f.fail("expected exactly one of the fields \"path\", \"frames\"");
+  if (f.has("path")) {
+    script.motion = read_path(f["path"]);
+  } else {
+    script.motion = read_frames(f["frames"]);
+  }
+  return script;
+}
+
+}  // namespace noli::integrator

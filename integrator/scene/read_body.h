@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The fields of one body, one script: what read_scene.h says, part by part.
+#pragma once
+
+#include "noli/integrator/scene/field.h"
+#include "noli/integrator/scene/scene.h"
+
+namespace noli::integrator {
+
+MeshSource read_mesh_source(const Field& mesh);
+Selection read_selection(const Field& selection);
+/// `index`: place in the list of bodies, for the default name.
+Body read_body(const Field& body, std::size_t index);
+ScriptedVertices read_script(const Field& script, const std::vector<Body>& bodies);
+
+}  // namespace noli::integrator

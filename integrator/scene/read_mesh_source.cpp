@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "noli/integrator/scene/read_body.h"
+
+namespace noli::integrator {
+namespace {
+
+constexpr double most_vertices = 2e7;  ///< of a generated mesh: what fits into memory with all its forces
+
+void require_few(const Field& mesh, double vertices) {
+  if (!(vertices <= most_vertices))
+    mesh.fail(fmt::format("expected at most {} vertices, found {}", most_vertices, vertices));
+}
+
+Chain read_chain(const Field& f) {
+  Chain chain{f["points"].vectors(), f["segments"].count(), f["smooth"].flag()};
+  return chain;
+}
+
+Ring read_ring(const Field& f) { return {f["radius"].number(), f["segments"].count()}; }
+
+Grid read_grid(const Field& f) {
+  Grid grid{f["size"].numbers<2>(), f["cells"].counts<2>(), Diagonals::alternating};
+  if (f["diagonals"].text() == "parallel") grid.diagonals = Diagonals::parallel;
+  require_few(f["cells"], (grid.cells[0] + 1.0) * (grid.cells[1] + 1.0));
+  return grid;
+}
+
+Ribbon read_ribbon(const Field& f) {
+  Ribbon ribbon{f["points"].vectors(), f["width"].number(), f["segments"].count(), f["across"].count(),
+                f["side"].direction()};
+  require_few(f, (ribbon.segments + 1.0) * (ribbon.across + 1.0));
+  return ribbon;
+}
+
+Disc read_disc(const Field& f) { return {f["radius"].number(), f["rings"].count()}; }
+
+Rod read_rod(const Field& f) {
+  Rod rod{f["length"].number(), f["radius"].number(), f["segments"].count(), f["sides"].count()};
+  require_few(f, (rod.segments + 1.0) * rod.sides);
+  return rod;
+}
+
+Sphere read_sphere(const Field& f) { return {f["radius"].number(), f["subdivisions"].count()}; }
+
+SurfaceOfBox read_box(const Field& f) {
+  SurfaceOfBox box{f["size"].numbers<3>(), f["cells"].counts<3>()};
+  const double x = box.cells[0], y = box.cells[1], z = box.cells[2];
+  require_few(f["cells"], 2 * (x * y + y * z + z * x) + 2);
+  return box;
+}
+
+/// Sheets are for space; curves, and what files have, for both.
+void require_dimension(const Field& mesh, std::string_view kind) {
+  if (mesh.dimension() == 3 || kind == "chain" || kind == "ring" || kind == "file") return;
+  mesh[kind].fail("expected \"chain\", \"ring\" or \"file\" in a scene of dimension 2");
+}
+
+}  // namespace
+
+MeshSource read_mesh_source(const Field& mesh) {
+  const std::string kind = mesh.json().begin().key();
+  const Field f = mesh[kind];
+  require_dimension(mesh, kind);
+  if (kind == "file") return MeshFile{f.text()};
+  if (kind == "chain") return read_chain(f);
+  if (kind == "ring") return read_ring(f);
+  if (kind == "grid") return read_grid(f);
+  if (kind == "ribbon") return read_ribbon(f);
+  if (kind == "disc") return read_disc(f);
+  if (kind == "rod") return read_rod(f);
+  if (kind == "sphere") return read_sphere(f);
+  return read_box(f);
+}
+
+}  // namespace noli::integrator

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/read_scene.h"
+
+#include <fmt/format.h>
+
+#include "noli/integrator/scene/read_body.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
+
+namespace noli::integrator {
+namespace {
+
+using Pointer = Json::json_pointer;
+
+/// Whether a text is a JSON pointer to something smaller than the document.
+bool is_pointer(const std::string& text) {
+  try {
+    return !Pointer(text).empty();
+  } catch (const Json::parse_error&) {
+    return false;
+  }
+}
+
+/// Whether a pointer names a field of an object, there or new, or an item of an array that is there.
+bool is_place(const Json& document, const Pointer& target) {
+  if (document.contains(target)) return true;
+  const Pointer parent = target.parent_pointer();
+  return document.contains(parent) && document.at(parent).is_object();
+}
+
+/// Puts the overrides of the short form in their places.
+void apply_short(Json& document, const std::string& file) {
+  const Json overrides = document.is_object() ? document.value("short", Json()) : Json();
+  if (!overrides.is_object()) return;  // the schema will say so
+  for (const auto& item : overrides.items()) {
+    if (!is_pointer(item.key()) || !is_place(document, Pointer(item.key()))) {
+      throw InputError(file, (Pointer("/short") / item.key()).to_string(),
+                       "expected a JSON pointer to a place in this file, such as \"/duration\" or \"/bodies/0/mesh\"");
+    }
+    document[Pointer(item.key())] = item.value();
+  }
+}
+
+/// Default vectors have three numbers; a plane scene takes two of them.
+void cut_default_vectors(Scene& scene) {
+  for (DefaultTaken& taken : scene.defaults) {
+    if (!taken.value.is_array() || taken.value.size() != 3 || !taken.value[0].is_number()) continue;
+    taken.value.erase(2);
+    scene.document[Pointer(taken.path)] = taken.value;
+  }
+}
+
+void require_different_names(const Field& bodies, const std::vector<Body>& read) {
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (read[i].name != read[j].name) continue;
+      bodies[i]["name"].fail(
+          fmt::format("expected another name than that of body {}, {}", j, Json(read[j].name).dump()));
+    }
+  }
+}
+
+void read_run(Scene& scene, const Field& f) {
+  scene.title = f["title"].text();
+  scene.about = f["about"].text();
+  scene.duration = f["duration"].number();
+  scene.window = f["window"].number();
+  scene.seed = f["seed"].count<std::uint64_t>();
+  scene.record = f["record"].text() == "full" ? Record::full : Record::frames;
+  scene.frame_rate = f["frame_rate"].number();
+  scene.steps = f["steps"].text() == "grouped" ? Clocks::grouped : Clocks::own;
+  scene.step_factor = f["step_factor"].number();
+  scene.allow_unstable = f["allow_unstable"].flag();
+  if (scene.step_factor > 1 && !scene.allow_unstable) {
+    f["step_factor"].fail(
+        fmt::format("expected at most 1, which is the limit of stability, or \"allow_unstable\": true, found {}",
+                    scene.step_factor));
+  }
+  scene.gravity = f["gravity"].vector();
+  scene.gravity_step = f.number_if("gravity_step");
+  if (scene.gravity_step > scene.window) {
+    f["gravity_step"].fail(
+        fmt::format("expected at most the window, {} [s], found {}", scene.window, *scene.gravity_step));
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form form) {
+  static const Json schema = parse_json(scene_schema_text(), "scenes/schema.json");
+  Json document = parse_json(text, path.string());
+  if (form == Form::brief) apply_short(document, path.string());
+  Validated validated = validate(schema, document, path.string());
+  Scene scene;
+  scene.path = path;
+  scene.document = std::move(validated.document);
+  scene.defaults = std::move(validated.defaults);
+  const Field f(scene.document, path.string());
+  scene.dimension = f.dimension();
+  if (scene.dimension == 2) cut_default_vectors(scene);
+  read_run(scene, f);
+  for (const Field& body : f["bodies"].items()) scene.bodies.push_back(read_body(body, scene.bodies.size()));
+  require_different_names(f["bodies"], scene.bodies);
+  for (const Field& script : f["scripts"].items()) scene.scripts.push_back(read_script(script, scene.bodies));
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& path, Form form) {
+  return parse_scene(read_whole_file(path), path, form);
+}
+
+}  // namespace noli::integrator

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene as plain data: what scenes/schema.json describes, with every default filled in. SI units. Vectors of plane
+// scenes have a third coordinate, which is zero.
+//
+// What this does not do: it has no meshes yet (integrator/scene/build_model.h makes them).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "noli/integrator/model.h"
+#include "noli/integrator/scene/schema.h"
+#include "noli/trajectory/mesh.h"
+
+namespace noli::integrator {
+
+struct MeshFile {
+  std::string path;  ///< as the scene has it
+  friend bool operator==(const MeshFile&, const MeshFile&) = default;
+};
+
+struct Chain {
+  std::vector<Position> points;
+  std::uint32_t segments = 1;
+  bool smooth = false;
+  friend bool operator==(const Chain&, const Chain&) = default;
+};
+
+struct Ring {
+  double radius = 1;
+  std::uint32_t segments = 3;
+  friend bool operator==(const Ring&, const Ring&) = default;
+};
+
+enum class Diagonals : std::uint8_t { alternating, parallel };
+
+struct Grid {
+  std::array<double, 2> size{1, 1};
+  std::array<std::uint32_t, 2> cells{1, 1};
+  Diagonals diagonals = Diagonals::alternating;
+  friend bool operator==(const Grid&, const Grid&) = default;
+};
+
+struct Ribbon {
+  std::vector<Position> points;
+  double width = 1;
+  std::uint32_t segments = 1, across = 1;
+  Position side{0, 0, 1};
+  friend bool operator==(const Ribbon&, const Ribbon&) = default;
+};
+
+struct Disc {
+  double radius = 1;
+  std::uint32_t rings = 1;
+  friend bool operator==(const Disc&, const Disc&) = default;
+};
+
+struct Rod {
+  double length = 1, radius = 1;
+  std::uint32_t segments = 1, sides = 3;
+  friend bool operator==(const Rod&, const Rod&) = default;
+};
+
+struct Sphere {
+  double radius = 1;
+  std::uint32_t subdivisions = 0;
+  friend bool operator==(const Sphere&, const Sphere&) = default;
+};
+
+struct SurfaceOfBox {
+  std::array<double, 3> size{1, 1, 1};
+  std::array<std::uint32_t, 3> cells{1, 1, 1};
+  friend bool operator==(const SurfaceOfBox&, const SurfaceOfBox&) = default;
+};
+
+using MeshSource = std::variant<MeshFile, Chain, Ring, Grid, Ribbon, Disc, Rod, Sphere, SurfaceOfBox>;
+
+struct Deform {
+  Position stretch{1, 1, 1};
+  double twist = 0;  ///< [degrees/m]
+  friend bool operator==(const Deform&, const Deform&) = default;
+};
+
+/// About an axis through the origin.
+struct AxisTurn {
+  Position axis{0, 0, 1};  ///< of any length but zero
+  double degrees = 0;
+  friend bool operator==(const AxisTurn&, const AxisTurn&) = default;
+};
+
+/// w, x, y, z; of any length but zero.
+struct Quaternion {
+  std::array<double, 4> parts{1, 0, 0, 0};
+  friend bool operator==(const Quaternion&, const Quaternion&) = default;
+};
+
+struct Transform {
+  double scale = 1;
+  std::variant<std::monostate, AxisTurn, Quaternion> rotate;
+  Position translate{};
+  friend bool operator==(const Transform&, const Transform&) = default;
+};
+
+struct ElasticMaterial {
+  double young = 0, poisson = 0, density = 0, thickness = 0;
+  double width = 0;  ///< of the section of a curve
+  double bending = 1;
+  friend bool operator==(const ElasticMaterial&, const ElasticMaterial&) = default;
+};
+
+enum class MassPer : std::uint8_t { area, length, vertex };
+
+struct SpringMaterial {
+  double edge_stiffness = 0, bending_stiffness = 0;
+  MassPer mass_per = MassPer::area;
+  double mass = 0;  ///< [kg] per m^2, m or vertex
+  friend bool operator==(const SpringMaterial&, const SpringMaterial&) = default;
+};
+
+struct Material {
+  std::variant<ElasticMaterial, SpringMaterial> kind;
+  double damping = 0, bending_damping = 0;  ///< [s]
+  friend bool operator==(const Material&, const Material&) = default;
+};
+
+/// Closed.
+struct Box {
+  Position low{}, high{};
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+/// Steps that the scene itself gives [s].
+struct GivenSteps {
+  std::optional<double> stretch, bend;
+  friend bool operator==(const GivenSteps&, const GivenSteps&) = default;
+};
+
+/// Factors and steps for the cells whose centre is in the box; the last patch that gives a step is the one that counts.
+struct Patch {
+  Box box;
+  double stiffness_factor = 1, density_factor = 1;
+  GivenSteps steps;
+  friend bool operator==(const Patch&, const Patch&) = default;
+};
+
+/// Vertices of a body: each part a number, the name of a set, or a box.
+using Selection = std::vector<std::variant<VertexId, std::string, Box>>;
+
+struct Body {
+  std::string name;
+  MeshSource mesh;
+  Deform deform;
+  Transform transform;
+  double perturb = 0;
+  Position velocity{};
+  Position spin{};  ///< in the plane its third coordinate
+  Material material;
+  std::vector<Patch> patches;
+  bool stretch = true, bend = true;
+  GivenSteps steps;
+  Selection pin;
+  friend bool operator==(const Body&, const Body&) = default;
+};
+
+struct ScriptPath {
+  std::vector<double> times;
+  std::vector<Position> moves;
+  friend bool operator==(const ScriptPath&, const ScriptPath&) = default;
+};
+
+struct ScriptFrames {
+  std::vector<std::string> files;
+  double rate = 1, from = 0;
+  friend bool operator==(const ScriptFrames&, const ScriptFrames&) = default;
+};
+
+struct ScriptedVertices {
+  std::size_t body = 0;
+  Selection vertices;
+  std::variant<ScriptPath, ScriptFrames> motion;
+  friend bool operator==(const ScriptedVertices&, const ScriptedVertices&) = default;
+};
+
+enum class Record : std::uint8_t { full, frames };
+
+struct Scene {
+  std::filesystem::path path;  ///< of the file; those it names are relative to its folder
+  std::string title, about;
+  int dimension = 3;
+  double duration = 0, window = 0;
+  std::uint64_t seed = 1;
+  Record record = Record::full;
+  double frame_rate = 60;
+  Clocks steps = Clocks::grouped;
+  double step_factor = 0.5;
+  bool allow_unstable = false;
+  Position gravity{};
+  std::optional<double> gravity_step;
+  std::vector<Body> bodies;
+  std::vector<ScriptedVertices> scripts;
+  Json document;  ///< what was read: overrides applied, defaults filled in
+  std::vector<DefaultTaken> defaults;
+};
+
+}  // namespace noli::integrator

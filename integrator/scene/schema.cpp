@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/schema.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "noli/integrator/scene/nearest.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::integrator {
+namespace {
+
+constexpr std::array<std::string_view, 24> keywords = {"$ref",
+                                                       "type",
+                                                       "const",
+                                                       "enum",
+                                                       "minimum",
+                                                       "maximum",
+                                                       "exclusiveMinimum",
+                                                       "exclusiveMaximum",
+                                                       "minLength",
+                                                       "items",
+                                                       "minItems",
+                                                       "maxItems",
+                                                       "properties",
+                                                       "required",
+                                                       "additionalProperties",
+                                                       "minProperties",
+                                                       "maxProperties",
+                                                       "default",
+                                                       "oneOf",
+                                                       "$schema",
+                                                       "$defs",
+                                                       "title",
+                                                       "description",
+                                                       "unit"};
+
+void require_known_keywords(const Json& schema) {
+  for (const auto& [keyword, value] : schema.items()) {
+    if (std::find(keywords.begin(), keywords.end(), keyword) == keywords.end()) {
+      throw std::logic_error("scene schema: unknown keyword " + keyword);
+    }
+  }
+}
+
+std::vector<std::string> keys(const Json& object) {
+  std::vector<std::string> names;
+  for (const auto& item : object.items()) names.push_back(item.key());
+  return names;
+}
+
+bool has_type(const Json& value, std::string_view type) {
+  if (type == "object") return value.is_object();
+  if (type == "array") return value.is_array();
+  if (type == "string") return value.is_string();
+  if (type == "boolean") return value.is_boolean();
+  if (type == "number") return value.is_number();
+  if (type == "integer") {
+    return value.is_number_integer() || (value.is_number_float() && std::trunc(value.get<double>()) == value);
+  }
+  throw std::logic_error(fmt::format("scene schema: unknown type {}", type));
+}
+
+std::string with_article(std::string_view type) {
+  const bool vowel = type == "object" || type == "array" || type == "integer";
+  return fmt::format("{} {}", vowel ? "an" : "a", type);
+}
+
+std::vector<std::string> types(const Json& schema) {
+  if (!schema.contains("type")) return {};
+  if (schema["type"].is_array()) return schema["type"].get<std::vector<std::string>>();
+  return {schema["type"].get<std::string>()};
+}
+
+/// "1 field", "3 fields".
+std::string counted(const Json& n, std::string_view noun) {
+  return fmt::format("{} {}{}", n.dump(), noun, n == 1 ? "" : "s");
+}
+
+class Validator {
+ public:
+  Validator(const Json& root, const std::string& file) : root_(root), file_(file) {}
+
+  void check(const Json& unresolved, Json& value, const Json::json_pointer& at) {
+    const Json schema = resolved(unresolved);
+    require_known_keywords(schema);
+    if (schema.contains("oneOf")) return check(alternative(schema["oneOf"], value, at), value, at);
+    check_type(schema, value, at);
+    check_choice(schema, value, at);
+    if (value.is_number()) check_number(schema, value, at);
+    if (value.is_string()) check_string(schema, value, at);
+    if (value.is_array()) check_array(schema, value, at);
+    if (value.is_object()) check_object(schema, value, at);
+  }
+
+  std::vector<DefaultTaken> defaults;
+
+ private:
+  [[noreturn]] void fail(const Json::json_pointer& at, const std::string& problem) const {
+    const std::string path = at.to_string();
+    throw InputError(file_, path.empty() ? "/" : path, problem);
+  }
+  [[noreturn]] void expected(const Json& schema, const Json& value, const Json::json_pointer& at,
+                             const std::string& what) const {
+    const std::string unit = schema.contains("unit") ? fmt::format(" [{}]", schema["unit"].get<std::string>()) : "";
+    fail(at, fmt::format("expected {}{}, found {}", what, unit, brief(value)));
+  }
+
+  /// The schema with what its $ref points to; what stands beside the $ref comes first.
+  Json resolved(const Json& schema) const {
+    if (!schema.contains("$ref")) return schema;
+    const auto target = schema["$ref"].get<std::string>();
+    Json merged = resolved(root_.at(Json::json_pointer(target.substr(1))));
+    for (const auto& [keyword, value] : schema.items()) {
+      if (keyword != "$ref") merged[keyword] = value;
+    }
+    return merged;
+  }
+
+  void check_type(const Json& schema, const Json& value, const Json::json_pointer& at) const {
+    const std::vector<std::string> allowed = types(schema);
+    if (allowed.empty() || std::any_of(allowed.begin(), allowed.end(), [&](auto& t) { return has_type(value, t); })) {
+      return;
+    }
+    std::string list;
+    for (const std::string& type : allowed) list += (list.empty() ? "" : " or ") + with_article(type);
+    expected(schema, value, at, list);
+  }
+
+  void check_choice(const Json& schema, const Json& value, const Json::json_pointer& at) const {
+    if (schema.contains("const") && value != schema["const"]) expected(schema, value, at, schema["const"].dump());
+    if (!schema.contains("enum")) return;
+    const Json& choices = schema["enum"];
+    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+    std::string list;
+    for (const Json& choice : choices) list += (list.empty() ? "" : " or ") + choice.dump();
+    expected(schema, value, at, list);
+  }
+
+  void check_number(const Json& schema, const Json& value, const Json::json_pointer& at) const {
+    const auto bound = [&](const char* keyword, const char* words, auto holds) {
+      if (!schema.contains(keyword) || holds(value.get<double>(), schema[keyword].get<double>())) return;
+      expected(schema, value, at, fmt::format("a number {} {}", words, schema[keyword].dump()));
+    };
+    bound("minimum", "not less than", [](double x, double limit) { return x >= limit; });
+    bound("maximum", "not greater than", [](double x, double limit) { return x <= limit; });
+    bound("exclusiveMinimum", "greater than", [](double x, double limit) { return x > limit; });
+    bound("exclusiveMaximum", "less than", [](double x, double limit) { return x < limit; });
+  }
+
+  void check_string(const Json& schema, const Json& value, const Json::json_pointer& at) const {
+    if (schema.contains("minLength") && value.get_ref<const std::string&>().size() < schema["minLength"]) {
+      expected(schema, value, at, "a string of at least " + counted(schema["minLength"], "character"));
+    }
+  }
+
+  void check_array(const Json& schema, Json& value, const Json::json_pointer& at) {
+    check_size(schema, value, at, "minItems", "maxItems", "item");
+    if (!schema.contains("items")) return;
+    for (std::size_t i = 0; i < value.size(); ++i) check(schema["items"], value[i], at / i);
+  }
+
+  void check_size(const Json& schema, const Json& value, const Json::json_pointer& at, const char* least,
+                  const char* most, const char* noun) const {
+    if (schema.contains(least) && value.size() < schema[least]) {
+      expected(schema, value, at, "at least " + counted(schema[least], noun));
+    }
+    if (schema.contains(most) && value.size() > schema[most]) {
+      expected(schema, value, at, "at most " + counted(schema[most], noun));
+    }
+  }
+
+  void check_object(const Json& schema, Json& value, const Json::json_pointer& at) {
+    if (!schema.contains("properties")) return;  // free of form
+    const Json& properties = schema["properties"];
+    for (const auto& item : value.items()) {
+      if (!properties.contains(item.key())) fail_unknown(properties, item.key(), at);
+    }
+    for (const auto& name : schema.value("required", std::vector<std::string>{})) {
+      if (!value.contains(name))
+        fail(at, fmt::format("expected the field {}", Json(name).dump()) + meaning(properties[name]));
+    }
+    check_size(schema, value, at, "minProperties", "maxProperties", "field");
+    for (const auto& [name, property] : properties.items()) check_field(name, property, value, at);
+  }
+
+  void check_field(const std::string& name, const Json& property, Json& object, const Json::json_pointer& at) {
+    const Json schema = resolved(property);
+    const bool taken = !object.contains(name) && schema.contains("default");
+    if (taken) object[name] = schema["default"];
+    if (taken && !object[name].is_object()) defaults.push_back({(at / name).to_string(), object[name]});
+    if (object.contains(name)) check(property, object[name], at / name);
+  }
+
+  [[noreturn]] void fail_unknown(const Json& properties, const std::string& name, const Json::json_pointer& at) const {
+    fail(at / name,
+         fmt::format("unknown field; the nearest known one is {}", Json(nearest(name, keys(properties))).dump()));
+  }
+
+  /// " (of each edge)", " (kg/m^3)": what a missing field would say.
+  std::string meaning(const Json& property) const {
+    const Json schema = resolved(property);
+    for (const char* keyword : {"description", "unit"}) {
+      if (schema.contains(keyword)) return fmt::format(" ({})", schema[keyword].get<std::string>());
+    }
+    return "";
+  }
+
+  /// The alternative whose first required field the object has.
+  const Json& alternative(const Json& alternatives, const Json& value, const Json::json_pointer& at) const {
+    if (!value.is_object()) expected(alternatives, value, at, "an object");
+    const Json* found = nullptr;
+    std::vector<std::string> signs;
+    for (const Json& candidate : alternatives) {
+      signs.push_back(resolved(candidate)["required"][0].get<std::string>());
+      if (!value.contains(signs.back())) continue;
+      if (found != nullptr) fail(at, fmt::format("expected only one of the fields \"{}\"", fmt::join(signs, "\", \"")));
+      found = &candidate;
+    }
+    if (found == nullptr) fail(at, fmt::format("expected one of the fields \"{}\"", fmt::join(signs, "\", \"")));
+    return *found;
+  }
+
+  const Json& root_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+Validated validate(const Json& schema, const Json& document, const std::string& file) {
+  Validated result{document, {}};
+  Validator validator(schema, file);
+  validator.check(schema, result.document, Json::json_pointer());
+  result.defaults = std::move(validator.defaults);
+  return result;
+}
+
+}  // namespace noli::integrator

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A mesh before it is put into a scene.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "noli/trajectory/mesh.h"
+
+namespace noli::integrator {
+
+struct Shape {
+  Mesh mesh;
+  std::vector<Position> positions;
+  std::map<std::string, std::vector<VertexId>> sets;  ///< vertices by the name of a set, ascending
+
+  VertexId add(const Position& x) {
+    positions.push_back(x);
+    return static_cast<VertexId>(mesh.vertex_count++);
+  }
+};
+
+}  // namespace noli::integrator
