@@ -15,4 +15,5 @@ set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/noli)
 install(EXPORT noliTargets NAMESPACE noli:: DESTINATION ${config_dir})
 configure_package_config_file(cmake/noliConfig.cmake.in ${CMAKE_BINARY_DIR}/noliConfig.cmake INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/noliConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/noliConfig.cmake ${CMAKE_BINARY_DIR}/noliConfigVersion.cmake DESTINATION ${config_dir})
+install(FILES ${CMAKE_BINARY_DIR}/noliConfig.cmake ${CMAKE_BINARY_DIR}/noliConfigVersion.cmake
+        cmake/NoliHdf5.cmake DESTINATION ${config_dir})

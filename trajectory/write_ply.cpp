@@ -5,10 +5,9 @@
 
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <fstream>
 #include <iterator>
-#include <system_error>
+
+#include "noli/trajectory/write_file.h"
 
 namespace noli {
 namespace {
@@ -89,11 +88,7 @@ std::string format_ply(const Frame& frame, PlyEncoding encoding) {
 }
 
 void write_ply(const std::filesystem::path& path, const Frame& frame, PlyEncoding encoding) {
-  errno = 0;
-  std::ofstream out(path, std::ios::binary);
-  if (out) out << format_ply(frame, encoding);
-  out.close();
-  if (!out) throw std::system_error(errno, std::generic_category(), path.string());
+  write_file(path, format_ply(frame, encoding));
 }
 
 }  // namespace noli

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is in the folder of a run beside its motion: manifest, copy of the scene, log.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "noli/trajectory/run_log.h"
+#include "noli/trajectory/run_manifest.h"
+#include "noli/trajectory/write_file.h"
+#include "support.h"
+
+namespace noli {
+namespace {
+
+using testing::input_error;
+using Json = nlohmann::ordered_json;
+
+TEST(RunManifest, IsReadBackWithItsScene) {
+  const test::TemporaryFolder folder;
+  write_manifest(folder.path(), "{\"scene\": 1}\r\n", {{"noli", "0.1.0"}, {"gmp", "6.2.1"}});
+  const RunManifest manifest = read_manifest(folder.path());
+  EXPECT_EQ(manifest, (RunManifest{sha256("{\"scene\": 1}\r\n"), {{"noli", "0.1.0"}, {"gmp", "6.2.1"}}}));
+  EXPECT_EQ(read_scene(folder.path(), manifest), "{\"scene\": 1}\r\n");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"manifest.json", "scene.json"}));
+}
+
+TEST(RunManifest, HasTheseBytes) {
+  const test::TemporaryFolder folder;
+  write_manifest(folder.path(), "abc", {{"noli", "0.1.0"}});
+  EXPECT_EQ(test::read_text(folder / "manifest.json"),
+            "{\n  \"format\": \"noli run\",\n  \"version\": 1,\n  \"scene\": {\n    \"file\": \"scene.json\",\n"
+            "    \"sha256\": \"ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad\"\n  },\n"
+            "  \"versions\": {\n    \"noli\": \"0.1.0\"\n  }\n}\n");
+}
+
+TEST(RunManifest, AnotherSceneIsNoticed) {
+  const test::TemporaryFolder folder;
+  write_manifest(folder.path(), "abc", {});
+  folder.write("scene.json", "abd");
+  EXPECT_EQ(
+      input_error([&] { read_scene(folder.path(), read_manifest(folder.path())); }),
+      (folder / "scene.json").string() + ": is not the scene of this run: its SHA-256 is not that in the manifest");
+}
+
+struct BadManifest {
+  const char* name;
+  std::string text;
+  std::string message;
+  friend void PrintTo(const BadManifest& bad, std::ostream* out) { *out << bad.name; }
+};
+
+const std::string digest(64, '0');
+const std::string before_scene = R"({"format": "noli run", "version": 1, )";
+const BadManifest bad_manifests[] = {
+    {"no_json", "{\"format\": ", "byte 11: expected JSON"},
+    {"array", "[1]", "/format: is missing"},
+    {"number", "1", "/format: is missing"},
+    {"other_format", R"({"format": "something else"})", "/format: expected 'noli run', found 'something else'"},
+    {"format_type", R"({"format": 3})", "/format: expected a text"},
+    {"later_version", R"({"format": "noli run", "version": 2})", "/version: expected 1, found '2'"},
+    {"version_type", R"({"format": "noli run", "version": "1"})", "/version: expected 1, found '\"1\"'"},
+    {"no_hash", before_scene + R"("scene": {}})", "/scene/sha256: is missing"},
+    {"short_hash", before_scene + R"("scene": {"sha256": "00"}})",
+     "/scene/sha256: expected 64 hexadecimal digits in lower case"},
+    {"capital_hash", before_scene + R"("scene": {"sha256": "A)" + digest.substr(1) + "\"}}",
+     "/scene/sha256: expected 64 hexadecimal digits in lower case"},
+    {"no_versions", before_scene + R"("scene": {"sha256": ")" + digest + "\"}}", "/versions: is missing"},
+    {"versions_type", before_scene + R"("versions": [], "scene": {"sha256": ")" + digest + "\"}}",
+     "/versions: expected an object"},
+    {"version_of_type", before_scene + R"("versions": {"noli": 1}, "scene": {"sha256": ")" + digest + "\"}}",
+     "/versions/noli: expected a text"},
+};
+
+class RunManifestErrors : public ::testing::TestWithParam<BadManifest> {};
+INSTANTIATE_TEST_SUITE_P(All, RunManifestErrors, ::testing::ValuesIn(bad_manifests),
+                         [](const auto& bad) { return bad.param.name; });
+
+TEST_P(RunManifestErrors, SayWhatAndWhere) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("manifest.json", GetParam().text).string();
+  EXPECT_EQ(input_error([&] { read_manifest(folder.path()); }), file + ": " + GetParam().message);
+}
+
+TEST(RunLog, HasALineForEachEntryAcrossResumptions) {
+  const test::TemporaryFolder folder;
+  RunLog(folder.path()).append({{"event", "begin"}, {"window", 0}});
+  RunLog(folder.path()).append({{"event", "line\nend"}, {"timing", {{"seconds", 0.5}}}});
+  EXPECT_EQ(test::read_text(folder / "log.jsonl"),
+            "{\"event\":\"begin\",\"window\":0}\n{\"event\":\"line\\nend\",\"timing\":{\"seconds\":0.5}}\n");
+}
+
+TEST(RunLog, ALastLineThatWasCutOffIsRemoved) {
+  const test::TemporaryFolder folder;
+  for (const std::string before : {"", "{\"event\":\"a\"}\n"}) {
+    folder.write("log.jsonl", before + "{\"event\":\"cut o");
+    RunLog(folder.path()).append({{"event", "b"}});
+    EXPECT_EQ(test::read_text(folder / "log.jsonl"), before + "{\"event\":\"b\"}\n");
+  }
+}
+
+TEST(RunLog, BytesThatAreNoTextAreReplaced) {
+  const test::TemporaryFolder folder;
+  RunLog(folder.path()).append({{"file", "a\xff"}});
+  EXPECT_EQ(test::read_text(folder / "log.jsonl"), "{\"file\":\"a\xEF\xBF\xBD\"}\n");
+}
+
+TEST(RunLog, IsWrittenByOneAtATime) {
+  const test::TemporaryFolder folder;
+  const RunLog log(folder.path());
+  EXPECT_THROW(RunLog(folder.path()), std::system_error);
+}
+
+TEST(ReplaceFile, IsThereWholeOrAsItWas) {
+  const test::TemporaryFolder folder;
+  replace_file(folder / "a", "one");
+  folder.write("a.part", "left over");
+  replace_file(folder / "a", "two");
+  EXPECT_EQ(test::read_text(folder / "a"), "two");
+  std::filesystem::create_directory(folder / "b");
+  EXPECT_THROW(replace_file(folder / "b", "x"), std::system_error);
+  EXPECT_THROW(replace_file(folder / "absent/a", "x"), std::system_error);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "b"})) << "nothing is left beside them";
+}
+
+}  // namespace
+}  // namespace noli

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/trajectory/run_manifest.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* manifest_name = "manifest.json";
+constexpr const char* scene_name = "scene.json";
+constexpr const char* format_name = "noli run";
+constexpr int format_version = 1;
+
+Json parse(const std::string& text, const std::string& file) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw InputError(file, byte_place(error.byte > 0 ? error.byte - 1 : 0), "expected JSON");
+  }
+}
+
+/// The member at a JSON pointer. Throws InputError when it is absent.
+const Json& member(const Json& json, const std::string& pointer, const std::string& file) {
+  const Json::json_pointer place(pointer);
+  if (!json.contains(place)) throw InputError(file, pointer, "is missing");
+  return json.at(place);
+}
+
+std::string text_at(const Json& json, const std::string& pointer, const std::string& file) {
+  const Json& value = member(json, pointer, file);
+  if (!value.is_string()) throw InputError(file, pointer, "expected a text");
+  return value.get<std::string>();
+}
+
+void check_format(const Json& json, const std::string& file) {
+  const std::string format = text_at(json, "/format", file);
+  if (format != format_name) {
+    throw InputError(file, "/format", fmt::format("expected '{}', found {}", format_name, in_quotes(format)));
+  }
+  const Json& version = member(json, "/version", file);
+  if (version != format_version) {
+    throw InputError(file, "/version", fmt::format("expected {}, found {}", format_version, in_quotes(version.dump())));
+  }
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+Sha256Digest parse_digest(const std::string& text, const std::string& file) {
+  Sha256Digest digest{};
+  bool good = text.size() == 2 * digest.size();
+  for (std::size_t i = 0; good && i < digest.size(); ++i) {
+    const int high = hex_digit(text[2 * i]), low = hex_digit(text[2 * i + 1]);
+    good = high >= 0 && low >= 0;
+    digest[i] = static_cast<std::uint8_t>(16 * high + low);
+  }
+  if (!good) throw InputError(file, "/scene/sha256", "expected 64 hexadecimal digits in lower case");
+  return digest;
+}
+
+}  // namespace
+
+void write_manifest(const std::filesystem::path& folder, std::string_view scene,
+                    const std::map<std::string, std::string>& versions) {
+  const Json manifest = {{"format", format_name},
+                         {"version", format_version},
+                         {"scene", {{"file", scene_name}, {"sha256", hex(sha256(scene))}}},
+                         {"versions", versions}};
+  replace_file(folder / scene_name, scene);
+  replace_file(folder / manifest_name, manifest.dump(2) + "\n");
+}
+
+RunManifest read_manifest(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / manifest_name;
+  const std::string file = path.string();
+  const Json json = parse(read_whole_file(path), file);
+  check_format(json, file);
+  RunManifest manifest;
+  manifest.scene_sha256 = parse_digest(text_at(json, "/scene/sha256", file), file);
+  const Json& versions = member(json, "/versions", file);
+  if (!versions.is_object()) throw InputError(file, "/versions", "expected an object");
+  for (const auto& [name, version] : versions.items()) {
+    if (!version.is_string()) throw InputError(file, "/versions/" + name, "expected a text");
+    manifest.versions[name] = version.get<std::string>();
+  }
+  return manifest;
+}
+
+std::string read_scene(const std::filesystem::path& folder, const RunManifest& manifest) {
+  std::string scene = read_whole_file(folder / scene_name);
+  if (sha256(scene) == manifest.scene_sha256) return scene;
+  throw InputError((folder / scene_name).string(), "",
+                   "is not the scene of this run: its SHA-256 is not that in the manifest");
+}
+
+}  // namespace noli

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/trajectory/sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace noli {
+namespace {
+
+/// Where t is from a (0) to b (1). Precondition: a <= t <= b, a < b.
+double fraction(double a, double b, double t) {
+  if (std::isfinite(b - a)) return (t - a) / (b - a);
+  return (t / 2 - a / 2) / (b / 2 - a / 2);
+}
+
+/// Between a and b, whatever the rounding.
+double between(double a, double b, double s) { return std::clamp(std::lerp(a, b, s), std::min(a, b), std::max(a, b)); }
+
+Position sample_vertex(const WorldLines& lines, VertexId v, double t) {
+  const std::size_t k = lines.segment_at(v, t);
+  const auto times = lines.times(v);
+  const Position &a = lines.positions(v)[k], &b = lines.positions(v)[k + 1];
+  if (t == times[k]) return a;
+  if (t == times[k + 1]) return b;
+  const double s = fraction(times[k], times[k + 1], t);
+  return {between(a[0], b[0], s), between(a[1], b[1], s), between(a[2], b[2], s)};
+}
+
+}  // namespace
+
+std::vector<Position> sample(const WorldLines& lines, double t) {
+  std::vector<Position> positions(lines.vertex_count());
+  for (VertexId v = 0; v < positions.size(); ++v) positions[v] = sample_vertex(lines, v, t);
+  return positions;
+}
+
+}  // namespace noli

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writes OBJ files that read_obj reads back bit for bit: coordinates with 17 significant digits, faces as `f`, loose edges
+// as `l`, loose points as `p`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "noli/trajectory/mesh.h"
+
+namespace noli {
+
+/// The bytes of the file. Preconditions as format_ply has them.
+std::string format_obj(const Frame& frame);
+
+/// Writes the file, or replaces it. Throws std::system_error when it cannot be written in full.
+void write_obj(const std::filesystem::path& path, const Frame& frame);
+
+}  // namespace noli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writes VTK's XML files, as ParaView opens them: VTU, an unstructured grid for each frame, and PVD, which says at what
+// times they are. Faces are triangles (cell type 5), loose edges lines (3), loose points vertices (1); vertices that
+// nothing refers to are points without a cell.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "noli/trajectory/mesh.h"
+
+namespace noli {
+
+enum class VtuEncoding {
+  ascii,  ///< 17 significant digits, which name one double only
+  base64  ///< the same numbers as appended data, smaller and quicker to read
+};
+
+/// The bytes of the file. Precondition: as many positions as vertices.
+std::string format_vtu(const Frame& frame, VtuEncoding encoding);
+
+struct PvdEntry {
+  double time = 0;   ///< seconds
+  std::string file;  ///< as seen from the PVD file; UTF-8
+};
+
+std::string format_pvd(std::span<const PvdEntry> entries);
+
+/// Write the file, or replace it. Throw std::system_error when it cannot be written in full.
+void write_vtu(const std::filesystem::path& path, const Frame& frame, VtuEncoding encoding);
+void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries);
+
+}  // namespace noli
