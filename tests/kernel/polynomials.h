@@ -13,6 +13,7 @@ namespace noli::test {
 /// c[0] + c[1] t + ... + c[n] t^n
 inline Polynomial polynomial(const std::vector<long>& c) {
   std::vector<Integer> coefficients;
+  coefficients.reserve(c.size());
   for (const long x : c) coefficients.emplace_back(x);
   return Polynomial(std::move(coefficients));
 }

@@ -13,7 +13,6 @@ namespace noli {
 namespace {
 
 using test::Random;
-using test::Spread;
 
 double random_eta(Random& random) {
   switch (random.below(5)) {

@@ -136,8 +136,8 @@ TEST(TimeOfImpact, LowerIsMpfrRoundedDown) {
   Random random(3);
   int seen = 0;
   for (int i = 0; i < 2000; ++i) {
-    std::vector<long> c;
-    for (int k = 0; k < 4; ++k) c.push_back(random.around_zero(1000));
+    std::vector<long> c(4);
+    for (long& x : c) x = random.around_zero(1000);
     if (c[3] == 0) continue;
     for (const auto& root : roots_in_unit_interval(polynomial(c))) {
       Mpfr down(53);
