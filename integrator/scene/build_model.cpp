@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "noli/integrator/groups.h"
 #include "noli/integrator/scene/body_forces.h"
 #include "noli/integrator/scene/body_mesh.h"
 #include "noli/integrator/scene/build_scripts.h"
@@ -159,7 +160,9 @@ void add_gravity(const Scene& scene, Model<double, Dim>& model) {
   if (scene.gravity == Position{}) return;
   double step = scene.window / 16;
   if (const double longest = longest_step(model.forces); longest > 0) step = std::min(step, longest);
-  model.gravity = {cut<Dim>(to_vec(scene.gravity)), scene.gravity_step.value_or(step)};
+  step = scene.gravity_step.value_or(step);
+  if (scene.steps == Clocks::grouped) step = std::ldexp(scene.window, -step_exponent(step, scene.window));
+  model.gravity = {cut<Dim>(to_vec(scene.gravity)), step};
 }
 
 }  // namespace

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/explain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "noli/integrator/scene/field.h"
+#include "noli/integrator/scene/predict.h"
+
+namespace noli::integrator {
+namespace {
+
+constexpr double most_breakpoints = 2e6;  ///< a window, about (design, "Volume")
+
+/// Sorts what a scene could have into what it has and what it has not.
+class Survey {
+ public:
+  Survey(const Scene& scene, Explanation& explanation) : scene_(scene), out_(explanation) {}
+
+  /// `forces` of this kind act; `why_not` for when there are none.
+  void forces(std::size_t count, const std::string& what, const std::string& why_not) {
+    say(count > 0, fmt::format("{} {}", count, what), what, why_not);
+  }
+
+  void run() {
+    say(scene_.gravity != Position{}, "gravity", "its acceleration is zero");
+    const auto damped = [](const Body& b) { return b.material.damping > 0 || b.material.bending_damping > 0; };
+    say(any(damped), "damping", "no material has any");
+    say(!scene_.scripts.empty(), "scripts", "the scene has none");
+    say(any([](const Body& b) { return !b.pin.empty(); }), "pinned vertices", "the scene has none");
+    say(scene_.record == Record::full, "world lines in the files",
+        "\"record\" is \"frames\": they can be computed again");
+    left_out("contact forces", "there are none yet: a contact ends the run");
+    if (scene_.dimension == 2) left_out("third coordinate", "the scene has dimension 2");
+  }
+
+  void body(const Body& body, const BuiltBody& built) {
+    const auto of = [&built](const std::string& what) { return fmt::format("{} of {}", what, built.name); };
+    if (!body.stretch) left_out(of("stretching"), "\"forces\" does not list it");
+    if (!body.bend) left_out(of("bending"), "\"forces\" does not list it");
+    if (built.idle_forces > 0) {
+      left_out(of(fmt::format("{} forces", built.idle_forces)), "all their vertices are pinned or scripted");
+    }
+    if (built.crowded > 0) {
+      left_out(of(fmt::format("bending at {} places", built.crowded)), "more than two faces or edges meet there");
+    }
+    if (scene_.dimension == 3 && built.edges > 0 && body.bend)
+      left_out(of("bending of edges"), "curves do not bend in space");
+    const auto* elastic = std::get_if<ElasticMaterial>(&body.material.kind);
+    if (elastic != nullptr && elastic->width != elastic->thickness && built.edges == 0) {
+      left_out(of("width"), "only curves have one");
+    }
+  }
+
+ private:
+  template <class Holds>
+  bool any(Holds&& holds) const {
+    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(), holds);
+  }
+  void left_out(const std::string& what, const std::string& why) { out_.left_out.push_back({what, why}); }
+  void say(bool active, const std::string& what, const std::string& why_not) { say(active, what, what, why_not); }
+  void say(bool active, const std::string& description, const std::string& what, const std::string& why_not) {
+    if (active) {
+      out_.active.push_back(description);
+    } else {
+      left_out(what, why_not);
+    }
+  }
+
+  const Scene& scene_;
+  Explanation& out_;
+};
+
+void survey_forces(const Forces<double, 3>& forces, Survey& survey) {
+  survey.forces(forces.edge_springs.forces.size(), "edge springs", "no body has edges with a stiffness that can move");
+  survey.forces(forces.membranes.forces.size(), "membranes", "no sheet with a Young's modulus can move");
+  survey.forces(forces.hinges.forces.size(), "hinges", "no sheet with a bending stiffness can move");
+}
+
+void survey_forces(const Forces<double, 2>& forces, Survey& survey) {
+  survey.forces(forces.edge_springs.forces.size(), "edge springs", "no body has edges with a stiffness that can move");
+  survey.forces(forces.turnings.forces.size(), "turning angles", "no curve with a bending stiffness can move");
+}
+
+void warn(const Scene& scene, Explanation& e) {
+  if (scene.allow_unstable)
+    e.warnings.emplace_back("steps above the limit of stability are accepted (\"allow_unstable\")");
+  if (e.breakpoints_a_window > most_breakpoints) {
+    e.warnings.push_back(fmt::format("a window has about {:.2g} breakpoints; with \"window\" {:.2g} it has {:.2g}",
+                                     e.breakpoints_a_window, scene.window * most_breakpoints / e.breakpoints_a_window,
+                                     most_breakpoints));
+  }
+  const bool clips =
+      std::any_of(e.groups.begin(), e.groups.end(), [&](const auto& g) { return g.longest >= scene.window; });
+  if (clips) e.warnings.emplace_back("some steps are as long as the window and could be longer with a longer one");
+}
+
+/// Fields that the schema gives no default, because it depends on others: what stands for those that are absent.
+class Derived {
+ public:
+  explicit Derived(std::vector<DefaultTaken>& defaults) : defaults_(defaults) {}
+
+  void add(const Field& object, const std::string& name, const Json& value) {
+    if (!object.has(name)) defaults_.push_back({object.path() + "/" + name, value});
+  }
+  void steps(const Field& steps) {
+    add(steps, "stretch", "estimated");
+    add(steps, "bend", "estimated");
+  }
+  void body(const Body& body, const Field& at) {
+    add(at, "name", body.name);
+    add(at, "spin", 0);
+    add(at["transform"], "rotate", "not at all");
+    if (const auto* m = std::get_if<ElasticMaterial>(&body.material.kind)) add(at["material"], "width", m->width);
+    add(at["material"], "bending_damping", body.material.bending_damping);
+    steps(at["steps"]);
+    for (const Field& patch : at["patches"].items()) steps(patch["steps"]);
+  }
+
+ private:
+  std::vector<DefaultTaken>& defaults_;
+};
+
+template <int Dim>
+void add_derived_defaults(const Scene& scene, const Model<double, Dim>& model, Explanation& explanation) {
+  const Field root(scene.document, scene.path.string());
+  Derived derived(explanation.defaults);
+  if (model.gravity) derived.add(root, "gravity_step", model.gravity->step);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) derived.body(scene.bodies[i], root["bodies"][i]);
+}
+
+template <int Dim>
+void explain(const Scene& scene, Explanation& explanation) {
+  BuiltScene<Dim> built = build_model<Dim>(scene);
+  explanation.bodies = std::move(built.bodies);
+  Survey survey(scene, explanation);
+  survey_forces(built.model.forces, survey);
+  survey.run();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) survey.body(scene.bodies[i], explanation.bodies[i]);
+  add_derived_defaults(scene, built.model, explanation);
+  predict(scene, std::move(built.model), explanation);
+  warn(scene, explanation);
+}
+
+}  // namespace
+
+Explanation explain(const Scene& scene) {
+  Explanation explanation;
+  explanation.title = scene.title.empty() ? scene.path.stem().string() : scene.title;
+  explanation.dimension = scene.dimension;
+  explanation.defaults = scene.defaults;
+  if (scene.dimension == 3) {
+    explain<3>(scene, explanation);
+  } else {
+    explain<2>(scene, explanation);
+  }
+  return explanation;
+}
+
+}  // namespace noli::integrator

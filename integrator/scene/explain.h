@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a scene will do, before it does it.
+//
+// Predictions: forces fire at 1/step; a vertex has a breakpoint whenever a force moves it, so at most one for each step of
+// its forces (steps that are multiples of each other share theirs), one for each point of its script, and one at each
+// window's end. The bytes are those of the blocks of trajectory.blocks (trajectory/FORMAT.md), without proofs.
+//
+// Resonance (integrator/resonance.h) is looked for vertex by vertex, its neighbours held still: its forces of one step
+// give it up to two or three directions of oscillation; along each of these the forces of every longer step are the slow
+// ones.
+//
+// What this does not do: it does not look for contact, does not guess how long a run takes, and sees only the start.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "noli/integrator/resonance.h"
+#include "noli/integrator/scene/build_model.h"
+#include "noli/integrator/scene/scene.h"
+
+namespace noli::integrator {
+
+struct LeftOut {
+  std::string what, why;
+};
+
+/// Forces that fire together; or, with steps of their own, all of one kind.
+struct PredictedGroup {
+  ForceKind kind{};
+  std::size_t forces = 0;
+  double shortest = 0, longest = 0;  ///< step [s]
+  double events = 0;                 ///< a second of simulated time
+};
+
+/// A pair of steps that kick in time with an oscillation.
+struct ResonanceWarning {
+  ForceKind slow_kind{}, fast_kind{};
+  double slow_step = 0, fast_step = 0;  ///< [s]
+  std::size_t vertices = 0;             ///< at how many
+  VertexId vertex = 0;                  ///< the one where the slow kicks are strongest
+  Meeting meeting;                      ///< there
+};
+
+struct Explanation {
+  std::string title;
+  int dimension = 3;
+  std::vector<DefaultTaken> defaults;
+  std::vector<std::string> active;
+  std::vector<LeftOut> left_out;
+  std::vector<BuiltBody> bodies;
+  std::vector<PredictedGroup> groups;
+  double windows = 0;                             ///< of the whole run
+  double events = 0, breakpoints = 0, bytes = 0;  ///< a second of simulated time
+  double breakpoints_a_window = 0;
+  double bytes_in_all = 0;
+  std::vector<ResonanceWarning> resonances;
+  std::vector<std::string> warnings;  ///< other than of resonance
+};
+
+/// Throws InputError as build_model does.
+Explanation explain(const Scene& scene);
+
+/// For people: several lines, a newline at the end.
+std::string to_text(const Explanation& explanation);
+
+/// The same as data, in a fixed order of fields.
+Json to_json(const Explanation& explanation);
+
+}  // namespace noli::integrator

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/predict.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "noli/integrator/groups.h"
+
+namespace noli::integrator {
+namespace {
+
+/// Which forces: kind and step.
+using Beat = std::pair<ForceKind, double>;
+
+/// The forces of one beat at a vertex.
+template <int Dim>
+struct Pull {
+  Beat beat;
+  Eigen::Matrix<double, Dim, Dim> squared_frequencies;  ///< of the vertex, its neighbours held still
+};
+
+/// What the forces do to each vertex that can move.
+template <int Dim>
+struct AtVertices {
+  std::vector<std::vector<Pull<Dim>>> pulls;  ///< different beats each
+  std::vector<bool> free;
+};
+
+template <int Dim>
+AtVertices<Dim> free_vertices(const Model<double, Dim>& model) {
+  AtVertices<Dim> at{std::vector<std::vector<Pull<Dim>>>(model.x.size()), std::vector<bool>(model.x.size(), true)};
+  for (const VertexId i : model.pinned) at.free[i] = false;
+  for (const auto& script : model.scripts) at.free[script.vertex] = false;
+  return at;
+}
+
+template <class F, int Dim>
+void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtVertices<Dim>& at) {
+  Stencil<double, Dim, F::size> x;
+  for (std::size_t i = 0; i < F::size; ++i) x[i] = model.x[force.vertices[i]];
+  const auto gradients = force.measure_gradients(x);
+  const auto stiffness = force.stiffness();
+  for (std::size_t i = 0; i < F::size; ++i) {
+    const VertexId v = force.vertices[i];
+    if (!at.free[v]) continue;
+    const Beat beat{F::kind, step};
+    auto& pulls = at.pulls[v];
+    auto pull = std::find_if(pulls.begin(), pulls.end(), [&beat](const auto& p) { return p.beat == beat; });
+    if (pull == pulls.end()) pull = pulls.insert(pulls.end(), {beat, Eigen::Matrix<double, Dim, Dim>::Zero()});
+    for (std::size_t j = 0; j < F::measures; ++j) {
+      pull->squared_frequencies += (stiffness[j] / model.mass[v]) * gradients[j][i] * gradients[j][i].transpose();
+    }
+  }
+}
+
+/// The directions in which the fast forces let a vertex oscillate.
+template <int Dim>
+using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>;
+
+/// Where the slow forces meet an oscillation of the fast ones in resonance.
+template <int Dim>
+std::vector<Meeting> resonant_meetings(const Pull<Dim>& slow, const Beat& fast, const Axes<Dim>& axes) {
+  std::vector<Meeting> found;
+  for (int k = 0; k < Dim; ++k) {
+    const Eigen::Matrix<double, Dim, 1> axis = axes.eigenvectors().col(k);
+    const double along = axis.dot(slow.squared_frequencies * axis), squared = axes.eigenvalues()[k];
+    if (!(along > 1e-12 * squared) || !(squared > 0)) continue;  // the slow forces do not act along this axis
+    const std::vector<Oscillation> pair{{slow.beat.second, std::sqrt(along)}, {fast.second, std::sqrt(squared)}};
+    for (const Resonance& resonance : resonances(pair)) found.push_back(resonance.meeting);
+  }
+  return found;
+}
+
+/// Warnings by pairs of beats. With steps of their own nearly every pair of steps is another: then by kinds.
+class Warnings {
+ public:
+  explicit Warnings(Clocks clocks) : by_step_(clocks == Clocks::grouped) {}
+
+  void add(const Beat& slow, const Beat& fast, VertexId vertex, const Meeting& meeting) {
+    ResonanceWarning& warning =
+        by_pair_[{slow.first, by_step_ ? slow.second : 0, fast.first, by_step_ ? fast.second : 0}];
+    auto& last = last_vertex_[&warning];
+    if (warning.vertices == 0 || last != vertex) ++warning.vertices;
+    last = vertex;
+    if (meeting.strength <= warning.meeting.strength) return;
+    warning = {slow.first, fast.first, slow.second, fast.second, warning.vertices, vertex, meeting};
+  }
+
+  std::vector<ResonanceWarning> list() const {
+    std::vector<ResonanceWarning> warnings;
+    for (const auto& [key, warning] : by_pair_) warnings.push_back(warning);
+    return warnings;
+  }
+
+ private:
+  bool by_step_;
+  std::map<std::tuple<ForceKind, double, ForceKind, double>, ResonanceWarning> by_pair_;
+  std::map<const ResonanceWarning*, VertexId> last_vertex_;  ///< at which it was seen
+};
+
+template <int Dim>
+std::vector<ResonanceWarning> find_resonances(const AtVertices<Dim>& at, Clocks clocks) {
+  Warnings warnings(clocks);
+  for (VertexId v = 0; v < at.pulls.size(); ++v) {
+    for (const Pull<Dim>& fast : at.pulls[v]) {
+      const Axes<Dim> axes(fast.squared_frequencies);
+      for (const Pull<Dim>& slow : at.pulls[v]) {
+        if (slow.beat.second <= fast.beat.second) continue;
+        for (const Meeting& m : resonant_meetings(slow, fast.beat, axes)) warnings.add(slow.beat, fast.beat, v, m);
+      }
+    }
+  }
+  return warnings.list();
+}
+
+/// One group for each step, or one for all.
+void add_groups(ForceKind kind, const std::vector<double>& steps, Clocks clocks, Explanation& explanation) {
+  std::map<double, PredictedGroup, std::greater<>> groups;
+  for (const double h : steps) {
+    PredictedGroup& group = groups[clocks == Clocks::grouped ? h : 0];
+    group.kind = kind;
+    group.shortest = group.forces == 0 ? h : std::min(group.shortest, h);
+    group.longest = std::max(group.longest, h);
+    group.events += 1 / h;
+    ++group.forces;
+  }
+  for (const auto& [step, group] : groups) {
+    explanation.groups.push_back(group);
+    explanation.events += group.events;
+  }
+}
+
+/// Breakpoints a second of a vertex: steps of groups are multiples of each other, others are not.
+template <int Dim>
+double rate(const std::vector<Pull<Dim>>& pulls, const std::optional<Gravity<double, Dim>>& gravity, Clocks clocks) {
+  double fastest = 0, sum = 0;
+  for (const Pull<Dim>& pull : pulls) {
+    fastest = std::max(fastest, 1 / pull.beat.second);
+    sum += 1 / pull.beat.second;
+  }
+  const double of_forces = clocks == Clocks::grouped ? fastest : sum;
+  if (!gravity) return of_forces;
+  const double ratio =
+      1 / (gravity->step * of_forces);  // gravity's clock is its own; it may be a multiple all the same
+  return of_forces > 0 && ratio == std::ceil(ratio) ? of_forces : of_forces + 1 / gravity->step;
+}
+
+template <int Dim>
+double breakpoint_rate(const Scene& scene, const Model<double, Dim>& model, const AtVertices<Dim>& at) {
+  double sum = static_cast<double>(model.x.size()) / scene.window;  // windows' ends
+  for (std::size_t v = 0; v < at.pulls.size(); ++v) {
+    if (at.free[v]) sum += rate(at.pulls[v], model.gravity, model.clocks);
+  }
+  for (const auto& script : model.scripts) sum += static_cast<double>(script.times.size()) / scene.duration;
+  return sum;
+}
+
+/// Of the blocks of a window: a time and a position for each breakpoint, or positions for each frame, and the state at the
+/// end.
+template <int Dim>
+double byte_rate(const Scene& scene, std::size_t vertices, double breakpoints) {
+  constexpr double vector = 8.0 * Dim;
+  const double n = static_cast<double>(vertices);
+  if (scene.record == Record::full) return breakpoints * (8 + vector) + n * (8 + vector) / scene.window;
+  return n * vector * scene.frame_rate + n * 2 * vector / scene.window;
+}
+
+}  // namespace
+
+template <int Dim>
+void predict(const Scene& scene, Model<double, Dim> model, Explanation& explanation) {
+  AtVertices<Dim> at = free_vertices(model);
+  const auto add = [&]<class F>(ForceList<F>& list) {
+    if (model.clocks == Clocks::grouped) make_groups(list, scene.window);
+    add_groups(F::kind, list.steps, model.clocks, explanation);
+    for (std::size_t i = 0; i < list.forces.size(); ++i) add_pulls(list.forces[i], list.steps[i], model, at);
+  };
+  const auto falling = static_cast<std::size_t>(std::count(at.free.begin(), at.free.end(), true));
+  if (model.gravity) {
+    add_groups(ForceKind::gravity, std::vector<double>(falling, model.gravity->step), model.clocks, explanation);
+  }
+  std::apply([&add](auto&... lists) { (add(lists), ...); }, model.forces.lists());
+  explanation.windows = std::ceil(scene.duration / scene.window);
+  explanation.breakpoints = breakpoint_rate(scene, model, at);
+  explanation.breakpoints_a_window = explanation.breakpoints * scene.window;
+  explanation.bytes = byte_rate<Dim>(scene, model.x.size(), explanation.breakpoints);
+  explanation.bytes_in_all = explanation.bytes * scene.duration;
+  explanation.resonances = find_resonances(at, model.clocks);
+}
+
+template void predict(const Scene&, Model<double, 2>, Explanation&);
+template void predict(const Scene&, Model<double, 3>, Explanation&);
+
+}  // namespace noli::integrator

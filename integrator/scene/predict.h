@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The numbers of an explanation: groups, rates, bytes, resonances. See explain.h for what they mean.
+#pragma once
+
+#include "noli/integrator/scene/explain.h"
+
+namespace noli::integrator {
+
+/// Fills in groups, windows, events, breakpoints, bytes, resonances.
+template <int Dim>
+void predict(const Scene& scene, Model<double, Dim> model, Explanation& explanation);
+
+extern template void predict(const Scene&, Model<double, 2>, Explanation&);
+extern template void predict(const Scene&, Model<double, 3>, Explanation&);
+
+}  // namespace noli::integrator
