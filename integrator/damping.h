@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Damping along the gradients of what a force measures (acm 4.2): a measure is unchanged by rigid motions, so its
+// Damping along the gradients of what a force measures: a measure is unchanged by rigid motions, so its
 // damping leaves linear and angular momentum alone, and rigid motion undamped.
 //
 // Notation
@@ -8,13 +8,14 @@
 //   rate     ds/dt = sum g_i.v_i
 //   a        sum w_i |g_i|^2: an impulse -J g_i on each vertex lowers the rate by J a
 //   b        damping * stiffness of the measure
-//   J        h b rate / (1 + h b a): the rate falls to rate / (1 + h b a) and keeps its sign, whatever h and b are; it is
-//            the implicit Euler step for the rate
+//   J        h b rate / (1 + h b a): the rate falls to rate / (1 + h b a) and keeps its sign, whatever h and b are; it
+//            is the implicit Euler step for the rate
 //
 // Measures take their turn, each on the velocities that the one before has left.
 //
-// What this does not do: between masses in motion that no impulse moves (scripted ones) and free ones it is a force like
-// any other, which may do work on the free ones. It is no smooth function of time: it belongs to the force's events.
+// What this does not do: between masses in motion that no impulse moves (scripted ones) and free ones it is a force
+// like any other, which may do work on the free ones. It is no smooth function of time: it belongs to the
+// force's events.
 #pragma once
 
 #include "noli/integrator/force.h"

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Resonance between steps: two forces, each stable by itself, may together be unstable because one is kicked in time with
-// the other's oscillation (Fong, Darve, Lew, "Stability of asynchronous variational integrators", for such elements).
+// Resonance between steps: two forces, each stable by itself, may together be unstable because one is kicked in time
+// with the other's oscillation (Fong, Darve, Lew, "Stability of asynchronous variational integrators", study this; the
+// formulas here are derived).
 //
-// Notation (acm 1.4), for a unit mass on two springs
+// Notation, for a unit mass on two springs
 //   h1, omega1   step of the slow spring and the frequency that it alone would give the mass; h1 > h2
 //   h2, omega2   of the fast spring; h2 omega2 < 2
-//   theta        phase of the fast spring in one of its steps: sin(theta/2) = h2 omega2 / 2, near h2 omega2 if well resolved
+//   theta        phase of the fast spring in one of its steps: sin(theta/2) = h2 omega2 / 2, near h2 omega2 if well
+//                resolved
 //   phi          its phase in a slow step, theta h1/h2
 //   kappa        strength of a slow kick, omega1^2 h1 h2 / sin(theta), near omega1^2 h1 / omega2 if well resolved
 // The map over h1 has the trace 2 cos(phi) - kappa sin(phi); the motion is unstable if its size is above 2, that is for
-// phi in (n pi - 2 atan(kappa/2), n pi), n = 1, 2, ... This is exact if h1 is a multiple of h2; for other fractions p/q of
-// small numbers the map over q h1 = p h2 is multiplied out; for all others the formula stands in.
+// phi in (n pi - 2 atan(kappa/2), n pi), n = 1, 2, ... This is exact if h1 is a multiple of h2; for other fractions p/q
+// of small numbers the map over q h1 = p h2 is multiplied out; for all others the formula stands in.
 //
 // What this does not do: a mesh has many frequencies and each pair here is but one of them; damping, which closes weak
 // resonances, is left out. For warnings, not for results: the bits of these numbers are not promised.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Angles without arc tangent: kept as their cosine and sine, so that + - * / and the square root are enough and the bits
-// are the same everywhere.
+// Angles without arc tangent: kept as their cosine and sine, so that + - * / and the square root are enough and the
+// bits are the same everywhere.
 //
 // Notation
 //   theta, theta0   an angle now and at rest; delta = theta - theta0

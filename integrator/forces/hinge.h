@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bending of two triangles in space about their common edge (acm 10.5): the hinge of Grinspun, Hirani, Desbrun,
-// Schroeder, "Discrete Shells" (2003), section 4, with a function of the angle that needs no arc tangent.
+// Bending of two triangles in space about their common edge: the hinge of Grinspun, Hirani, Desbrun, Schroeder,
+// "Discrete Shells" (2003), with a function of the angle that needs no arc tangent.
 //
 // Notation
 //   x0, x1    the common edge, e = x1 - x0, L = |e|; x2, x3 the opposite vertices, a = x2 - x0, b = x3 - x0
@@ -11,10 +11,10 @@
 //             cos theta = n1.n2 / sqrt(N1 N2); sin theta = -L n1.b / sqrt(N1 N2), because n1 x n2 = -(n1.b) e
 //   V         K (1 - cos(theta - theta0)), see forces/angle.h
 //   K         rigidity L0^2 / A0, A0 the sum of the areas, all at rest. In the terms of Discrete Shells this is
-//             3 kb L0^2 / A0 with kb = rigidity / 3: then a regular mesh bent to a cylinder of curvature c has the energy
-//             rigidity/2 c^2 an area, that of a plate of this flexural rigidity (derived; a test measures it)
-// Gradients of theta: -L n1/N1 at x2, -L n2/N2 at x3; with the feet alpha = a.e/L^2, beta = b.e/L^2 of x2, x3 on the edge
-// alpha L n1/N1 + beta L n2/N2 at x1; at x0 what makes the sum zero.
+//             3 kb L0^2 / A0 with kb = rigidity / 3: then a regular mesh bent to a cylinder of curvature c has the
+//             energy rigidity/2 c^2 an area, that of a plate of this flexural rigidity (derived; a test measures it)
+// Gradients of theta: -L n1/N1 at x2, -L n2/N2 at x3; with the feet alpha = a.e/L^2, beta = b.e/L^2 of x2, x3 on the
+// edge alpha L n1/N1 + beta L n2/N2 at x1; at x0 what makes the sum zero.
 //
 // Two square roots and two divisions per event.
 //
@@ -53,8 +53,8 @@ struct Hinge {
   Angle<S> rest{};                        ///< theta0
   S damping{};                            ///< [s]
 
-  /// rigidity: flexural, of the plate [N m]. Throws std::invalid_argument if rounding cannot tell the area of a triangle
-  /// of the rest shape from zero, or it is not finite.
+  /// rigidity: flexural, of the plate [N m]. Throws std::invalid_argument if rounding cannot tell the area of a
+  /// triangle of the rest shape from zero, or it is not finite.
   static Hinge from_rest(const std::array<VertexId, size>& vertices, const X& rest, const S& rigidity,
                          const S& damping = S(0)) {
     using std::sqrt;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// In-plane stretching of a triangle in space: constant strain, St. Venant-Kirchhoff material, plane stress (acm 10.4).
+// In-plane stretching of a triangle in space: constant strain, St. Venant-Kirchhoff material, plane stress.
+// The gradient is derived from V below.
 //
 // Notation
-//   D        the 2 x 2 matrix whose columns are the rest edges X1 - X0, X2 - X0 in an orthonormal frame of the rest plane
-//            whose first axis is along X1 - X0; so D and B = D^-1 are upper triangular
+//   D        the 2 x 2 matrix whose columns are the rest edges X1 - X0, X2 - X0 in an orthonormal frame of the rest
+//            plane whose first axis is along X1 - X0; so D and B = D^-1 are upper triangular
 //   A0, th   rest area and thickness
 //   F        the deformation gradient, 3 x 2: F = (x1 - x0, x2 - x0) B, columns f1, f2
 //   E        Green strain (F^T F - I) / 2; the measures are E11, E22, E12 in the frame of the first rest edge

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bending of a polygon in the plane at a vertex (acm 10.6), with a function of the angle that needs no arc tangent.
+// Bending of a polygon in the plane at a vertex, with a function of the angle that needs no arc tangent.
 //
 // Notation
 //   x0, x1, x2   three vertices in a row; a = x1 - x0, b = x2 - x1

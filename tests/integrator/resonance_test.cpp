@@ -10,8 +10,8 @@ namespace {
 
 using integrator::Oscillation;
 
-/// The measured table of acm 1.4: `slow` slow steps are `fast` fast ones; the least h2 omega2, in hundredths, that is unstable
-/// for one of the soft springs. The hundredths matter: 5:2 is also unstable in [0.5504, 0.5550], between two of them.
+/// Measured apart: `slow` slow steps are `fast` fast ones; the least h2 omega2, in hundredths, that is unstable for one
+/// of the soft springs. The hundredths matter: 5:2 is also unstable in [0.5504, 0.5550], between two of them.
 struct Row {
   int fast, slow;
   double edge;

@@ -48,7 +48,7 @@ inline integrator::Turning<double> random_force(Random& random) {
   return integrator::Turning<double>::from_rest({0, 1, 2}, random_stencil<3, 2>(random, 1), 2, 0.1);
 }
 
-/// The same force in another number type. Angles are rounded anew: cosine and sine are those of an angle in that type too.
+/// The same force in another number type. Angles are made anew: cosine and sine are those of an angle in that type too.
 template <class S>
 integrator::Angle<S> convert(const integrator::Angle<double>& a) {
   using std::sqrt;
