@@ -18,7 +18,7 @@ constexpr auto edge_edge = static_cast<std::size_t>(FeaturePair::edge_edge);
 constexpr auto vertex_edge = static_cast<std::size_t>(FeaturePair::vertex_edge);
 constexpr auto vertex_vertex = static_cast<std::size_t>(FeaturePair::vertex_vertex);
 
-VerifyResult verify(const Step& step, VerifyOptions options = {}) {
+VerifyResult verify(const Step& step, const VerifyOptions& options = {}) {
   return verify_step(step.mesh, step.x_t0, step.x_t1, options);
 }
 
