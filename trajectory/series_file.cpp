@@ -37,9 +37,10 @@ class Handle {
 
 std::vector<hsize_t> extents(const SeriesShape& shape) { return {shape.begin(), shape.end()}; }
 
-/// Contiguous; no time of day in the file.
+/// Contiguous; zeros where nothing is written; no time of day in the file.
 bool make_plain(hid_t properties) {
-  return H5Pset_layout(properties, H5D_CONTIGUOUS) >= 0 && H5Pset_obj_track_times(properties, false) >= 0;
+  return H5Pset_layout(properties, H5D_CONTIGUOUS) >= 0 && H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC) >= 0 &&
+         H5Pset_obj_track_times(properties, false) >= 0;
 }
 
 bool write_unit(hid_t dataset, const std::string& unit) {

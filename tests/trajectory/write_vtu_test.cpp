@@ -10,11 +10,18 @@
 namespace noli {
 namespace {
 
-const Frame sample_frame{.mesh = {.vertex_count = 4, .faces = {{0, 1, 2}}, .edges = {{2, 3}}, .points = {3}},
-                         .positions = {{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}, {5, 6, 7}}};
+Frame sample_frame() {
+  Frame frame;
+  frame.mesh.vertex_count = 4;
+  frame.mesh.faces = {{0, 1, 2}};
+  frame.mesh.edges = {{2, 3}};
+  frame.mesh.points = {3};
+  frame.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}, {5, 6, 7}};
+  return frame;
+}
 
 TEST(WriteVtu, Ascii) {
-  EXPECT_EQ(format_vtu(sample_frame, VtuEncoding::ascii), R"(<?xml version="1.0"?>
+  EXPECT_EQ(format_vtu(sample_frame(), VtuEncoding::ascii), R"(<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
   <UnstructuredGrid>
     <Piece NumberOfPoints="4" NumberOfCells="3">
@@ -81,7 +88,7 @@ std::vector<T> numbers(const std::string& bytes) {
 }
 
 TEST(WriteVtu, AppendedArraysAreWhereTheFileSays) {
-  const std::string file = format_vtu(sample_frame, VtuEncoding::base64);
+  const std::string file = format_vtu(sample_frame(), VtuEncoding::base64);
   const auto array = [&](const char* name) { return appended_array(file, offset_of(file, name)); };
   EXPECT_EQ(numbers<double>(array("Points")), (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 0.1, 0, 5, 6, 7}));
   EXPECT_EQ(numbers<std::int64_t>(array("connectivity")), (std::vector<std::int64_t>{0, 1, 2, 2, 3, 3}));
@@ -120,11 +127,11 @@ TEST(WritePvd, NamesFilesAndTimes) {
 
 TEST(WriteVtu, Files) {
   const test::TemporaryFolder folder;
-  write_vtu(folder / "a.vtu", sample_frame, VtuEncoding::base64);
-  EXPECT_EQ(test::read_text(folder / "a.vtu"), format_vtu(sample_frame, VtuEncoding::base64));
+  write_vtu(folder / "a.vtu", sample_frame(), VtuEncoding::base64);
+  EXPECT_EQ(test::read_text(folder / "a.vtu"), format_vtu(sample_frame(), VtuEncoding::base64));
   write_pvd(folder / "a.pvd", {});
   EXPECT_EQ(test::read_text(folder / "a.pvd"), format_pvd({}));
-  EXPECT_THROW(write_vtu(folder / "no/a.vtu", sample_frame, VtuEncoding::ascii), std::system_error);
+  EXPECT_THROW(write_vtu(folder / "no/a.vtu", sample_frame(), VtuEncoding::ascii), std::system_error);
 }
 
 }  // namespace
