@@ -10,8 +10,8 @@
 //   h         of a force: factor * 2 / sqrt(max over its vertices of Omega_i)
 //
 // In a shape without stress, sum kappa_i is a row of a Gershgorin bound on M^-1 Hess V, its blocks taken by their
-// norms: the greatest squared frequency of all forces of the kind is at most the greatest sum. Verlet's step for them is
-// stable up to 2 / frequency. The 2 in Omega leaves room for as much stiffness of other kinds at the vertex.
+// norms: the greatest squared frequency of all forces of the kind is at most the greatest sum. Verlet's step for
+// them is stable up to 2 / frequency. The 2 in Omega leaves room for as much stiffness of other kinds at the vertex.
 //
 // What this does not do: the bound is that of the shape given, usually the start; stress and large strain add stiffness
 // that it does not see. It knows nothing of resonance between steps (resonance.h).

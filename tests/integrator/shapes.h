@@ -3,6 +3,8 @@
 // Forces at rest in shapes of their own, and others to try them in.
 #pragma once
 
+#include <algorithm>
+
 #include "noli/integrator/model.h"
 #include "noli/tests/kernel/random_numbers.h"
 
@@ -16,6 +18,14 @@ integrator::Stencil<double, Dim, N> random_stencil(Random& random, double reach)
     for (int d = 0; d < Dim; ++d) point[d] = reach * (2 * random.unit() - 1);
   }
   return x;
+}
+
+/// The greatest coordinate.
+template <class S, int Dim, std::size_t N>
+S greatest(const integrator::Stencil<S, Dim, N>& x) {
+  S result(0);
+  for (const auto& point : x) result = std::max(result, S(point.cwiseAbs().maxCoeff()));
+  return result;
 }
 
 template <class F>
