@@ -18,6 +18,9 @@ struct Command {
 
 Command add_verify(CLI::App& app);
 Command add_ccd(CLI::App& app);
+Command add_simulate(CLI::App& app);
+Command add_explain(CLI::App& app);
+Command add_export(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_fuzz_queries(CLI::App& app);
 

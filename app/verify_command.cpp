@@ -16,7 +16,8 @@ constexpr const char* footer =
     "Every step from one frame to the next is decided exactly. The first step that has a contact is counted to its "
     "end, then the run\n"
     "stops. Standard output begins with the verdict line; verdicts: no_contact (exit 0), contact (1), undecided (2).\n"
-    "Steps are counted from 1; times are in [0, 1] of their step. `first_time` is of the first pair of features that "
+    "Steps are counted from 1 (for a run they are its windows); times are in [0, 1] of their step (for a run, in "
+    "seconds). `first_time` is of the first pair of features that "
     "meets: null when\n"
     "none does, also where cells intersect from the beginning to the end without any.\n"
     "Examples:\n"
@@ -24,7 +25,8 @@ constexpr const char* footer =
     "  noli verify frames/*.obj --keep-going --json result.json\n"
     "  noli verify rest.ply --static --strict        does this mesh intersect itself?\n"
     "  noli verify a.ply b.ply --json - | jq .first\n"
-    "  noli verify a.ply b.ply --time-limit 10s --threads 1";
+    "  noli verify a.ply b.ply --time-limit 10s --threads 1\n"
+    "  noli verify runs/cloth                        a run of `noli simulate` again, from its files alone";
 
 struct VerifyArguments {
   VerifyRequest request;
@@ -44,17 +46,18 @@ ExitCode exit_code(Verdict verdict) {
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
+  request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   const Output output(arguments.json, request.frames);
-  const VerifyOutcome outcome = run_verify(request);
+  const VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
   output.write(verify_text(request, outcome), verify_json(request, outcome));
   return exit_code(outcome.verdict);
 }
 
 void add_options(CLI::App& command, VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
-  command.add_option("frames", request.frames, "PLY or OBJ files, in the order of time")
+  command.add_option("frames", request.frames, "PLY or OBJ files, in the order of time; or the folder of one run")
       ->required()
-      ->type_name("FRAMES");
+      ->type_name("FRAMES | RUN");
   add_json_option(command, arguments.json);
   add_threads_option(command, request.threads);
   command.add_option("--max-reports", request.max_reports, "List at most so many contacts; counts are always exact")

@@ -2,39 +2,18 @@
 #include "noli/app/verify_report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <iterator>
 
+#include "noli/app/contact_report.h"
 #include "noli/app/machine.h"
 #include "noli/kernel/parallel.h"
 
 namespace noli::app {
 namespace {
 
-using Ids = std::vector<VertexId>;
-
-/// Vertex ids of the two features of a contact.
-std::pair<Ids, Ids> features(const FeatureContact& contact) {
-  const auto begin = contact.vertices.begin();
-  const auto middle = begin + static_cast<std::ptrdiff_t>(first_size(contact.pair));
-  const auto end = begin + static_cast<std::ptrdiff_t>(point_count(contact.pair));
-  return {Ids(begin, middle), Ids(middle, end)};
-}
-
-Json contact_json(const FeatureContact& contact) {
-  const auto [first, second] = features(contact);
-  return {{"pair", name(contact.pair)}, {"features", Json::array({first, second})}};
-}
-
-Json counts_json(const ContactCounts& counts) {
-  Json json = Json::object();
-  for (const FeaturePair pair : all_feature_pairs)
-    json[std::string(name(pair))] = counts[static_cast<std::size_t>(pair)];
-  return json;
-}
-
 const char* motion(const VerifyRequest& request) {
+  if (request.run) return "every vertex moves linearly between its own breakpoints, from each window to the next";
   return request.constant_motion ? "each frame by itself, at rest"
                                  : "every vertex moves linearly from each frame to the next";
 }
@@ -44,7 +23,7 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
       {"claim", "no two features of two different cells that share no vertex meet at any time of a step"},
       {"frames", request.frames.size()},
       {"motion", motion(request)},
-      {"time", "[0, 1] in each step, both ends included"},
+      {"time", request.run ? "seconds; each window, both ends included" : "[0, 1] in each step, both ends included"},
       {"numbers", "the doubles that the files give, taken exactly; real arithmetic on them, no tolerance"},
       {"dimension", outcome.dimension},
       {"cells",
@@ -53,7 +32,7 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
       {"contact", "closed simplices have a point in common; degenerate ones are what their hull is; touching counts"},
       {"neighbours", "features that share a vertex are not compared; vertices are who they are by index"},
       {"initial_intersections", "pairs of cells whose vertex-disjoint parts meet at the first time of all"},
-      {"excluded", Json::array()},
+      {"excluded", request.run ? Json::array({"pairs of cells all of whose vertices are scripted"}) : Json::array()},
       {"strict", request.strict},
       {"points", request.points},
       {"static", request.constant_motion},
@@ -116,16 +95,6 @@ const char* why_incomplete(const VerifyOutcome& outcome) {
   return outcome.out_of_time ? "time limit" : "first contact only";
 }
 
-std::string feature_text(const Ids& ids) {
-  static constexpr const char* names[] = {"vertex", "edge", "face"};
-  return fmt::format("{} {}", names[ids.size() - 1], fmt::join(ids, "-"));
-}
-
-std::string contact_text(const FeatureContact& contact) {
-  const auto [first, second] = features(contact);
-  return fmt::format("{} meets {}", feature_text(first), feature_text(second));
-}
-
 class Text {
  public:
   Text(const VerifyRequest& request, const VerifyOutcome& outcome) : request_(request), outcome_(outcome) {}
@@ -160,12 +129,15 @@ class Text {
 
   void answer() {
     switch (outcome_.verdict) {
-      case Verdict::no_contact: line("Nothing touches in {} step(s).", outcome_.steps_total); break;
+      case Verdict::no_contact:
+        line("Nothing touches in {} {}(s).", outcome_.steps_total, request_.run ? "window" : "step");
+        break;
       case Verdict::contact:
         line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());
         break;
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
     }
+    if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
       line("What is said is of what was settled so far ({}): there may be more contacts, and earlier ones.",
            why_incomplete(outcome_));

@@ -15,15 +15,17 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/contact_report.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/proofs/prover/verifier.h"
 
 namespace noli::app {
 
 struct VerifyRequest {
-  std::vector<std::filesystem::path> frames;
-  std::optional<int> dimension;  ///< nothing: 2 if all z of the first two frames are equal, else 3
-  int threads = 0;               ///< 0: all there are
+  std::vector<std::filesystem::path> frames;  ///< files, or the folder of one run
+  bool run = false;                           ///< it is a run: steps are its windows, times are seconds
+  std::optional<int> dimension;               ///< nothing: 2 if all z of the first two frames are equal, else 3
+  int threads = 0;                            ///< 0: all there are
   std::size_t max_reports = 100;
   bool keep_going = false;       ///< all steps, not only up to the first that has a contact
   bool first_only = false;       ///< stop at any contact
@@ -51,7 +53,7 @@ struct First {
   FeatureContact contact;
   std::size_t step = 0;  ///< from 1
   ContactKind kind = ContactKind::touching;
-  double time = 0;  ///< in [0, 1] of its step: the largest double not above the exact time
+  double time = 0;  ///< the largest double not above the exact time; in [0, 1] of its step, in seconds for a run
 };
 
 /// Listed contacts of one step.
@@ -64,8 +66,6 @@ struct ListedInitial {
   std::size_t step = 0;  ///< from 1
   InitialIntersection pair;
 };
-
-using ContactCounts = std::array<std::uint64_t, all_feature_pairs.size()>;
 
 /// What one step gave.
 struct StepCounts {
@@ -84,6 +84,7 @@ struct VerifyOutcome {
   bool complete = true;           ///< all that was asked for was decided; else the counts are lower bounds
   bool interrupted = false;       ///< by the user
   bool out_of_time = false;
+  bool open_window = false;  ///< a run that ends in a window which was never committed
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
   std::optional<First> first;
@@ -102,5 +103,8 @@ struct VerifyOutcome {
 /// Runs it. Stops early, with what was settled so far, when app::interrupted() or at the time limit.
 /// Throws InputError, UsageError (options that do not go together), std::bad_alloc.
 VerifyOutcome run_verify(const VerifyRequest& request);
+
+/// The same for a run: window by window, and that each begins where the one before it ended.
+VerifyOutcome run_verify_motion(const VerifyRequest& request);
 
 }  // namespace noli::app

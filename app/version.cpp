@@ -20,4 +20,6 @@ std::string version_text() {
                      BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, rounding);
 }
 
+std::string version_number() { return NOLI_VERSION; }
+
 }  // namespace noli::app

@@ -8,4 +8,7 @@ namespace noli::app {
 /// What `noli --version` prints: version, commit, arithmetic libraries, and whether rounding works on this machine now.
 std::string version_text();
 
+/// The version alone: "0.1.0".
+std::string version_number();
+
 }  // namespace noli::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/contact_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+#include <vector>
+
+namespace noli::app {
+namespace {
+
+using Ids = std::vector<VertexId>;
+
+/// Vertex ids of the two features of a contact.
+std::pair<Ids, Ids> features(const FeatureContact& contact) {
+  const auto begin = contact.vertices.begin();
+  const auto middle = begin + static_cast<std::ptrdiff_t>(first_size(contact.pair));
+  const auto end = begin + static_cast<std::ptrdiff_t>(point_count(contact.pair));
+  return {Ids(begin, middle), Ids(middle, end)};
+}
+
+std::string feature_text(const Ids& ids) {
+  static constexpr const char* names[] = {"vertex", "edge", "face"};
+  return fmt::format("{} {}", names[ids.size() - 1], fmt::join(ids, "-"));
+}
+
+}  // namespace
+
+Json contact_json(const FeatureContact& contact) {
+  const auto [first, second] = features(contact);
+  return {{"pair", name(contact.pair)}, {"features", Json::array({first, second})}};
+}
+
+Json counts_json(const ContactCounts& counts) {
+  Json json = Json::object();
+  for (const FeaturePair pair : all_feature_pairs) {
+    json[std::string(name(pair))] = counts[static_cast<std::size_t>(pair)];
+  }
+  return json;
+}
+
+std::string contact_text(const FeatureContact& contact) {
+  const auto [first, second] = features(contact);
+  return fmt::format("{} meets {}", feature_text(first), feature_text(second));
+}
+
+}  // namespace noli::app

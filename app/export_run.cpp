@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/export_run.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <vector>
+
+#include "noli/app/exit_code.h"
+#include "noli/app/interrupt.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/run_file.h"
+#include "noli/trajectory/sample.h"
+#include "noli/trajectory/write_obj.h"
+#include "noli/trajectory/write_ply.h"
+#include "noli/trajectory/write_vtu.h"
+
+namespace noli::app {
+namespace {
+
+/// "frames/%05d.ply": what is before and after the number, and how wide it is.
+struct Pattern {
+  std::string before, after;
+  std::size_t width = 0;
+  FrameFormat format = FrameFormat::ply;
+
+  std::filesystem::path file(std::uint64_t i) const { return fmt::format("{}{:0{}}{}", before, i, width, after); }
+};
+
+[[noreturn]] void refuse(const std::string& pattern) {
+  throw UsageError("-o " + pattern + ": expected a name with one %d or %05d that ends in .ply, .obj or .vtu");
+}
+
+FrameFormat format_of(const std::string& pattern) {
+  const std::string ending = std::filesystem::path(pattern).extension().string();
+  if (ending == ".ply") return FrameFormat::ply;
+  if (ending == ".obj") return FrameFormat::obj;
+  if (ending == ".vtu") return FrameFormat::vtu;
+  refuse(pattern);
+}
+
+Pattern parse_pattern(const std::string& text) {
+  const std::size_t percent = text.find('%'), d = text.find('d', percent);
+  if (percent == std::string::npos || d == std::string::npos || text.find('%', percent + 1) != std::string::npos) {
+    refuse(text);
+  }
+  const std::string width = text.substr(percent + 1, d - percent - 1);
+  const bool digits = width.size() <= 3 && width.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || (!width.empty() && width[0] != '0')) refuse(text);
+  return {text.substr(0, percent), text.substr(d + 1), width.empty() ? 0 : std::stoul(width), format_of(text)};
+}
+
+class Export {
+ public:
+  explicit Export(const ExportRequest& request)
+      : request_(request), pattern_(parse_pattern(request.pattern)), reader_(request.run) {
+    const auto folder = pattern_.file(0).parent_path();
+    if (!folder.empty()) std::filesystem::create_directories(folder);
+  }
+
+  ExportOutcome operator()() {
+    while (auto window = reader_.next_window()) {
+      outcome_.interrupted = interrupted().load(std::memory_order_relaxed);
+      if (outcome_.interrupted) break;
+      write_frames(*window);
+      ++outcome_.windows;
+      outcome_.end = window->end;
+    }
+    outcome_.open_window = !outcome_.interrupted && reader_.open_window().has_value();
+    if (pattern_.format == FrameFormat::vtu) write_series();
+    return std::move(outcome_);
+  }
+
+ private:
+  double time(std::uint64_t frame) const { return static_cast<double>(frame) / request_.fps; }
+
+  void write_frames(const RunWindow& window) {
+    if (!window.lines) {
+      throw InputError(
+          request_.run.string(), "",
+          "recorded frames alone (\"record\": \"frames\"); expected world lines, of which frames of any rate "
+          "can be made");
+    }
+    for (; time(outcome_.frames) <= window.end; ++outcome_.frames) {
+      write({reader_.mesh(), sample(*window.lines, time(outcome_.frames))});
+    }
+  }
+
+  void write(const Frame& frame) {
+    const auto path = pattern_.file(outcome_.frames);
+    switch (pattern_.format) {
+      case FrameFormat::ply: return write_ply(path, frame, PlyEncoding::binary_little_endian);
+      case FrameFormat::obj: return write_obj(path, frame);
+      case FrameFormat::vtu: return write_vtu(path, frame, VtuEncoding::base64);
+    }
+  }
+
+  /// Beside the frames, named like them without the number.
+  void write_series() {
+    std::vector<PvdEntry> entries;
+    for (std::uint64_t i = 0; i < outcome_.frames; ++i) {
+      entries.push_back({time(i), pattern_.file(i).filename().string()});
+    }
+    const std::filesystem::path folder = pattern_.file(0).parent_path();
+    std::string stem = std::filesystem::path(pattern_.before).filename().string();
+    while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();
+    const auto path = folder / ((stem.empty() ? "series" : stem) + ".pvd");
+    write_pvd(path, entries);
+    outcome_.pvd = path.string();
+  }
+
+  const ExportRequest& request_;
+  Pattern pattern_;
+  RunReader reader_;
+  ExportOutcome outcome_;
+};
+
+}  // namespace
+
+ExportOutcome run_export(const ExportRequest& request) { return Export(request)(); }
+
+}  // namespace noli::app

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+
+#include "noli/app/commands.h"
+#include "noli/app/duration.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/app/simulate_report.h"
+#include "noli/app/simulate_run.h"
+
+namespace noli::app {
+namespace {
+
+constexpr const char* footer =
+    "Each window of simulated time is verified exactly before it is committed to the run, so what is in a run never\n"
+    "contains a contact. Where one comes, the run ends (exit 1) with the features, the kind and the exact first time; "
+    "the\n"
+    "windows before it stay. Interrupted runs (Ctrl-C, exit 2) go on with --resume, and end with the same bytes.\n"
+    "Examples:\n"
+    "  noli simulate scenes/swinging_cloth.json -o runs/cloth\n"
+    "  noli simulate scenes/swinging_cloth.json --short -o /tmp/cloth\n"
+    "  noli simulate scene.json -o run --until 2.5 --json result.json\n"
+    "  noli simulate scene.json -o run --resume";
+
+struct SimulateArguments {
+  SimulateRequest request;
+  std::string time_limit;
+  std::optional<std::string> json;
+};
+
+ExitCode run(SimulateArguments& arguments) {
+  SimulateRequest& request = arguments.request;
+  if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
+  const Output output(arguments.json, {request.scene});
+  const SimulateOutcome outcome = run_simulate(request);
+  output.write(simulate_text(request, outcome), simulate_json(request, outcome));
+  return exit_code(outcome);
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("simulate", "Run a scene, certified window by window");
+  command->footer(footer);
+  const auto arguments = std::make_shared<SimulateArguments>();
+  SimulateRequest& request = arguments->request;
+  command->add_option("scene", request.scene, "A scene (scenes/schema.json says what can be in it)")
+      ->required()
+      ->type_name("SCENE.json");
+  command->add_option("-o,--output", request.run, "The folder of the run")->required()->type_name("RUN");
+  command->add_flag("--short", request.brief, "The scene's short form");
+  auto* const resume = command->add_flag("--resume", request.resume, "Go on with the run that is in the folder");
+  command->add_flag("--force", request.force, "Replace the run that is in the folder")->excludes(resume);
+  command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+  command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h")
+      ->type_name("TIME");
+  add_json_option(*command, arguments->json);
+  add_threads_option(*command, request.threads);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/simulate_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "noli/app/contact_report.h"
+#include "noli/app/machine.h"
+#include "noli/kernel/parallel.h"
+
+namespace noli::app {
+namespace {
+
+const char* name(RunEnd end) {
+  switch (end) {
+    case RunEnd::done: return "done";
+    case RunEnd::contact: return "contact";
+    case RunEnd::not_finite: return "not_finite";
+    case RunEnd::interrupted: return "interrupted";
+    case RunEnd::out_of_time: return "time_limit";
+  }
+  return "";
+}
+
+const char* verdict(const SimulateOutcome& outcome) {
+  switch (outcome.end) {
+    case RunEnd::done: return "no_contact";
+    case RunEnd::contact: return "contact";
+    default: return "undecided";
+  }
+}
+
+/// Nothing if there was no contact.
+Json first_json(const SimulateOutcome& outcome) {
+  if (!outcome.contact || !outcome.contact->first) return nullptr;
+  Json json = contact_json(outcome.contact->first->contact);
+  json["kind"] = noli::name(outcome.contact->first->kind);
+  json["window"] = outcome.windows;
+  json["time"] = outcome.contact->first->lower();
+  return json;
+}
+
+Json not_finite_json(const SimulateOutcome& outcome) {
+  if (!outcome.not_finite) return nullptr;
+  const integrator::NotFinite& found = *outcome.not_finite;
+  return {{"time", found.time},
+          {"force", found.kind ? Json(integrator::name(*found.kind)) : Json(nullptr)},
+          {"vertices", found.force},
+          {"vertex", found.vertex}};
+}
+
+std::string end_text(const SimulateOutcome& outcome) {
+  switch (outcome.end) {
+    case RunEnd::done: return "Nothing touches from beginning to end.";
+    case RunEnd::contact: {
+      const FirstInWindow& first = *outcome.contact->first;
+      return fmt::format(
+          "Contact in window {}: first {}, {}, at {} s ({} pairs of features in the window). The window is not "
+          "part of the run.",
+          outcome.windows, contact_text(first.contact), noli::name(first.kind), digits17(first.lower()),
+          outcome.contact->contact_count());
+    }
+    case RunEnd::not_finite: {
+      const integrator::NotFinite& found = *outcome.not_finite;
+      const std::string force =
+          found.kind ? fmt::format("the {} of vertices {}", integrator::name(*found.kind), fmt::join(found.force, ", "))
+                     : "free motion";
+      return fmt::format(
+          "Numbers run out in window {}: at {} s {} leaves vertex {} a velocity or position that is not "
+          "finite. The window is not part of the run.",
+          outcome.windows, digits17(found.time), force, found.vertex);
+    }
+    case RunEnd::interrupted: return "Interrupted; `--resume` goes on behind the last window.";
+    case RunEnd::out_of_time: return "Out of time; `--resume` goes on behind the last window.";
+  }
+  return "";
+}
+
+double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
+
+}  // namespace
+
+ExitCode exit_code(const SimulateOutcome& outcome) {
+  switch (outcome.end) {
+    case RunEnd::done: return ExitCode::holds;
+    case RunEnd::contact:
+    case RunEnd::not_finite: return ExitCode::refuted;
+    case RunEnd::interrupted:
+    case RunEnd::out_of_time: return ExitCode::undecided;
+  }
+  return ExitCode::failure;
+}
+
+Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  Json json = {{"verdict", verdict(outcome)}, {"end", name(outcome.end)}};
+  json["title"] = outcome.title;
+  json["windows"] = outcome.windows;
+  json["windows_total"] = outcome.windows_total;
+  json["window_length"] = outcome.window_length;
+  json["time"] = outcome.time;
+  json["first_time"] =
+      outcome.contact && outcome.contact->first ? Json(outcome.contact->first->lower()) : Json(nullptr);
+  json["first"] = first_json(outcome);
+  json["contacts"] = counts_json(outcome.contact ? outcome.contact->contacts : ContactCounts{});
+  json["not_finite"] = not_finite_json(outcome);
+  json["dimension"] = outcome.dimension;
+  json["vertices"] = outcome.vertices;
+  json["cells"] = outcome.cells;
+  json["timing"] = {{"seconds", outcome.seconds},
+                    {"simulating_seconds", outcome.simulating_seconds},
+                    {"verifying_seconds", outcome.verifying_seconds},
+                    {"windows_before", outcome.windows_before},
+                    {"events", outcome.events},
+                    {"breakpoints", outcome.breakpoints},
+                    {"threads", request.threads > 0 ? request.threads : hardware_threads()},
+                    {"peak_memory_bytes", peak_memory_bytes()}};
+  return json;
+}
+
+std::string simulate_text(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  std::string text =
+      fmt::format("verdict {} end {} windows {} windows_total {} time {} first_time {}\n", verdict(outcome),
+                  name(outcome.end), outcome.windows, outcome.windows_total, digits17(outcome.time),
+                  outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none"));
+  text += end_text(outcome) + "\n";
+  text += fmt::format(
+      "{}: {} windows of {} s committed to {}, each verified exactly: no two features that share no vertex "
+      "meet at any time from 0 to {} s, pairs of scripted cells apart.\n",
+      outcome.title, outcome.windows, outcome.window_length, request.run.string(), outcome.time);
+  text += fmt::format(
+      "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
+      "beside it; {:.0f} MB.\n",
+      outcome.seconds, outcome.simulating_seconds, per(static_cast<double>(outcome.events), outcome.simulating_seconds),
+      outcome.breakpoints, outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
+  return text;
+}
+
+}  // namespace noli::app

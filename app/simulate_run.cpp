@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/simulate_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <memory>
+#include <stdexcept>
+
+#include "noli/app/exit_code.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/app/progress.h"
+#include "noli/app/run_folder.h"
+#include "noli/app/run_series.h"
+#include "noli/integrator/scene/build_model.h"
+#include "noli/integrator/scene/read_scene.h"
+#include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/run_file.h"
+
+namespace noli::app {
+namespace {
+
+using integrator::Books;
+using integrator::Model;
+using integrator::Recording;
+using integrator::Scene;
+using integrator::Simulation;
+using integrator::Snapshot;
+
+template <int Dim>
+Position position_of(const integrator::Vec<double, Dim>& x) {
+  return {x[0], x[1], Dim == 3 ? x[Dim - 1] : 0.0};
+}
+
+template <int Dim>
+std::vector<Position> positions_of(const std::vector<integrator::Vec<double, Dim>>& all) {
+  std::vector<Position> result;
+  result.reserve(all.size());
+  for (const auto& x : all) result.push_back(position_of<Dim>(x));
+  return result;
+}
+
+template <int Dim>
+std::vector<integrator::Vec<double, Dim>> vectors_of(const std::vector<Position>& all) {
+  std::vector<integrator::Vec<double, Dim>> result;
+  result.reserve(all.size());
+  for (const Position& x : all) {
+    integrator::Vec<double, Dim> v;
+    for (int k = 0; k < Dim; ++k) v[k] = x[static_cast<std::size_t>(k)];
+    result.push_back(v);
+  }
+  return result;
+}
+
+/// Which vertices nothing moves but the scene: no two cells of them alone are compared.
+template <int Dim>
+std::vector<std::uint8_t> labels_of(const Model<double, Dim>& model) {
+  std::vector<std::uint8_t> labels(model.x.size(), 0);
+  for (const VertexId v : model.pinned) labels[v] = scripted_vertex;
+  for (const auto& script : model.scripts) labels[script.vertex] = scripted_vertex;
+  return labels;
+}
+
+/// A window that has been integrated and waits for its verdict.
+struct Candidate {
+  std::uint64_t index = 0;
+  std::unique_ptr<const WorldLines> lines;
+  std::vector<Position> velocities;
+  SeriesRow row;
+  std::future<WindowResult> verdict;
+};
+
+template <int Dim>
+class Run {
+ public:
+  Run(const SimulateRequest& request, const Scene& scene)
+      : request_(request),
+        built_(integrator::build_model<Dim>(scene)),
+        labels_(labels_of<Dim>(built_.model)),
+        folder_(request.run) {
+    outcome_.title = scene.title;
+    outcome_.dimension = Dim;
+    outcome_.vertices = built_.model.x.size();
+    outcome_.cells = built_.model.mesh.cell_count();
+    outcome_.window_length = scene.window;
+    outcome_.windows_total = windows_up_to(request.until.value_or(scene.duration));
+    if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
+    if (!request.resume) refuse_contact_at_start();
+    open(scene);
+  }
+
+  SimulateOutcome operator()() {
+    const Stopwatch watch;
+    Progress progress("simulate");
+    while (outcome_.end == RunEnd::done && simulation_->windows() < outcome_.windows_total) {
+      if (stopped()) break;
+      std::optional<Candidate> next = integrate();
+      settle();
+      if (outcome_.end != RunEnd::done) break;
+      if (!next) {
+        find_not_finite();
+        break;
+      }
+      verify(std::move(*next));
+      progress.show(static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
+    }
+    settle();
+    conclude();
+    outcome_.seconds = watch.seconds();
+    return std::move(outcome_);
+  }
+
+ private:
+  std::uint64_t windows_up_to(double time) const {
+    return static_cast<std::uint64_t>(std::ceil(time / outcome_.window_length * (1 - 0x1p-50)));
+  }
+
+  bool stopped() {
+    if (interrupted().load(std::memory_order_relaxed)) outcome_.end = RunEnd::interrupted;
+    if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) outcome_.end = RunEnd::out_of_time;
+    return outcome_.end != RunEnd::done;
+  }
+
+  // --- Beginning -----------------------------------------------------------------------------------------------------
+
+  WindowOptions window_options() const {
+    WindowOptions options;
+    options.dimension = Dim;
+    options.threads = request_.threads;
+    options.initial = false;
+    options.scripted = labels_;
+    return options;
+  }
+
+  /// At rest where it begins: what meets then meets at the start.
+  void refuse_contact_at_start() const {
+    const auto x = positions_of<Dim>(built_.model.x);
+    if (built_.model.mesh.cell_count() == 0) return;
+    WindowOptions options = window_options();
+    options.initial = true;
+    options.max_reports = 3;
+    const WindowResult result = verify_window(built_.model.mesh, WorldLines::from_frames(x, x), options);
+    if (result.contact_count() + result.initial_intersections == 0) return;
+    std::string pairs;
+    for (const auto& contact : result.reports) pairs += fmt::format("{}{}", pairs.empty() ? "" : ", ", named(contact));
+    for (const auto& cells : result.initial_reports) {
+      pairs += fmt::format("{}cells {} and {}", pairs.empty() ? "" : ", ", cells.first_cell, cells.second_cell);
+    }
+    throw InputError(request_.scene.string(), "/bodies",
+                     fmt::format("the scene begins in contact: {}; {} pair(s) of features meet, {} pair(s) of cells "
+                                 "intersect; expected none",
+                                 pairs, result.contact_count(), result.initial_intersections));
+  }
+
+  std::string named(const FeatureContact& contact) const {
+    static constexpr const char* names[] = {"vertex", "edge", "face"};
+    std::string text;
+    std::size_t at = 0;
+    for (const std::size_t size : {first_size(contact.pair), point_count(contact.pair) - first_size(contact.pair)}) {
+      text += fmt::format("{}{} ", at == 0 ? "" : " meets ", names[size - 1]);
+      for (std::size_t i = 0; i < size; ++i, ++at) {
+        text += fmt::format("{}{}", i == 0 ? "" : "-", vertex_name(contact.vertices[at]));
+      }
+    }
+    return text;
+  }
+
+  /// A vertex by its body and its number there.
+  std::string vertex_name(VertexId v) const {
+    for (const auto& body : built_.bodies) {
+      if (v >= body.first && v < body.first + body.vertices) return fmt::format("{}[{}]", body.name, v - body.first);
+    }
+    return fmt::format("{}", v);
+  }
+
+  RunScene run_scene(const Scene& scene) const {
+    RunScene result;
+    result.header.dimension = Dim;
+    result.header.record = scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames;
+    result.header.window_length = scene.window;
+    result.mesh = built_.model.mesh;
+    result.labels = labels_;
+    return result;
+  }
+
+  void open(const Scene& scene) {
+    if (!request_.resume) {
+      folder_.make(scene.document, request_.force);
+      writer_.emplace(folder_.path(), run_scene(scene));
+      simulation_.emplace(built_.model);
+      return;
+    }
+    folder_.require_same(scene.document);
+    RunReader reader(folder_.path());
+    if (reader.scene() != run_scene(scene)) {
+      throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
+    }
+    Snapshot<double, Dim> last;
+    while (const auto window = reader.next_window()) {
+      last = {window->index + 1, vectors_of<Dim>(window->positions), vectors_of<Dim>(window->velocities)};
+    }
+    writer_.emplace(folder_.path(), reader);
+    outcome_.windows_before = last.windows;
+    if (last.windows == 0) {
+      simulation_.emplace(built_.model);
+    } else {
+      simulation_.emplace(built_.model, last);
+    }
+  }
+
+  // --- Windows -------------------------------------------------------------------------------------------------------
+
+  /// The next window; nothing when numbers in it are none.
+  std::optional<Candidate> integrate() {
+    const Stopwatch watch;
+    before_ = simulation_->snapshot();
+    const std::uint64_t events = simulation_->events();
+    recording_.clear();
+    Books<double, Dim> books;
+    simulation_->run_window(recording_, books);
+    if (!simulation_->finite()) return std::nullopt;
+    Candidate next;
+    next.index = before_.windows;
+    next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
+    next.velocities = positions_of<Dim>(simulation_->snapshot().v);
+    next.row = series_row<Dim>(simulation_->time(), simulation_->state(), books, simulation_->events() - events,
+                               recording_.stream().size());
+    outcome_.simulating_seconds += watch.seconds();
+    return next;
+  }
+
+  void verify(Candidate next) {
+    candidate_ = std::move(next);
+    const auto look = [lines = candidate_->lines.get(), options = window_options(), this] {
+      const Stopwatch watch;
+      WindowResult result;
+      if (built_.model.mesh.cell_count() > 0) result = verify_window(built_.model.mesh, *lines, options);
+      outcome_.verifying_seconds += watch.seconds();
+      return result;
+    };
+    const bool aside = (request_.threads == 0 ? hardware_threads() : request_.threads) > 1;
+    candidate_->verdict = std::async(aside ? std::launch::async : std::launch::deferred, look);
+  }
+
+  /// Waits for the verdict on the window that is being verified, and commits it or ends the run.
+  void settle() {
+    if (!candidate_) return;
+    WindowResult result = candidate_->verdict.get();
+    if (!result.complete) throw std::logic_error("a window was not verified to its end");
+    if (result.contact_count() > 0) {
+      outcome_.end = RunEnd::contact;
+      outcome_.contact = std::move(result);
+    } else {
+      commit(*candidate_);
+    }
+    candidate_.reset();
+  }
+
+  void commit(const Candidate& window) {
+    writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), {}});
+    writer_->commit();
+    outcome_.events += window.row.events;
+    outcome_.breakpoints += window.row.breakpoints;
+    folder_.log(window.index, window.row);
+  }
+
+  void find_not_finite() {
+    outcome_.end = RunEnd::not_finite;
+    Simulation<double, Dim> again =
+        before_.windows == 0 ? Simulation<double, Dim>(built_.model) : Simulation<double, Dim>(built_.model, before_);
+    outcome_.not_finite = again.find_not_finite();
+  }
+
+  void conclude() {
+    outcome_.windows = writer_->windows();
+    outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
+  }
+
+  const SimulateRequest& request_;
+  integrator::BuiltScene<Dim> built_;
+  std::vector<std::uint8_t> labels_;
+  RunFolder folder_;
+  std::optional<RunWriter> writer_;
+  std::optional<Simulation<double, Dim>> simulation_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  Snapshot<double, Dim> before_;  ///< of the window that is being integrated
+  Recording<double, Dim> recording_;
+  std::optional<Candidate> candidate_;
+  SimulateOutcome outcome_;
+};
+
+}  // namespace
+
+SimulateOutcome run_simulate(const SimulateRequest& request) {
+  const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
+  const Scene scene = integrator::read_scene(request.scene, form);
+  return scene.dimension == 2 ? Run<2>(request, scene)() : Run<3>(request, scene)();
+}
+
+}  // namespace noli::app

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli simulate` without its words: integrates window after window, verifies each exactly, and commits it to the run
+// only when nothing touches in it.
+//
+// Notation
+//   window k   [k W, (k + 1) W]; while it is integrated, the one before is verified on another thread
+//   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5
+//
+// The bytes of trajectory.blocks depend on the scene alone: not on threads, on where a run was interrupted, on who looks.
+//
+// What this does not do: it prints nothing (simulate_report.h).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/integrator/simulation.h"
+#include "noli/proofs/prover/window_verifier.h"
+
+namespace noli::app {
+
+struct SimulateRequest {
+  std::filesystem::path scene;
+  std::filesystem::path run;
+  bool brief = false;           ///< the scene's short form
+  bool resume = false;          ///< go on with a run that is there
+  bool force = false;           ///< replace a run that is there
+  std::optional<double> until;  ///< simulated time to stop at [s]; else the scene's duration
+  int threads = 0;              ///< 0: all there are
+  std::optional<std::chrono::nanoseconds> time_limit;
+};
+
+enum class RunEnd {
+  done,         ///< all windows are committed
+  contact,      ///< something touches in the next one
+  not_finite,   ///< a number of the next one is none
+  interrupted,  ///< by the user
+  out_of_time
+};
+
+struct SimulateOutcome {
+  RunEnd end = RunEnd::done;
+  std::string title;
+  int dimension = 3;
+  std::size_t vertices = 0, cells = 0;
+  double window_length = 0;
+  std::uint64_t windows = 0, windows_total = 0;  ///< committed, and those of the whole run
+  std::uint64_t windows_before = 0;              ///< of those committed, by earlier calls (--resume)
+  double time = 0;                               ///< of the last commit [s]
+  std::uint64_t events = 0, breakpoints = 0;     ///< of this call
+  std::optional<WindowResult> contact;           ///< of the window that was refused
+  std::optional<integrator::NotFinite> not_finite;
+  double seconds = 0, simulating_seconds = 0, verifying_seconds = 0;
+};
+
+/// Runs it. Ends at the last committed window when app::interrupted() or at the time limit. Throws InputError (scene),
+/// UsageError (a run that is there, or is not), std::system_error (disk), std::bad_alloc.
+SimulateOutcome run_simulate(const SimulateRequest& request);
+
+}  // namespace noli::app

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli verify RUN`: the windows of a run again, from its files alone.
+#include <algorithm>
+
+#include "noli/app/exit_code.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/app/progress.h"
+#include "noli/app/verify_run.h"
+#include "noli/proofs/prover/window_verifier.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/run_file.h"
+
+namespace noli::app {
+namespace {
+
+class MotionRun {
+ public:
+  explicit MotionRun(const VerifyRequest& request) : request_(request), reader_(request.frames.at(0)) {
+    if (request.constant_motion || request.merge_identical || request.points || request.dimension) {
+      throw UsageError(
+          "--static, --merge-identical, --points, --dimension: are for frames; expected none of them with a run");
+    }
+    if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
+    const Mesh& mesh = reader_.mesh();
+    outcome_.dimension = static_cast<int>(reader_.header().dimension);
+    outcome_.vertices = mesh.vertex_count;
+    outcome_.faces = mesh.faces.size();
+    outcome_.edges = mesh.edges.size();
+    outcome_.points = mesh.points.size();
+    for (const std::uint8_t label : reader_.scene().labels) scripted_.push_back(label & scripted_vertex);
+    if (mesh.cell_count() == 0) {
+      throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
+    }
+  }
+
+  VerifyOutcome operator()() {
+    const Stopwatch watch;
+    while (!stopped() && outcome_.complete) {
+      const auto window = read_next();
+      if (!window) break;
+      verify(*window);
+      if (outcome_.touches() && !request_.keep_going) break;
+    }
+    conclude();
+    outcome_.seconds = watch.seconds() - outcome_.read_seconds;
+    return std::move(outcome_);
+  }
+
+ private:
+  bool stopped() {
+    outcome_.interrupted |= interrupted().load(std::memory_order_relaxed);
+    outcome_.out_of_time |= deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+    return outcome_.interrupted || outcome_.out_of_time;
+  }
+
+  std::optional<RunWindow> read_next() {
+    const Stopwatch watch;
+    auto window = reader_.next_window();
+    outcome_.read_seconds += watch.seconds();
+    ended_ = !window;
+    if (window && !window->lines) {
+      throw InputError(
+          request_.frames[0].string(), "",
+          "recorded frames alone (\"record\": \"frames\"); expected world lines, which are what can be verified");
+    }
+    return window;
+  }
+
+  WindowOptions options() const {
+    WindowOptions options;
+    options.dimension = outcome_.dimension;
+    options.threads = request_.threads;
+    options.initial = outcome_.steps.empty();
+    options.first_only = request_.first_only;
+    options.strict = request_.strict;
+    options.max_reports = request_.max_reports;
+    options.scripted = scripted_;
+    options.stop = &interrupted();
+    options.deadline = deadline_;
+    return options;
+  }
+
+  void verify(const RunWindow& window) {
+    WindowResult result = verify_window(reader_.mesh(), *window.lines, options());
+    const bool drop = meeting_at_end_ && result.contact_count() > 0;
+    meeting_at_end_ = result.contact_count() > 0;
+    if (drop) drop_contacts_at_begin(window, result);
+    outcome_.complete = result.complete;
+    add(result);
+  }
+
+  /// What meets where a window begins was counted in the window before.
+  void drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
+    std::vector<Position> x;
+    for (VertexId v = 0; v < reader_.mesh().vertex_count; ++v) x.push_back(window.lines->positions(v).front());
+    WindowOptions resting = options();
+    resting.first_only = false;
+    resting.max_reports = 0;
+    const WindowResult before = verify_window(reader_.mesh(), WorldLines::from_frames(x, x), resting);
+    result.complete = result.complete && before.complete;
+    for (std::size_t i = 0; i < result.contacts.size(); ++i) {
+      const std::uint64_t known = before.complete ? before.contacts[i] : result.contacts[i];
+      result.contacts[i] -= std::min(result.contacts[i], known);
+    }
+    std::erase_if(result.reports, [&](const FeatureContact& c) { return c.first.begin <= window.begin; });
+  }
+
+  void add(const WindowResult& result) {
+    const std::size_t step = outcome_.steps.size() + 1;
+    outcome_.steps.push_back({result.contacts, result.initial_intersections});
+    for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += result.contacts[i];
+    outcome_.initial_intersections += result.initial_intersections;
+    outcome_.stages += result.stages;
+    outcome_.obligations += result.obligations;
+    outcome_.cell_pairs += result.cell_pairs;
+    for (const auto& contact : result.reports) {
+      if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
+    }
+    for (const auto& pair : result.initial_reports) {
+      if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
+    }
+    if (result.first && !outcome_.first) {
+      outcome_.first = First{result.first->contact, step, result.first->kind, result.first->lower()};
+    }
+  }
+
+  void conclude() {
+    stopped();
+    const bool enough = outcome_.touches() && !request_.keep_going;
+    outcome_.steps_total = reader_.windows();
+    outcome_.open_window = ended_ && reader_.open_window().has_value();
+    outcome_.complete = outcome_.complete && (ended_ || enough);
+    // A run of which nothing was committed yet proves nothing.
+    if (outcome_.steps.empty()) outcome_.complete = false;
+    const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
+    outcome_.verdict = outcome_.touches() ? Verdict::contact : untouched;
+  }
+
+  const VerifyRequest& request_;
+  RunReader reader_;
+  std::vector<std::uint8_t> scripted_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  bool meeting_at_end_ = false;
+  bool ended_ = false;  ///< all windows have been read
+  VerifyOutcome outcome_;
+};
+
+}  // namespace
+
+VerifyOutcome run_verify_motion(const VerifyRequest& request) { return MotionRun(request)(); }
+
+}  // namespace noli::app
