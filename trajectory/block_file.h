@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <istream>
 #include <memory>
 #include <optional>
@@ -52,6 +53,15 @@ inline constexpr std::size_t commit_size = block_header_size + commit_payload_si
 std::string block_header(FourLetters kind, std::uint64_t length);
 }  // namespace block_format
 
+/// Takes bytes that come in parts.
+using ByteConsumer = std::function<void(std::string_view)>;
+
+/// Gives a payload to a consumer, in as many parts as it likes.
+using PayloadSource = std::function<void(const ByteConsumer&)>;
+
+/// Gives the bytes of a block, from its kind to its checksum. Throws std::logic_error when the payload has another length.
+void put_block(FourLetters kind, std::uint64_t length, const PayloadSource& payload, const ByteConsumer& consumer);
+
 /// The end of a committed group.
 struct CommitPoint {
   std::uint64_t offset = 0;  ///< of the first byte after its commit block
@@ -74,6 +84,8 @@ class BlockWriter {
   BlockWriter(std::unique_ptr<Sink> sink, const CommitPoint& committed);
 
   void append(FourLetters kind, std::string_view payload);
+  /// The same for a payload that is not in memory at once.
+  void append(FourLetters kind, std::uint64_t length, const PayloadSource& payload);
   /// Closes the group: syncs, writes the commit block, syncs.
   void commit();
   /// Drops the blocks since the last commit. Precondition: there was one.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <stdexcept>
+
 #include "noli/trajectory/block_file.h"
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/crc32c.h"
@@ -10,6 +12,22 @@ std::string block_format::block_header(FourLetters kind, std::uint64_t length) {
   put(bytes, kind);
   put(bytes, length);
   return bytes;
+}
+
+void put_block(FourLetters kind, std::uint64_t length, const PayloadSource& payload, const ByteConsumer& consumer) {
+  const std::string header = block_format::block_header(kind, length);
+  std::uint32_t crc = crc32c(header);
+  std::uint64_t size = 0;
+  consumer(header);
+  payload([&](std::string_view bytes) {
+    crc = crc32c(bytes, crc);
+    size += bytes.size();
+    consumer(bytes);
+  });
+  if (size != length) throw std::logic_error("a payload of another length than its block says");
+  std::string checksum;
+  put(checksum, crc);
+  consumer(checksum);
 }
 
 Sha256Digest next_running_hash(const Sha256Digest& a, const Sha256Digest& b) {
@@ -38,12 +56,11 @@ void BlockWriter::write(std::string_view bytes) {
 }
 
 void BlockWriter::append(FourLetters kind, std::string_view payload) {
-  const std::string header = block_format::block_header(kind, payload.size());
-  std::string checksum;
-  put(checksum, crc32c(payload, crc32c(header)));
-  write(header);
-  write(payload);
-  write(checksum);
+  append(kind, payload.size(), [payload](const ByteConsumer& consumer) { consumer(payload); });
+}
+
+void BlockWriter::append(FourLetters kind, std::uint64_t length, const PayloadSource& payload) {
+  put_block(kind, length, payload, [this](std::string_view bytes) { write(bytes); });
 }
 
 void BlockWriter::commit() {

@@ -3,6 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
+
+#if defined(__x86_64__)
+#include <nmmintrin.h>
+#endif
 
 namespace noli {
 namespace {
@@ -45,13 +50,43 @@ std::uint32_t eight_bytes(std::uint32_t state, const unsigned char* p) {
 
 }  // namespace
 
-std::uint32_t crc32c(std::string_view bytes, std::uint32_t crc) {
+std::uint32_t crc32c_plain(std::string_view bytes, std::uint32_t crc) {
   const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
   const unsigned char* const end = p + bytes.size();
   std::uint32_t state = ~crc;
   for (; end - p >= 8; p += 8) state = eight_bytes(state, p);
   for (; p != end; ++p) state = (state >> 8) ^ tables[0][(state ^ *p) & 0xff];
   return ~state;
+}
+
+#if defined(__x86_64__)
+
+bool has_crc_instruction() { return __builtin_cpu_supports("sse4.2") != 0; }
+
+__attribute__((target("sse4.2"))) std::uint32_t crc32c_by_instruction(std::string_view bytes, std::uint32_t crc) {
+  const char* p = bytes.data();
+  const char* const end = p + bytes.size();
+  std::uint64_t state = ~crc;
+  for (; end - p >= 8; p += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, p, 8);
+    state = _mm_crc32_u64(state, eight);
+  }
+  auto narrow = static_cast<std::uint32_t>(state);
+  for (; p != end; ++p) narrow = _mm_crc32_u8(narrow, static_cast<unsigned char>(*p));
+  return ~narrow;
+}
+
+#else
+
+bool has_crc_instruction() { return false; }
+std::uint32_t crc32c_by_instruction(std::string_view bytes, std::uint32_t crc) { return crc32c_plain(bytes, crc); }
+
+#endif
+
+std::uint32_t crc32c(std::string_view bytes, std::uint32_t crc) {
+  static const bool by_instruction = has_crc_instruction();
+  return by_instruction ? crc32c_by_instruction(bytes, crc) : crc32c_plain(bytes, crc);
 }
 
 }  // namespace noli

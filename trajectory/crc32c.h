@@ -12,4 +12,10 @@ namespace noli {
 /// The CRC of `bytes`; of a longer text in parts, `crc` being that of the part before: crc32c(b, crc32c(a)) = crc32c(ab).
 std::uint32_t crc32c(std::string_view bytes, std::uint32_t crc = 0);
 
+/// The two ways to it, for tests: plain C++, and the processor's instruction where there is one (three times as fast).
+/// Precondition of the latter: has_crc_instruction().
+std::uint32_t crc32c_plain(std::string_view bytes, std::uint32_t crc = 0);
+bool has_crc_instruction();
+std::uint32_t crc32c_by_instruction(std::string_view bytes, std::uint32_t crc = 0);
+
 }  // namespace noli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/trajectory/bytes.h"
+#include "noli/trajectory/run_checks.h"
 #include "noli/trajectory/run_payload.h"
 
 namespace noli::run_block {
@@ -13,6 +14,27 @@ void put_positions(std::string& out, std::uint32_t dimension, std::span<const Po
   if (dimension == 3) return put_all(out, coordinates(positions));
   for (const Position& x : positions) put_all(out, std::span<const double>(x).first(2));
 }
+
+/// Gathers bytes until it is worth while to hand them on, and while they are still in the processor's cache.
+class Parts {
+ public:
+  explicit Parts(const ByteConsumer& consumer) : consumer_(consumer) {}
+
+  /// Where the next bytes are to be appended.
+  std::string& next() {
+    if (bytes_.size() >= enough) flush();
+    return bytes_;
+  }
+  void flush() {
+    consumer_(bytes_);
+    bytes_.clear();
+  }
+
+ private:
+  static constexpr std::size_t enough = std::size_t{1} << 17;
+  const ByteConsumer& consumer_;
+  std::string bytes_;
+};
 
 }  // namespace
 
@@ -45,16 +67,17 @@ std::string encode_window(const WindowTimes& times) {
   return out;
 }
 
-std::string encode_lines(std::uint32_t dimension, const WorldLines& lines) {
+std::uint64_t encoded_lines_size(std::uint32_t dimension, const WorldLines& lines) {
+  return lines.vertex_count() * sizeof(std::uint32_t) + count_breakpoints(lines) * (1 + dimension) * sizeof(double);
+}
+
+void encode_lines(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer) {
+  Parts parts(consumer);
   const auto vertex_count = static_cast<VertexId>(lines.vertex_count());
-  std::size_t breakpoints = 0;
-  for (VertexId v = 0; v < vertex_count; ++v) breakpoints += lines.times(v).size();
-  std::string out;
-  out.reserve(vertex_count * sizeof(std::uint32_t) + breakpoints * (1 + dimension) * sizeof(double));
-  for (VertexId v = 0; v < vertex_count; ++v) put(out, static_cast<std::uint32_t>(lines.times(v).size()));
-  for (VertexId v = 0; v < vertex_count; ++v) put_all(out, lines.times(v));
-  for (VertexId v = 0; v < vertex_count; ++v) put_positions(out, dimension, lines.positions(v));
-  return out;
+  for (VertexId v = 0; v < vertex_count; ++v) put(parts.next(), static_cast<std::uint32_t>(lines.times(v).size()));
+  for (VertexId v = 0; v < vertex_count; ++v) put_all(parts.next(), lines.times(v));
+  for (VertexId v = 0; v < vertex_count; ++v) put_positions(parts.next(), dimension, lines.positions(v));
+  parts.flush();
 }
 
 std::string encode_vectors(std::uint32_t dimension, std::span<const Position> vectors) {

@@ -88,13 +88,14 @@ struct WindowEnd {
 /// The file in the folder of a run.
 std::filesystem::path trajectory_path(const std::filesystem::path& run_folder);
 
-/// The block LINE, from its kind to its checksum, that record full writes for these world lines; and its SHA-256.
-std::string lines_block(std::uint32_t dimension, const WorldLines& lines);
+/// The block LINE, from its kind to its checksum, that record full writes for these world lines, part by part; and its
+/// SHA-256.
+void put_lines_block(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer);
 Sha256Digest lines_hash(std::uint32_t dimension, const WorldLines& lines);
 
 class RunReader;
 
-/// Writes a run. In memory: one window as bytes, and the positions at the end of the one before.
+/// Writes a run. In memory: the positions at the end of one window.
 ///   RunWriter writer(folder, scene);
 ///   writer.append_window({.index = 0, .lines = lines, .velocities = velocities});
 ///   writer.commit();

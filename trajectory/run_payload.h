@@ -45,7 +45,9 @@ std::string encode_head(const RunHeader& header);
 std::string encode_mesh(const Mesh& mesh);
 std::string encode_labels(std::span<const std::uint8_t> labels);
 std::string encode_window(const WindowTimes& times);
-std::string encode_lines(std::uint32_t dimension, const WorldLines& lines);
+/// World lines can be too many to be in memory twice.
+std::uint64_t encoded_lines_size(std::uint32_t dimension, const WorldLines& lines);
+void encode_lines(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer);
 std::string encode_vectors(std::uint32_t dimension, std::span<const Position> vectors);
 std::string encode_frame(std::uint32_t dimension, const RunFrame& frame);
 std::string encode_lines_hash(const LinesHash& hash);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/crc32c.h"
 #include "noli/trajectory/run_checks.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_payload.h"
@@ -56,15 +54,15 @@ void check_scene(const RunScene& scene) {
 
 std::filesystem::path trajectory_path(const std::filesystem::path& run_folder) { return run_folder / file_name; }
 
-std::string lines_block(std::uint32_t dimension, const WorldLines& lines) {
-  const std::string payload = run_block::encode_lines(dimension, lines);
-  std::string block = block_format::block_header(run_kind::lines, payload.size()) + payload;
-  put(block, crc32c(block));
-  return block;
+void put_lines_block(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer) {
+  const auto payload = [&](const ByteConsumer& take) { run_block::encode_lines(dimension, lines, take); };
+  put_block(run_kind::lines, run_block::encoded_lines_size(dimension, lines), payload, consumer);
 }
 
 Sha256Digest lines_hash(std::uint32_t dimension, const WorldLines& lines) {
-  return sha256(lines_block(dimension, lines));
+  Sha256 hash;
+  put_lines_block(dimension, lines, [&hash](std::string_view bytes) { hash.update(bytes); });
+  return hash.digest();
 }
 
 RunWriter::RunWriter(const std::filesystem::path& folder, const RunScene& scene)
@@ -125,7 +123,10 @@ void RunWriter::append_window(const WindowToWrite& window) {
   require_none(frames_problem(window.index, times.begin, end, window.frames));
   blocks_.append(run_kind::window, run_block::encode_window(times));
   if (header_.record == RecordMode::full) {
-    blocks_.append(run_kind::lines, run_block::encode_lines(header_.dimension, window.lines));
+    const auto payload = [&](const ByteConsumer& take) {
+      run_block::encode_lines(header_.dimension, window.lines, take);
+    };
+    blocks_.append(run_kind::lines, run_block::encoded_lines_size(header_.dimension, window.lines), payload);
   } else {
     append_frames(window, end);
   }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/crc32c.h"
 #include "run_samples.h"
@@ -55,6 +57,17 @@ TEST(BlockFile, HasTheBytesOfItsDefinition) {
   const Sha256Digest running = next_running_hash({}, sha256(first));
   EXPECT_EQ(file.bytes, first + raw_commit(0, first, {}) + second + raw_commit(1, second, running));
   EXPECT_EQ(writer.committed(), (CommitPoint{file.bytes.size(), 2, next_running_hash(running, sha256(second))}));
+}
+
+TEST(BlockFile, APayloadInPartsIsTheSame) {
+  MemoryFile file;
+  BlockWriter writer(sink_to(file), content);
+  const auto parts = [](const ByteConsumer& consumer) {
+    for (const char* part : {"pay", "", "load"}) consumer(part);
+  };
+  writer.append(kind_a, 7, parts);
+  EXPECT_EQ(file.bytes, file_header() + raw_block(kind_a, "payload"));
+  EXPECT_THROW(writer.append(kind_a, 8, parts), std::logic_error);
 }
 
 TEST(BlockFile, LettersAreInTheOrderTheyAreRead) {

@@ -12,7 +12,17 @@
 namespace noli {
 namespace {
 
-TEST(Crc32c, HasThePublishedCheckValue) { EXPECT_EQ(crc32c("123456789"), 0xE3069283u); }
+std::string random_text(std::size_t size) {
+  std::mt19937_64 random(size);
+  std::string text(size, '\0');
+  for (char& c : text) c = static_cast<char>(random());
+  return text;
+}
+
+TEST(Crc32c, HasThePublishedCheckValue) {
+  EXPECT_EQ(crc32c("123456789"), 0xE3069283u);
+  EXPECT_EQ(crc32c_plain("123456789"), 0xE3069283u);
+}
 
 TEST(Crc32c, HasTheValuesOfRfc3720) {
   std::string ascending, descending;
@@ -27,11 +37,16 @@ TEST(Crc32c, HasTheValuesOfRfc3720) {
   EXPECT_EQ(crc32c(""), 0u);
 }
 
-std::string random_text(std::size_t size) {
-  std::mt19937_64 random(size);
-  std::string text(size, '\0');
-  for (char& c : text) c = static_cast<char>(random());
-  return text;
+TEST(Crc32c, TheInstructionOfTheProcessorGivesWhatPlainCodeGives) {
+  if (!has_crc_instruction()) {
+    std::puts("skipped: this processor has no instruction for CRC-32C");
+    GTEST_SKIP();
+  }
+  const std::string text = random_text(100);
+  for (std::size_t size = 0; size <= text.size(); ++size) {
+    const std::string_view part = std::string_view(text).substr(0, size);
+    EXPECT_EQ(crc32c_plain(part, 7), crc32c_by_instruction(part, 7)) << size;
+  }
 }
 
 TEST(Crc32c, InPartsIsTheSame) {

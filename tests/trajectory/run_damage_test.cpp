@@ -23,7 +23,7 @@ bool same(const RunWindow& a, const RunWindow& b) {
                       w.state);
   };
   if (all(a) != all(b) || a.lines.has_value() != b.lines.has_value()) return false;
-  return !a.lines || lines_block(3, *a.lines) == lines_block(3, *b.lines);
+  return !a.lines || lines_hash(3, *a.lines) == lines_hash(3, *b.lines);
 }
 
 /// Whether `read` has all of `whole` but for the last windows.
