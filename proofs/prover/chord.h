@@ -41,6 +41,7 @@ namespace noli {
 template <int Dim>
 struct Chord {
   std::array<double, Dim> x_t0, x_t1, radius;
+  std::size_t inside;  ///< number of breakpoints b < t_k < e
 };
 
 /// The breakpoints of one vertex.
@@ -118,7 +119,7 @@ template <int Dim>
 Chord<Dim> chord_of(const WorldLine& line, double begin, double end) {
   const std::size_t first = line.segment_after(begin), last = line.segment_before(end);
   const auto a = detail::chord_end<Dim>(line, first, begin), b = detail::chord_end<Dim>(line, last, end);
-  Chord<Dim> chord{a.x, b.x, {}};
+  Chord<Dim> chord{a.x, b.x, {}, last - first};
   if (first == last && a.exact && b.exact) return chord;
   const auto strip = detail::deviations<Dim>(line, first + 1, last + 1, begin, end, a.x, b.x);
   for (std::size_t k = 0; k < Dim; ++k) {

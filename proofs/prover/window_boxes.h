@@ -1,23 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes of the groups of a hierarchy around chords, with their radii added: if on one axis the boxes of two groups are in
-// the same strict order at both ends of the window, it separates the world lines throughout.
+// Bounds of the groups of a forest over a span: boxes around the chords with their radii, and for sheets boxes around the
+// tangents.
 //
 // Notation
-//   phi      as in proofs/prover/hierarchy.h: a monotone map of coordinates to float, here the same at both ends
+//   box      as in proofs/prover/hierarchy.h: if on one axis the boxes of two groups are in the same strict order at both
+//            ends of the span, it separates the world lines throughout
+//   phi      as there, the same at both ends and for all trees
 //
-// What this does not do: it makes no hierarchy.
+// What this does not do: bounds below the roots are made only for the trees for which that is asked.
 #pragma once
 
 #include <vector>
 
-#include "noli/proofs/prover/hierarchy.h"
 #include "noli/proofs/prover/window_cell.h"
 
 namespace noli {
 
-/// The boxes of all nodes. `cells`: in the order of the leaves, their corners' chords over the window.
+/// phi, for one axis.
+struct Phi {
+  double middle = 0, scale = 1;
+  float operator()(double x) const { return static_cast<float>((x - middle) * scale); }
+};
+
 template <int Dim>
-std::vector<GroupBox> window_boxes(const std::vector<WindowCell<Dim>>& cells, int threads);
+class WindowBoxes {
+ public:
+  WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads);
+
+  /// Makes the bounds of all groups of some trees, given by their numbers.
+  void make(const std::vector<std::size_t>& trees);
+
+  /// Of the whole of a tree.
+  const GroupBox& root_box(std::size_t tree) const { return root_boxes_[tree]; }
+  const TangentBox& root_tangents(std::size_t tree) const { return root_tangents_[tree]; }
+  /// Of a group of a tree for which they were made; tangents only of groups of sheets.
+  const GroupBox& box(Group g) const { return boxes_[g.node]; }
+  const TangentBox& tangents(Group g) const { return tangents_[g.node]; }
+
+ private:
+  void find_phi();
+  void bound_roots();
+  GroupBox box_of(const VertexChord<Dim>& chord) const;
+  TangentBox tangents_of_leaf(std::size_t leaf) const;
+  void fit(Group g, bool sheet);
+  void join(Group g, bool sheet);
+
+  const Forest& forest_;
+  const WindowChords<Dim>& chords_;
+  int threads_;
+  std::array<Phi, Dim> phi_;
+  std::vector<GroupBox> root_boxes_, boxes_;
+  std::vector<TangentBox> root_tangents_, tangents_;
+};
 
 }  // namespace noli

@@ -8,21 +8,58 @@
 //            ends of a while, then n.(a - b) > 0 for the world lines throughout
 //   reach    as in proofs/prover/direction.h, whose error bound is 2^-47 |n|_1 reach: raised by 2^47 margin it is a
 //            bound for both. (The sum and products round by at most 5 u of the margin's share; 2^-40 is added to it.)
+//
+// What this does not do: it has no normal; `normal` is zero until somebody needs one.
 #pragma once
 
 #include <algorithm>
 
-#include "noli/proofs/prover/chord.h"
 #include "noli/proofs/prover/direction.h"
 #include "noli/proofs/prover/moving_cell.h"
+#include "noli/proofs/prover/window_chords.h"
 
 namespace noli {
 
 template <int Dim>
 struct WindowCell : MovingCell<Dim> {
   std::array<double, Dim> radius;
-  bool scripted;  ///< all its vertices are
 };
+
+namespace detail {
+
+template <int Dim>
+void set_corner(WindowCell<Dim>& cell, std::size_t i, const auto& chord) {
+  for (std::size_t k = 0; k < Dim; ++k) {
+    cell.x[0][k][i] = chord.x_t0[k];
+    cell.x[1][k][i] = chord.x_t1[k];
+    cell.radius[k] = std::max(cell.radius[k], static_cast<double>(chord.radius[k]));
+  }
+}
+
+template <int Dim>
+void set_names(WindowCell<Dim>& cell, const Leaf& leaf) {
+  cell.vertices = leaf.vertices;
+  cell.cell = leaf.cell;
+  cell.owned = leaf.owned;
+  cell.shared = leaf.shared;
+  cell.corners = leaf.corners;
+}
+
+}  // namespace detail
+
+/// The cell with the chords of its corners.
+template <int Dim>
+WindowCell<Dim> cell_of(const Leaf& leaf, const WindowChords<Dim>& chords) {
+  WindowCell<Dim> cell;
+  cell.normal = {};
+  cell.radius = {};
+  for (std::size_t i = 0; i < 3; ++i) detail::set_corner(cell, i, chords.of[leaf.vertices[i]]);
+  for (auto& end : cell.x) {
+    for (auto& axis : end) axis[3] = axis[2];
+  }
+  detail::set_names(cell, leaf);
+  return cell;
+}
 
 /// The cell with the chords over [begin, end] of the corners in a part; what it says about others is meaningless.
 template <int Dim>
@@ -31,15 +68,7 @@ WindowCell<Dim> over(const WindowCell<Dim>& cell, CornerMask part, const WorldLi
   c.radius = {};
   for (std::size_t i = 0; i < 3; ++i) {
     if ((part >> i & 1) == 0) continue;
-    const Chord<Dim> chord = chord_of<Dim>(WorldLine(lines, c.vertices[i]), begin, end);
-    for (std::size_t k = 0; k < Dim; ++k) {
-      c.x[0][k][i] = chord.x_t0[k];
-      c.x[1][k][i] = chord.x_t1[k];
-      c.radius[k] = std::max(c.radius[k], chord.radius[k]);
-    }
-  }
-  if constexpr (Dim == 3) {
-    if (part == all_corners(3)) c.normal = detail::mid_normal(c);
+    detail::set_corner(c, i, chord_of<Dim>(WorldLine(lines, c.vertices[i]), begin, end));
   }
   return c;
 }

@@ -29,12 +29,15 @@ class WindowPairs {
  public:
   using Cell = WindowCell<Dim>;
 
-  WindowPairs(const WorldLines& lines, const WindowOptions& options, WindowTally& tally)
-      : lines_(lines), initial_(options.initial), strict_(options.strict), tally_(tally) {}
+  WindowPairs(const WorldLines& lines, Span span, const WindowOptions& options, WindowTally& tally)
+      : lines_(lines),
+        span_(span),
+        initial_(options.initial && span.begin == lines.first_time()),
+        strict_(options.strict),
+        tally_(tally) {}
 
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
-    if (a.scripted && b.scripted) return;
     Progress progress{a, b, pairs_owned(a, b)};
     drop_shared(progress, {all_corners(a.corners), all_corners(b.corners)}, 0);
     if (!progress.open) return;
@@ -44,11 +47,10 @@ class WindowPairs {
 
   /// Settles the obligation about the features of one cell.
   void settle_self(const Cell& c) {
-    if (c.scripted) return;
     if (c.corners == 3) {
       for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
     } else if (strict_ && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1]) {
-      examine({FeaturePair::vertex_vertex, &c, corner_feature(0), &c, corner_feature(1)}, lines_.first_time());
+      examine({FeaturePair::vertex_vertex, &c, corner_feature(0), &c, corner_feature(1)}, span_.begin);
     }
   }
 
@@ -89,9 +91,8 @@ class WindowPairs {
   void settle_parts(Progress& progress, Parts parts) {
     const Cell &a = progress.a, &b = progress.b;
     const PairSet within = pairs_within(a, parts.a, b, parts.b);
-    const double begin = lines_.first_time(), end = lines_.last_time();
     std::optional<double> resisting;
-    const bool closed = apart(a, parts.a, b, parts.b) || settle_over(a, parts.a, b, parts.b, begin, end,
+    const bool closed = apart(a, parts.a, b, parts.b) || settle_over(a, parts.a, b, parts.b, span_.begin, span_.end,
                                                                      [&](const Cell&, const Cell&, double at, double) {
                                                                        resisting = at;
                                                                        return false;
@@ -104,7 +105,7 @@ class WindowPairs {
     const Cell &a = progress.a, &b = progress.b;
     progress.open = true;
     for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) examine(first_of(todo, a, b), begin);
-    if (initial_ && !progress.meets_at_begin && begin == lines_.first_time()) {
+    if (initial_ && !progress.meets_at_begin && begin == span_.begin) {
       progress.meets_at_begin = meet_at_begin<Dim>(at_begin(a), parts.a, at_begin(b), parts.b);
     }
   }
@@ -136,7 +137,7 @@ class WindowPairs {
     PartPair<Dim> pair = pair_of(a, a_part, b, b_part, place(a_part));
     pair.reach = raised(pair.reach, margin_of(a, b));
     const Direction<Dim> guess = between_middles(pair);
-    if (separates(pair, guess) != 0 || normal_separates(pair, a) || normal_separates(pair, b) ||
+    if (separates(pair, guess) != 0 || normal_separates(pair, a, a_part) || normal_separates(pair, b, b_part) ||
         find_direction(pair, guess, {}, search_rounds)) {
       ++tally_.obligations;
       return true;
@@ -144,8 +145,9 @@ class WindowPairs {
     return false;
   }
 
-  static bool normal_separates(const PartPair<Dim>& pair, const Cell& c) {
-    return Dim == 3 && c.corners == 3 && separates(pair, c.normal) != 0;
+  static bool normal_separates(const PartPair<Dim>& pair, const Cell& c, CornerMask part) {
+    if constexpr (Dim == 3) return part == all_corners(3) && separates(pair, detail::mid_normal(c)) != 0;
+    return false;
   }
 
   /// Settles two parts over [begin, end] by directions; calls resist(a, b, begin, end), with the chords of the piece, on
@@ -197,7 +199,7 @@ class WindowPairs {
     const VertexId v = c.vertices[corner];
     if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;
     const FeatureQuestion<Dim> question{FeaturePair::vertex_edge, &c, corner_feature(corner), &c, edge_feature(edge)};
-    if (!apart(c, part_of(question.first), c, part_of(question.second))) examine(question, lines_.first_time());
+    if (!apart(c, part_of(question.first), c, part_of(question.second))) examine(question, span_.begin);
   }
 
   static CornerMask part_of(const Feature& feature) {
@@ -206,12 +208,12 @@ class WindowPairs {
     return part;
   }
 
-  /// Settles a pair of features over [begin, T1].
+  /// Settles a pair of features over the span from `begin` on.
   void examine(const FeatureQuestion<Dim>& question, double begin) {
     const auto& a = static_cast<const Cell&>(*question.first_cell);
     const auto& b = static_cast<const Cell&>(*question.second_cell);
     std::optional<TimeEnclosure> first;
-    settle_piece(a, part_of(question.first), b, part_of(question.second), begin, lines_.last_time(),
+    settle_piece(a, part_of(question.first), b, part_of(question.second), begin, span_.end,
                  [&](const Cell& a_now, const Cell& b_now, double from, double to) {
                    first = ask_piece({question.pair, &a_now, question.first, &b_now, question.second}, from, to);
                    return !first;
@@ -236,6 +238,7 @@ class WindowPairs {
   }
 
   const WorldLines& lines_;
+  Span span_;
   bool initial_, strict_;
   WindowTally& tally_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The recursion over pairs of groups in a window: as proofs/prover/traversal.h, over boxes with radii.
+// The recursion over pairs of groups in a span of a window: as proofs/prover/traversal.h, over bounds with radii. Groups
+// of one sheet are settled at once where the sheet is monotone (proofs/prover/monotone.h).
 //
 // What this does not do: it makes no threads and adds nothing up.
 #pragma once
@@ -13,12 +14,19 @@
 
 namespace noli {
 
-/// What a traversal of a window reads.
+/// What a traversal of a span reads.
 template <int Dim>
 struct WindowScene {
   const WorldLines& lines;
-  const std::vector<WindowCell<Dim>>& cells;  ///< in the order of the leaves
-  const std::vector<GroupBox>& boxes;         ///< by node
+  const Forest& forest;
+  const WindowChords<Dim>& chords;
+  const WindowBoxes<Dim>& boxes;
+};
+
+/// A pair of groups, or a group with itself.
+struct WindowObligation {
+  Obligation groups;
+  const Tree* sheet;  ///< that both are groups of; nullptr: they are of different trees, or of one that is no sheet
 };
 
 template <int Dim>
@@ -30,21 +38,22 @@ class WindowTraversal {
         first_only_(options.first_only),
         stop_(stop),
         tally_(tally),
-        cell_pairs_(scene.lines, options, tally) {}
+        cell_pairs_(scene.lines, scene.chords.span, options, tally) {}
 
   /// From now on puts obligations about at most `grain` cells on the list.
-  void defer(std::uint32_t grain, std::vector<Obligation>& list) {
+  void defer(std::uint32_t grain, std::vector<WindowObligation>& list) {
     grain_ = grain;
     deferred_ = &list;
   }
 
   /// Settles an obligation. False if it was stopped, or found what first_only looks for, before the end.
-  bool run(const Obligation& obligation) {
-    stopped_ = stop_.raised();
-    if (obligation.self) {
-      settle_self(obligation.first);
+  bool run(const WindowObligation& obligation) {
+    stopped_ = stopped_ || stop_.raised();
+    sheet_ = obligation.sheet;
+    if (obligation.groups.self) {
+      settle_self(obligation.groups.first);
     } else {
-      settle(obligation.first, obligation.second);
+      settle(obligation.groups.first, obligation.groups.second);
     }
     return !stopped_;
   }
@@ -52,18 +61,26 @@ class WindowTraversal {
  private:
   /// How many pairs of groups are settled between two looks at the clock.
   static constexpr unsigned patience = 4096;
+  /// Pairs of fewer cells are settled one by one without asking whether the sheet is monotone around them.
+  static constexpr std::uint32_t worth_asking = 8;
 
   bool put_off(const Obligation& obligation) {
     const std::uint32_t size = obligation.first.count + (obligation.self ? 0 : obligation.second.count);
     if (deferred_ == nullptr || size > grain_) return false;
-    deferred_->push_back(obligation);
+    deferred_->push_back({obligation, sheet_});
     return true;
   }
 
   void settle_self(Group g) {
-    if (stopped_ || put_off({g, g, true})) return;
+    if (stopped_ || scene_.forest.scripted(g)) return;
+    if (sheet_ != nullptr && g.count >= worth_asking &&
+        monotone_around(scene_.boxes.tangents(g), scene_.forest.extent(g))) {
+      ++tally_.obligations;
+      return;
+    }
+    if (put_off({g, g, true})) return;
     if (g.is_leaf()) {
-      cell_pairs_.settle_self(scene_.cells[g.begin]);
+      cell_pairs_.settle_self(cell(g));
       return look_around();
     }
     settle_self(g.left());
@@ -72,7 +89,7 @@ class WindowTraversal {
   }
 
   void settle(Group a, Group b) {
-    if (axis_separates(scene_.boxes[a.node], scene_.boxes[b.node])) {
+    if (axis_separates(scene_.boxes.box(a), scene_.boxes.box(b))) {
       ++tally_.obligations;
     } else {
       take_apart(a, b);
@@ -80,10 +97,15 @@ class WindowTraversal {
   }
 
   [[gnu::noinline]] void take_apart(Group a, Group b) {
-    if (stopped_ || put_off({a, b, false})) return;
+    if (stopped_ || (scene_.forest.scripted(a) && scene_.forest.scripted(b))) return;
     if (++since_look_ >= patience) look_at_clock();
+    if (sheet_ != nullptr && a.count + b.count >= worth_asking && monotone_around(a, b)) {
+      ++tally_.obligations;
+      return;
+    }
+    if (put_off({a, b, false})) return;
     if (a.is_leaf() && b.is_leaf()) {
-      cell_pairs_.settle(scene_.cells[a.begin], scene_.cells[b.begin]);
+      cell_pairs_.settle(cell(a), cell(b));
       look_around();
     } else if (a.count >= b.count) {
       settle(a.left(), b);
@@ -92,6 +114,29 @@ class WindowTraversal {
       settle(a, b.left());
       settle(a, b.right());
     }
+  }
+
+  WindowCell<Dim> cell(Group g) const { return cell_of(scene_.forest.leaf(g), scene_.chords); }
+
+  bool monotone_around(Group a, Group b) const {
+    const TangentBox both = merged(scene_.boxes.tangents(a), scene_.boxes.tangents(b));
+    return monotone_around(both, merged(scene_.forest.extent(a), scene_.forest.extent(b)));
+  }
+
+  /// Whether the sheet is monotone in a rectangle, given the tangents of some of its faces.
+  bool monotone_around(TangentBox tangents, const Extent& extent) const {
+    return is_monotone(tangents, Dim) && add_tangents(sheet_->root, extent, tangents);
+  }
+
+  /// Adds the tangents of the faces of a group that are laid out in a rectangle. False if nothing is monotone then.
+  bool add_tangents(Group g, const Extent& extent, TangentBox& tangents) const {
+    if (!scene_.forest.extent(g).meets(extent)) return true;
+    const TangentBox more = merged(tangents, scene_.boxes.tangents(g));
+    if (is_monotone(more, Dim)) {
+      tangents = more;
+      return true;
+    }
+    return !g.is_leaf() && add_tangents(g.left(), extent, tangents) && add_tangents(g.right(), extent, tangents);
   }
 
   void look_around() {
@@ -108,8 +153,9 @@ class WindowTraversal {
   const StopSignal& stop_;
   WindowTally& tally_;
   WindowPairs<Dim> cell_pairs_;
+  const Tree* sheet_ = nullptr;
   std::uint32_t grain_ = 0;
-  std::vector<Obligation>* deferred_ = nullptr;
+  std::vector<WindowObligation>* deferred_ = nullptr;
   unsigned since_look_ = 0;
   bool stopped_ = false;
 };

@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "noli/kernel/parallel.h"
-#include "noli/proofs/prover/window_owners.h"
 #include "noli/proofs/prover/window_traversal.h"
 
 namespace noli {
@@ -17,33 +16,16 @@ namespace {
 constexpr std::uint32_t grain_share = 256;
 constexpr std::uint32_t least_grain = 64;
 
-/// Runs body(begin, end) on consecutive pieces of [0, count), in parallel.
-template <class Body>
-void in_pieces(std::size_t count, int threads, const Body& body) {
-  constexpr std::size_t piece = 1024;
-  parallel_for((count + piece - 1) / piece, threads,
-               [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
-}
+/// A span is cut if more than one vertex of so many is restless in it, and a vertex has on average more breakpoints
+/// inside than that.
+constexpr std::size_t few = 16;
+constexpr std::size_t worth_cutting = 8;
 
 /// What one task leaves behind.
 struct Outcome {
   WindowTally tally;
   bool finished = false;
 };
-
-/// Positions of all vertices at T0 and T1.
-struct Ends {
-  std::vector<Position> x_t0, x_t1;
-};
-
-Ends ends_of(const WorldLines& lines) {
-  Ends ends;
-  for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
-    ends.x_t0.push_back(lines.positions(static_cast<VertexId>(v)).front());
-    ends.x_t1.push_back(lines.positions(static_cast<VertexId>(v)).back());
-  }
-  return ends;
-}
 
 VerifyOptions when_to_stop(const WindowOptions& options) {
   VerifyOptions result;
@@ -52,74 +34,121 @@ VerifyOptions when_to_stop(const WindowOptions& options) {
   return result;
 }
 
-/// One verification of one window.
-template <int Dim>
-class Verification {
+/// What tells the caller how it goes: one thread at a time, never backwards.
+class Progress {
  public:
-  Verification(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options)
-      : lines_(lines),
-        options_(options),
-        stop_(when_to_stop(options)),
-        top_{WindowTally(options.max_reports, WindowEarliest(lines, Dim))} {
-    const Ends ends = ends_of(lines);
-    const Hierarchy hierarchy(mesh, ends.x_t0, ends.x_t1, Dim, options.threads);
-    gather_cells(mesh, hierarchy);
-    boxes_ = window_boxes(cells_, options.threads);
-  }
+  Progress(const WindowOptions& options, const WorldLines& lines)
+      : options_(options), begin_(lines.first_time()), end_(lines.last_time()) {}
 
-  WindowResult run() {
-    const Outcome blank = top_;
-    cut_into_tasks();
-    outcomes_.assign(tasks_.size(), blank);
-    parallel_for(tasks_.size(), options_.threads, [this](std::size_t i) { run_task(i); });
-    return add_up();
+  /// So many of the tasks of a span are done.
+  void begin(Span span, std::size_t tasks) {
+    span_ = span;
+    tasks_ = tasks;
+    done_ = 0;
+    if (tasks == 0) tell(share(span.end));
+  }
+  void task_done() {
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    const double part = static_cast<double>(done_) / static_cast<double>(tasks_);
+    tell(done_ == tasks_ ? share(span_.end) : share(span_.begin) + part * (share(span_.end) - share(span_.begin)));
   }
 
  private:
-  void gather_cells(const Mesh& mesh, const Hierarchy& hierarchy) {
-    CellFeatures features = find_owners(mesh, options_.strict);
-    const std::vector<std::uint8_t> scripted = scripted_cells(mesh, options_.scripted);
-    prefer_free_owners(mesh, scripted, features);
-    const auto order = hierarchy.leaf_cells();
-    cells_.resize(order.size());
-    in_pieces(order.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        cells_[i] = gather_cell(mesh, features, order[i]);
-        cells_[i].scripted = scripted[order[i]] != 0;
+  double share(double t) const { return t == end_ ? 1 : (t - begin_) / (end_ - begin_); }
+
+  void tell(double share) {
+    if (!options_.progress || !(share > told_)) return;
+    told_ = share;
+    options_.progress(share);
+  }
+
+  const WindowOptions& options_;
+  double begin_, end_;
+  Span span_{};
+  std::size_t tasks_ = 0, done_ = 0;
+  double told_ = 0;
+  std::mutex mutex_;
+};
+
+/// The walk over one span.
+template <int Dim>
+class SpanWalk {
+ public:
+  SpanWalk(const WorldLines& lines, const Forest& forest, const WindowChords<Dim>& chords, const WindowOptions& options,
+           const StopSignal& stop, Progress& progress)
+      : forest_(forest),
+        options_(options),
+        stop_(stop),
+        progress_(progress),
+        boxes_(forest, chords, options.threads),
+        scene_{lines, forest, chords, boxes_},
+        top_{WindowTally(options.max_reports, WindowEarliest(lines, Dim))} {}
+
+  Outcome run() {
+    const Outcome blank = top_;
+    const std::vector<WindowObligation> open = settle_roots();
+    cut_into_tasks(open);
+    outcomes_.assign(tasks_.size(), blank);
+    progress_.begin(scene_.chords.span, tasks_.size());
+    parallel_for(tasks_.size(), options_.threads, [this](std::size_t i) { run_task(i); });
+    add_up();
+    return std::move(top_);
+  }
+
+ private:
+  /// The obligations that are not settled for whole trees, with the bounds that they need.
+  std::vector<WindowObligation> settle_roots() {
+    const auto& trees = forest_.trees();
+    std::vector<WindowObligation> open;
+    std::vector<bool> needed(trees.size(), false);
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      const Group a = trees[i].root;
+      if (forest_.scripted(a)) continue;
+      if (trees[i].sheet && is_monotone(boxes_.root_tangents(i), Dim)) {
+        ++top_.tally.obligations;
+      } else {
+        open.push_back({{a, a, true}, trees[i].sheet ? &trees[i] : nullptr});
+        needed[i] = true;
       }
-    });
+    }
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      for (std::size_t j = i + 1; j < trees.size(); ++j) {
+        const Group a = trees[i].root, b = trees[j].root;
+        if (forest_.scripted(a) && forest_.scripted(b)) continue;
+        if (axis_separates(boxes_.root_box(i), boxes_.root_box(j))) {
+          ++top_.tally.obligations;
+        } else {
+          open.push_back({{a, b, false}, nullptr});
+          needed[i] = needed[j] = true;
+        }
+      }
+    }
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      if (needed[i]) list.push_back(i);
+    }
+    boxes_.make(list);
+    return open;
   }
 
-  WindowCell<Dim> gather_cell(const Mesh& mesh, const CellFeatures& features, std::uint32_t cell) const {
-    WindowCell<Dim> c{};
-    c.vertices = corners(mesh, cell);
-    c.cell = cell;
-    c.owned = features.owned[cell];
-    c.shared = features.shared[cell];
-    c.corners = static_cast<std::uint8_t>(corner_count(mesh, cell));
-    c = over(c, all_corners(3), lines_, lines_.first_time(), lines_.last_time());
-    return c;
-  }
-
-  WindowScene<Dim> scene() const { return {lines_, cells_, boxes_}; }
-
-  /// Walks the top of the tree, where there is little to do, and lists what is below.
-  void cut_into_tasks() {
-    const WindowScene<Dim> all = scene();
-    WindowTraversal<Dim> traversal(all, options_, stop_, top_.tally);
-    const Group root{0, 0, static_cast<std::uint32_t>(cells_.size())};
-    traversal.defer(std::max(root.count / grain_share, least_grain), tasks_);
-    top_.finished = traversal.run({root, root, true});
+  /// Walks the top of the trees, where there is little to do, and lists what is below.
+  void cut_into_tasks(const std::vector<WindowObligation>& open) {
+    WindowTraversal<Dim> traversal(scene_, options_, stop_, top_.tally);
+    const auto cells = static_cast<std::uint32_t>(forest_.leaves().size());
+    traversal.defer(std::max(cells / grain_share, least_grain), tasks_);
+    top_.finished = !stop_.raised();
+    for (const WindowObligation& obligation : open) top_.finished = top_.finished && traversal.run(obligation);
   }
 
   void run_task(std::size_t i) {
     if (i > first_found_) return;
-    const WindowScene<Dim> all = scene();
     Outcome& outcome = outcomes_[i];
-    WindowTraversal<Dim> traversal(all, options_, stop_, outcome.tally);
+    WindowTraversal<Dim> traversal(scene_, options_, stop_, outcome.tally);
     outcome.finished = traversal.run(tasks_[i]);
     if (options_.first_only && outcome.tally.found_any()) lower_first_found(i);
-    if (options_.progress) tell_progress();
+    progress_.task_done();
   }
 
   void lower_first_found(std::size_t i) {
@@ -128,21 +157,44 @@ class Verification {
     }
   }
 
-  void tell_progress() {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    options_.progress(static_cast<double>(done_) / static_cast<double>(tasks_.size()));
-  }
-
   /// Tasks after the one that first_only ended at do not count: whether they ran depends on the threads.
-  WindowResult add_up() {
-    bool complete = top_.finished;
+  void add_up() {
     for (std::size_t i = 0; i < outcomes_.size() && i <= first_found_; ++i) {
       top_.tally += outcomes_[i].tally;
-      complete = complete && outcomes_[i].finished;
+      top_.finished = top_.finished && outcomes_[i].finished;
     }
-    WindowTally& sum = top_.tally;
-    return {complete,
+  }
+
+  const Forest& forest_;
+  const WindowOptions& options_;
+  const StopSignal& stop_;
+  Progress& progress_;
+  WindowBoxes<Dim> boxes_;
+  WindowScene<Dim> scene_;
+  std::vector<WindowObligation> tasks_;
+  std::vector<Outcome> outcomes_;
+  std::atomic<std::size_t> first_found_ = std::numeric_limits<std::size_t>::max();
+  Outcome top_;  ///< of the walk over the top, then the sum of all
+};
+
+/// One verification of one window.
+template <int Dim>
+class Verification {
+ public:
+  Verification(const WorldLines& lines, const Forest& forest, const WindowOptions& options)
+      : lines_(lines),
+        forest_(forest),
+        options_(options),
+        stop_(when_to_stop(options)),
+        progress_(options, lines),
+        sum_{WindowTally(options.max_reports, WindowEarliest(lines, Dim)), true} {}
+
+  WindowResult run() {
+    const Span window{lines_.first_time(), lines_.last_time()};
+    WindowChords<Dim> chords = chords_over<Dim>(window, lines_, forest_, options_.threads);
+    if (!cut_time(chords) || !settle_halves(window)) sum_ = walk(chords);
+    WindowTally& sum = sum_.tally;
+    return {sum_.finished,
             sum.contacts,
             sum.initial_intersections,
             sum.reports.take(),
@@ -153,25 +205,73 @@ class Verification {
             sum.cell_pairs};
   }
 
+ private:
+  static double middle(Span span) { return span.begin + 0.5 * (span.end - span.begin); }
+
+  /// Whether shorter spans are worth their while.
+  bool cut_time(const WindowChords<Dim>& chords) const {
+    const double cut = middle(chords.span);
+    return chords.restless * few > chords.of.size() && chords.inside > worth_cutting * chords.of.size() &&
+           chords.span.begin < cut && cut < chords.span.end;
+  }
+
+  Outcome walk(const WindowChords<Dim>& chords) {
+    return SpanWalk<Dim>(lines_, forest_, chords, options_, stop_, progress_).run();
+  }
+
+  /// False as soon as something meets.
+  bool settle_span(Span span) {
+    const WindowChords<Dim> chords = chords_over<Dim>(span, lines_, forest_, options_.threads);
+    if (cut_time(chords)) return settle_halves(span);
+    const Outcome outcome = walk(chords);
+    if (outcome.tally.found_any()) return false;
+    sum_.tally += outcome.tally;
+    sum_.finished = sum_.finished && outcome.finished;
+    return true;
+  }
+
+  bool settle_halves(Span span) {
+    return settle_span({span.begin, middle(span)}) && settle_span({middle(span), span.end});
+  }
+
   const WorldLines& lines_;
+  const Forest& forest_;
   const WindowOptions& options_;
   StopSignal stop_;
-  std::vector<WindowCell<Dim>> cells_;
-  std::vector<GroupBox> boxes_;
-  std::vector<Obligation> tasks_;
-  std::vector<Outcome> outcomes_;
-  std::atomic<std::size_t> first_found_ = std::numeric_limits<std::size_t>::max();
-  std::mutex mutex_;
-  std::size_t done_ = 0;
-  Outcome top_;  ///< of the walk over the top, then the sum of all
+  Progress progress_;
+  Outcome sum_;
 };
+
+std::vector<Position> begin_of(const WorldLines& lines) {
+  std::vector<Position> x;
+  x.reserve(lines.vertex_count());
+  for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
+    x.push_back(lines.positions(static_cast<VertexId>(v)).front());
+  }
+  return x;
+}
 
 }  // namespace
 
+WindowVerifier::WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options)
+    : dimension_(options.dimension), strict_(options.strict) {
+  if (mesh.cell_count() == 0) return;
+  forest_ = std::make_unique<const Forest>(mesh, x, ForestOptions{dimension_, strict_, options.scripted});
+}
+
+WindowVerifier::~WindowVerifier() = default;
+WindowVerifier::WindowVerifier(WindowVerifier&&) noexcept = default;
+WindowVerifier& WindowVerifier::operator=(WindowVerifier&&) noexcept = default;
+
+WindowResult WindowVerifier::verify(const WorldLines& lines, const WindowOptions& options) const {
+  if (forest_ == nullptr) return {};
+  WindowOptions all = options;
+  all.strict = strict_;
+  return dimension_ == 2 ? Verification<2>(lines, *forest_, all).run() : Verification<3>(lines, *forest_, all).run();
+}
+
 WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options) {
-  if (mesh.cell_count() == 0) return {};
-  return options.dimension == 2 ? Verification<2>(mesh, lines, options).run()
-                                : Verification<3>(mesh, lines, options).run();
+  return WindowVerifier(mesh, begin_of(lines), options).verify(lines, options);
 }
 
 }  // namespace noli

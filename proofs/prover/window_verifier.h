@@ -3,21 +3,24 @@
 // Did anything touch in this window of a run? Exact, for vertices with breakpoints of their own.
 //
 // Notation
-//   window   [T0, T1], the common first and last time of all world lines; between its own breakpoints each vertex
-//            moves linearly
+//   window   [T0, T1], the common first and last time of all world lines; between its own breakpoints each vertex moves
+//            linearly
+//   span     a part of the window. Where many vertices stray far from straight lines the window is cut in spans, unless
+//            something meets: then it is walked through once more in one, so that each pair counts once
 //   chord    a straight line near a world line over a while, with the radius by which it strays (proofs/prover/chord.h)
 //   scripted pairs   pairs of cells all of whose vertices are scripted: not looked at
 //
 // Which pairs of features are counted: as in proofs/prover/verifier.h, each once if it meets anywhere in the closed
-// window. The same walk over pairs of groups, but over chords: boxes and directions have to hold with the radii added.
-// Where they do not, time is cut for the pair of cells in question, until a direction holds or no breakpoint is left
-// inside; then each of its pairs of features is cut further in the same way, and what resists in a piece without
-// breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
+// window. In order of cost: sheets that are monotone as a whole (proofs/prover/monotone.h); the walk over pairs of groups,
+// over chords, where boxes and directions have to hold with the radii added; time cut for the pair of cells in question,
+// until a direction holds or no breakpoint is left inside; each of its pairs of features the same way; and what resists
+// in a piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
 //
 // What this does not do: it writes no proof, knows no thickness, and reads no files.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +32,8 @@
 #include "noli/trajectory/world_lines.h"
 
 namespace noli {
+
+class Forest;
 
 /// Fields as in VerifyOptions where they are called so.
 struct WindowOptions {
@@ -69,10 +74,31 @@ struct WindowResult {
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
 };
 
-/// Verifies one window. Preconditions: the lines have mesh.vertex_count vertices, every index of the mesh is below that,
-/// there are fewer than 2^31 cells, `scripted` is empty or has an entry for each vertex. In two dimensions the third
-/// coordinate is not looked at. Deterministic, for any number of threads, as verify_step is. Memory is linear in the
-/// mesh, beside the lines. Throws std::bad_alloc, and what `progress` throws.
+/// Verifies windows of one run, one after another.
+class WindowVerifier {
+ public:
+  /// Takes what does not change from window to window: `x`, a position for each vertex, decides how cells are grouped and
+  /// laid out, not what is answered; best is where the run begins, or a rest shape. Of the options it takes dimension,
+  /// strict and scripted, which hold from now on. Preconditions: there are x.size() = mesh.vertex_count vertices, every
+  /// index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is empty or has an entry for each vertex.
+  /// O(n log n).
+  WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options);
+  ~WindowVerifier();
+  WindowVerifier(WindowVerifier&&) noexcept;
+  WindowVerifier& operator=(WindowVerifier&&) noexcept;
+
+  /// Precondition: the lines have as many vertices as the mesh. In two dimensions the third coordinate is not looked at.
+  /// Deterministic, for any number of threads, as verify_step is. Memory is linear in the mesh, beside the lines. May be
+  /// called from several threads at once. Throws std::bad_alloc, and what `progress` throws.
+  WindowResult verify(const WorldLines& lines, const WindowOptions& options) const;
+
+ private:
+  std::unique_ptr<const Forest> forest_;  ///< nullptr if there are no cells
+  int dimension_;
+  bool strict_;
+};
+
+/// The same for one window only, grouped by where it begins.
 WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options);
 
 }  // namespace noli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The cells of a mesh in binary trees: one for each sheet, one for all the rest. It depends on the mesh and one set of
+// positions only, so it is made once for a run.
+//
+// Notation
+//   tree     as in proofs/prover/hierarchy.h: a node over m > 1 leaves has the first m / 2 in its left child; nodes and
+//            leaves of all trees are numbered through
+//   sheet    as in proofs/prover/layout.h; its tree splits the layout, that of the rest the positions
+//   extent   of a group of a sheet: the rectangle that its layout fills, rounded outwards
+//
+// What this does not do: it knows of no motion.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "noli/proofs/prover/features.h"
+#include "noli/proofs/prover/monotone.h"
+
+namespace noli {
+
+/// What is known of a cell whatever it does.
+struct Leaf {
+  std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/features.h
+  std::uint32_t cell;
+  FeatureMask owned, shared;
+  std::uint8_t corners;
+  bool scripted;  ///< all its vertices are
+};
+
+/// A closed rectangle.
+struct Extent {
+  float low_u, low_v, high_u, high_v;
+
+  bool meets(const Extent& other) const {
+    return low_u <= other.high_u && other.low_u <= high_u && low_v <= other.high_v && other.low_v <= high_v;
+  }
+};
+
+inline Extent merged(const Extent& a, const Extent& b) {
+  return {std::min(a.low_u, b.low_u), std::min(a.low_v, b.low_v), std::max(a.high_u, b.high_u),
+          std::max(a.high_v, b.high_v)};
+}
+
+struct Tree {
+  Group root;
+  bool sheet = false;
+  std::vector<VertexId> vertices;  ///< those of its cells, ascending
+};
+
+struct ForestOptions {
+  int dimension = 3;
+  bool strict = false;                     ///< as in VerifyOptions
+  std::span<const std::uint8_t> scripted;  ///< as in WindowOptions
+};
+
+/// Preconditions: as verify_window; `x` has a position for each vertex; at least one cell.
+class Forest {
+ public:
+  Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options);
+
+  /// Sheets first.
+  const std::vector<Tree>& trees() const { return trees_; }
+  std::size_t node_count() const { return scripted_.size(); }
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+  const Leaf& leaf(Group g) const { return leaves_[g.begin]; }
+  /// Whether all cells of a group are scripted.
+  bool scripted(Group g) const { return scripted_[g.node] != 0; }
+
+  /// The tree of the sheet that a vertex is in.
+  static constexpr std::uint32_t no_sheet = ~std::uint32_t{0};
+  std::uint32_t sheet_of(VertexId v) const { return sheet_of_[v]; }
+  /// Of the edges of cells that end in a vertex, the shortest one's length at the given positions; infinite if none does.
+  float size(VertexId v) const { return sizes_[v]; }
+
+  /// By leaf and by node, for those in sheets.
+  const LaidFace& laid_face(std::size_t leaf) const { return laid_faces_[leaf]; }
+  const Extent& extent(Group g) const { return extents_[g.node]; }
+
+ private:
+  void add_tree(bool sheet, std::size_t begin, std::size_t end);
+  void finish(Group g, std::span<const Point2> layout, bool sheet);
+
+  std::vector<Tree> trees_;
+  std::vector<Leaf> leaves_;
+  std::vector<LaidFace> laid_faces_;
+  std::vector<std::uint8_t> scripted_;
+  std::vector<Extent> extents_;
+  std::vector<std::uint32_t> sheet_of_;
+  std::vector<float> sizes_;
+};
+
+}  // namespace noli
