@@ -11,8 +11,7 @@
 //            second cell the other one. Faces look to +z
 //   ribbon   rows across the band, from first to last; a row's direction is that of the one before, made perpendicular to
 //            the curve. Faces as those of a grid with the curve as its x
-//   disc     the centre, then rings of 6, 12, 18, ... vertices; only the three diagonals of the hexagon, not its axes, are
-//            symmetric bit for bit. Faces look to +z
+//   disc     the centre, then rings of 6, 12, 18, ... vertices. Faces look to +z
 //   rod      segments + 1 rings of vertices from -length/2 to length/2, then the middles of the caps. Faces look outward
 //   sphere   the icosahedron's 12 vertices, then the middles of edges, level by level. Faces look outward
 //   box      faces look outward

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "noli/integrator/groups.h"
@@ -133,27 +134,23 @@ void add_groups(ForceKind kind, const std::vector<double>& steps, Clocks clocks,
   }
 }
 
-/// Breakpoints a second of a vertex: steps of groups are multiples of each other, others are not.
+/// Breakpoints a second of a vertex that can move. Windows end at a rate of their own; steps of groups are parts of one
+/// another and of the window, so the shortest has the breakpoints of all; others share none.
 template <int Dim>
-double rate(const std::vector<Pull<Dim>>& pulls, const std::optional<Gravity<double, Dim>>& gravity, Clocks clocks) {
-  double fastest = 0, sum = 0;
-  for (const Pull<Dim>& pull : pulls) {
-    fastest = std::max(fastest, 1 / pull.beat.second);
-    sum += 1 / pull.beat.second;
-  }
-  const double of_forces = clocks == Clocks::grouped ? fastest : sum;
-  if (!gravity) return of_forces;
-  const double ratio =
-      1 / (gravity->step * of_forces);  // gravity's clock is its own; it may be a multiple all the same
-  return of_forces > 0 && ratio == std::ceil(ratio) ? of_forces : of_forces + 1 / gravity->step;
+double rate(const std::vector<Pull<Dim>>& pulls, const Model<double, Dim>& model) {
+  std::set<double> steps{model.window_length};
+  for (const Pull<Dim>& pull : pulls) steps.insert(pull.beat.second);
+  if (model.gravity) steps.insert(model.gravity->step);
+  if (model.clocks == Clocks::grouped) return 1 / *steps.begin();
+  double sum = 0;
+  for (const double h : steps) sum += 1 / h;
+  return sum;
 }
 
 template <int Dim>
 double breakpoint_rate(const Scene& scene, const Model<double, Dim>& model, const AtVertices<Dim>& at) {
-  double sum = static_cast<double>(model.x.size()) / scene.window;  // windows' ends
-  for (std::size_t v = 0; v < at.pulls.size(); ++v) {
-    if (at.free[v]) sum += rate(at.pulls[v], model.gravity, model.clocks);
-  }
+  double sum = 0;
+  for (std::size_t v = 0; v < at.pulls.size(); ++v) sum += at.free[v] ? rate(at.pulls[v], model) : 1 / scene.window;
   for (const auto& script : model.scripts) sum += static_cast<double>(script.times.size()) / scene.duration;
   return sum;
 }

@@ -167,11 +167,12 @@ class Validator {
 
   void check_size(const Json& schema, const Json& value, const Json::json_pointer& at, const char* least,
                   const char* most, const char* noun) const {
+    const Json found = value.is_object() ? Json(keys(value)) : value;
     if (schema.contains(least) && value.size() < schema[least]) {
-      expected(schema, value, at, "at least " + counted(schema[least], noun));
+      expected(schema, found, at, "at least " + counted(schema[least], noun));
     }
     if (schema.contains(most) && value.size() > schema[most]) {
-      expected(schema, value, at, "at most " + counted(schema[most], noun));
+      expected(schema, found, at, "at most " + counted(schema[most], noun));
     }
   }
 
