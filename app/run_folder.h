@@ -20,14 +20,21 @@ class RunFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Makes the folder and its manifest, with the scene as it was read: overrides applied, defaults filled in. Throws
-  /// UsageError when there is something by that name; with `force` a run that is there is removed first, but nothing
-  /// that is no run.
-  void make(const Json& scene, bool force);
+  /// Makes the folder. Throws UsageError when there is something by that name; with `force` a run that is there is
+  /// removed first, but nothing that is no run.
+  void make(bool force);
 
-  /// Finds a run to go on with. Throws UsageError when there is none, InputError when it is one of another scene. The
-  /// duration, the title and what is only looked at may differ.
-  void require_same(const Json& scene);
+  /// Writes the manifest, with the scene as it was read: overrides applied, defaults filled in. From now on the run has
+  /// begun: without a manifest there is none to go on with.
+  void begin(const Json& scene);
+
+  /// Whether there is a run to go on with, and not just what is left of one that ended before it began. Throws
+  /// UsageError when the folder is no run at all.
+  bool has_begun() const;
+
+  /// Goes on with it. Throws InputError when it is one of another scene. The duration, the title and what is only looked
+  /// at may differ.
+  void go_on(const Json& scene);
 
   /// A line of the log for a window that has been committed.
   void log(std::uint64_t window, const SeriesRow& row);

@@ -188,13 +188,15 @@ class Run {
   }
 
   void open(const Scene& scene) {
-    if (!request_.resume) {
-      folder_.make(scene.document, request_.force);
+    const bool go_on = request_.resume && folder_.has_begun();
+    if (!go_on) {
+      folder_.make(request_.force || request_.resume);
       writer_.emplace(folder_.path(), run_scene(scene));
+      folder_.begin(scene.document);
       simulation_.emplace(built_.model);
       return;
     }
-    folder_.require_same(scene.document);
+    folder_.go_on(scene.document);
     RunReader reader(folder_.path());
     if (reader.scene() != run_scene(scene)) {
       throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");

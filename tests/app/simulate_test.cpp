@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+#include "noli/trajectory/frames.h"
+
+namespace noli::app_tests {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Simulate : public testing::Test {
+ protected:
+  std::string scene(const Json& json) const { return folder.write("scene.json", json.dump(2)); }
+  std::string run_path(const std::string& name) const { return folder.path(name); }
+  std::string blocks(const std::string& run) const {
+    return bytes_of(fs::path(folder.path(run)) / "trajectory.blocks");
+  }
+
+  /// A small sheet that hangs by two corners and swings.
+  static Json hanging_sheet() {
+    return Json::parse(R"({
+      "noli_scene": 1, "title": "hanging sheet", "duration": 0.25, "window": 0.01, "gravity": [0, 0, -9.81],
+      "bodies": [{"name": "sheet", "mesh": {"grid": {"size": [1, 1], "cells": [6, 6]}}, "perturb": 1e-3,
+                  "material": {"young": 2e4, "poisson": 0.3, "density": 200, "thickness": 0.001, "bending": 100},
+                  "pin": [0, 6]}]})");
+  }
+
+  /// A triangle whose lowest corner comes down through one that rests: all numbers are short, so the first time is
+  /// 0.3125 s exactly.
+  Json falling_triangle() const {
+    folder.write("level.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("upright.obj", "v 0 -0.25 0.3125\nv -0.25 -0.25 1\nv 0.25 -0.25 1\nf 1 2 3\n");
+    return Json::parse(R"({
+      "noli_scene": 1, "title": "falling triangle", "duration": 1, "window": 0.0078125,
+      "bodies": [{"name": "level", "mesh": {"file": "level.obj"},
+                  "material": {"young": 1e4, "density": 200, "thickness": 0.001}},
+                 {"name": "upright", "mesh": {"file": "upright.obj"},
+                  "material": {"young": 1e4, "density": 200, "thickness": 0.001}}],
+      "scripts": [{"body": "upright", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 1, "move": [0, 0, -1]}]}]})");
+  }
+
+  Folder folder;
+};
+
+TEST_F(Simulate, CommitsWhatTouchesNothing) {
+  const Json json = json_of({"simulate", scene(hanging_sheet()), "-o", run_path("run")}, 0);
+  EXPECT_EQ(json["verdict"], "no_contact");
+  EXPECT_EQ(json["end"], "done");
+  EXPECT_EQ(json["windows"], 25);
+  EXPECT_EQ(json["time"], 0.25);
+  EXPECT_EQ(json["first"], nullptr);
+  for (const char* file : {"manifest.json", "scene.json", "trajectory.blocks", "log.jsonl"}) {
+    EXPECT_TRUE(fs::exists(fs::path(folder.path("run")) / file)) << file;
+  }
+  const Json verified = json_of({"verify", run_path("run")}, 0);
+  EXPECT_EQ(verified["verdict"], "no_contact");
+  EXPECT_EQ(verified["steps"], 25);
+  EXPECT_EQ(verified["faces"], 72);
+}
+
+TEST_F(Simulate, EndsAtTheFirstContactAndNamesIt) {
+  const std::string file = scene(falling_triangle());
+  const Json json = json_of({"simulate", file, "-o", run_path("run")}, 1);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_EQ(json["first_time"], 0.3125);
+  EXPECT_EQ(json["first"]["pair"], "vertex_face");
+  EXPECT_EQ(json["first"]["features"], Json::parse("[[3], [0, 1, 2]]"));
+  EXPECT_EQ(json["windows"], 39);  // 39 * 2^-7 < 0.3125 <= 40 * 2^-7
+  const Json verified = json_of({"verify", run_path("run")}, 0);
+  EXPECT_EQ(verified["steps"], 39);
+  // A little less, and nothing touches.
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("short"), "--until", "0.3"}).exit_code, 0);
+}
+
+TEST_F(Simulate, ABeginningInContactIsRefusedWithItsPairs) {
+  Json json = falling_triangle();
+  json["bodies"][1]["transform"] = {{"translate", {0, 0, -0.3125}}};
+  const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("vertex upright[0] meets face level[0]-level[1]-level[2]"), std::string::npos)
+      << process.err;
+  EXPECT_FALSE(fs::exists(folder.path("run")));
+}
+
+TEST_F(Simulate, ThreadsChangeNoByte) {
+  const std::string file = scene(hanging_sheet());
+  for (const char* threads : {"1", "2", "5"}) {
+    EXPECT_EQ(run_noli({"simulate", file, "-o", run_path(threads), "--threads", threads}).exit_code, 0);
+  }
+  EXPECT_FALSE(blocks("1").empty());
+  EXPECT_TRUE(blocks("1") == blocks("2"));
+  EXPECT_TRUE(blocks("1") == blocks("5"));
+}
+
+TEST_F(Simulate, ResumingGivesTheBytesOfTheWholeRun) {
+  const std::string file = scene(hanging_sheet());
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("parts"), "--until", "0.07"}).exit_code, 0);
+  EXPECT_FALSE(blocks("parts") == blocks("whole"));
+  const Json json = json_of({"simulate", file, "-o", run_path("parts"), "--resume"}, 0);
+  EXPECT_EQ(json["timing"]["windows_before"], 7);
+  EXPECT_TRUE(blocks("parts") == blocks("whole"));
+}
+
+/// Starts a run, kills it after a while, again and again until it is done.
+int kill_until_done(const std::string& file, const std::string& run, std::chrono::microseconds first, int most) {
+  int kills = 0;
+  for (;;) {
+    const bool resume = fs::exists(run);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      std::freopen("/dev/null", "w", stdout);
+      ::execl(NOLI_COMMAND, "noli", "simulate", file.c_str(), "-o", run.c_str(), resume ? "--resume" : "--force",
+              nullptr);
+      ::_exit(127);
+    }
+    if (kills < most) {
+      std::this_thread::sleep_for(first + std::chrono::microseconds(kills * 977 % 9000));
+      ::kill(child, SIGKILL);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? kills : -1;
+    ++kills;
+  }
+}
+
+TEST_F(Simulate, KilledRunsGoOn) {
+  Json json = hanging_sheet();
+  json["duration"] = 1;
+  const std::string file = scene(json);
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  const int kills = kill_until_done(file, run_path("killed"), std::chrono::milliseconds(12), 5);
+  EXPECT_GE(kills, 1);
+  EXPECT_TRUE(blocks("killed") == blocks("whole"));
+}
+
+TEST_F(Simulate, SlowKilledAHundredTimesARunHasTheSameBytes) {
+  Json json = hanging_sheet();
+  json["duration"] = 1;
+  const std::string file = scene(json);
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  int kills = 0;
+  for (int i = 0; kills < 100; ++i) {
+    const int more = kill_until_done(file, run_path("killed"), std::chrono::microseconds(9000 + 137 * i), 20);
+    ASSERT_GE(more, 0);
+    kills += more;
+    ASSERT_TRUE(blocks("killed") == blocks("whole"));
+    fs::remove_all(run_path("killed"));
+  }
+}
+
+TEST_F(Simulate, InterruptedRunsEndAtTheLastWindow) {
+  Json json = hanging_sheet();
+  json["duration"] = 60;
+  const std::string file = scene(json);
+  ProcessOptions options;
+  options.signal = SIGINT;
+  options.signal_after = std::chrono::milliseconds(200);
+  const Process process = run_noli({"simulate", file, "-o", run_path("run")}, options);
+  EXPECT_EQ(process.exit_code, 2) << process.out;
+  EXPECT_EQ(process.out.rfind("verdict undecided end interrupted", 0), 0) << process.out;
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+}
+
+TEST_F(Simulate, AFolderThatIsThereIsNotOverwritten) {
+  const std::string file = scene(falling_triangle());
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.1"}).exit_code, 0);
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.1"}).exit_code, 3);
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.1", "--force"}).exit_code, 0);
+  folder.write("precious.txt", "not a run");
+  EXPECT_EQ(run_noli({"simulate", file, "-o", fs::path(folder.path("x")).parent_path().string(), "--force"}).exit_code,
+            3);
+  EXPECT_TRUE(fs::exists(folder.path("precious.txt")));
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("none"), "--resume"}).exit_code, 3);
+}
+
+TEST_F(Simulate, AnotherSceneDoesNotGoOnWithARun) {
+  Json json = hanging_sheet();
+  EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run"), "--until", "0.05"}).exit_code, 0);
+  json["gravity"] = {0, 0, -1};
+  EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run"), "--resume"}).exit_code, 3);
+}
+
+TEST_F(Simulate, NumbersThatRunOutAreNamed) {
+  Json json = hanging_sheet();
+  json["bodies"][0]["steps"] = {{"stretch", 0.01}};
+  const Process refused = run_noli({"simulate", scene(json), "-o", run_path("run")});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("/bodies/0/steps/stretch"), std::string::npos) << refused.err;
+  // A chain in the plane has nothing to run into before its numbers end.
+  json = Json::parse(R"({
+      "noli_scene": 1, "dimension": 2, "duration": 1000, "window": 0.01, "allow_unstable": true,
+      "bodies": [{"name": "pair", "mesh": {"chain": {"points": [[0, 0], [1, 0]], "segments": 1}},
+                  "material": {"edge_stiffness": 1e6, "mass_per_vertex": 1}, "velocity": [0, 0], "spin": 1,
+                  "steps": {"stretch": 0.01}}]})");
+  const Json blown = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
+  EXPECT_EQ(blown["end"], "not_finite");
+  EXPECT_EQ(blown["not_finite"]["force"], "edge_spring");
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+}
+
+TEST_F(Simulate, FieldsAreNamedInErrors) {
+  Json json = hanging_sheet();
+  json["bodies"][0]["material"]["density"] = -1;
+  const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("/bodies/0/material/density"), std::string::npos) << process.err;
+  EXPECT_EQ(run_noli({"explain", scene(json)}).exit_code, 3);
+}
+
+TEST_F(Simulate, ExplainSaysWhatIsActive) {
+  const Process process = run_noli({"explain", scene(hanging_sheet())});
+  EXPECT_EQ(process.exit_code, 0);
+  EXPECT_NE(process.out.find("membrane"), std::string::npos);
+  EXPECT_NE(process.out.find("hinge"), std::string::npos);
+}
+
+TEST_F(Simulate, FramesAreExported) {
+  EXPECT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run_path("run"), "--until", "0.25"}).exit_code, 0);
+  const Process process = run_noli({"export", run_path("run"), "--fps", "8", "-o", run_path("frames/%03d.ply")});
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_NE(process.out.find("not the certified motion"), std::string::npos);
+  const Frame last = read_frame(run_path("frames/002.ply"));
+  EXPECT_EQ(last.positions[3], (Position{0, -0.25, 0.0625}));
+  EXPECT_FALSE(fs::exists(run_path("frames/003.ply")));
+  EXPECT_EQ(run_noli({"export", run_path("run"), "-o", run_path("frames/x.ply")}).exit_code, 3);
+  EXPECT_EQ(run_noli({"export", run_path("run"), "--fps", "8", "-o", run_path("vtu/f_%d.vtu")}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(run_path("vtu/f.pvd")));
+}
+
+}  // namespace
+}  // namespace noli::app_tests
