@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the integrator is measured against: the loop that one writes when all forces have one step. The same forces, the
+// same formulas, no clocks, no books, no recording.
+//
+// What this does not do: it does not scale steps; the work of a force does not depend on them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "noli/integrator/model.h"
+
+namespace noli::bench {
+
+template <int Dim>
+class PlainLoop {
+ public:
+  using Vec = integrator::Vec<double, Dim>;
+
+  PlainLoop(integrator::Model<double, Dim> model, double step)
+      : forces_(std::move(model.forces)), x_(std::move(model.x)), v_(std::move(model.v)), step_(step) {
+    for (const double m : model.mass) inverse_mass_.push_back(1 / m);
+    for (const VertexId i : model.pinned) inverse_mass_[i] = 0;
+  }
+
+  /// One step of Verlet's method: all vertices drift, all forces kick.
+  [[gnu::flatten]] void step() {
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_ * v_[i];
+    std::apply([this](const auto&... list) { (kick(list.forces), ...); }, forces_.lists());
+  }
+
+  std::uint64_t forces() const {
+    return std::apply([](const auto&... list) { return (list.forces.size() + ...); }, forces_.lists());
+  }
+
+  const std::vector<Vec>& positions() const { return x_; }
+
+ private:
+  template <class F>
+  void kick(const std::vector<F>& forces) {
+    integrator::Stencil<double, Dim, F::size> x;
+    for (const F& force : forces) {
+      for (std::size_t i = 0; i < F::size; ++i) x[i] = x_[force.vertices[i]];
+      const auto gradient = force.gradient(x);
+      for (std::size_t i = 0; i < F::size; ++i) {
+        v_[force.vertices[i]] -= (step_ * inverse_mass_[force.vertices[i]]) * gradient[i];
+      }
+    }
+  }
+
+  integrator::Forces<double, Dim> forces_;
+  std::vector<Vec> x_, v_;
+  std::vector<double> inverse_mass_;
+  double step_;
+};
+
+}  // namespace noli::bench
