@@ -55,6 +55,13 @@ bool write_unit(hid_t dataset, const std::string& unit) {
 }  // namespace
 
 struct SeriesFile::Impl {
+  explicit Impl(const std::filesystem::path& target)
+      : path(target),
+        part(target.string() + ".part"),
+        file(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
+    if (!file.is_open()) fail("");
+  }
+
   std::filesystem::path path, part;
   Handle file;
 
@@ -90,9 +97,7 @@ bool SeriesFile::available() { return true; }
 
 SeriesFile::SeriesFile(const std::filesystem::path& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it would print what an exception says
-  const std::filesystem::path part = path.string() + ".part";
-  impl_.reset(new Impl{path, part, {H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose}});
-  if (!impl_->file.is_open()) impl_->fail("");
+  impl_ = std::make_unique<Impl>(path);
 }
 
 SeriesFile::~SeriesFile() {

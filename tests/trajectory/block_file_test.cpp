@@ -121,14 +121,17 @@ TEST(BlockFile, ACommitFarBehindADamagedBlockIsFound) {
 
 TEST(BlockFile, ACommitAcrossTheStepsOfTheSearchIsFound) {
   const std::size_t step = std::size_t{1} << 20;
-  const std::string first = file_header() + raw_block(kind_a, "a");
+  const std::string first = file_header() + raw_block(kind_a, "a"), good = first + raw_commit(0, first, {});
   const Sha256Digest running = next_running_hash({}, sha256(first));
   for (const std::size_t before : {step - 1, step, step + 1, step - block_format::commit_size, step - 40}) {
-    std::string second = raw_block(kind_b, std::string(before - 16, 'C'));
+    const std::string second = raw_block(kind_b, std::string(before - 16, 'C'));
     ASSERT_EQ(second.size(), before);
-    const std::string commit = raw_commit(1, second, running);
-    second[20] = 'D';
-    EXPECT_THROW(read_blocks(first + raw_commit(0, first, {}) + second + commit), InputError) << before;
+    std::string bytes = good;
+    bytes += second;
+    bytes += raw_commit(1, second, running);
+    EXPECT_EQ(read_blocks(bytes).size(), 4u);
+    bytes[good.size() + 20] = 'D';
+    EXPECT_THROW(read_blocks(bytes), InputError) << before;
   }
 }
 

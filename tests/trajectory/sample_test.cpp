@@ -14,7 +14,7 @@ namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-WorldLines line(std::vector<double> times, std::vector<Position> positions) {
+WorldLines line(const std::vector<double>& times, const std::vector<Position>& positions) {
   return WorldLines::from_breakpoints({0, times.size()}, times, positions, "line");
 }
 
