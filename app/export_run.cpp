@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
-#include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/write_obj.h"
@@ -72,22 +72,24 @@ class Export {
   }
 
  private:
-  double time(std::uint64_t frame) const { return static_cast<double>(frame) / request_.fps; }
-
   void write_frames(const RunWindow& window) {
-    if (!window.lines) {
-      throw InputError(
-          request_.run.string(), "",
-          "recorded frames alone (\"record\": \"frames\"); expected world lines, of which frames of any rate "
-          "can be made");
-    }
-    for (; time(outcome_.frames) <= window.end; ++outcome_.frames) {
-      write({reader_.mesh(), sample(*window.lines, time(outcome_.frames))});
+    if (!window.lines) return write_recorded(window);
+    for (const double t : frame_times(window.index, window.begin, window.end, request_.fps)) {
+      write(t, sample(*window.lines, t));
     }
   }
 
-  void write(const Frame& frame) {
-    const auto path = pattern_.file(outcome_.frames);
+  /// Of a run that recorded frames alone: those, whatever was asked for.
+  void write_recorded(const RunWindow& window) {
+    for (const RunFrame& frame : window.frames) write(frame.time, frame.positions);
+  }
+
+  void write(double time, const std::vector<Position>& positions) {
+    times_.push_back(time);
+    write({reader_.mesh(), positions}, pattern_.file(outcome_.frames++));
+  }
+
+  void write(const Frame& frame, const std::filesystem::path& path) const {
     switch (pattern_.format) {
       case FrameFormat::ply: return write_ply(path, frame, PlyEncoding::binary_little_endian);
       case FrameFormat::obj: return write_obj(path, frame);
@@ -99,7 +101,7 @@ class Export {
   void write_series() {
     std::vector<PvdEntry> entries;
     for (std::uint64_t i = 0; i < outcome_.frames; ++i) {
-      entries.push_back({time(i), pattern_.file(i).filename().string()});
+      entries.push_back({times_[i], pattern_.file(i).filename().string()});
     }
     const std::filesystem::path folder = pattern_.file(0).parent_path();
     std::string stem = std::filesystem::path(pattern_.before).filename().string();
@@ -112,6 +114,7 @@ class Export {
   const ExportRequest& request_;
   Pattern pattern_;
   RunReader reader_;
+  std::vector<double> times_;
   ExportOutcome outcome_;
 };
 

@@ -32,8 +32,8 @@ struct ExportOutcome {
   bool interrupted = false;
 };
 
-/// Writes the frames, one in memory at a time. Throws InputError (no run, a damaged one, one that recorded frames only
-/// of other times), UsageError (pattern), std::system_error (disk).
+/// Writes the frames, one in memory at a time. Of a run that recorded frames alone, those are written, and fps does not
+/// matter. Throws InputError (no run, a damaged one), UsageError (pattern), std::system_error (disk).
 ExportOutcome run_export(const ExportRequest& request);
 
 }  // namespace noli::app

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <memory>
 #include <string>
 
@@ -6,6 +8,7 @@
 #include "noli/app/duration.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/reproduce_run.h"
 #include "noli/app/simulate_report.h"
 #include "noli/app/simulate_run.h"
 
@@ -21,16 +24,32 @@ constexpr const char* footer =
     "  noli simulate scenes/swinging_cloth.json -o runs/cloth\n"
     "  noli simulate scenes/swinging_cloth.json --short -o /tmp/cloth\n"
     "  noli simulate scene.json -o run --until 2.5 --json result.json\n"
-    "  noli simulate scene.json -o run --resume";
+    "  noli simulate scene.json -o run --resume\n"
+    "  noli simulate scene.json --reproduce run --window 3 -o window3.block    of a run with \"record\": \"frames\"";
 
 struct SimulateArguments {
   SimulateRequest request;
+  std::optional<std::string> reproduce;
+  std::uint64_t window = 0;
   std::string time_limit;
   std::optional<std::string> json;
 };
 
+/// The words of --reproduce.
+ExitCode reproduce(const SimulateArguments& arguments) {
+  const SimulateRequest& request = arguments.request;
+  const ReproduceOutcome outcome =
+      run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
+  write_standard_output(fmt::format("verdict {} window {} breakpoints {}\n{}, SHA-256 {}, is in {}.\n",
+                                    outcome.same ? "same" : "different", arguments.window, outcome.breakpoints,
+                                    outcome.same ? "The window of the run" : "Another window than the run has",
+                                    hex(outcome.found), request.run.string()));
+  return outcome.same ? ExitCode::holds : ExitCode::refuted;
+}
+
 ExitCode run(SimulateArguments& arguments) {
   SimulateRequest& request = arguments.request;
+  if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.json, {request.scene});
   const SimulateOutcome outcome = run_simulate(request);
@@ -48,13 +67,20 @@ Command add_simulate(CLI::App& app) {
   command->add_option("scene", request.scene, "A scene (scenes/schema.json says what can be in it)")
       ->required()
       ->type_name("SCENE.json");
-  command->add_option("-o,--output", request.run, "The folder of the run")->required()->type_name("RUN");
+  command->add_option("-o,--output", request.run, "The folder of the run (with --reproduce, a file)")
+      ->required()
+      ->type_name("RUN");
   command->add_flag("--short", request.brief, "The scene's short form");
   auto* const resume = command->add_flag("--resume", request.resume, "Go on with the run that is in the folder");
   command->add_flag("--force", request.force, "Replace the run that is in the folder")->excludes(resume);
   command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
+  auto* const again = command
+                          ->add_option("--reproduce", arguments->reproduce,
+                                       "Integrate one window of this run again; its block goes to the file -o")
+                          ->type_name("RUN");
+  command->add_option("--window", arguments->window, "Which window, from 0")->needs(again)->type_name("K");
   command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h")
       ->type_name("TIME");
   add_json_option(*command, arguments->json);

@@ -10,16 +10,20 @@
 #include <stdexcept>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
+#include "noli/app/model_run.h"
 #include "noli/app/progress.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_series.h"
+#include "noli/app/run_series_file.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/kernel/parallel.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
+#include "noli/trajectory/sample.h"
 
 namespace noli::app {
 namespace {
@@ -30,31 +34,6 @@ using integrator::Recording;
 using integrator::Scene;
 using integrator::Simulation;
 using integrator::Snapshot;
-
-template <int Dim>
-Position position_of(const integrator::Vec<double, Dim>& x) {
-  return {x[0], x[1], Dim == 3 ? x[Dim - 1] : 0.0};
-}
-
-template <int Dim>
-std::vector<Position> positions_of(const std::vector<integrator::Vec<double, Dim>>& all) {
-  std::vector<Position> result;
-  result.reserve(all.size());
-  for (const auto& x : all) result.push_back(position_of<Dim>(x));
-  return result;
-}
-
-template <int Dim>
-std::vector<integrator::Vec<double, Dim>> vectors_of(const std::vector<Position>& all) {
-  std::vector<integrator::Vec<double, Dim>> result;
-  result.reserve(all.size());
-  for (const Position& x : all) {
-    integrator::Vec<double, Dim> v;
-    for (int k = 0; k < Dim; ++k) v[k] = x[static_cast<std::size_t>(k)];
-    result.push_back(v);
-  }
-  return result;
-}
 
 /// Which vertices nothing moves but the scene: no two cells of them alone are compared.
 template <int Dim>
@@ -81,7 +60,9 @@ class Run {
       : request_(request),
         built_(integrator::build_model<Dim>(scene)),
         labels_(labels_of<Dim>(built_.model)),
-        folder_(request.run) {
+        folder_(request.run),
+        record_(scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames),
+        frame_rate_(scene.frame_rate) {
     outcome_.title = scene.title;
     outcome_.dimension = Dim;
     outcome_.vertices = built_.model.x.size();
@@ -180,7 +161,7 @@ class Run {
   RunScene run_scene(const Scene& scene) const {
     RunScene result;
     result.header.dimension = Dim;
-    result.header.record = scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames;
+    result.header.record = record_;
     result.header.window_length = scene.window;
     result.mesh = built_.model.mesh;
     result.labels = labels_;
@@ -203,15 +184,11 @@ class Run {
     }
     Snapshot<double, Dim> last;
     while (const auto window = reader.next_window()) {
-      last = {window->index + 1, vectors_of<Dim>(window->positions), vectors_of<Dim>(window->velocities)};
+      last = snapshot_of<Dim>(*window);
     }
     writer_.emplace(folder_.path(), reader);
     outcome_.windows_before = last.windows;
-    if (last.windows == 0) {
-      simulation_.emplace(built_.model);
-    } else {
-      simulation_.emplace(built_.model, last);
-    }
+    simulation_.emplace(simulation_at<Dim>(built_.model, last));
   }
 
   // --- Windows -------------------------------------------------------------------------------------------------------
@@ -263,21 +240,32 @@ class Run {
   }
 
   void commit(const Candidate& window) {
-    writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), {}});
+    const std::vector<RunFrame> frames = frames_of(window);
+    writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
     writer_->commit();
     outcome_.events += window.row.events;
     outcome_.breakpoints += window.row.breakpoints;
     folder_.log(window.index, window.row);
   }
 
+  /// With "record": "frames", those within the window.
+  std::vector<RunFrame> frames_of(const Candidate& window) const {
+    std::vector<RunFrame> frames;
+    if (record_ == RecordMode::full) return frames;
+    for (const double t :
+         frame_times(window.index, window.lines->first_time(), window.lines->last_time(), frame_rate_)) {
+      frames.push_back({t, sample(*window.lines, t)});
+    }
+    return frames;
+  }
+
   void find_not_finite() {
     outcome_.end = RunEnd::not_finite;
-    Simulation<double, Dim> again =
-        before_.windows == 0 ? Simulation<double, Dim>(built_.model) : Simulation<double, Dim>(built_.model, before_);
-    outcome_.not_finite = again.find_not_finite();
+    outcome_.not_finite = simulation_at<Dim>(built_.model, before_).find_not_finite();
   }
 
   void conclude() {
+    outcome_.series = write_series_file(folder_.path(), frame_rate_);
     outcome_.windows = writer_->windows();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
   }
@@ -286,6 +274,8 @@ class Run {
   integrator::BuiltScene<Dim> built_;
   std::vector<std::uint8_t> labels_;
   RunFolder folder_;
+  RecordMode record_;
+  double frame_rate_;
   std::optional<RunWriter> writer_;
   std::optional<Simulation<double, Dim>> simulation_;
   std::optional<std::chrono::steady_clock::time_point> deadline_;

@@ -55,6 +55,7 @@ struct SimulateOutcome {
   std::uint64_t events = 0, breakpoints = 0;     ///< of this call
   std::optional<WindowResult> contact;           ///< of the window that was refused
   std::optional<integrator::NotFinite> not_finite;
+  bool series = false;  ///< series.h5 was written; false: Noli was built without HDF5
   double seconds = 0, simulating_seconds = 0, verifying_seconds = 0;
 };
 

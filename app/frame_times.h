@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// At which times a run has frames: at i / rate, i = 0, 1, 2, ...
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace noli::app {
+
+/// Those of window `index`: after its begin, up to its end; the first window also has that at its begin. So each frame
+/// is in one window.
+inline std::vector<double> frame_times(std::uint64_t index, double begin, double end, double rate) {
+  std::vector<double> times;
+  auto i = static_cast<std::uint64_t>(begin * rate);
+  i = i > 0 ? i - 1 : 0;
+  for (;; ++i) {
+    const double t = static_cast<double>(i) / rate;
+    if (t > end) return times;
+    if (t > begin || (index == 0 && t == begin)) times.push_back(t);
+  }
+}
+
+}  // namespace noli::app

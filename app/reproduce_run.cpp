@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/reproduce_run.h"
+
+#include <fmt/format.h>
+
+#include "noli/app/model_run.h"
+#include "noli/integrator/scene/build_model.h"
+#include "noli/integrator/scene/read_scene.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+/// The window, and the state at its beginning.
+template <int Dim>
+struct Found {
+  RunWindow window;
+  integrator::Snapshot<double, Dim> before;
+};
+
+template <int Dim>
+Found<Dim> find_window(const ReproduceRequest& request) {
+  RunReader reader(request.run);
+  Found<Dim> found;
+  while (auto window = reader.next_window()) {
+    if (window->index == request.window) {
+      found.window = std::move(*window);
+      return found;
+    }
+    found.before = snapshot_of<Dim>(*window);
+  }
+  throw InputError(request.run.string(), "",
+                   fmt::format("has {} windows; expected one of them, found {}", reader.windows(), request.window));
+}
+
+template <int Dim>
+ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Scene& scene) {
+  const Found<Dim> found = find_window<Dim>(request);
+  const auto built = integrator::build_model<Dim>(scene);
+  if (built.model.x.size() != found.window.positions.size()) {
+    throw InputError(request.run.string(), "",
+                     "has another number of vertices than the scene; expected the run's scene");
+  }
+  auto simulation = simulation_at<Dim>(built.model, found.before);
+  integrator::Recording<double, Dim> recording;
+  integrator::Books<double, Dim> books;
+  simulation.run_window(recording, books);
+  const WorldLines lines = integrator::world_lines<Dim>(recording, built.model.x.size());
+  ReproduceOutcome outcome;
+  outcome.breakpoints = recording.stream().size();
+  outcome.expected = found.window.lines ? lines_hash(Dim, *found.window.lines) : found.window.lines_hash;
+  outcome.found = lines_hash(Dim, lines);
+  outcome.same = outcome.expected == outcome.found;
+  std::string block;
+  put_lines_block(Dim, lines, [&block](std::string_view bytes) { block += bytes; });
+  replace_file(request.output, block);
+  return outcome;
+}
+
+}  // namespace
+
+ReproduceOutcome run_reproduce(const ReproduceRequest& request) {
+  const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
+  const integrator::Scene scene = integrator::read_scene(request.scene, form);
+  return scene.dimension == 2 ? reproduce<2>(request, scene) : reproduce<3>(request, scene);
+}
+
+}  // namespace noli::app
