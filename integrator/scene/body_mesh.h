@@ -17,8 +17,8 @@ struct BodyMesh {
   std::vector<VertexId> pinned;
 };
 
-/// Makes or reads a body's mesh. Throws InputError that names a field under /bodies/i: a file that does not load, a cell
-/// with a vertex twice, faces or third coordinates in the plane, vertices without mass, a pin that is not there.
+/// Makes or reads a body's mesh. Throws InputError that names a field under /bodies/i: a file that does not load, a
+/// cell with a vertex twice, faces or third coordinates in the plane, vertices without mass, a pin that is not there.
 BodyMesh make_body(const Scene& scene, std::size_t body);
 
 /// Product of the factors of the patches that a point is in.

@@ -62,6 +62,7 @@ void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, Built
   for (std::size_t i = 0; i < x.size(); ++i) {
     model.x.push_back(cut<Dim>(to_vec(x[i])));
     model.v.push_back(cut<Dim>(to_vec(body.velocity) + cross(spin, to_vec(x[i]) - centre)));
+    if (!model.v.back().allFinite()) field_of_body(scene, index).fail("expected velocities in the range of double");
     model.mass.push_back(made.mass[i]);
     built.mass += made.mass[i];
   }

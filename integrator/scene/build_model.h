@@ -3,18 +3,21 @@
 // From a scene to what a run integrates.
 //
 // Notation
-//   factor    of a cell: the product of the stiffness factors of the patches its centre is in; of a hinge or joint between
-//             two cells f, g: 2 f g / (f + g), as springs in a row add their compliances
+//   factor    of a cell: the product of the stiffness factors of the patches its centre is in; of a hinge or joint
+//             between two cells f, g: 2 f g / (f + g), as springs in a row add their compliances
 //
-//   sheet, elastic     a membrane for each face, a hinge of rigidity bending * E t^3 / (12 (1 - nu^2)) for each edge of two
+//   sheet, elastic     a membrane for each face; for each edge of two faces a hinge of rigidity
+//                      bending * E t^3 / (12 (1 - nu^2))
 //   sheet, springs     a spring for each edge, a hinge of rigidity bending_stiffness for each edge of two faces
-//   curve, elastic     a spring E t w / L for each edge; in the plane a turning angle of rigidity bending * E t^3 w / 12
+//   curve, elastic     a spring E t w / L for each edge; in the plane, where two edges meet, a turning angle of
+//                      rigidity bending * E t^3 w / 12
 //   curve, springs     a spring for each edge; in the plane a turning angle of rigidity bending_stiffness
 //
-// Steps: those that the scene gives; else step_factor times the limit of stability (integrator/stable_step.h), at most the
-// window. Forces that move nothing, all their vertices being pinned or scripted, are left out.
+// Steps: those that the scene gives; else step_factor times the limit of stability (integrator/stable_step.h), at most
+// the window. Forces that move nothing, all their vertices being pinned or scripted, are left out.
 //
-// What this does not do: it does not look for contact in the start (the app does, exactly); curves in space do not bend.
+// What this does not do: it does not look for contact in the start (the app does, exactly), and curves in space
+// do not bend.
 #pragma once
 
 #include <string>
@@ -44,9 +47,9 @@ struct BuiltScene {
   std::vector<BuiltBody> bodies;
 };
 
-/// Precondition: Dim is the scene's dimension. Throws InputError that names the field: a mesh that does not load, faces or
-/// edges without size, vertices that are not there, scripts that do not fit, steps above the limit of stability (unless
-/// allow_unstable).
+/// Precondition: Dim is the scene's dimension. Throws InputError that names the field: a mesh that does not load, faces
+/// or edges without size, vertices that are not there, scripts that do not fit, steps above the limit of stability
+/// (unless allow_unstable).
 template <int Dim>
 BuiltScene<Dim> build_model(const Scene& scene);
 

@@ -9,9 +9,9 @@
 namespace noli::integrator {
 
 /// Scripts of a scene, and the start positions and velocities that they change: a scripted vertex begins where its path
-/// does, and its start velocity is zero here, as its path knows better. `bodies`, `built`: as many as the scene has. Fills
-/// in built[i].scripted. Throws InputError: vertices that are not there, that are pinned, that another script moves; frames
-/// that do not load or have another number of vertices.
+/// does, and its start velocity is zero here, as its path knows better. `bodies`, `built`: as many as the scene has.
+/// Fills in built[i].scripted. Throws InputError: vertices that are not there, that are pinned, that another script
+/// moves; frames that do not load or have another number of vertices.
 template <int Dim>
 void add_scripts(const Scene& scene, const std::vector<BodyMesh>& bodies, std::vector<BuiltBody>& built,
                  Model<double, Dim>& model);

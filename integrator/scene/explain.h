@@ -2,13 +2,13 @@
 //
 // What a scene will do, before it does it.
 //
-// Predictions: forces fire at 1/step; a vertex has a breakpoint whenever a force moves it, so at most one for each step of
-// its forces (steps that are parts of each other share theirs), one for each point of its script, and one at each window's
-// end. The bytes are those of the blocks of trajectory.blocks (trajectory/FORMAT.md), without proofs.
+// Predictions: forces fire at 1/step; a vertex has a breakpoint whenever a force moves it, so at most one for each step
+// of its forces (steps that are parts of each other share theirs), one for each point of its script, and one at each
+// window's end. The bytes are those of the blocks of trajectory.blocks (trajectory/FORMAT.md), without proofs.
 //
 // Resonance (integrator/resonance.h) is looked for vertex by vertex, its neighbours held still: its forces of one step
-// give it up to two or three directions of oscillation; along each of these the forces of every longer step are the slow
-// ones.
+// give it up to two or three directions of oscillation; along each of these the forces of every longer step are the
+// slow ones.
 //
 // What this does not do: it does not look for contact, does not guess how long a run takes, and sees only the start.
 #pragma once

@@ -38,6 +38,15 @@ Position Field::direction() const {
   return value;
 }
 
+double Field::countable_time() const {
+  const double least = document_->at("duration").get<double>() * 0x1p-50;
+  if (!(number() > least)) {
+    fail(fmt::format("expected more than {} [s], a part of the duration that can be counted, found {}", least,
+                     number()));
+  }
+  return number();
+}
+
 void Field::fail(const std::string& problem) const { throw InputError(file_, path().empty() ? "/" : path(), problem); }
 
 }  // namespace noli::integrator

@@ -54,6 +54,9 @@ class Field {
   /// Throws InputError when the vector is zero.
   Position direction() const;
 
+  /// A time of which the duration has at most 2^50. Throws InputError when it is shorter.
+  double countable_time() const;
+
   /// Of the scene.
   double window() const { return document_->at("window").get<double>(); }
   int dimension() const { return document_->at("dimension").get<int>(); }

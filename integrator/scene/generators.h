@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Meshes made by rule: those of scenes/schema.json, with the sets of vertices that it names. Positions are made by
-// + - * / sqrt alone (circles: turn.h), so their bits are the same everywhere; what is symmetric on paper about an axis or
-// a diagonal is so bit for bit, unless said otherwise.
+// + - * / sqrt alone (circles: turn.h), so their bits are the same everywhere; what is symmetric on paper about an axis
+// or a diagonal is so bit for bit, unless said otherwise.
 //
-//   chain    n + 1 vertices at equal parts of the curve's length. Smooth: uniform Catmull-Rom splines (Catmull, Rom 1974)
-//            through the points, whose ends are mirrored; lengths are those of 32 chords a span
+//   chain    n + 1 vertices at equal parts of the curve's length. Smooth: uniform Catmull-Rom splines (Catmull, Rom
+//            1974) through the points, whose ends are mirrored; lengths are those of 32 chords a span
 //   ring     n vertices, the first on the x axis, counterclockwise
-//   grid     rows from bottom to top; in each cell the diagonal from left bottom to right top, or, alternating, in every
-//            second cell the other one. Faces look to +z
-//   ribbon   rows across the band, from first to last; a row's direction is that of the one before, made perpendicular to
-//            the curve. Faces as those of a grid with the curve as its x
+//   grid     rows from bottom to top; in each cell the diagonal from left bottom to right top, or, alternating, in
+//            every second cell the other one. Faces look to +z
+//   ribbon   rows across the band, from first to last; a row's direction is that of the one before, made perpendicular
+//            to the curve. Faces as those of a grid with the curve as its x
 //   disc     the centre, then rings of 6, 12, 18, ... vertices. Faces look to +z
-//   rod      segments + 1 rings of vertices from -length/2 to length/2, then the middles of the caps. Faces look outward
+//   rod      segments + 1 rings of vertices from -length/2 to length/2, then the middles of the caps. Faces look
+//            outward
 //   sphere   the icosahedron's 12 vertices, then the middles of edges, level by level. Faces look outward
 //   box      faces look outward
 #pragma once

@@ -27,6 +27,8 @@ std::string reason(std::string_view what) {
   return std::string(what);
 }
 
+constexpr std::size_t deepest = 64;  ///< levels: what writes JSON, for messages, calls itself
+
 /// Builds the document, and refuses a field that is there already.
 class Builder : public nlohmann::json_sax<Json> {
  public:
@@ -68,6 +70,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
   bool open(Json container) {
+    if (open_.size() == deepest) throw InputError(file_, path(), fmt::format("expected at most {} levels", deepest));
     open_.push_back(&insert(std::move(container)));
     key_of_.emplace_back();
     return true;

@@ -13,7 +13,8 @@ namespace noli::integrator {
 using Json = nlohmann::ordered_json;
 
 /// Parses the whole text; `file` is what errors call it. Throws InputError with line and column: text that is not JSON,
-/// numbers beyond the range of double, a field that an object has twice.
+/// numbers beyond the range of double; and with the JSON pointer: a field that an object has twice, more than 64
+/// levels.
 Json parse_json(std::string_view text, const std::string& file);
 
 /// A value as a message shows it: JSON on one line, shortened when long.

@@ -21,8 +21,8 @@ struct Placed {
 /// Start positions are not perturbed yet.
 Placed place(const Shape& shape, const Deform& deform, const Transform& transform);
 
-/// Adds to each coordinate (two in the plane) an amount drawn evenly from [-amplitude, amplitude). What is drawn depends
-/// on the seed, the body's number, the vertex, and the coordinate.
+/// Adds to each coordinate (two in the plane) an amount drawn evenly from [-amplitude, amplitude). What is drawn
+/// depends on the seed, the body's number, the vertex, and the coordinate.
 void perturb(std::vector<Position>& positions, double amplitude, std::uint64_t seed, std::size_t body, int dimension);
 
 }  // namespace noli::integrator

@@ -155,8 +155,8 @@ double breakpoint_rate(const Scene& scene, const Model<double, Dim>& model, cons
   return sum;
 }
 
-/// Of the blocks of a window: a time and a position for each breakpoint, or positions for each frame, and the state at the
-/// end.
+/// Of the blocks of a window: a time and a position for each breakpoint, or positions for each frame, and the state at
+/// the end.
 template <int Dim>
 double byte_rate(const Scene& scene, std::size_t vertices, double breakpoints) {
   constexpr double vector = 8.0 * Dim;

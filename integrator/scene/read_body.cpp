@@ -107,9 +107,9 @@ Material read_material(const Field& f) {
 
 /// Steps are at most as long as a window.
 std::optional<double> read_step(const Field& f, std::string_view name) {
-  const std::optional<double> step = f.number_if(name);
-  if (step && *step > f.window())
-    f[name].fail(fmt::format("expected at most the window, {} [s], found {}", f.window(), *step));
+  if (!f.has(name)) return std::nullopt;
+  const double step = f[name].countable_time();
+  if (step > f.window()) f[name].fail(fmt::format("expected at most the window, {} [s], found {}", f.window(), step));
   return step;
 }
 

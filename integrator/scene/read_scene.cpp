@@ -64,7 +64,7 @@ void read_run(Scene& scene, const Field& f) {
   scene.title = f["title"].text();
   scene.about = f["about"].text();
   scene.duration = f["duration"].number();
-  scene.window = f["window"].number();
+  scene.window = f["window"].countable_time();
   scene.seed = f["seed"].count<std::uint64_t>();
   scene.record = f["record"].text() == "full" ? Record::full : Record::frames;
   scene.frame_rate = f["frame_rate"].number();
@@ -77,7 +77,7 @@ void read_run(Scene& scene, const Field& f) {
                     scene.step_factor));
   }
   scene.gravity = f["gravity"].vector();
-  scene.gravity_step = f.number_if("gravity_step");
+  if (f.has("gravity_step")) scene.gravity_step = f["gravity_step"].countable_time();
   if (scene.gravity_step > scene.window) {
     f["gravity_step"].fail(
         fmt::format("expected at most the window, {} [s], found {}", scene.window, *scene.gravity_step));

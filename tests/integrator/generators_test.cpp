@@ -150,8 +150,8 @@ TEST(Turn, OctantsAreExact) {
 TEST(Turn, DegreesAreReducedExactly) {
   for (const double d :
        {0.1, 1.0, 29.999, 44.999999999999993, 45.000000000000007, 89.9, 135.5, 270.25, 359.99999999999994}) {
-    EXPECT_NEAR(of_degrees(d).cos, std::cos(d * std::numbers::pi / 180), 2e-15) << d;
-    EXPECT_NEAR(of_degrees(d).sin, std::sin(d * std::numbers::pi / 180), 2e-15) << d;
+    EXPECT_NEAR(of_degrees(d).cos, std::cos(d * std::numbers::pi / 180), 1e-15) << d;
+    EXPECT_NEAR(of_degrees(d).sin, std::sin(d * std::numbers::pi / 180), 1e-15) << d;
     EXPECT_EQ(of_degrees(-d), (CosSin{of_degrees(d).cos, -of_degrees(d).sin})) << d;
   }
   EXPECT_EQ(of_degrees(360e9 + 30), of_degrees(30));

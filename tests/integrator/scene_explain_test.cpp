@@ -81,7 +81,7 @@ TEST(Explain, CurvesDoNotBendInSpace) {
 }
 
 TEST(Explain, EveryDefaultIsListed) {
-  // Each field that a scene does not have, and that no default object stands for, is in the list; nothing is in it twice.
+  // Each field that a scene does not have, and that no default object stands for, is in the list; none is there twice.
   Json scene = sheet();
   scene["gravity"] = {0, 0, -1};
   const Explanation e = explained(scene);

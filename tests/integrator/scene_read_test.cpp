@@ -8,6 +8,7 @@
 #include <ostream>
 #include <set>
 
+#include "noli/integrator/scene/explain.h"
 #include "noli/trajectory/error.h"
 #include "scenes.h"
 
@@ -111,6 +112,12 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"/bodies/0/material", R"({"edge_stiffness": 5, "mass_per_vertex": -1})",
             "/bodies/0/material/mass_per_vertex: expected a number greater than 0 [kg], found -1"},
         Bad{"/window", "0", "/window: expected a number greater than 0 [s], found 0"},
+        Bad{"/window", "1e-300",
+            "/window: expected more than 8.881784197001252e-16 [s], a part of the duration that can be counted, found "
+            "1e-300"},
+        Bad{"/bodies/0/steps", "{\"bend\": 1e-20}",
+            "/bodies/0/steps/bend: expected more than 8.881784197001252e-16 [s], a part of the duration that can be "
+            "counted, found 1e-20"},
         Bad{"/duration", "-1", "/duration: expected a number greater than 0 [s], found -1"},
         Bad{"/dimension", "4", "/dimension: expected 2 or 3, found 4"},
         Bad{"/record", "\"none\"", "/record: expected \"full\" or \"frames\", found \"none\""},
@@ -259,6 +266,28 @@ Json other(const Json& value) {
   if (value.is_number()) return value.get<double>() * 0.75;
   const auto text = value.get<std::string>();
   return twins.contains(text) ? twins.at(text) : text + "x";
+}
+
+TEST(ReadScene, OddValuesAreReadOrRefused) {
+  std::vector<Json> odd = {nullptr, true, -1, 0, 1e300, 1e-300, 0.5, "", "x", Json::array(), Json::object()};
+  std::size_t read = 0, refused = 0;
+  for (Json scene : {sheet(), testing::loop(), testing::scripted()}) {
+    visit_leaves(scene, Json::json_pointer(), [&](const Json::json_pointer& at, const Json&) {
+      for (const Json& value : odd) {
+        Json edited = scene;
+        edited[at] = value;
+        try {
+          explain(parse_scene(edited.dump(), "s.json"));
+          ++read;
+        } catch (const InputError& error) {  // any other exception ends the test
+          EXPECT_EQ(std::string(error.what()).substr(0, 9), "s.json: /") << error.what();
+          ++refused;
+        }
+      }
+    });
+  }
+  EXPECT_GT(read, 50u);
+  EXPECT_GT(refused, 500u);
 }
 
 TEST(ReadScene, EveryFieldCounts) {

@@ -54,6 +54,13 @@ TEST(ParseJson, FieldsOccurOnce) {
   EXPECT_EQ(parse_error(R"({"a": {"b": 1}, "c": {"b": 1}})"), "");
 }
 
+TEST(ParseJson, SixtyFourLevelsAreEnough) {
+  const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
+  EXPECT_EQ(parse_error(nested(64)), "");
+  EXPECT_NE(parse_error(nested(65)).find("expected at most 64 levels"), std::string::npos);
+  EXPECT_NE(parse_error(nested(5000000)).find("expected at most 64 levels"), std::string::npos);
+}
+
 TEST(Nearest, Distances) {
   EXPECT_EQ(edit_distance("", ""), 0u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);
@@ -157,8 +164,7 @@ TEST(Schema, UnknownKeywordsAreAFaultOfTheSchema) {
   EXPECT_THROW(problem(R"({"type": "decimal"})", "1"), std::logic_error);
 }
 
-/// Whether a document is that of a schema that `validate` understands: everything in the shipped one that is a schema is
-/// visited.
+/// Calls `visit` for a schema and for each schema within it.
 void visit_schemas(const Json& schema, const std::function<void(const Json&)>& visit) {
   visit(schema);
   for (const char* group : {"properties", "$defs"}) {

@@ -24,6 +24,22 @@ Json loop() {
                 "material": {"edge_stiffness": 100, "bending_stiffness": 0.1, "mass_per_vertex": 0.01}}]})");
 }
 
+Json scripted() {
+  Json scene = sheet();
+  Json& body = scene["bodies"][0];
+  body["deform"] = {{"stretch", {1.5, 1.25, 1}}, {"twist", 10}};
+  body["transform"] = {{"scale", 2}, {"rotate", {{"axis", {1, 2, 3}}, {"degrees", 30}}}, {"translate", {1, 2, 3}}};
+  body["perturb"] = 0.01;
+  body["velocity"] = {1, 2, 3};
+  body["spin"] = {1, 2, 3};
+  body["patches"] = Json::parse(R"([{"box": [[-9, -9, -9], [9, 9, 9]], "stiffness_factor": 2, "density_factor": 3,
+                                     "steps": {"stretch": 1e-4, "bend": 1e-4}}])");
+  body["pin"] = Json::parse(R"(["left_top", 2])");
+  scene["scripts"] = Json::parse(R"([{"body": "body0", "vertices": [4], "path": [{"t": 0, "move": [0, 0, 0]}]}])");
+  scene["gravity"] = {0, 0, -9.81};
+  return scene;
+}
+
 Json changed(Json scene, const std::string& pointer, const Json& value) {
   scene[Json::json_pointer(pointer)] = value;
   return scene;
@@ -63,7 +79,8 @@ std::vector<Json> scenes_with_every_field() {
        "forces": ["stretch"],
        "steps": {"stretch": 0.01, "bend": 0.02},
        "pin": [3, "left", {"box": [[-1.5, -1.5, -1.5], [1.5, 1.5, 1.5]]}]},
-      {"name": "curve", "mesh": {"chain": {"points": [[0.5, 0.5, 0.5], [1.5, 1.5, 1.5]], "segments": 3, "smooth": true}},
+      {"name": "curve",
+       "mesh": {"chain": {"points": [[0.5, 0.5, 0.5], [1.5, 1.5, 1.5]], "segments": 3, "smooth": true}},
        "transform": {"rotate": {"quaternion": [0.5, 0.25, 1.5, 2.5]}},
        "material": {"edge_stiffness": 5.5, "bending_stiffness": 6.5, "mass_per_area": 7.5, "damping": 0.1,
                     "bending_damping": 0.2}},
@@ -75,7 +92,8 @@ std::vector<Json> scenes_with_every_field() {
       {"mesh": {"disc": {"radius": 1.5, "rings": 3}}, "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
       {"mesh": {"rod": {"length": 1.5, "radius": 0.5, "segments": 4, "sides": 5}},
        "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
-      {"mesh": {"sphere": {"radius": 1.5, "subdivisions": 2}}, "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
+      {"mesh": {"sphere": {"radius": 1.5, "subdivisions": 2}},
+       "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
       {"mesh": {"box": {"size": [1.5, 2.5, 3.5], "cells": [2, 3, 4]}},
        "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}}
     ],

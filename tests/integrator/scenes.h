@@ -14,6 +14,8 @@ namespace noli::integrator::testing {
 Json sheet();
 /// The least scene in the plane: a ring of 8 springs.
 Json loop();
+/// A sheet with a patch, pins, a script, and all that gives it another shape and motion at the start.
+Json scripted();
 /// A scene with a value at a JSON pointer set, or removed.
 Json changed(Json scene, const std::string& pointer, const Json& value);
 Json without(Json scene, const std::string& pointer);
