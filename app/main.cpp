@@ -27,6 +27,7 @@ constexpr const char* footer =
     "  noli verify before.ply after.ply       did anything touch between these frames?\n"
     "  noli verify frames/*.ply --json out.json\n"
     "  noli ccd edge-edge-queries.csv         decide queries, compare with their labels\n"
+    "  noli simulate scene.json -o run        run a scene, certified window by window\n"
     "  noli info frame.obj                    what is in a file\n"
     "  noli fuzz queries --for 60s --seed 1   adversarial queries, kernel against oracle\n"
     "`noli COMMAND --help` says more.";
