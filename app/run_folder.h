@@ -32,8 +32,8 @@ class RunFolder {
   /// UsageError when the folder is no run at all.
   bool has_begun() const;
 
-  /// Goes on with it. Throws InputError when it is one of another scene. The duration, the title and what is only looked
-  /// at may differ.
+  /// Goes on with it. Throws InputError when it is one of another scene. The duration, the title and what is only
+  /// looked at may differ.
   void go_on(const Json& scene);
 
   /// A line of the log for a window that has been committed.

@@ -7,7 +7,8 @@
 //   window k   [k W, (k + 1) W]; while it is integrated, the one before is verified on another thread
 //   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5
 //
-// The bytes of trajectory.blocks depend on the scene alone: not on threads, on where a run was interrupted, on who looks.
+// The bytes of trajectory.blocks depend on the scene alone: not on threads, on where a run was interrupted, on who
+// looks.
 //
 // What this does not do: it prints nothing (simulate_report.h).
 #pragma once

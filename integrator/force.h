@@ -43,7 +43,8 @@ constexpr std::string_view name(ForceKind kind) {
 ///   f.gradient(x)      dV/dx_i for each vertex [N]: the force is its negative
 ///   f.energy(x)        V(x) [J]
 ///   f.measure_gradients(x)  ds_j/dx_i for each measure j, for damping
-///   f.stiffness()      for each measure, an upper bound of the sum over k of |d2V/ds_j ds_k| at rest, for step estimates
+///   f.stiffness()      for each measure, an upper bound of the sum over k of |d2V/ds_j ds_k| at rest, to estimate
+///                      steps
 ///   f.damping          b_j = damping * stiffness()[j]: the damping force is -b_j (ds_j/dt) grad s_j [s]
 template <class F>
 concept ElasticForce = requires(const F f, const Stencil<typename F::Scalar, F::dimension, F::size>& x) {

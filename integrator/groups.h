@@ -3,8 +3,8 @@
 // Forces in groups of equal step: fired in a row, in mesh order, they cost little more than a synchronous loop.
 //
 // Notation
-//   W        the window's length; steps are rounded down to W 2^-p, p = 0, 1, 2, ..., so that a window's end is a common
-//            multiple of all of them
+//   W        the window's length; steps are rounded down to W 2^-p, p = 0, 1, 2, ..., so that a window's end is a
+//            common multiple of all of them
 //   group    the forces of one kind and one p; numbered by kind, then longest step first
 // A force's number, by which events of one time and kind are ordered, follows its group's, then the mesh's order.
 //
@@ -21,8 +21,8 @@
 
 namespace noli::integrator {
 
-/// Groups of one kind are at most about this many: when the steps span more powers of two, p is rounded up to a multiple
-/// of a stride.
+/// Groups of one kind are at most about this many: when the steps span more powers of two, p is rounded up to a
+/// multiple of a stride.
 constexpr int most_groups = 10;
 
 struct Group {

@@ -53,8 +53,8 @@ struct NoRecording {
   void put(VertexId, double, const X&, bool) {}
 };
 
-/// The world lines of a window: the stream by vertex. Third coordinates of plane motion are zero. Throws InputError when
-/// they are none: fewer than two breakpoints of a vertex, or one that is not finite.
+/// The world lines of a window: the stream by vertex. Third coordinates of plane motion are zero. Throws InputError
+/// when they are none: fewer than two breakpoints of a vertex, or one that is not finite.
 template <int Dim>
 WorldLines world_lines(const Recording<double, Dim>& recording, std::size_t vertex_count);
 

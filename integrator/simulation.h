@@ -5,10 +5,11 @@
 // windows.
 //
 // Notation
-//   event    (time, kind, number), in ascending order; kinds: scripts, then forces as in ForceKind, then a window's end.
+//   event    (time, kind, number), in ascending order; kinds: scripts, then forces as in ForceKind, then a window's
+//            end.
 //            All impulses of one time act on the positions of that time
-//   kick     a force's impulse -h grad V on the velocities; at time 0 half of one, so that the scheme is of second order
-//            from the start
+//   kick     a force's impulse -h grad V on the velocities; at time 0 half of one, so that the scheme is of second
+//            order from the start
 //   window   [k W, (k + 1) W]; its end advances every particle to it
 //
 // The state at a window's end (Snapshot) determines all that follows: clocks are multiples of their steps.
@@ -73,8 +74,8 @@ class Engine;
 template <class S, int Dim>
 class Simulation {
  public:
-  /// At time 0. Throws std::invalid_argument when the model is none (sizes that differ, vertices out of range, masses or
-  /// steps that are not positive): scenes are checked before, so this is for models made by hand.
+  /// At time 0. Throws std::invalid_argument when the model is none (sizes that differ, vertices out of range, masses
+  /// or steps that are not positive): scenes are checked before, so this is for models made by hand.
   explicit Simulation(Model<S, Dim> model);
   /// At a window's end of an earlier run of the same model.
   Simulation(Model<S, Dim> model, const Snapshot<S, Dim>& snapshot);
@@ -93,8 +94,8 @@ class Simulation {
 
   Snapshot<S, Dim> snapshot() const;
   State<S, Dim> state() const;
-  /// The velocities of this time: those of the snapshot less half of the kicks that act now. A run that begins with them
-  /// goes on as this one does; with their negatives, back.
+  /// The velocities of this time: those of the snapshot less half of the kicks that act now. A run that begins with
+  /// them goes on as this one does; with their negatives, back.
   std::vector<Vec<S, Dim>> mean_velocities() const;
   /// Forces fired since time 0 of this object, start kicks included.
   std::uint64_t events() const;
