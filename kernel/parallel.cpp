@@ -66,9 +66,10 @@ class Loop {
   std::exception_ptr error_;
 };
 
+int wanted(int threads) { return threads > 0 ? threads : hardware_threads(); }
+
 int lane_count(std::size_t count, int threads) {
-  const int wanted = threads > 0 ? threads : hardware_threads();
-  return static_cast<int>(std::min(count, static_cast<std::size_t>(wanted)));
+  return static_cast<int>(std::min(count, static_cast<std::size_t>(wanted(threads))));
 }
 
 void run_std(std::size_t count, int threads, const Task& task) {
@@ -89,9 +90,10 @@ void run_tbb(std::size_t count, int threads, const Task& task) {
     loop.lane();
   } else {
     // More threads than the machine has must be allowed for explicitly. Controls alive at once take the least of their
-    // values, so none is ever made that would hold back a loop elsewhere; the arena is what limits this one.
+    // values, so none is made that would hold back a loop elsewhere or within this one, which may have more tasks; the
+    // arena is what limits this one.
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(std::max(lanes, hardware_threads())));
+                                    static_cast<std::size_t>(std::max(wanted(threads), hardware_threads())));
     tbb::task_arena arena(lanes);
     arena.execute([&] {
       tbb::parallel_for(
@@ -107,7 +109,10 @@ constexpr std::array backends = {ParallelBackend{"std", run_std}};
 
 }  // namespace
 
-int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int hardware_threads() {
+  static const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // reads a file
+  return threads;
+}
 
 void parallel_for(std::size_t count, int threads, const Task& task) { backends.front().run(count, threads, task); }
 
