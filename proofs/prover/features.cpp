@@ -2,6 +2,7 @@
 #include "noli/proofs/prover/features.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 namespace noli {
@@ -15,34 +16,49 @@ struct Occurrence {
   std::uint32_t cell;
   FeatureMask bit;
 
-  /// -1, 0 or 1. (The comparisons of std::array are calls of memcmp, which is slow for so little.)
-  friend int compare(const Occurrence& a, const Occurrence& b) {
-    for (std::size_t i = 0; i < N; ++i) {
-      if (a.vertices[i] != b.vertices[i]) return a.vertices[i] < b.vertices[i] ? -1 : 1;
+  /// Whether a has the lesser vertices; the first of them is not looked at. (The comparisons of std::array are calls of
+  /// memcmp, which is slow for so little.)
+  friend bool less_after_first(const Occurrence& a, const Occurrence& b) {
+    for (std::size_t i = 1; i < N; ++i) {
+      if (a.vertices[i] != b.vertices[i]) return a.vertices[i] < b.vertices[i];
     }
-    return 0;
+    return false;
   }
-  friend bool operator<(const Occurrence& a, const Occurrence& b) {
-    const int order = compare(a, b);
-    if (order != 0) return order < 0;
-    return a.cell != b.cell ? a.cell < b.cell : a.bit < b.bit;
+
+  friend bool same_vertices(const Occurrence& a, const Occurrence& b) {
+    bool same = true;
+    for (std::size_t i = 0; i < N; ++i) same = same && a.vertices[i] == b.vertices[i];
+    return same;
   }
 };
 
-/// Sorts by vertices, then cell, then bit: first into buckets by the least vertex, then within each of them.
+/// Sorts those of one least vertex by the others; what is equal stays in order.
 template <std::size_t N>
-void sort_occurrences(std::vector<Occurrence<N>>& all, std::size_t vertex_count) {
-  std::vector<std::size_t> begin(vertex_count + 1, 0);
-  for (const auto& o : all) ++begin[o.vertices[0] + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
-  std::vector<Occurrence<N>> sorted(all.size());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const auto& o : all) sorted[next[o.vertices[0]]++] = o;
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin[v]),
-              sorted.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]));
+void sort_bucket(std::span<Occurrence<N>> bucket) {
+  constexpr std::size_t few = 24;
+  const auto less = [](const Occurrence<N>& a, const Occurrence<N>& b) { return less_after_first(a, b); };
+  if (bucket.size() > few) return std::stable_sort(bucket.begin(), bucket.end(), less);
+  for (std::size_t i = 1; i < bucket.size(); ++i) {
+    const Occurrence<N> moved = bucket[i];
+    std::size_t j = i;
+    for (; j > 0 && less(moved, bucket[j - 1]); --j) bucket[j] = bucket[j - 1];
+    bucket[j] = moved;
   }
-  all = std::move(sorted);
+}
+
+/// All occurrences by vertices, then cell, then bit. `visit(add)` calls add for each of them, by cell, then bit.
+template <std::size_t N, class Visit>
+std::vector<Occurrence<N>> sorted_occurrences(std::size_t vertex_count, const Visit& visit) {
+  std::vector<std::size_t> begin(vertex_count + 1, 0);  // of the bucket of each least vertex, once it has been added up
+  visit([&](const Occurrence<N>& o) { ++begin[o.vertices[0] + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Occurrence<N>> sorted(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  visit([&](const Occurrence<N>& o) { sorted[next[o.vertices[0]]++] = o; });
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    sort_bucket(std::span(sorted).subspan(begin[v], begin[v + 1] - begin[v]));
+  }
+  return sorted;
 }
 
 /// `run`: all occurrences of one set of vertices, in order. The first one owns it.
@@ -53,12 +69,13 @@ void assign(std::span<const Occurrence<N>> run, CellFeatures& features) {
   for (const auto& o : run) features.shared[o.cell] |= o.bit;
 }
 
-template <std::size_t N>
-void assign_all(std::vector<Occurrence<N>> all, std::size_t vertex_count, CellFeatures& features) {
-  sort_occurrences(all, vertex_count);
+/// `visit` as in sorted_occurrences.
+template <std::size_t N, class Visit>
+void assign_all(std::size_t vertex_count, const Visit& visit, CellFeatures& features) {
+  const auto all = sorted_occurrences<N>(vertex_count, visit);
   const std::span<const Occurrence<N>> view(all);
   for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    while (end < all.size() && compare(all[end], all[begin]) == 0) ++end;
+    while (end < all.size() && same_vertices(all[end], all[begin])) ++end;
     assign(view.subspan(begin, end - begin), features);
   }
 }
@@ -87,19 +104,21 @@ void assign_corners(const Mesh& mesh, CellFeatures& features) {
 }
 
 void assign_edges(const Mesh& mesh, CellFeatures& features) {
-  std::vector<Occurrence<2>> all;
-  all.reserve(3 * mesh.faces.size() + mesh.edges.size());
-  const auto add = [&all](VertexId a, VertexId b, std::size_t cell, int edge) {
-    all.push_back({{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(cell), edge_bit(edge)});
+  const auto edge = [](VertexId a, VertexId b, std::size_t cell, int number) {
+    return Occurrence<2>{{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(cell), edge_bit(number)};
   };
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto& v = mesh.faces[f];
-    add(v[0], v[1], f, 0);
-    add(v[1], v[2], f, 1);
-    add(v[2], v[0], f, 2);
-  }
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) add(mesh.edges[e][0], mesh.edges[e][1], mesh.faces.size() + e, 0);
-  assign_all(std::move(all), mesh.vertex_count, features);
+  const auto visit = [&mesh, edge](const auto& add) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      const auto& v = mesh.faces[f];
+      add(edge(v[0], v[1], f, 0));
+      add(edge(v[1], v[2], f, 1));
+      add(edge(v[2], v[0], f, 2));
+    }
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+      add(edge(mesh.edges[e][0], mesh.edges[e][1], mesh.faces.size() + e, 0));
+    }
+  };
+  assign_all<2>(mesh.vertex_count, visit, features);
 }
 
 /// The corners of a cell in ascending order; a loose edge or point repeats its last one.
@@ -113,13 +132,14 @@ std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count) {
 
 /// Marks the listed ones among the cells [first, last), all of one kind.
 void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFeatures& features) {
-  std::vector<Occurrence<3>> all;
-  all.reserve(last - first);
-  for (std::size_t i = first; i < last; ++i) {
-    const auto cell = static_cast<std::uint32_t>(i);
-    all.push_back({ascending(corners(mesh, cell), corner_count(mesh, cell)), cell, cell_bit});
-  }
-  assign_all(std::move(all), mesh.vertex_count, features);
+  if (first == last) return;
+  const auto visit = [&mesh, first, last](const auto& add) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto cell = static_cast<std::uint32_t>(i);
+      add(Occurrence<3>{ascending(corners(mesh, cell), corner_count(mesh, cell)), cell, cell_bit});
+    }
+  };
+  assign_all<3>(mesh.vertex_count, visit, features);
 }
 
 }  // namespace

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
-#include "noli/kernel/parallel.h"
 #include "noli/proofs/prover/features.h"
+#include "noli/proofs/prover/median.h"
+#include "noli/proofs/prover/pieces.h"
 
 namespace noli {
 
@@ -28,24 +29,33 @@ MonotoneMap map_onto_unit(double low, double high) {
   return {0.5 * low + 0.5 * high, std::ldexp(1.0, std::clamp(-exponent, -1022, 1022))};
 }
 
-MonotoneMap map_for(std::span<const Position> x, std::size_t axis) {
-  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+/// Least and greatest coordinates, per axis.
+struct Bounds {
+  Position low, high;
+};
+
+Bounds bounds_of(std::span<const Position> x) {
+  Bounds bounds = {x[0], x[0]};
   for (const Position& p : x) {
-    low = std::min(low, p[axis]);
-    high = std::max(high, p[axis]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      bounds.low[k] = std::min(bounds.low[k], p[k]);
+      bounds.high[k] = std::max(bounds.high[k], p[k]);
+    }
   }
-  return map_onto_unit(low, high);
+  return bounds;
+}
+
+/// One map for each axis.
+std::array<MonotoneMap, 3> maps_for(std::span<const Position> x) {
+  const Bounds bounds = bounds_of(x);
+  std::array<MonotoneMap, 3> maps;
+  for (std::size_t k = 0; k < 3; ++k) maps[k] = map_onto_unit(bounds.low[k], bounds.high[k]);
+  return maps;
 }
 
 /// phi of one vertex at both ends.
 struct MappedVertex {
-  Lanes t0{}, t1{};
-};
-
-/// What the median split looks at: twice the centre of a cell, per axis, in units of phi.
-struct Entry {
-  std::array<float, 3> centre{};
-  std::uint32_t cell = 0;
+  Lanes t0 = {}, t1 = {};
 };
 
 Lanes lower(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
@@ -56,7 +66,7 @@ GroupBox merge(const GroupBox& a, const GroupBox& b) {
           higher(a.high_t1, b.high_t1)};
 }
 
-GroupBox box_of(const std::array<VertexId, 3>& corners, const std::vector<MappedVertex>& mapped) {
+GroupBox box_of(const std::array<VertexId, 3>& corners, const MappedVertex* mapped) {
   const MappedVertex &a = mapped[corners[0]], &b = mapped[corners[1]], &c = mapped[corners[2]];
   return {lower(a.t0, lower(b.t0, c.t0)), lower(a.t1, lower(b.t1, c.t1)), higher(a.t0, higher(b.t0, c.t0)),
           higher(a.t1, higher(b.t1, c.t1))};
@@ -65,64 +75,65 @@ GroupBox box_of(const std::array<VertexId, 3>& corners, const std::vector<Mapped
 /// Puts entries into the order of the leaves and fits the boxes.
 class Builder {
  public:
-  Builder(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension)
-      : mesh_(mesh), dimension_(static_cast<std::size_t>(dimension)), mapped_(mesh.vertex_count) {
-    for (std::size_t k = 0; k < dimension_; ++k) {
-      const MonotoneMap at_t0 = map_for(x_t0, k), at_t1 = map_for(x_t1, k);
-      unit_[k] = 1 / at_t0.scale + 1 / at_t1.scale;
-      for (std::size_t v = 0; v < mapped_.size(); ++v) {
-        mapped_[v].t0[k] = at_t0(x_t0[v][k]);
-        mapped_[v].t1[k] = at_t1(x_t1[v][k]);
-      }
-    }
-    fill_entries();
+  Builder(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension, int threads)
+      : mesh_(mesh),
+        dimension_(static_cast<std::size_t>(dimension)),
+        mapped_(std::make_unique_for_overwrite<MappedVertex[]>(mesh.vertex_count)),
+        entries_(std::make_unique_for_overwrite<Entry[]>(mesh.cell_count())) {
+    std::array<std::array<MonotoneMap, 3>, 2> maps;
+    parallel_for(2, threads, [&](std::size_t end) { maps[end] = maps_for(end == 0 ? x_t0 : x_t1); });
+    for (std::size_t k = 0; k < dimension_; ++k) unit_[k] = 1 / maps[0][k].scale + 1 / maps[1][k].scale;
+    for_each_in_pieces(mesh.vertex_count, threads, [&](std::size_t v) { mapped_[v] = map(maps, x_t0[v], x_t1[v]); });
+    for_each_in_pieces(mesh.cell_count(), threads,
+                       [&](std::size_t cell) { fill_entry(static_cast<std::uint32_t>(cell)); });
   }
 
   /// Splits one group once.
   void split(Group g) {
-    const auto first = entries_.begin() + g.begin;
-    const std::size_t axis = longest_axis(g);
-    std::nth_element(first, first + g.count / 2, first + g.count, [axis](const Entry& a, const Entry& b) {
-      return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.cell < b.cell;
-    });
+    Entry* const first = &entries_[g.begin];
+    split_at(first, first + g.count / 2, first + g.count, longest_axis(g));
   }
 
-  /// Splits a group all the way down and fits its boxes.
-  void finish(Group g, std::vector<GroupBox>& boxes) {
+  /// Splits a group all the way down, lists its leaves and fits its boxes.
+  void finish(Group g, std::uint32_t* leaf_cells, GroupBox* boxes) {
     if (g.is_leaf()) {
-      boxes[g.node] = box_of(corners(mesh_, entries_[g.begin].cell), mapped_);
+      const std::uint32_t cell = leaf_cells[g.begin] = cell_in(entries_[g.begin]);
+      boxes[g.node] = box_of(corners(mesh_, cell), mapped_.get());
       return;
     }
     split(g);
-    finish(g.left(), boxes);
-    finish(g.right(), boxes);
+    finish(g.left(), leaf_cells, boxes);
+    finish(g.right(), leaf_cells, boxes);
     boxes[g.node] = merge(boxes[g.left().node], boxes[g.right().node]);
   }
 
-  const std::vector<Entry>& entries() const { return entries_; }
-
  private:
-  void fill_entries() {
-    entries_.resize(mesh_.cell_count());
-    for (std::uint32_t cell = 0; cell < entries_.size(); ++cell) {
-      const GroupBox box = box_of(corners(mesh_, cell), mapped_);
-      entries_[cell].cell = cell;
-      for (std::size_t k = 0; k < dimension_; ++k) {
-        entries_[cell].centre[k] = (box.low_t0[k] + box.high_t0[k]) + (box.low_t1[k] + box.high_t1[k]);
-      }
+  MappedVertex map(const std::array<std::array<MonotoneMap, 3>, 2>& maps, const Position& x_t0,
+                   const Position& x_t1) const {
+    MappedVertex v;
+    for (std::size_t k = 0; k < dimension_; ++k) {
+      v.t0[k] = maps[0][k](x_t0[k]);
+      v.t1[k] = maps[1][k](x_t1[k]);
     }
+    return v;
+  }
+
+  void fill_entry(std::uint32_t cell) {
+    const GroupBox box = box_of(corners(mesh_, cell), mapped_.get());
+    const Lanes centre = (box.low_t0 + box.high_t0) + (box.low_t1 + box.high_t1);
+    entries_[cell] = Entry{ordered(centre[0]), ordered(centre[1]), ordered(centre[2]), static_cast<std::int32_t>(cell)};
   }
 
   std::size_t longest_axis(Group g) const {
-    std::array<float, 3> low = entries_[g.begin].centre, high = low;
-    for (std::size_t i = g.begin; i < g.begin + g.count; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], entries_[i].centre[k]);
-        high[k] = std::max(high[k], entries_[i].centre[k]);
-      }
+    Entry low = entries_[g.begin], high = low;
+    for (const Entry& e : std::span(&entries_[g.begin], g.count)) {
+      low = e < low ? e : low;
+      high = e > high ? e : high;
     }
     std::size_t best = 0;
-    const auto extent = [&](std::size_t k) { return static_cast<double>(high[k] - low[k]) * unit_[k]; };
+    const auto extent = [&](std::size_t k) {
+      return static_cast<double>(from_ordered(high[k]) - from_ordered(low[k])) * unit_[k];
+    };
     for (std::size_t k = 1; k < dimension_; ++k) {
       if (extent(k) > extent(best)) best = k;
     }
@@ -132,8 +143,8 @@ class Builder {
   const Mesh& mesh_;
   std::size_t dimension_;
   std::array<double, 3> unit_{};
-  std::vector<MappedVertex> mapped_;
-  std::vector<Entry> entries_;
+  std::unique_ptr<MappedVertex[]> mapped_;
+  std::unique_ptr<Entry[]> entries_;
 };
 
 /// Groups of one level of the tree, until there are enough to share them out.
@@ -165,15 +176,16 @@ std::array<double, 3> separating_axis(const GroupBox& a, const GroupBox& b) {
 
 Hierarchy::Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
                      int threads)
-    : leaf_cells_(mesh.cell_count()), boxes_(2 * mesh.cell_count() - 1) {
-  Builder builder(mesh, x_t0, x_t1, dimension);
+    : count_(static_cast<std::uint32_t>(mesh.cell_count())),
+      leaf_cells_(std::make_unique_for_overwrite<std::uint32_t[]>(count_)),
+      boxes_(std::make_unique_for_overwrite<GroupBox[]>(2 * static_cast<std::size_t>(count_) - 1)) {
+  Builder builder(mesh, x_t0, x_t1, dimension, threads);
   std::vector<Group> inner;
   const std::vector<Group> level = split_top(builder, root(), 64, threads, inner);
-  parallel_for(level.size(), threads, [&](std::size_t i) { builder.finish(level[i], boxes_); });
-  for (auto g = inner.rbegin(); g != inner.rend(); ++g) {
-    boxes_[g->node] = merge(boxes_[g->left().node], boxes_[g->right().node]);
-  }
-  for (std::size_t i = 0; i < leaf_cells_.size(); ++i) leaf_cells_[i] = builder.entries()[i].cell;
+  parallel_for(level.size(), threads,
+               [&](std::size_t i) { builder.finish(level[i], leaf_cells_.get(), boxes_.get()); });
+  std::reverse(inner.begin(), inner.end());  // children before parents
+  for (const Group g : inner) boxes_[g.node] = merge(boxes_[g.left().node], boxes_[g.right().node]);
 }
 
 }  // namespace noli

@@ -20,10 +20,14 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "noli/trajectory/mesh.h"
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace noli {
 
@@ -35,12 +39,22 @@ struct alignas(64) GroupBox {
   Lanes low_t0, low_t1, high_t0, high_t1;
 };
 
+/// Whether a comparison holds in some lane.
+template <class Comparison>
+bool any_lane(const Comparison& lanes) {
+#ifdef __SSE2__
+  return _mm_movemask_epi8(std::bit_cast<__m128i>(lanes)) != 0;
+#else
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(lanes);
+  return (halves[0] | halves[1]) != 0;
+#endif
+}
+
 /// Whether on some axis the boxes are in the same strict order at both ends.
 inline bool axis_separates(const GroupBox& a, const GroupBox& b) {
   const auto over = (a.low_t0 > b.high_t0) & (a.low_t1 > b.high_t1);
   const auto under = (b.low_t0 > a.high_t0) & (b.low_t1 > a.high_t1);
-  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(over | under);
-  return (halves[0] | halves[1]) != 0;
+  return any_lane(over | under);
 }
 
 /// The axis on which they are, with the sign that makes a the upper one. Precondition: axis_separates(a, b).
@@ -65,14 +79,17 @@ class Hierarchy {
   Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
             int threads);
 
-  Group root() const { return {0, 0, static_cast<std::uint32_t>(leaf_cells_.size())}; }
-  const GroupBox& box(Group g) const { return boxes_[g.node]; }
+  Group root() const { return {0, 0, count_}; }
+  const GroupBox& box(Group g) const { return box_of(g.node); }
+  const GroupBox& box_of(std::size_t node) const { return boxes_[node]; }
   /// The cells in the order of the leaves.
-  std::span<const std::uint32_t> leaf_cells() const { return leaf_cells_; }
+  std::span<const std::uint32_t> leaf_cells() const { return {leaf_cells_.get(), count_}; }
 
  private:
-  std::vector<std::uint32_t> leaf_cells_;
-  std::vector<GroupBox> boxes_;
+  std::uint32_t count_;
+  // Not vectors: those would first be filled with zeros, by one thread.
+  std::unique_ptr<std::uint32_t[]> leaf_cells_;
+  std::unique_ptr<GroupBox[]> boxes_;
 };
 
 }  // namespace noli
