@@ -21,6 +21,7 @@ namespace noli {
 
 class BothEnds {
  public:
+  BothEnds() = default;  ///< of no particular value
   BothEnds(double at_t0, double at_t1) : v_(_mm_set_pd(at_t1, at_t0)) {}
   explicit BothEnds(double at_both) : v_(_mm_set1_pd(at_both)) {}
 
@@ -48,6 +49,7 @@ class BothEnds {
 
 class BothEnds {
  public:
+  BothEnds() = default;  ///< of no particular value
   BothEnds(double at_t0, double at_t1) : a_(at_t0), b_(at_t1) {}
   explicit BothEnds(double at_both) : a_(at_both), b_(at_both) {}
 

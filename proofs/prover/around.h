@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cells that share a corner or an edge, as most of the pairs do in which the hierarchy ends: the usual case in few
-// operations.
+// The usual cases of the pairs of cells in which the hierarchy ends, in few operations: most share a corner or an edge,
+// and of the others most are separated by the first directions one thinks of.
 //
 // Notation
-//   a         the shared vertex that is the origin: d, q(x) and the error bound are those of proofs/prover/direction.h
-//             with r = a, so q(a) = 0
+//   a         the point that is the origin: d, q(x) and the error bound are those of proofs/prover/direction.h with
+//             r = a, so q(a) = 0
 //   abc, ade  two faces around a corner: if n has b, c on its upper and d, e on its lower side of a, it separates (bc,
 //             ade) and (abc, de)
 //   abc, abd  two faces around an edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d)
 //             if it has c above and d below both a and b; one direction each is tried for (bc, ad) and (ac, bd)
+//   abc, def  two cells without a common vertex
 //
 // What this does not do: what it does not settle it leaves to proofs/prover/cell_pair.h.
 #pragma once
@@ -20,12 +21,46 @@
 
 namespace noli {
 
-/// Four points relative to a: d[end][axis][point].
-template <int Dim>
-struct FourAround {
-  std::array<std::array<std::array<double, 4>, Dim>, 2> d;
+/// Points relative to a: d[point][axis].
+template <int Dim, std::size_t Count>
+struct PointsAround {
+  std::array<std::array<BothEnds, Dim>, Count> d;
   double reach;
 };
+
+namespace detail {
+
+template <std::size_t Dim>
+std::array<BothEnds, Dim> relative(const std::array<BothEnds, Dim>& x, const std::array<BothEnds, Dim>& r) {
+  if constexpr (Dim == 3) {
+    return {x[0] - r[0], x[1] - r[1], x[2] - r[2]};
+  } else {
+    return {x[0] - r[0], x[1] - r[1]};
+  }
+}
+
+template <std::size_t Dim>
+BothEnds greatest_of(const std::array<BothEnds, Dim>& d) {
+  const BothEnds most = max(abs(d[0]), abs(d[1]));
+  if constexpr (Dim == 3) return max(most, abs(d[2]));
+  return most;
+}
+
+template <std::size_t Dim, std::size_t Count>
+double reach_of(const std::array<std::array<BothEnds, Dim>, Count>& d) {
+  BothEnds most = greatest_of(d[0]);
+  for (std::size_t i = 1; i < Count; ++i) most = max(most, greatest_of(d[i]));
+  return max(most, most.swapped()).at_t0();
+}
+
+/// Twice the value at mid-time.
+inline double twice_middle(BothEnds x) { return x.at_t0() + x.at_t1(); }
+
+}  // namespace detail
+
+/// b, c and d, e, or b, c and d, d.
+template <int Dim>
+using FourAround = PointsAround<Dim, 4>;
 
 /// Which corner of which of the two cells (false: the first).
 struct CornerOf {
@@ -33,68 +68,96 @@ struct CornerOf {
   std::size_t corner;
 };
 
+/// Corners by number: `origin` is that of a in the first cell; `of_first`, `of_second` are those of the other points.
+template <int Dim, std::size_t First, std::size_t Second>
+PointsAround<Dim, First + Second> points_around(const StepCell<Dim>& first, const StepCell<Dim>& second,
+                                                std::size_t origin, const std::array<std::size_t, First>& of_first,
+                                                const std::array<std::size_t, Second>& of_second) {
+  PointsAround<Dim, First + Second> around;
+  const std::array<BothEnds, Dim>& r = first.x(origin);
+  for (std::size_t i = 0; i < First; ++i) around.d[i] = detail::relative(first.x(of_first[i]), r);
+  for (std::size_t i = 0; i < Second; ++i) around.d[First + i] = detail::relative(second.x(of_second[i]), r);
+  around.reach = detail::reach_of(around.d);
+  return around;
+}
+
+/// The same for cells with their positions.
 template <int Dim>
-FourAround<Dim> four_around(const MovingCell<Dim>& a, const MovingCell<Dim>& b, std::size_t origin,
+FourAround<Dim> four_around(const MovingCell<Dim>& first, const MovingCell<Dim>& second, std::size_t origin,
                             const std::array<CornerOf, 4>& points) {
   FourAround<Dim> four;
-  std::array<double, 4> most{};
-  for (std::size_t e = 0; e < 2; ++e) {
-    for (std::size_t k = 0; k < Dim; ++k) {
-      const double r = a.x[e][k][origin];
-      std::array<double, 4>& d = four.d[e][k];
-      for (std::size_t i = 0; i < 4; ++i) d[i] = (points[i].second ? b : a).x[e][k][points[i].corner];
-      for (std::size_t i = 0; i < 4; ++i) d[i] -= r;
-      for (std::size_t i = 0; i < 4; ++i) most[i] = most[i] > std::abs(d[i]) ? most[i] : std::abs(d[i]);
-    }
+  const std::array<BothEnds, Dim> r = first.ends(origin);
+  for (std::size_t i = 0; i < 4; ++i) {
+    four.d[i] = detail::relative((points[i].second ? second : first).ends(points[i].corner), r);
   }
-  four.reach = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  four.reach = detail::reach_of(four.d);
   return four;
 }
 
-/// Projections of the four points at both ends, and what they may be wrong by.
-struct FourProjections {
-  std::array<std::array<double, 4>, 2> q;
-  double bound;
+/// Projections of the points at both ends, and what they may be wrong by.
+template <std::size_t Count>
+struct ProjectionsAround {
+  std::array<BothEnds, Count> q;
+  BothEnds bound;
 
   /// Whether point i is certainly above point j.
-  bool above(std::size_t i, std::size_t j) const { return q[0][i] - q[0][j] > bound && q[1][i] - q[1][j] > bound; }
-  bool above_origin(std::size_t i) const { return q[0][i] > bound && q[1][i] > bound; }
-  bool below_origin(std::size_t i) const { return q[0][i] < -bound && q[1][i] < -bound; }
+  bool above(std::size_t i, std::size_t j) const { return below(bound, q[i] - q[j]); }
+  bool above_origin(std::size_t i) const { return below(bound, q[i]); }
+  bool below_origin(std::size_t i) const { return below(bound, BothEnds(0) - q[i]); }
 };
 
-template <int Dim>
-FourProjections project(const FourAround<Dim>& four, const Direction<Dim>& n) {
-  FourProjections p;
-  for (std::size_t e = 0; e < 2; ++e) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      double sum = n[0] * four.d[e][0][i] + n[1] * four.d[e][1][i];
-      if constexpr (Dim == 3) sum += n[2] * four.d[e][2][i];
-      p.q[e][i] = sum;
-    }
+template <int Dim, std::size_t Count>
+ProjectionsAround<Count> project(const PointsAround<Dim, Count>& around, const Direction<Dim>& n) {
+  ProjectionsAround<Count> p;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const std::array<BothEnds, Dim>& d = around.d[i];
+    p.q[i] = BothEnds(n[0]) * d[0] + BothEnds(n[1]) * d[1];
+    if constexpr (Dim == 3) p.q[i] = p.q[i] + BothEnds(n[2]) * d[2];
   }
-  p.bound = error_bound<Dim>(n, four.reach);
+  p.bound = BothEnds(error_bound<Dim>(n, around.reach));
   return p;
-}
-
-/// Twice the weighted sum of the points at mid-time.
-template <int Dim>
-std::array<double, Dim> mid_sum(const FourAround<Dim>& four, const std::array<double, 4>& weights) {
-  std::array<double, Dim> n;
-  for (std::size_t k = 0; k < Dim; ++k) {
-    const auto &p = four.d[0][k], &q = four.d[1][k];
-    n[k] = (weights[0] * (p[0] + q[0]) + weights[1] * (p[1] + q[1])) +
-           (weights[2] * (p[2] + q[2]) + weights[3] * (p[3] + q[3]));
-  }
-  return n;
 }
 
 /// Points b, c, d, e: a direction that separates (bc, ade) and (abc, de).
 template <int Dim>
-std::optional<std::array<double, Dim>> around_corner(const FourAround<Dim>& four) {
-  const auto n = mid_sum(four, {1, 1, -1, -1});
-  const FourProjections p = project(four, n);
+std::optional<std::array<double, Dim>> around_corner(const PointsAround<Dim, 4>& points) {
+  const auto& [b, c, d, e] = points.d;
+  std::array<double, Dim> n;
+  for (std::size_t k = 0; k < Dim; ++k) n[k] = detail::twice_middle((b[k] + c[k]) - (d[k] + e[k]));
+  const auto p = project(points, n);
   if (p.above_origin(0) && p.above_origin(1) && p.below_origin(2) && p.below_origin(3)) return n;
   return std::nullopt;
+}
+
+/// Points b, c, d, e, f: +1 if n, -1 if -n certainly separates abc (above) from def; 0 if neither could be shown.
+template <int Dim>
+int separates(const PointsAround<Dim, 5>& points, const Direction<Dim>& n) {
+  const auto p = project(points, n);
+  const BothEnds origin(0);
+  const BothEnds least_abc = min(origin, min(p.q[0], p.q[1])), most_abc = max(origin, max(p.q[0], p.q[1]));
+  const BothEnds least_def = min(p.q[2], min(p.q[3], p.q[4])), most_def = max(p.q[2], max(p.q[3], p.q[4]));
+  if (below(p.bound, least_abc - most_def)) return 1;
+  return below(p.bound, least_def - most_abc) ? -1 : 0;
+}
+
+/// Points b, c, d, e, f: from the middle of def to that of abc, at mid-time, six times as long.
+template <int Dim>
+std::array<double, Dim> between_middles(const PointsAround<Dim, 5>& points) {
+  const auto& [b, c, d, e, f] = points.d;
+  std::array<double, Dim> n;
+  for (std::size_t k = 0; k < Dim; ++k) n[k] = detail::twice_middle((b[k] + c[k]) - (d[k] + e[k] + f[k]));
+  return n;
+}
+
+/// Four times a normal of the triangle on three points at mid-time, as rounding has it.
+inline std::array<double, 3> mid_normal(const std::array<BothEnds, 3>& p, const std::array<BothEnds, 3>& q,
+                                        const std::array<BothEnds, 3>& r) {
+  std::array<double, 3> u, v;
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = detail::twice_middle(q[k] - p[k]);
+    v[k] = detail::twice_middle(r[k] - p[k]);
+  }
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
 /// What was found around an edge, in the order (c, abd), (bc, ad), (ac, bd), (abc, d).
@@ -104,29 +167,30 @@ struct AroundEdge {
   std::array<bool, 4> found{};
 };
 
-/// Points b, c, d, d: directions that separate the four pairs of parts.
-template <int Dim>
-AroundEdge<Dim> around_edge(const FourAround<Dim>& four) {
+/// Points b, c, d, and perhaps d again: directions that separate the four pairs of parts.
+template <int Dim, std::size_t Count>
+AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points) {
   constexpr std::size_t b = 0, c = 1, d = 2;
-  const auto edge = mid_sum(four, {1, 0, 0, 0});
-  auto across = mid_sum(four, {0, 1, -1, 0});
+  std::array<double, Dim> edge, across;
   double along = 0, length = 0;
   for (std::size_t k = 0; k < Dim; ++k) {
+    edge[k] = detail::twice_middle(points.d[b][k]);
+    across[k] = detail::twice_middle(points.d[c][k] - points.d[d][k]);
     along += across[k] * edge[k];
     length += edge[k] * edge[k];
   }
-  for (std::size_t k = 0; k < Dim; ++k) across[k] -= along / length * edge[k];
-
   AroundEdge<Dim> result;
-  const FourProjections p = project(four, across);
-  result.n[0] = result.n[3] = across;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    result.n[0][k] = result.n[3][k] = across[k] - along / length * edge[k];
+    result.n[1][k] = across[k] + edge[k];  // b, c above a, d
+    result.n[2][k] = across[k] - edge[k];  // a, c above b, d
+  }
+  const auto p = project(points, result.n[0]);
   result.found[0] = p.above_origin(c) && p.above(c, b) && p.above(c, d);
   result.found[3] = p.below_origin(d) && p.above(b, d) && p.above(c, d);
-  result.n[1] = mid_sum(four, {1, 1, -1, 0});  // b, c above a, d
-  const FourProjections q = project(four, result.n[1]);
+  const auto q = project(points, result.n[1]);
   result.found[1] = q.above_origin(b) && q.above_origin(c) && q.above(b, d) && q.above(c, d);
-  result.n[2] = mid_sum(four, {-1, 1, -1, 0});  // a, c above b, d
-  const FourProjections r = project(four, result.n[2]);
+  const auto r = project(points, result.n[2]);
   result.found[2] = r.below_origin(b) && r.below_origin(d) && r.above(c, b) && r.above(c, d);
   return result;
 }

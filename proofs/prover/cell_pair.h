@@ -33,22 +33,16 @@ struct CellOptions {
 template <int Dim>
 class CellPairs {
  public:
-  using Cell = MovingCell<Dim>;
+  using Cell = StepCell<Dim>;
 
   CellPairs(CellOptions options, Tally& tally, StepRecord& record)
       : options_(options), tally_(tally), record_(record) {}
 
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
-    Progress progress{a, b, pairs_owned(a, b)};
-    if (!share_vertex(a, b)) {
-      settle_part(progress, pair_of(a, b), {all_corners(a.corners), all_corners(b.corners)});
-    } else {
-      settle_neighbours(progress, find_shared(a, b));
-    }
-    if (!progress.open) return;
-    ++tally_.cell_pairs;
-    if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
+    const unsigned same = same_vertices(a, b);
+    const bool settled = same == 0 ? settle_apart(a, b) : settle_around_corner(a, b, same);
+    if (!settled) settle_unusual(a, b, same);
   }
 
   /// Settles the obligation about the features of one cell.
@@ -56,7 +50,8 @@ class CellPairs {
     if (c.corners == 3) {
       for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
     } else if (options_.strict && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1]) {
-      examine({FeaturePair::vertex_vertex, &c, corner_feature(0), &c, corner_feature(1)});
+      const MovingCell<Dim> at = gather(c);
+      examine({FeaturePair::vertex_vertex, &at, corner_feature(0), &at, corner_feature(1)});
     }
     record_.cell();
   }
@@ -72,12 +67,18 @@ class CellPairs {
     std::size_t count = 0;
   };
 
+  struct Gathered {
+    Gathered(const Cell& first, const Cell& second) : a(gather(first)), b(gather(second)) {}
+    MovingCell<Dim> a, b;
+  };
+
   struct Progress {
     const Cell& a;
     const Cell& b;
     PairSet left;  ///< pairs of features which belong here and have not been settled
     bool open = false;
     bool meets_at_begin = false;
+    std::optional<Gathered> gathered = std::nullopt;  ///< a and b, once they are needed
   };
 
   /// Rounds of the search for a direction, and how often the step is halved for it: what paid on simulated cloth and
@@ -90,13 +91,16 @@ class CellPairs {
     return static_cast<CornerMask>(mask & all_corners(c.corners));
   }
 
-  static bool share_vertex(const Cell& a, const Cell& b) {
-    int same = 0;  // added up, not branched on
-    for (const VertexId v : a.vertices) {
-      for (const VertexId w : b.vertices) same += v == w ? 1 : 0;
+  /// Bit 3 i + j: corner i of a is the same vertex as corner j of b.
+  static unsigned same_vertices(const Cell& a, const Cell& b) {
+    unsigned same = 0;  // put together, not branched on
+    for (unsigned i = 0; i < 3; ++i) {
+      for (unsigned j = 0; j < 3; ++j) same |= (a.vertices[i] == b.vertices[j] ? 1U : 0U) << (3 * i + j);
     }
-    return same != 0;
+    return same;
   }
+
+  static bool are_faces(const Cell& a, const Cell& b) { return a.corners == 3 && b.corners == 3; }
 
   static Shared find_shared(const Cell& a, const Cell& b) {
     Shared shared;
@@ -129,49 +133,64 @@ class CellPairs {
     record_.direction(signed_n);
   }
 
-  static std::size_t place(CornerMask mask) { return static_cast<std::size_t>(std::countr_zero(mask)); }
+  static std::size_t place(unsigned mask) { return static_cast<std::size_t>(std::countr_zero(mask)); }
 
-  static bool is_single(CornerMask mask) { return (mask & (mask - 1)) == 0; }
+  static bool is_single(unsigned mask) { return mask != 0 && (mask & (mask - 1)) == 0; }
 
-  /// Two faces that have one vertex in common, each of them once.
-  static bool is_fan(const Cell& a, const Cell& b, const Shared& shared) {
-    return shared.count == 1 && a.corners == 3 && b.corners == 3 && is_single(shared.in_a[0]) &&
-           is_single(shared.in_b[0]);
+  /// Two cells without a common vertex: whether one of the usual directions separates them.
+  bool settle_apart(const Cell& a, const Cell& b) {
+    const auto points = points_around<Dim, 2, 3>(a, b, 0, {1, 2}, {0, 1, 2});
+    if (try_direction(points, noli::between_middles(points))) return true;
+    if constexpr (Dim == 3) {
+      if (a.corners == 3 && try_direction(points, mid_normal(a.x(0), a.x(1), a.x(2)))) return true;
+      if (b.corners == 3 && try_direction(points, mid_normal(b.x(0), b.x(1), b.x(2)))) return true;
+    }
+    return false;
+  }
+
+  /// Two faces that have one vertex in common, each of them once: whether the usual direction settles them.
+  bool settle_around_corner(const Cell& a, const Cell& b, unsigned same) {
+    if (!is_single(same) || !are_faces(a, b)) return false;
+    const std::size_t i = place(same) / 3, j = place(same) % 3;
+    const auto n = around_corner(points_around<Dim, 2, 2>(a, b, i, {next(i), next(next(i))}, {next(j), next(next(j))}));
+    if (!n) return false;
+    record_.drop_vertex(a.vertices[i]);
+    close(*n, 1);
+    close(*n, 1);
+    return true;
+  }
+
+  [[gnu::noinline]] void settle_unusual(const Cell& a, const Cell& b, unsigned same) {
+    Progress progress{a, b, pairs_owned<Dim>(a, b)};
+    if (same == 0) {
+      const Parts whole{all_corners(a.corners), all_corners(b.corners)};
+      settle_part(progress, whole, true);
+    } else {
+      settle_neighbours(progress, find_shared(a, b));
+    }
+    if (!progress.open) return;
+    ++tally_.cell_pairs;
+    if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
   }
 
   /// Two faces that have two vertices in common, each of them once.
   static bool is_hinge(const Cell& a, const Cell& b, const Shared& shared) {
-    return shared.count == 2 && a.corners == 3 && b.corners == 3 && is_single(shared.in_a[0]) &&
-           is_single(shared.in_a[1]) && is_single(shared.in_b[0]) && is_single(shared.in_b[1]);
+    return shared.count == 2 && are_faces(a, b) && is_single(shared.in_a[0]) && is_single(shared.in_a[1]) &&
+           is_single(shared.in_b[0]) && is_single(shared.in_b[1]);
   }
 
   void settle_neighbours(Progress& progress, const Shared& shared) {
-    if (is_fan(progress.a, progress.b, shared)) {
-      settle_around_corner(progress, shared);
-    } else if (is_hinge(progress.a, progress.b, shared)) {
+    if (is_hinge(progress.a, progress.b, shared)) {
       settle_around_edge(progress, shared);
     } else {
       settle_parts(progress, shared);
     }
   }
 
-  void settle_around_corner(Progress& progress, const Shared& shared) {
-    const Cell &a = progress.a, &b = progress.b;
-    const std::size_t i = place(shared.in_a[0]), j = place(shared.in_b[0]);
-    const auto four =
-        four_around(a, b, i, {{{false, next(i)}, {false, next(next(i))}, {true, next(j)}, {true, next(next(j))}}});
-    const auto n = around_corner(four);
-    if (!n) return settle_parts(progress, shared);
-    record_.drop_vertex(a.vertices[i]);
-    close(*n, 1);
-    close(*n, 1);
-  }
-
   void settle_around_edge(Progress& progress, const Shared& shared) {
-    const Cell &a = progress.a, &b = progress.b;
     const std::size_t i = place(shared.in_a[0]), j = place(shared.in_a[1]);
     const std::size_t c = 3 - i - j, d = 3 - place(shared.in_b[0]) - place(shared.in_b[1]);
-    const auto known = around_edge(four_around(a, b, i, {{{false, j}, {false, c}, {true, d}, {true, d}}}));
+    const auto known = around_edge(points_around<Dim, 2, 1>(progress.a, progress.b, i, {j, c}, {d}));
     settle_parts(progress, shared, &known);
   }
 
@@ -199,17 +218,21 @@ class CellPairs {
       record_.empty();
     } else if (known != nullptr && known->found[i]) {
       close(known->n[i], 1);
-      progress.left &= ~pairs_within(progress.a, parts.a, progress.b, parts.b);
+      progress.left &= ~pairs_within<Dim>(progress.a, parts.a, progress.b, parts.b);
     } else {
-      settle_part(progress, pair_of(progress.a, parts.a, progress.b, parts.b, place(parts.a)), parts);
+      settle_part(progress, parts, false);
     }
   }
 
-  void settle_part(Progress& progress, const PartPair<Dim>& pair, Parts parts) {
-    const Cell &a = progress.a, &b = progress.b;
+  /// `tried`: the usual directions have been tried in vain.
+  void settle_part(Progress& progress, Parts parts, bool tried) {
+    if (!progress.gathered) progress.gathered.emplace(progress.a, progress.b);
+    const auto& [a, b] = *progress.gathered;
+    const PartPair<Dim> pair = pair_of(a, parts.a, b, parts.b, place(parts.a));
     const Direction<Dim> guess = between_middles(pair);
     const PairSet within = pairs_within(a, parts.a, b, parts.b);
-    const bool closed = try_direction(pair, guess) || try_normals(pair, a, b) || search(pair, guess, {}, 0);
+    const bool usual = !tried && (try_direction(pair, guess) || try_normals(pair, a, b));
+    const bool closed = usual || search(pair, guess, {}, 0);
     const bool apart_at_begin = closed || find_direction(pair, guess, {0, 0}, search_rounds).has_value();
     if (closed || (apart_at_begin && search_halves(pair, guess, {}, halvings))) {
       progress.left &= ~within;
@@ -225,13 +248,14 @@ class CellPairs {
     record_.features();
   }
 
-  bool try_direction(const PartPair<Dim>& pair, const Direction<Dim>& n) {
+  template <class Points>
+  bool try_direction(const Points& pair, const Direction<Dim>& n) {
     const int sign = separates(pair, n);
     if (sign != 0) close(n, sign);
     return sign != 0;
   }
 
-  bool try_normals(const PartPair<Dim>& pair, const Cell& a, const Cell& b) {
+  bool try_normals(const PartPair<Dim>& pair, const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
     if constexpr (Dim == 2) return false;
     return (a.corners == 3 && try_direction(pair, a.normal)) || (b.corners == 3 && try_direction(pair, b.normal));
   }
@@ -268,7 +292,8 @@ class CellPairs {
     const bool wanted = options_.strict || (Dim == 2 && (c.shared & mask) != 0);
     const VertexId v = c.vertices[corner];
     if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;
-    examine({FeaturePair::vertex_edge, &c, corner_feature(corner), &c, edge_feature(edge)});
+    const MovingCell<Dim> at = gather(c);
+    examine({FeaturePair::vertex_edge, &at, corner_feature(corner), &at, edge_feature(edge)});
   }
 
   void examine(const FeatureQuestion<Dim>& question) {

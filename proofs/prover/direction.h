@@ -86,21 +86,6 @@ double reach_of(const std::array<std::array<std::array<double, 8>, Dim>, 2>& d) 
 
 }  // namespace detail
 
-/// The pair of two whole cells.
-template <int Dim>
-PartPair<Dim> pair_of(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
-  PartPair<Dim> pair;
-  for (std::size_t e = 0; e < 2; ++e) {
-    for (std::size_t k = 0; k < Dim; ++k) {
-      const double r = a.x[e][k][0];
-      for (std::size_t l = 0; l < 4; ++l) pair.d[e][k][l] = a.x[e][k][l] - r;
-      for (std::size_t l = 0; l < 4; ++l) pair.d[e][k][4 + l] = b.x[e][k][l] - r;
-    }
-  }
-  pair.reach = detail::reach_of<Dim>(pair.d);
-  return pair;
-}
-
 /// The pair of two parts, neither of them empty. The origin is corner `origin` of a.
 template <int Dim>
 PartPair<Dim> pair_of(const MovingCell<Dim>& a, CornerMask a_part, const MovingCell<Dim>& b, CornerMask b_part,

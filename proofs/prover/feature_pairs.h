@@ -65,20 +65,30 @@ PairSet pair_set(unsigned a_corners, unsigned a_edges, bool a_face, unsigned b_c
 
 /// All pairs of a feature on the corners a_part of a with a feature on the corners b_part of b.
 template <int Dim>
-PairSet pairs_within(const MovingCell<Dim>& a, CornerMask a_part, const MovingCell<Dim>& b, CornerMask b_part) {
+PairSet pairs_within(const CellNames& a, CornerMask a_part, const CellNames& b, CornerMask b_part) {
   const bool a_whole = a_part == all_corners(a.corners), b_whole = b_part == all_corners(b.corners);
   const PairSet pairs = detail::pair_set<Dim>(a_part, detail::edges_in(a_part), a_whole && a.corners == 3, b_part,
                                               detail::edges_in(b_part), b_whole && b.corners == 3);
   return a_whole && b_whole ? pairs | detail::loose_pair(Dim, a.corners, b.corners) : pairs;
 }
 
+template <int Dim>
+PairSet pairs_within(const MovingCell<Dim>& a, CornerMask a_part, const MovingCell<Dim>& b, CornerMask b_part) {
+  return pairs_within<Dim>(static_cast<const CellNames&>(a), a_part, static_cast<const CellNames&>(b), b_part);
+}
+
 /// The pairs of features that belong to this pair of cells.
 template <int Dim>
-PairSet pairs_owned(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
+PairSet pairs_owned(const CellNames& a, const CellNames& b) {
   const PairSet pairs = detail::pair_set<Dim>(a.owned & 7, a.owned >> 3 & 7, a.corners == 3, b.owned & 7,
                                               b.owned >> 3 & 7, b.corners == 3);
   const bool listed = (a.owned & b.owned & cell_bit) != 0;
   return listed ? pairs | detail::loose_pair(Dim, a.corners, b.corners) : pairs;
+}
+
+template <int Dim>
+PairSet pairs_owned(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
+  return pairs_owned<Dim>(static_cast<const CellNames&>(a), static_cast<const CellNames&>(b));
 }
 
 /// One feature of a cell, by its corners; `size` of them count.

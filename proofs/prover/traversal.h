@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The verifier's recursion over pairs of groups.
+// The verifier's walk over pairs of groups.
 //
 // Notation
 //   obligation  as in proofs/prover/events.h: a pair of groups, or one with itself
@@ -10,12 +10,14 @@
 // What this does not do: it makes no threads and adds nothing up.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <optional>
 #include <vector>
 
 #include "noli/proofs/prover/cell_pair.h"
+#include "noli/proofs/prover/group_pair.h"
 #include "noli/proofs/prover/hierarchy.h"
 
 namespace noli {
@@ -37,7 +39,7 @@ struct Deferred {
 template <int Dim>
 struct Scene {
   const Hierarchy& hierarchy;
-  const std::vector<MovingCell<Dim>>& cells;  ///< in the order of the leaves
+  const StepCell<Dim>* cells;  ///< in the order of the leaves
 };
 
 /// When to give up. One object for all threads.
@@ -65,6 +67,7 @@ class Traversal {
         stop_(stop),
         tally_(tally),
         record_(record),
+        recording_(record.on() ? closed : 0),
         cell_pairs_({options.initial, options.strict}, tally, record) {}
 
   /// From now on puts obligations about at most `grain` cells on the list.
@@ -76,67 +79,93 @@ class Traversal {
   /// Settles an obligation. False if it was stopped, or found what first_only looks for, before the end.
   bool run(const Obligation& obligation) {
     stopped_ = stop_.raised();
-    if (obligation.self) {
-      settle_self(obligation.first);
-    } else {
-      settle(obligation.first, obligation.second);
-    }
+    count_ = 0;
+    push({obligation.first, obligation.second});
+    closed_ = 0;
+    while (count_ > 0 && !stopped_) take_next();
+    tally_.obligations += closed_;
     return !stopped_;
   }
 
  private:
   /// How many pairs of groups are settled between two looks at the clock.
   static constexpr unsigned patience = 4096;
+  /// Each of at most 32 levels leaves two obligations behind where a self is split, and three where a pair is.
+  static constexpr std::size_t stack_size = 32 * (2 + 3);
 
-  bool put_off(const Obligation& obligation) {
-    const std::uint32_t size = obligation.first.count + (obligation.self ? 0 : obligation.second.count);
-    if (deferred_ == nullptr || size > grain_) return false;
-    deferred_->push_back({obligation, record_.size()});
-    return true;
+  enum : std::uint8_t {
+    closed = 1,      ///< an axis separates the two; such obligations are kept only to be recorded
+    after_split = 2  ///< `split_second` has to be recorded before it
+  };
+
+  void take_next() {
+    const GroupPair pair = stack_[--count_];
+    const std::uint8_t notes = notes_[count_];
+    if ((notes & after_split) != 0) record_.split_second();
+    if ((notes & closed) != 0) return record_.direction(separating_axis(first_box(pair), second_box(pair)));
+    if (put_off(pair)) return;
+    if (pair.is_self()) return take_self(pair);
+    if (++since_look_ >= patience) look_at_clock();
+    take_apart(pair);
   }
 
-  void settle_self(Group g) {
-    if (stopped_ || put_off({g, g, true})) return;
-    if (g.is_leaf()) {
-      cell_pairs_.settle_self(scene_.cells[g.begin]);
+  bool put_off(const GroupPair& pair) {
+    if (deferred_ == nullptr) return false;
+    const std::uint32_t size = pair.first().count + (pair.is_self() ? 0 : pair.second().count);
+    if (size <= grain_) deferred_->push_back({{pair.first(), pair.second(), pair.is_self()}, record_.size()});
+    return size <= grain_;
+  }
+
+  void take_self(const GroupPair& pair) {
+    if (pair.both_leaves()) {
+      cell_pairs_.settle_self(scene_.cells[pair.first().begin]);
       return look_around();
     }
+    const Group left = pair.first().left(), right = pair.first().right();
     record_.split_self();
-    settle_self(g.left());
-    settle(g.left(), g.right());
-    settle_self(g.right());
+    push({right, right});
+    push_tested({left, right});
+    push({left, left});
   }
 
-  void settle(Group a, Group b) {
-    if (axis_separates(scene_.hierarchy.box(a), scene_.hierarchy.box(b))) {
-      close(a, b);
-    } else {
-      take_apart(a, b);
-    }
-  }
-
-  /// What `settle` does when no axis separates them. Not inlined, so that the test of an axis, which mostly succeeds,
-  /// comes before the call.
-  [[gnu::noinline]] void take_apart(Group a, Group b) {
-    if (stopped_ || put_off({a, b, false})) return;
-    if (++since_look_ >= patience) look_at_clock();
-    if (a.is_leaf() && b.is_leaf()) {
-      cell_pairs_.settle(scene_.cells[a.begin], scene_.cells[b.begin]);
+  /// What no axis separates. Both groups are split at once, without a test of one with half of the other: that mostly
+  /// fails.
+  [[gnu::always_inline]] void take_apart(const GroupPair& pair) {
+    if (pair.both_leaves()) {
+      cell_pairs_.settle(scene_.cells[pair.first().begin], scene_.cells[pair.second().begin]);
       look_around();
-    } else if (a.count >= b.count) {
+    } else if (pair.second_is_leaf()) {
       record_.split_first();
-      settle(a.left(), b);
-      settle(a.right(), b);
-    } else {
+      push_tested(pair.right_whole());
+      push_tested(pair.left_whole());
+    } else if (pair.first_is_leaf()) {
       record_.split_second();
-      settle(a, b.left());
-      settle(a, b.right());
+      push_tested(pair.whole_right());
+      push_tested(pair.whole_left());
+    } else {
+      record_.split_first();
+      record_.split_second();
+      push_tested(pair.right_right());
+      push_tested(pair.right_left(), after_split);
+      push_tested(pair.left_right());
+      push_tested(pair.left_left());
     }
   }
 
-  void close(Group a, Group b) {
-    ++tally_.obligations;
-    if (record_.on()) record_.direction(separating_axis(scene_.hierarchy.box(a), scene_.hierarchy.box(b)));
+  const GroupBox& first_box(const GroupPair& pair) const { return scene_.hierarchy.box_of(pair.first_node()); }
+  const GroupBox& second_box(const GroupPair& pair) const { return scene_.hierarchy.box_of(pair.second_node()); }
+
+  /// Whether an axis separates the two is not branched on, because it cannot be predicted.
+  [[gnu::always_inline]] void push_tested(const GroupPair& pair, std::uint8_t notes = 0) {
+    const std::uint8_t separated = axis_separates(first_box(pair), second_box(pair)) ? closed : 0;
+    closed_ += separated;
+    push(pair, notes | separated);
+    count_ -= separated & ~recording_;
+  }
+
+  [[gnu::always_inline]] void push(const GroupPair& pair, int notes = 0) {
+    stack_[count_] = pair;
+    notes_[count_++] = static_cast<std::uint8_t>(notes);
   }
 
   void look_around() {
@@ -153,11 +182,16 @@ class Traversal {
   const StopSignal& stop_;
   Tally& tally_;
   StepRecord& record_;
+  std::uint8_t recording_;  ///< `closed` or 0
   CellPairs<Dim> cell_pairs_;
   std::uint32_t grain_ = 0;
   std::vector<Deferred>* deferred_ = nullptr;
   unsigned since_look_ = 0;
   bool stopped_ = false;
+  std::size_t closed_ = 0;  ///< obligations closed by an axis
+  std::size_t count_ = 0;   ///< of the obligations on the stack; the last one is next
+  std::array<GroupPair, stack_size> stack_;
+  std::array<std::uint8_t, stack_size> notes_;
 };
 
 }  // namespace noli

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <mutex>
 
-#include "noli/kernel/parallel.h"
+#include "noli/proofs/prover/pieces.h"
 #include "noli/proofs/prover/traversal.h"
 
 namespace noli {
@@ -13,16 +14,8 @@ namespace noli {
 namespace {
 
 /// The work is cut into obligations about at most this share of the cells, but no fewer than least_grain of them.
-constexpr std::uint32_t grain_share = 256;
-constexpr std::uint32_t least_grain = 64;
-
-/// Runs body(begin, end) on consecutive pieces of [0, count), in parallel.
-template <class Body>
-void in_pieces(std::size_t count, int threads, const Body& body) {
-  constexpr std::size_t piece = 4096;
-  parallel_for((count + piece - 1) / piece, threads,
-               [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
-}
+constexpr std::uint32_t grain_share = 128;
+constexpr std::uint32_t least_grain = 256;
 
 /// What one task leaves behind.
 struct Outcome {
@@ -72,7 +65,8 @@ class Verification {
         features = find_owners(mesh, options.strict);
       }
     });
-    gather_cells(mesh, x_t0, x_t1, features);
+    gather_vertices(x_t0, x_t1);
+    gather_cells(mesh, features);
   }
 
   VerifyResult run() {
@@ -82,7 +76,7 @@ class Verification {
     outcomes_.assign(tasks_.size(), blank_outcome);
     reporter_.emplace(options_, tasks_.size());
     parallel_for(tasks_.size(), options_.threads, [this](std::size_t i) { run_task(i); });
-    const VerifyResult result = add_up();
+    VerifyResult result = add_up();
     if (options_.sink != nullptr) finish_playing(result.complete);
     return result;
   }
@@ -92,18 +86,23 @@ class Verification {
     return {Tally(options_.max_reports, Earliest(x_t0, x_t1, Dim)), StepRecord(options_.sink != nullptr), false};
   }
 
-  void gather_cells(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                    const CellFeatures& features) {
+  void gather_vertices(std::span<const Position> x_t0, std::span<const Position> x_t1) {
+    vertices_ = std::make_unique_for_overwrite<MovingVertex<Dim>[]>(x_t0.size());
+    for_each_in_pieces(x_t0.size(), options_.threads,
+                       [&](std::size_t v) { vertices_[v] = moving_vertex<Dim>(x_t0[v], x_t1[v]); });
+  }
+
+  void gather_cells(const Mesh& mesh, const CellFeatures& features) {
     const auto order = hierarchy_->leaf_cells();
-    cells_.resize(order.size());
-    in_pieces(order.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) cells_[i] = gather<Dim>(mesh, x_t0, x_t1, features, order[i]);
+    cells_ = std::make_unique_for_overwrite<StepCell<Dim>[]>(order.size());
+    for_each_in_pieces(order.size(), options_.threads, [&](std::size_t i) {
+      cells_[i] = {names_of(mesh, features, order[i]), vertices_.get()};
     });
   }
 
   /// Walks the top of the tree, where there is little to do, and lists what is below.
   void cut_into_tasks() {
-    const Scene<Dim> scene{*hierarchy_, cells_};
+    const Scene<Dim> scene{*hierarchy_, cells_.get()};
     Traversal<Dim> traversal(scene, options_, stop_, top_.tally, top_.record);
     const Group root = hierarchy_->root();
     traversal.defer(std::max(root.count / grain_share, least_grain), tasks_);
@@ -112,7 +111,7 @@ class Verification {
 
   void run_task(std::size_t i) {
     if (i > first_found_) return;
-    const Scene<Dim> scene{*hierarchy_, cells_};
+    const Scene<Dim> scene{*hierarchy_, cells_.get()};
     Outcome& outcome = outcomes_[i];
     Traversal<Dim> traversal(scene, options_, stop_, outcome.tally, outcome.record);
     outcome.finished = traversal.run(tasks_[i].obligation);
@@ -160,7 +159,8 @@ class Verification {
   const VerifyOptions& options_;
   StopSignal stop_;
   std::optional<Hierarchy> hierarchy_;
-  std::vector<MovingCell<Dim>> cells_;
+  std::unique_ptr<MovingVertex<Dim>[]> vertices_;
+  std::unique_ptr<StepCell<Dim>[]> cells_;  ///< in the order of the leaves
   std::vector<Deferred> tasks_;
   std::vector<Outcome> outcomes_;
   std::optional<Reporter> reporter_;

@@ -9,7 +9,7 @@
 //               apart
 //
 // The verifier walks a hierarchy of groups. An obligation is closed by one separating direction when there is one; else
-// the larger group is split; a pair of cells that no direction separates is taken apart into its pairs of features, and
+// the groups are split; a pair of cells that no direction separates is taken apart into its pairs of features, and
 // the exact kernel decides each. Which pairs of features are counted:
 //   3D  vertex_face   every vertex of a cell (loose points included) against every face
 //       edge_edge     every edge of a face and every loose edge, against every other

@@ -4,6 +4,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <limits>
 
 #include "noli/proofs/prover/around.h"
@@ -13,17 +14,26 @@
 namespace noli::testing {
 namespace {
 
+/// A face. Its vertices are kept until the program ends.
 template <int Dim>
-MovingCell<Dim> cell(const std::array<Position, 3>& x_t0, const std::array<Position, 3>& x_t1) {
+StepCell<Dim> step_cell(const std::array<Position, 3>& x_t0, const std::array<Position, 3>& x_t1) {
+  static std::deque<std::array<MovingVertex<Dim>, 3>> kept;
+  auto& vertices = kept.emplace_back();
+  for (std::size_t i = 0; i < 3; ++i) vertices[i] = moving_vertex<Dim>(x_t0[i], x_t1[i]);
   Mesh mesh;
   mesh.vertex_count = 3;
   mesh.faces = {{0, 1, 2}};
-  return gather<Dim>(mesh, x_t0, x_t1, find_owners(mesh, false), 0);
+  return {names_of(mesh, find_owners(mesh, false), 0), vertices.data()};
+}
+
+template <int Dim>
+MovingCell<Dim> cell(const std::array<Position, 3>& x_t0, const std::array<Position, 3>& x_t1) {
+  return gather(step_cell<Dim>(x_t0, x_t1));
 }
 
 template <int Dim>
 PartPair<Dim> whole(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
-  return pair_of(a, b);
+  return pair_of(a, 7, b, 7, 0);
 }
 
 /// n.(a - b) > 0 at time s, for all corners; exact.
@@ -163,19 +173,66 @@ TEST(Direction, APartIsJustItsCorners) {
   EXPECT_EQ(separates(pair_of(a, 4, b, 7, 2), {0, 0, 1}), -1);
 }
 
+/// The corners of two faces around the first corner of a.
+PointsAround<3, 5> all_around(const StepCell<3>& a, const StepCell<3>& b) {
+  return points_around<3, 2, 3>(a, b, 0, {1, 2}, {0, 1, 2});
+}
+
+std::array<Position, 3> random_face(Random& random, double size, double lift) {
+  std::array<Position, 3> x;
+  for (Position& p : x) p = {size * random.unit(), size * random.unit(), size * random.unit() + lift};
+  return x;
+}
+
+TEST_P(Separation, AroundACornerIsNeverClaimedWrongly) {
+  Random random(3);
+  int claims = 0, silences = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double size = GetParam().size, lift = size * random.unit() * 2;
+    const auto a = step_cell<3>(random_face(random, size, lift), random_face(random, size, lift));
+    const auto b = step_cell<3>(random_face(random, size, 0), random_face(random, size, 0));
+    const std::array<double, 3> n = {random.unit() * 0.1, random.unit() * 0.1, 1};
+    const int sign = separates(all_around(a, b), n);
+    ++(sign != 0 ? claims : silences);
+    if (sign == 0) continue;
+    const auto up = sign > 0 ? n : negative<3>(n);
+    EXPECT_TRUE(truly_above(gather(a), gather(b), up, 0) && truly_above(gather(a), gather(b), up, 1));
+  }
+  EXPECT_GT(silences, 0);
+  const bool in_range = GetParam().size > 1e-308 && GetParam().size < 1e308;
+  EXPECT_EQ(claims > 0, in_range);
+}
+
+TEST(Around, SeparatesEitherWayWhatIsApart) {
+  const std::array<Position, 3> low = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}}, high = {{{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}};
+  const auto a = step_cell<3>(high, high), b = step_cell<3>(low, low);
+  EXPECT_EQ(separates(all_around(a, b), {0, 0, 1}), 1);
+  EXPECT_EQ(separates(all_around(b, a), {0, 0, 1}), -1);
+  EXPECT_EQ(separates(all_around(a, b), {1, 0, 0}), 0);
+  EXPECT_EQ(separates(all_around(a, a), {0, 0, 1}), 0);
+  EXPECT_EQ(separates(all_around(a, b), between_middles(all_around(a, b))), 1);
+  EXPECT_EQ(separates(all_around(a, b), mid_normal(a.x(0), a.x(1), a.x(2))), 1);
+}
+
+TEST(Around, ADirectionMustHoldAtBothEnds) {
+  const std::array<Position, 3> low = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}}, high = {{{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}};
+  EXPECT_EQ(separates(all_around(step_cell<3>(high, low), step_cell<3>(low, high)), {0, 0, 1}), 0);
+  EXPECT_EQ(separates(all_around(step_cell<3>(high, low), step_cell<3>(low, low)), {0, 0, 1}), 0);
+}
+
 TEST(Around, ACornerIsBetweenItsFacesOrNot) {
   const std::array<Position, 3> x = {{{0, 0, 0}, {2, -1, 0}, {2, 1, 0}}}, y = {{{0, 0, 0}, {-2, 1, 0}, {-2, -1, 1}}};
-  const std::array<CornerOf, 4> points = {{{false, 1}, {false, 2}, {true, 1}, {true, 2}}};
-  EXPECT_TRUE(around_corner(four_around(cell<3>(x, x), cell<3>(y, y), 0, points)));
-  EXPECT_FALSE(around_corner(four_around(cell<3>(x, x), cell<3>(x, x), 0, points)));
+  const auto a = step_cell<3>(x, x), b = step_cell<3>(y, y);
+  EXPECT_TRUE(around_corner(points_around<3, 2, 2>(a, b, 0, {1, 2}, {1, 2})));
+  EXPECT_FALSE(around_corner(points_around<3, 2, 2>(a, a, 0, {1, 2}, {1, 2})));
 }
 
 TEST(Around, AFlatHingeIsSettledAndAFoldedOneIsNot) {
   const std::array<Position, 3> x = {{{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, y = {{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}}};
-  const std::array<CornerOf, 4> points = {{{false, 1}, {false, 2}, {true, 2}, {true, 2}}};
-  const auto flat = around_edge(four_around(cell<3>(x, x), cell<3>(y, y), 0, points));
+  const auto a = step_cell<3>(x, x), b = step_cell<3>(y, y);
+  const auto flat = around_edge(points_around<3, 2, 1>(a, b, 0, {1, 2}, {2}));
   EXPECT_EQ(flat.found, (std::array<bool, 4>{true, true, true, true}));
-  const auto folded = around_edge(four_around(cell<3>(x, x), cell<3>(x, x), 0, points));
+  const auto folded = around_edge(points_around<3, 2, 1>(a, a, 0, {1, 2}, {2}));
   EXPECT_EQ(folded.found, (std::array<bool, 4>{false, false, false, false}));
 }
 
