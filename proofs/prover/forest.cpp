@@ -13,8 +13,8 @@ namespace noli {
 namespace {
 
 /// Smaller parts gain nothing from a tree of their own, and pairs of trees are looked at one by one.
-constexpr std::size_t least_sheet = 32;
-constexpr std::size_t most_sheets = 256;
+constexpr std::size_t least_part = 32;
+constexpr std::size_t most_parts = 256;
 
 /// What the median split looks at.
 struct Entry {
@@ -92,8 +92,12 @@ Extent extent_of(const std::array<VertexId, 3>& v, std::span<const Point2> r) {
 }
 
 Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features, bool scripted) {
-  return {corners(mesh, cell),    cell, features.owned[cell], features.shared[cell],
-          static_cast<std::uint8_t>(corner_count(mesh, cell)), scripted};
+  return {corners(mesh, cell),
+          cell,
+          features.owned[cell],
+          features.shared[cell],
+          static_cast<std::uint8_t>(corner_count(mesh, cell)),
+          scripted};
 }
 
 /// For each vertex the length of the shortest edge of a cell that it is an end of; infinite if there is none.
@@ -118,11 +122,21 @@ std::vector<float> sizes_of(const Mesh& mesh, std::span<const Position> x, int d
   return size;
 }
 
-/// The cells that are in no sheet.
-std::vector<std::uint32_t> others(const Mesh& mesh, const Sheets& sheets) {
+/// Sheets and other parts, no more than so many.
+Sheets parts_of(const Mesh& mesh, std::span<const Position> x, int dimension) {
+  Sheets parts = find_sheets(mesh, x, dimension, least_part);
+  parts.faces.resize(std::min(parts.faces.size(), most_parts));
+  parts.others.resize(std::min(parts.others.size(), most_parts - parts.faces.size()));
+  return parts;
+}
+
+/// The cells that are in no part.
+std::vector<std::uint32_t> rest_of(const Mesh& mesh, const Sheets& parts) {
   std::vector<bool> taken(mesh.cell_count(), false);
-  for (const auto& faces : sheets.faces) {
-    for (const std::uint32_t f : faces) taken[f] = true;
+  for (const auto* list : {&parts.faces, &parts.others}) {
+    for (const auto& faces : *list) {
+      for (const std::uint32_t f : faces) taken[f] = true;
+    }
   }
   std::vector<std::uint32_t> result;
   for (std::uint32_t cell = 0; cell < taken.size(); ++cell) {
@@ -134,47 +148,54 @@ std::vector<std::uint32_t> others(const Mesh& mesh, const Sheets& sheets) {
 }  // namespace
 
 Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options)
-    : sheet_of_(mesh.vertex_count, no_sheet), sizes_(sizes_of(mesh, x, options.dimension)) {
-  Sheets sheets = find_sheets(mesh, x, options.dimension, least_sheet);
-  if (sheets.faces.size() > most_sheets) sheets.faces.clear();
+    : part_of_(mesh.vertex_count, no_part), sizes_(sizes_of(mesh, x, options.dimension)) {
   CellFeatures features = find_owners(mesh, options.strict);
   const std::vector<std::uint8_t> scripted = scripted_cells(mesh, options.scripted);
   prefer_free_owners(mesh, scripted, features);
 
+  const Sheets parts = parts_of(mesh, x, options.dimension);
+  const std::vector<std::uint32_t> rest = rest_of(mesh, parts);
+  const auto places = scaled(x);
+  const auto axes = static_cast<std::size_t>(options.dimension);
   std::vector<Entry> entries;
-  std::vector<std::size_t> begins;
-  for (const auto& faces : sheets.faces) {
-    begins.push_back(entries.size());
-    for (const std::uint32_t f : faces) {
-      entries.push_back(entry_of(mesh, f, 2, [&](VertexId v) { return sheets.layout[v]; }));
+  const auto grow = [&](const std::vector<std::uint32_t>& cells, bool sheet, bool part) {
+    const std::size_t begin = entries.size();
+    for (const std::uint32_t cell : cells) {
+      entries.push_back(sheet ? entry_of(mesh, cell, 2, [&](VertexId v) { return parts.layout[v]; })
+                              : entry_of(mesh, cell, axes, [&](VertexId v) { return places[v]; }));
     }
-  }
-  const std::size_t in_sheets = entries.size();
-  const std::vector<std::uint32_t> rest = others(mesh, sheets);
-  if (!rest.empty()) {
-    begins.push_back(entries.size());
-    const auto places = scaled(x);
-    const auto axes = static_cast<std::size_t>(options.dimension);
-    for (const std::uint32_t cell : rest) {
-      entries.push_back(entry_of(mesh, cell, axes, [&](VertexId v) { return places[v]; }));
+    sort_leaves(Entries(entries).subspan(begin));
+    for (std::size_t i = begin; i < entries.size(); ++i) {
+      const std::uint32_t cell = entries[i].cell;
+      leaves_.push_back(leaf_of(mesh, cell, features, scripted[cell] != 0));
     }
+    add_tree(sheet, part, begin, entries.size());
+  };
+  for (const auto& faces : parts.faces) grow(faces, true, true);
+  for (const Leaf& leaf : leaves_) {
+    const auto& v = leaf.vertices;
+    laid_faces_.push_back(noli::laid_face(v, parts.layout[v[0]], parts.layout[v[1]], parts.layout[v[2]]));
   }
-  begins.push_back(entries.size());
-  for (std::size_t t = 0; t + 1 < begins.size(); ++t) {
-    sort_leaves(Entries(entries).subspan(begins[t], begins[t + 1] - begins[t]));
-  }
-  for (const Entry& e : entries) leaves_.push_back(leaf_of(mesh, e.cell, features, scripted[e.cell] != 0));
-  for (std::size_t i = 0; i < in_sheets; ++i) {
-    const auto& v = leaves_[i].vertices;
-    laid_faces_.push_back(noli::laid_face(v, sheets.layout[v[0]], sheets.layout[v[1]], sheets.layout[v[2]]));
-  }
-  for (std::size_t t = 0; t + 1 < begins.size(); ++t) add_tree(t < sheets.faces.size(), begins[t], begins[t + 1]);
-  for (const Tree& tree : trees_) finish(tree.root, sheets.layout, tree.sheet);
+  for (const auto& faces : parts.others) grow(faces, false, true);
+  if (!rest.empty()) grow(rest, false, false);
+  for (const Tree& tree : trees_) finish(tree.root, parts.layout, tree.sheet);
+  make_charts(mesh, x, options.dimension);
 }
 
-void Forest::add_tree(bool sheet, std::size_t begin, std::size_t end) {
+void Forest::make_charts(const Mesh& mesh, std::span<const Position> x, int dimension) {
+  std::vector<std::uint32_t> cells;
+  for (const Leaf& leaf : leaves_) cells.push_back(leaf.cell);
+  std::vector<Group> roots;
+  for (const Tree& tree : trees_) {
+    if (tree.part && !tree.sheet) roots.push_back(tree.root);
+  }
+  charts_.emplace(mesh, x, dimension, cells, roots);
+}
+
+void Forest::add_tree(bool sheet, bool part, std::size_t begin, std::size_t end) {
   Tree tree;
   tree.sheet = sheet;
+  tree.part = part;
   tree.root = {static_cast<std::uint32_t>(scripted_.size()), static_cast<std::uint32_t>(begin),
                static_cast<std::uint32_t>(end - begin)};
   scripted_.resize(scripted_.size() + 2 * (end - begin) - 1);
@@ -185,7 +206,7 @@ void Forest::add_tree(bool sheet, std::size_t begin, std::size_t end) {
   std::sort(tree.vertices.begin(), tree.vertices.end());
   tree.vertices.erase(std::unique(tree.vertices.begin(), tree.vertices.end()), tree.vertices.end());
   for (const VertexId v : tree.vertices) {
-    if (sheet) sheet_of_[v] = static_cast<std::uint32_t>(trees_.size());
+    if (part) part_of_[v] = static_cast<std::uint32_t>(trees_.size());
   }
   trees_.push_back(std::move(tree));
 }

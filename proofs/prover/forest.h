@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cells of a mesh in binary trees: one for each sheet, one for all the rest. It depends on the mesh and one set of
-// positions only, so it is made once for a run.
+// The cells of a mesh in binary trees: one for each sheet, one for each other part of some size, one for all the rest. It
+// depends on the mesh and one set of positions only, so it is made once for a run.
 //
 // Notation
 //   tree     as in proofs/prover/hierarchy.h: a node over m > 1 leaves has the first m / 2 in its left child; nodes and
 //            leaves of all trees are numbered through
-//   sheet    as in proofs/prover/layout.h; its tree splits the layout, that of the rest the positions
+//   part, sheet   as in proofs/prover/layout.h; the tree of a sheet splits the layout, the others the positions. Parts that
+//            are no sheets have charts (proofs/prover/charts.h)
 //   extent   of a group of a sheet: the rectangle that its layout fills, rounded outwards
 //
 // What this does not do: it knows of no motion.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "noli/proofs/prover/charts.h"
 #include "noli/proofs/prover/features.h"
 #include "noli/proofs/prover/monotone.h"
 
@@ -47,6 +50,7 @@ inline Extent merged(const Extent& a, const Extent& b) {
 struct Tree {
   Group root;
   bool sheet = false;
+  bool part = false;               ///< a sheet or another part
   std::vector<VertexId> vertices;  ///< those of its cells, ascending
 };
 
@@ -69,26 +73,30 @@ class Forest {
   /// Whether all cells of a group are scripted.
   bool scripted(Group g) const { return scripted_[g.node] != 0; }
 
-  /// The tree of the sheet that a vertex is in.
-  static constexpr std::uint32_t no_sheet = ~std::uint32_t{0};
-  std::uint32_t sheet_of(VertexId v) const { return sheet_of_[v]; }
+  /// The tree of the part that a vertex is in.
+  static constexpr std::uint32_t no_part = ~std::uint32_t{0};
+  std::uint32_t part_of(VertexId v) const { return part_of_[v]; }
   /// Of the edges of cells that end in a vertex, the shortest one's length at the given positions; infinite if none does.
   float size(VertexId v) const { return sizes_[v]; }
+
+  const Charts& charts() const { return *charts_; }
 
   /// By leaf and by node, for those in sheets.
   const LaidFace& laid_face(std::size_t leaf) const { return laid_faces_[leaf]; }
   const Extent& extent(Group g) const { return extents_[g.node]; }
 
  private:
-  void add_tree(bool sheet, std::size_t begin, std::size_t end);
+  void add_tree(bool sheet, bool part, std::size_t begin, std::size_t end);
   void finish(Group g, std::span<const Point2> layout, bool sheet);
+  void make_charts(const Mesh& mesh, std::span<const Position> x, int dimension);
 
   std::vector<Tree> trees_;
   std::vector<Leaf> leaves_;
   std::vector<LaidFace> laid_faces_;
   std::vector<std::uint8_t> scripted_;
   std::vector<Extent> extents_;
-  std::vector<std::uint32_t> sheet_of_;
+  std::optional<Charts> charts_;
+  std::vector<std::uint32_t> part_of_;
   std::vector<float> sizes_;
 };
 

@@ -286,7 +286,8 @@ Sheets find_sheets(const Mesh& mesh, std::span<const Position> x, int dimension,
   sheets.layout.assign(mesh.vertex_count, Point2{});
   Flattener flattener(mesh, x, dimension, sheets.layout);
   for (Faces& part : parts_of(mesh)) {
-    if (part.size() >= least_faces && flattener.lay_out(part)) sheets.faces.push_back(std::move(part));
+    if (part.size() < least_faces) continue;
+    (flattener.lay_out(part) ? sheets.faces : sheets.others).push_back(std::move(part));
   }
   return sheets;
 }

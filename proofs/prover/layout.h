@@ -36,11 +36,12 @@
 namespace noli {
 
 struct Sheets {
-  std::vector<std::vector<std::uint32_t>> faces;  ///< of each sheet, ascending
-  std::vector<Point2> layout;                     ///< by vertex; of a vertex that is in no sheet meaningless
+  std::vector<std::vector<std::uint32_t>> faces;   ///< of each sheet, ascending
+  std::vector<std::vector<std::uint32_t>> others;  ///< of each other part with so many faces
+  std::vector<Point2> layout;                      ///< by vertex; of a vertex that is in no sheet meaningless
 };
 
-/// Finds the sheets with at least `least_faces` faces, ordered by their first face. `x`: a position for each vertex, of
+/// Finds the sheets and other parts with at least `least_faces` faces, ordered by their first face. `x`: a position for each vertex, of
 /// which the third coordinate is not looked at in two dimensions. Linear in the mesh, but for sorting what is on the
 /// border.
 Sheets find_sheets(const Mesh& mesh, std::span<const Position> x, int dimension, std::size_t least_faces);

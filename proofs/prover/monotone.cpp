@@ -47,17 +47,22 @@ Product product(const Vector& p, const Range& f) {
 
 }  // namespace
 
-bool is_monotone(const TangentBox& box, int dimension) {
+Functionals functionals_for(const TangentBox& box, int dimension) {
+  const Vector u = range_of(box.low_u, box.high_u, dimension).middle;
+  const Vector v = range_of(box.low_v, box.high_v, dimension).middle;
+  const double uu = inner(u, u), uv = inner(u, v), vv = inner(v, v), per_area = 1 / (uu * vv - uv * uv);
+  return {combination(vv, u, uv, v, per_area), combination(uu, v, uv, u, per_area)};
+}
+
+Products products(const Functionals& functionals, const TangentBox& box, int dimension) {
   const Range u = range_of(box.low_u, box.high_u, dimension), v = range_of(box.low_v, box.high_v, dimension);
-  const double uu = inner(u.middle, u.middle), uv = inner(u.middle, v.middle), vv = inner(v.middle, v.middle);
-  const double per_area = 1 / (uu * vv - uv * uv);
-  const Vector p = combination(vv, u.middle, uv, v.middle, per_area);
-  const Vector q = combination(uu, v.middle, uv, u.middle, per_area);
-  const Product pu = product(p, u), pv = product(p, v), qu = product(q, u), qv = product(q, v);
+  const Product pu = product(functionals.p, u), pv = product(functionals.p, v);
+  const Product qu = product(functionals.q, u), qv = product(functionals.q, v);
   constexpr double more = 1 + 0x1p-40;
-  const double a = pu.value - more * pu.off, c = qv.value - more * qv.off;
   const double b = 0.5 * more * (std::abs(pv.value) + pv.off + std::abs(qu.value) + qu.off);
-  return a > 0 && c > 0 && a * c > more * (b * b) + 0x1p-1000;
+  // What is not a number must not get lost among others.
+  if (!std::isfinite(b + pu.value + pu.off + qv.value + qv.off)) return {-1, -1, 0};
+  return {pu.value - more * pu.off, qv.value - more * qv.off, b};
 }
 
 }  // namespace noli

@@ -17,16 +17,17 @@
 // c d_v^2 > 0. So (d_u p + d_v q) . (F(y) - F(x)) > 0.
 //
 // The tangents are affine in the positions. So while corners move linearly, they are between those at both ends, and
-// where corners stray by up to a radius the tangents do by as much times the entries of R^-1. What is kept of many faces
-// is a box around their tangents at both ends, radii added: the inequalities have to hold for the whole box.
+// where corners stray by up to a radius the tangents do by as much times the entries of R^-1. What is kept of faces is a
+// box around their tangents at both ends, radii added: the inequalities have to hold for the whole box, be it that of all
+// faces together or, with the same p and q, that of each.
 //
 // Rounding. Positions are relative to an origin and rounded to float; what that costs is part of their radius. In place
 // of R^-1 there is M in float, with |R M - I| <= 2^-16 in each entry, so that E R^-1 is E M times a matrix that differs
 // from I by at most 2^-15 in each. E M takes a difference, a product and a sum of floats, 3 * 2^-24 of the sum of the
 // sizes of its terms. Both are less than 2^-14 times the sum of the sizes of all terms of f_u and f_v along the same axis.
-// Nothing overflows, as positions are below 2^60 and entries of M below 2^30; products may underflow, by 2^-148 each.
+// Nothing overflows, as positions are below 2^60 and entries of M at most 2^30; products may underflow, by 2^-148 each.
 //
-// What this does not do: p and q are guessed from the middle of the box; that there are none is never shown.
+// What this does not do: p and q are guessed from the middle of a box; that there are none is never shown.
 #pragma once
 
 #include <algorithm>
@@ -45,19 +46,19 @@ struct LaidFace {
   bool usable;
 };
 
-/// Takes the face a, b, c of a layout.
+/// Takes the face a, b, c of a layout. It is usable only if |R| |M| <= 2^30 (greatest entries), so that what is computed
+/// of R M is wrong by less than 2^-20.
 inline LaidFace laid_face(const std::array<VertexId, 3>& vertices, const Point2& a, const Point2& b, const Point2& c) {
   const double r00 = b[0] - a[0], r01 = c[0] - a[0], r10 = b[1] - a[1], r11 = c[1] - a[1];
   const double per_area = 1 / (r00 * r11 - r01 * r10);
   const std::array<float, 4> m = {static_cast<float>(r11 * per_area), static_cast<float>(-r01 * per_area),
                                   static_cast<float>(-r10 * per_area), static_cast<float>(r00 * per_area)};
-  double most = 0;
-  for (const float entry : m) most = std::max(most, std::abs(static_cast<double>(entry)));
+  const double most_r = std::max({std::abs(r00), std::abs(r01), std::abs(r10), std::abs(r11)});
+  const double most_m = std::max({std::abs(m[0]), std::abs(m[1]), std::abs(m[2]), std::abs(m[3])});
   const std::array<double, 4> off = {r00 * m[0] + r01 * m[2] - 1, r00 * m[1] + r01 * m[3], r10 * m[0] + r11 * m[2],
                                      r10 * m[1] + r11 * m[3] - 1};
-  // Entries of R are at most 2.1, so what is computed of `off` is wrong by less than 2^-50 times `most`.
   const bool near = std::all_of(off.begin(), off.end(), [](double x) { return std::abs(x) <= 0x1p-17; });
-  return {vertices, m, near && most <= 0x1p30};
+  return {vertices, m, near && most_m <= 0x1p30 && most_r * most_m <= 0x1p30};
 }
 
 /// A vertex near a straight line: places at both ends relative to some origin, and by how much they may be wrong. The
@@ -100,7 +101,33 @@ inline TangentBox tangents_of(const LaidFace& face, const NearVertex& x, const N
   return {least(u0, u1) - wrong, greatest(u0, u1) + wrong, least(v0, v1) - wrong, greatest(v0, v1) + wrong};
 }
 
-/// Whether there are p and q as in the claim for all tangents in the box.
-bool is_monotone(const TangentBox& box, int dimension);
+/// p and q.
+struct Functionals {
+  std::array<double, 3> p, q;
+};
+
+/// The two for which a = c = 1, b = 0 in the middle of a box.
+Functionals functionals_for(const TangentBox& box, int dimension);
+
+/// The least a and c, the greatest |b| of some tangents.
+struct Products {
+  double a, c, b;
+};
+
+Products products(const Functionals& functionals, const TangentBox& box, int dimension);
+
+inline Products merged(const Products& x, const Products& y) {
+  return {std::min(x.a, y.a), std::min(x.c, y.c), std::max(x.b, y.b)};
+}
+
+/// Whether the inequalities hold for all of them; false if any is not a number.
+inline bool hold(const Products& x) {
+  return x.a > 0 && x.c > 0 && x.a * x.c > (1 + 0x1p-40) * (x.b * x.b) + 0x1p-1000;
+}
+
+/// Whether they hold for all tangents in the box, with the functionals of its middle.
+inline bool is_monotone(const TangentBox& box, int dimension) {
+  return hold(products(functionals_for(box, dimension), box, dimension));
+}
 
 }  // namespace noli

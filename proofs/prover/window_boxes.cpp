@@ -71,10 +71,35 @@ void WindowBoxes<Dim>::bound_roots() {
     const auto box = [&](std::size_t i) { return box_of(chords_.of[tree.vertices[i]]); };
     root_boxes_.push_back(trees.size() == 1 ? GroupBox{}
                                             : merged_over(tree.vertices.size(), threads_, empty_box(), box));
-    const auto tangents = [&](std::size_t i) { return tangents_of_leaf(tree.root.begin + i); };
-    root_tangents_.push_back(
-        tree.sheet ? merged_over(tree.root.count, threads_, empty_tangents(), tangents) : empty_tangents());
+    root_monotone_.push_back(tree.sheet && sheet_monotone(tree) ? 1 : 0);
   }
+}
+
+/// The box of all faces is quick; that of each with the same functionals is sharper when the sheet is bent and askew.
+template <int Dim>
+bool WindowBoxes<Dim>::sheet_monotone(const Tree& tree) const {
+  const auto tangents = [&](std::size_t i) { return tangents_at(forest_.laid_face(tree.root.begin + i)); };
+  const TangentBox box = merged_over(tree.root.count, threads_, empty_tangents(), tangents);
+  const Functionals functionals = functionals_for(box, Dim);
+  if (hold(products(functionals, box, Dim))) return true;
+  const auto of_face = [&](std::size_t i) { return products(functionals, tangents(i), Dim); };
+  return hold(merged_over(tree.root.count, threads_, of_face(0), of_face));
+}
+
+/// With the functionals for the mean of a few faces.
+template <int Dim>
+bool WindowBoxes<Dim>::chart_monotone(std::span<const LaidFace> faces) const {
+  Lanes u{}, v{};
+  for (std::size_t i = 0; i < faces.size(); i += 1 + faces.size() / 32) {
+    const TangentBox box = tangents_at(faces[i]);
+    u += box.low_u + box.high_u;
+    v += box.low_v + box.high_v;
+  }
+  // Their length does not matter.
+  const Functionals functionals = functionals_for({u, u, v, v}, Dim);
+  Products all = products(functionals, tangents_at(faces[0]), Dim);
+  for (const LaidFace& face : faces) all = merged(all, products(functionals, tangents_at(face), Dim));
+  return hold(all);
 }
 
 /// The radius has room for rounding (proofs/prover/chord.h).
@@ -92,8 +117,7 @@ GroupBox WindowBoxes<Dim>::box_of(const VertexChord<Dim>& chord) const {
 }
 
 template <int Dim>
-TangentBox WindowBoxes<Dim>::tangents_of_leaf(std::size_t leaf) const {
-  const LaidFace& face = forest_.laid_face(leaf);
+TangentBox WindowBoxes<Dim>::tangents_at(const LaidFace& face) const {
   const auto& near = chords_.near;
   return tangents_of(face, near[face.vertices[0]], near[face.vertices[1]], near[face.vertices[2]]);
 }
@@ -113,7 +137,19 @@ void WindowBoxes<Dim>::fit(Group g, bool sheet) {
   }
   const auto& [a, b, c] = forest_.leaf(g).vertices;
   boxes_[g.node] = merged(merged(box_of(chords_.of[a]), box_of(chords_.of[b])), box_of(chords_.of[c]));
-  if (sheet) tangents_[g.node] = tangents_of_leaf(g.begin);
+  if (sheet) tangents_[g.node] = tangents_at(forest_.laid_face(g.begin));
+}
+
+template <int Dim>
+void WindowBoxes<Dim>::look_at_charts() {
+  constexpr std::size_t piece = 16;
+  const Charts& charts = forest_.charts();
+  monotone_.resize(charts.size());
+  parallel_for((charts.size() + piece - 1) / piece, threads_, [&](std::size_t p) {
+    for (std::size_t c = p * piece; c < std::min(charts.size(), (p + 1) * piece); ++c) {
+      monotone_[c] = chart_monotone(charts.faces(c)) ? 1 : 0;
+    }
+  });
 }
 
 template <int Dim>
@@ -122,6 +158,7 @@ void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
   boxes_.resize(forest_.node_count());
   for (const std::size_t t : trees) {
     const Tree& tree = forest_.trees()[t];
+    if (tree.part && !tree.sheet && monotone_.empty()) look_at_charts();
     if (tree.sheet && tangents_.empty()) tangents_.resize(forest_.node_count());
     std::vector<Group> level = {tree.root}, inner;
     while (level.size() < 64 && level.back().count >= 64) {

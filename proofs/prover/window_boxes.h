@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bounds of the groups of a forest over a span: boxes around the chords with their radii, and for sheets boxes around the
-// tangents.
+// Bounds of the groups of a forest over a span: boxes around the chords with their radii, for sheets boxes around the
+// tangents, and which charts are monotone.
 //
 // Notation
 //   box      as in proofs/prover/hierarchy.h: if on one axis the boxes of two groups are in the same strict order at both
@@ -33,16 +33,22 @@ class WindowBoxes {
 
   /// Of the whole of a tree.
   const GroupBox& root_box(std::size_t tree) const { return root_boxes_[tree]; }
-  const TangentBox& root_tangents(std::size_t tree) const { return root_tangents_[tree]; }
+  /// Whether a sheet is monotone as a whole.
+  bool root_monotone(std::size_t tree) const { return root_monotone_[tree] != 0; }
   /// Of a group of a tree for which they were made; tangents only of groups of sheets.
   const GroupBox& box(Group g) const { return boxes_[g.node]; }
   const TangentBox& tangents(Group g) const { return tangents_[g.node]; }
+  /// Whether a chart of such a tree is monotone.
+  bool monotone(std::uint32_t chart) const { return monotone_[chart] != 0; }
 
  private:
   void find_phi();
   void bound_roots();
+  bool sheet_monotone(const Tree& tree) const;
+  bool chart_monotone(std::span<const LaidFace> faces) const;
+  void look_at_charts();
   GroupBox box_of(const VertexChord<Dim>& chord) const;
-  TangentBox tangents_of_leaf(std::size_t leaf) const;
+  TangentBox tangents_at(const LaidFace& face) const;
   void fit(Group g, bool sheet);
   void join(Group g, bool sheet);
 
@@ -51,7 +57,9 @@ class WindowBoxes {
   int threads_;
   std::array<Phi, Dim> phi_;
   std::vector<GroupBox> root_boxes_, boxes_;
-  std::vector<TangentBox> root_tangents_, tangents_;
+  std::vector<TangentBox> tangents_;
+  std::vector<std::uint8_t> root_monotone_;
+  std::vector<std::uint8_t> monotone_;
 };
 
 }  // namespace noli

@@ -54,8 +54,8 @@ class Filler {
       stored.radius[k] = rounded_up(chord.radius[k]);
       most = std::max(most, stored.radius[k]);
     }
-    const std::uint32_t sheet = forest_.sheet_of(v);
-    if (sheet != Forest::no_sheet) chords_.near[v] = near_vertex(stored, origins_[sheet]);
+    const std::uint32_t part = forest_.part_of(v);
+    if (part != Forest::no_part) chords_.near[v] = near_vertex(stored, origins_[part]);
     counts.inside += chord.inside;
     counts.restless += most * 12 > forest_.size(v) ? 1 : 0;
   }

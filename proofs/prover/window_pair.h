@@ -39,7 +39,13 @@ class WindowPairs {
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
     Progress progress{a, b, pairs_owned(a, b)};
-    drop_shared(progress, {all_corners(a.corners), all_corners(b.corners)}, 0);
+    if (progress.left == 0 && !initial_) return;
+    const Shared shared = find_shared(a, b);
+    if (shared.count == 0) {
+      settle_parts(progress, {all_corners(a.corners), all_corners(b.corners)});
+    } else {
+      settle_neighbours(progress, shared);
+    }
     if (!progress.open) return;
     ++tally_.cell_pairs;
     if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
@@ -69,28 +75,93 @@ class WindowPairs {
 
   static constexpr int search_rounds = 10;
 
-  static CornerMask corners_at(const Cell& c, VertexId v) {
-    const int mask = (c.vertices[0] == v ? 1 : 0) | (c.vertices[1] == v ? 2 : 0) | (c.vertices[2] == v ? 4 : 0);
-    return static_cast<CornerMask>(mask & all_corners(c.corners));
+  /// The vertices that both cells have: where they are in a and in b.
+  struct Shared {
+    std::array<CornerMask, 3> in_a{}, in_b{};
+    std::size_t count = 0;
+    bool once = true;  ///< each of them only once in either cell
+  };
+
+  static unsigned corners_at(const Cell& c, VertexId v) {
+    const unsigned mask = (c.vertices[0] == v ? 1U : 0) | (c.vertices[1] == v ? 2U : 0) | (c.vertices[2] == v ? 4U : 0);
+    return mask & all_corners(c.corners);
   }
 
-  /// Goes through the pairs of parts: drops the first vertex that they share from one and from the other.
-  void drop_shared(Progress& progress, Parts parts, std::size_t from) {
-    for (std::size_t i = from; i < progress.a.corners; ++i) {
-      if ((parts.a >> i & 1) == 0) continue;
-      const VertexId v = progress.a.vertices[i];
-      const auto in_b = static_cast<CornerMask>(corners_at(progress.b, v) & parts.b);
-      if (in_b == 0) continue;
-      drop_shared(progress, {static_cast<CornerMask>(parts.a & ~corners_at(progress.a, v)), parts.b}, i + 1);
-      drop_shared(progress, {parts.a, static_cast<CornerMask>(parts.b & ~in_b)}, i + 1);
+  static bool is_single(unsigned mask) { return (mask & (mask - 1)) == 0; }
+  static std::size_t place(unsigned mask) { return static_cast<std::size_t>(std::countr_zero(mask)); }
+  static std::size_t next(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
+
+  static Shared find_shared(const Cell& a, const Cell& b) {
+    const std::array<unsigned, 3> in_b = {corners_at(b, a.vertices[0]), corners_at(b, a.vertices[1]),
+                                          corners_at(b, a.vertices[2])};
+    Shared shared;
+    if ((in_b[0] | in_b[1] | in_b[2]) == 0) return shared;
+    for (std::size_t i = 0; i < a.corners; ++i) {
+      const unsigned in_a = corners_at(a, a.vertices[i]);
+      if (in_b[i] == 0 || place(in_a) != i) continue;  // not shared, or the same vertex again
+      shared.once = shared.once && is_single(in_a) && is_single(in_b[i]);
+      shared.in_a[shared.count] = static_cast<CornerMask>(in_a);
+      shared.in_b[shared.count++] = static_cast<CornerMask>(in_b[i]);
+    }
+    return shared;
+  }
+
+  /// Two faces around a corner or an edge, the usual ones in few operations.
+  void settle_neighbours(Progress& progress, const Shared& shared) {
+    const bool usual = shared.once && progress.a.corners == 3 && progress.b.corners == 3;
+    if (usual && shared.count == 1 && around_shared_corner(progress, shared)) {
+      tally_.obligations += 2;
       return;
     }
-    if (parts.a != 0 && parts.b != 0) settle_parts(progress, parts);
+    AroundEdge<Dim> known;
+    if (usual && shared.count == 2) known = around_shared_edge(progress, shared);
+    std::size_t number = 0;
+    drop_shared(progress, {all_corners(progress.a.corners), all_corners(progress.b.corners)}, shared, 0, known, number);
+  }
+
+  FourAround<Dim> four_of(const Progress& progress, std::size_t origin, const std::array<CornerOf, 4>& points) const {
+    auto four = four_around<Dim>(progress.a, progress.b, origin, points);
+    four.reach = raised(four.reach, margin_of(progress.a, progress.b));
+    return four;
+  }
+
+  bool around_shared_corner(const Progress& progress, const Shared& shared) const {
+    const std::size_t i = place(shared.in_a[0]), j = place(shared.in_b[0]);
+    const auto four =
+        four_of(progress, i, {{{false, next(i)}, {false, next(next(i))}, {true, next(j)}, {true, next(next(j))}}});
+    return around_corner(four).has_value();
+  }
+
+  AroundEdge<Dim> around_shared_edge(const Progress& progress, const Shared& shared) const {
+    const std::size_t i = place(shared.in_a[0]), j = place(shared.in_a[1]), c = 3 - i - j;
+    const std::size_t d = 3 - place(shared.in_b[0]) - place(shared.in_b[1]);
+    return around_edge(four_of(progress, i, {{{false, j}, {false, c}, {true, d}, {true, d}}}));
+  }
+
+  /// Goes through the pairs of parts that arise by dropping each shared vertex from one or the other, in the order of
+  /// AroundEdge.
+  void drop_shared(Progress& progress, Parts parts, const Shared& shared, std::size_t from,
+                   const AroundEdge<Dim>& known, std::size_t& number) {
+    if (from < shared.count) {
+      const Parts without_a = {static_cast<CornerMask>(parts.a & ~shared.in_a[from]), parts.b};
+      const Parts without_b = {parts.a, static_cast<CornerMask>(parts.b & ~shared.in_b[from])};
+      drop_shared(progress, without_a, shared, from + 1, known, number);
+      drop_shared(progress, without_b, shared, from + 1, known, number);
+      return;
+    }
+    const std::size_t i = number++;
+    if (i < known.found.size() && known.found[i]) {
+      ++tally_.obligations;
+      progress.left &= ~pairs_within(progress.a, parts.a, progress.b, parts.b);
+    } else if (parts.a != 0 && parts.b != 0) {
+      settle_parts(progress, parts);
+    }
   }
 
   void settle_parts(Progress& progress, Parts parts) {
     const Cell &a = progress.a, &b = progress.b;
     const PairSet within = pairs_within(a, parts.a, b, parts.b);
+    if ((progress.left & within) == 0 && !initial_) return;
     std::optional<double> resisting;
     const bool closed = apart(a, parts.a, b, parts.b) || settle_over(a, parts.a, b, parts.b, span_.begin, span_.end,
                                                                      [&](const Cell&, const Cell&, double at, double) {
@@ -129,8 +200,6 @@ class WindowPairs {
     }
     return n;
   }
-
-  static std::size_t place(CornerMask mask) { return static_cast<std::size_t>(std::countr_zero(mask)); }
 
   /// Whether a direction was found that separates the parts, with the radii of their cells.
   bool apart(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part) {

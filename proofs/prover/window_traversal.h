@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The recursion over pairs of groups in a span of a window: as proofs/prover/traversal.h, over bounds with radii. Groups
-// of one sheet are settled at once where the sheet is monotone (proofs/prover/monotone.h).
+// of one part are settled at once where the part is monotone (proofs/prover/monotone.h): a sheet in a rectangle around both,
+// another part in a chart that holds both.
 //
 // What this does not do: it makes no threads and adds nothing up.
 #pragma once
@@ -26,7 +27,7 @@ struct WindowScene {
 /// A pair of groups, or a group with itself.
 struct WindowObligation {
   Obligation groups;
-  const Tree* sheet;  ///< that both are groups of; nullptr: they are of different trees, or of one that is no sheet
+  const Tree* part;  ///< that both are groups of; nullptr: they are of different trees, or of that of the rest
 };
 
 template <int Dim>
@@ -49,7 +50,7 @@ class WindowTraversal {
   /// Settles an obligation. False if it was stopped, or found what first_only looks for, before the end.
   bool run(const WindowObligation& obligation) {
     stopped_ = stopped_ || stop_.raised();
-    sheet_ = obligation.sheet;
+    part_ = obligation.part;
     if (obligation.groups.self) {
       settle_self(obligation.groups.first);
     } else {
@@ -67,14 +68,13 @@ class WindowTraversal {
   bool put_off(const Obligation& obligation) {
     const std::uint32_t size = obligation.first.count + (obligation.self ? 0 : obligation.second.count);
     if (deferred_ == nullptr || size > grain_) return false;
-    deferred_->push_back({obligation, sheet_});
+    deferred_->push_back({obligation, part_});
     return true;
   }
 
   void settle_self(Group g) {
     if (stopped_ || scene_.forest.scripted(g)) return;
-    if (sheet_ != nullptr && g.count >= worth_asking &&
-        monotone_around(scene_.boxes.tangents(g), scene_.forest.extent(g))) {
+    if (part_ != nullptr && monotone_around(g)) {
       ++tally_.obligations;
       return;
     }
@@ -99,7 +99,7 @@ class WindowTraversal {
   [[gnu::noinline]] void take_apart(Group a, Group b) {
     if (stopped_ || (scene_.forest.scripted(a) && scene_.forest.scripted(b))) return;
     if (++since_look_ >= patience) look_at_clock();
-    if (sheet_ != nullptr && a.count + b.count >= worth_asking && monotone_around(a, b)) {
+    if (part_ != nullptr && monotone_around(a, b)) {
       ++tally_.obligations;
       return;
     }
@@ -118,14 +118,28 @@ class WindowTraversal {
 
   WindowCell<Dim> cell(Group g) const { return cell_of(scene_.forest.leaf(g), scene_.chords); }
 
+  bool monotone_around(Group g) const {
+    if (!part_->sheet) return holds_both(g, g);
+    return g.count >= worth_asking && monotone_around(scene_.boxes.tangents(g), scene_.forest.extent(g));
+  }
+
   bool monotone_around(Group a, Group b) const {
+    if (!part_->sheet) return holds_both(a, b) || holds_both(b, a);
+    if (a.count + b.count < worth_asking) return false;
     const TangentBox both = merged(scene_.boxes.tangents(a), scene_.boxes.tangents(b));
     return monotone_around(both, merged(scene_.forest.extent(a), scene_.forest.extent(b)));
   }
 
+  /// Whether the chart of the first group is monotone and covers the second.
+  bool holds_both(Group a, Group b) const {
+    const Charts& charts = scene_.forest.charts();
+    const std::uint32_t chart = charts.chart_of(a);
+    return chart != Charts::none && scene_.boxes.monotone(chart) && charts.covers(chart, b);
+  }
+
   /// Whether the sheet is monotone in a rectangle, given the tangents of some of its faces.
   bool monotone_around(TangentBox tangents, const Extent& extent) const {
-    return is_monotone(tangents, Dim) && add_tangents(sheet_->root, extent, tangents);
+    return is_monotone(tangents, Dim) && add_tangents(part_->root, extent, tangents);
   }
 
   /// Adds the tangents of the faces of a group that are laid out in a rectangle. False if nothing is monotone then.
@@ -153,7 +167,7 @@ class WindowTraversal {
   const StopSignal& stop_;
   WindowTally& tally_;
   WindowPairs<Dim> cell_pairs_;
-  const Tree* sheet_ = nullptr;
+  const Tree* part_ = nullptr;
   std::uint32_t grain_ = 0;
   std::vector<WindowObligation>* deferred_ = nullptr;
   unsigned since_look_ = 0;

@@ -106,10 +106,10 @@ class SpanWalk {
     for (std::size_t i = 0; i < trees.size(); ++i) {
       const Group a = trees[i].root;
       if (forest_.scripted(a)) continue;
-      if (trees[i].sheet && is_monotone(boxes_.root_tangents(i), Dim)) {
+      if (boxes_.root_monotone(i)) {
         ++top_.tally.obligations;
       } else {
-        open.push_back({{a, a, true}, trees[i].sheet ? &trees[i] : nullptr});
+        open.push_back({{a, a, true}, trees[i].part ? &trees[i] : nullptr});
         needed[i] = true;
       }
     }
@@ -194,15 +194,9 @@ class Verification {
     WindowChords<Dim> chords = chords_over<Dim>(window, lines_, forest_, options_.threads);
     if (!cut_time(chords) || !settle_halves(window)) sum_ = walk(chords);
     WindowTally& sum = sum_.tally;
-    return {sum_.finished,
-            sum.contacts,
-            sum.initial_intersections,
-            sum.reports.take(),
-            sum.initial_reports.take(),
-            sum.earliest.first(),
-            sum.stages,
-            sum.obligations,
-            sum.cell_pairs};
+    return {
+        sum_.finished,        sum.contacts, sum.initial_intersections, sum.reports.take(), sum.initial_reports.take(),
+        sum.earliest.first(), sum.stages,   sum.obligations,           sum.cell_pairs};
   }
 
  private:

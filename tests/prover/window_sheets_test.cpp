@@ -255,6 +255,59 @@ TEST(WindowSheets, StrictAlsoLooksAtTheFeaturesOfOneCell) {
   EXPECT_GT(result.contact_count(), with_layout(wild).contact_count());
 }
 
+// --- parts that are no sheets
+
+Motion tremble(const Surface& surface, double much) {
+  return moving(surface, 5, [surface, much](VertexId v, double t) {
+    const Position& x = surface.x[v];
+    const double w = much * std::sin(0.4 * x[0] + 0.3 * x[1] + 0.2 * x[2] + 0.2 * t);
+    return Position{x[0] + w + t, x[1] - w, x[2] + w - 0.5 * t};
+  });
+}
+
+TEST(WindowCharts, AClosedSurfaceIsSettledByCharts) {
+  const Motion motion = tremble(closed_box(10), 0.3);
+  const WindowResult result = with_layout(motion);
+  expect_equal(result, without_layout(motion));
+  EXPECT_EQ(result.contact_count() + result.initial_intersections, 0u);
+  EXPECT_LT(result.obligations, without_layout(motion).obligations / 2);
+}
+
+TEST(WindowCharts, RandomOnesAreAnsweredAlikeWithAndWithoutCharts) {
+  int touching = 0, apart = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Motion motion = shaken(closed_box(4), seed, 0.05 + 0.015 * static_cast<double>(seed));
+    const WindowResult result = with_layout(motion);
+    expect_equal(result, without_layout(motion));
+    (result.contact_count() > 0 ? touching : apart) += 1;
+  }
+  EXPECT_GT(touching, 5);
+  EXPECT_GT(apart, 5);
+}
+
+/// A band wound around an axis twice, its windings much closer than its edges are long.
+Motion spiral(double from, double to) {
+  const Surface flat = grid(24, 5);
+  const auto place = [&](VertexId v, double pitch) {
+    const Position& x = flat.x[v];
+    const double angle = x[0] / 2, radius = 2 + pitch * angle;
+    return Position{radius * std::cos(angle), x[1], radius * std::sin(angle)};
+  };
+  Motion motion = moving(flat, 6, [&](VertexId v, double t) { return place(v, from + (to - from) * t / 6); });
+  for (VertexId v = 0; v < flat.x.size(); ++v) motion.surface.x[v] = place(v, from);
+  return motion;
+}
+
+TEST(WindowCharts, LayersOverOneAnotherAreNotTakenForOne) {
+  const WindowResult open = with_layout(spiral(0.1, 0.08));
+  EXPECT_EQ(open.contact_count() + open.initial_intersections, 0u);
+  expect_equal(open, without_layout(spiral(0.1, 0.08)));
+  const WindowResult closing = with_layout(spiral(0.1, -0.02));
+  EXPECT_GT(closing.contact_count(), 0u);
+  expect_equal(closing, without_layout(spiral(0.1, -0.02)));
+}
+
 /// More breakpoints on the lines that there are change nothing: dyadic, so that they are on them exactly.
 TEST(WindowSheets, BreakpointsOnTheLineChangeNothing) {
   for (const double rough : {0.1, 0.7}) {
