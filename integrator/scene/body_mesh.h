@@ -19,10 +19,10 @@ struct BodyMesh {
 
 /// Makes or reads a body's mesh. Throws InputError that names a field under /bodies/i: a file that does not load, a
 /// cell with a vertex twice, faces or third coordinates in the plane, vertices without mass, a pin that is not there.
-BodyMesh make_body(const Scene& scene, std::size_t body);
+BodyMesh make_body(const Scene& scene, std::size_t index);
 
 /// Product of the factors of the patches that a point is in.
-double stiffness_factor(const Body& body, const Position& centre);
+double stiffness_factor(const Body& body, const Position& x);
 
 /// Middle of a cell at the start.
 template <std::size_t N>

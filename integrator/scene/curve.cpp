@@ -20,7 +20,7 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& points) {
   constexpr int chords = 32;
   std::vector<Vec3> padded{2 * points[0] - points[1]};  // mirrored: the curve leaves straight towards the second point
   padded.insert(padded.end(), points.begin(), points.end());
-  padded.push_back(2 * points.back() - points[points.size() - 2]);
+  padded.emplace_back(2 * points.back() - points[points.size() - 2]);
   std::vector<Vec3> fine{points[0]};
   for (std::size_t span = 0; span + 1 < points.size(); ++span) {
     for (int k = 1; k <= chords; ++k) {
@@ -36,6 +36,7 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& points) {
 
 std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t n, bool smooth) {
   std::vector<Vec3> line;
+  line.reserve(points.size());
   for (const Position& p : points) line.push_back(to_vec(p));
   if (smooth) line = smoothed(line);
   std::vector<double> reached{0};  // length up to each point
@@ -47,7 +48,7 @@ std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t
     const double goal = reached.back() * k / n;
     while (reached[piece] < goal) ++piece;
     const double part = (goal - reached[piece - 1]) / (reached[piece] - reached[piece - 1]);
-    result.push_back(line[piece - 1] + part * (line[piece] - line[piece - 1]));
+    result.emplace_back(line[piece - 1] + part * (line[piece] - line[piece - 1]));
   }
   result.push_back(line.back());
   return result;

@@ -11,7 +11,7 @@ namespace noli::integrator {
 MeshSource read_mesh_source(const Field& mesh);
 Selection read_selection(const Field& selection);
 /// `index`: place in the list of bodies, for the default name.
-Body read_body(const Field& body, std::size_t index);
-ScriptedVertices read_script(const Field& script, const std::vector<Body>& bodies);
+Body read_body(const Field& f, std::size_t index);
+ScriptedVertices read_script(const Field& f, const std::vector<Body>& bodies);
 
 }  // namespace noli::integrator
