@@ -22,7 +22,7 @@ constexpr const char* footer =
     "windows before it stay. Interrupted runs (Ctrl-C, exit 2) go on with --resume, and end with the same bytes.\n"
     "Examples:\n"
     "  noli simulate scenes/swinging_cloth.json -o runs/cloth\n"
-    "  noli simulate scenes/swinging_cloth.json --short -o /tmp/cloth\n"
+    "  noli simulate scenes/swinging_cloth.json --short -o runs/short\n"
     "  noli simulate scene.json -o run --until 2.5 --json result.json\n"
     "  noli simulate scene.json -o run --resume\n"
     "  noli simulate scene.json --reproduce run --window 3 -o window3.block    of a run with \"record\": \"frames\"";

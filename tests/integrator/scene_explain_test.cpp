@@ -184,7 +184,8 @@ TEST(Explain, WarnsOfWindowsThatAreTooLongAndOfStepsThatAreCut) {
                   "steps above the limit of stability are accepted (\"allow_unstable\")"));
 }
 
-/// One mass of 1 kg between a stiff spring, of frequency 1, and a soft one, with steps of their own: acm 1.4.
+/// One mass of 1 kg between a stiff spring, of frequency 1, and a soft one, with steps of their own: the resonance of
+/// integrator/resonance.h.
 Json two_springs(double soft, double fast_step, double slow_step) {
   Json scene = Json::parse(R"({"noli_scene": 1, "dimension": 2, "duration": 100, "window": 10, "steps": "own",
       "bodies": [{"mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 2}},
