@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Charts: where a part of a mesh is no sheet (proofs/prover/layout.h), small groups of its faces laid out by themselves,
+// Charts: where a part of a mesh is no sheet (proofs/prover/sheet.h), small groups of its faces laid out by themselves,
 // with enough around them that faces next to a group are settled with it.
 //
 // Notation
@@ -13,7 +13,7 @@
 //
 // Claim: r maps the points of S that are laid out in Q one to one to Q if (1) each face of S is laid out strictly
 // counterclockwise; (2) S has no edge twice in one direction; (3) the edges without an opposite do not overlap Q; (4) some
-// point inside Q is inside exactly one face and on no other. Proof. As in proofs/prover/layout.h: a point off all edges is
+// point inside Q is inside exactly one face and on no other. Proof. As in proofs/prover/sheet.h: a point off all edges is
 // covered as often as the edges of (3) wind around it, which inside Q is always the same, by (4) once. So the faces cover
 // Q, and do not overlap in it. Around a point in Q (on its border: in the half or quarter disc around it that is in Q) the
 // faces are sectors, each joined to the next by an edge that overlaps Q and so has both of its faces: they share the point.

@@ -59,6 +59,18 @@ TEST(Monotone, TheRestOfTheBoxCounts) {
   EXPECT_TRUE(is_monotone(merged(box_of(unit_face, flat, flat), box_of(unit_face, steep, steep)), 3));
 }
 
+/// Though each of two faces goes its way, what goes along one and then along the other may come back.
+TEST(Monotone, WhatMixesTheAxesCounts) {
+  TangentBox box = empty_tangents();
+  for (const float shear : {0.9F, 3.0F}) {
+    box.low_u = Lanes{1, -shear, 0, 0};
+    box.high_u = Lanes{1, shear, 0, 0};
+    box.low_v = Lanes{-shear, 1, 0, 0};
+    box.high_v = Lanes{shear, 1, 0, 0};
+    EXPECT_EQ(is_monotone(box, 2), shear < 1);
+  }
+}
+
 TEST(Monotone, WhatIsNotKnownIsNot) {
   const LaidFace unusable = {{0, 1, 2}, {1, 0, 0, 1}, false};
   EXPECT_FALSE(is_monotone(box_of(unusable, flat, flat), 3));
@@ -121,11 +133,13 @@ TEST(Monotone, NoDirectionOfTheLayoutIsLost) {
   for (int i = 0; i < 3000; ++i) {
     TangentBox box = empty_tangents();
     for (std::size_t k = 0; k < 3; ++k) {
-      const double u = random.unit(), v = random.unit(), wide = 0.3 * (1 + random.unit());
-      box.low_u[k] = static_cast<float>(u - wide);
-      box.high_u[k] = static_cast<float>(u + wide);
-      box.low_v[k] = static_cast<float>(v - wide);
-      box.high_v[k] = static_cast<float>(v + wide);
+      const double u = random.unit(), v = random.unit();
+      const auto wide = [&] { return random.below(3) == 0 ? 1 + random.unit() : 0.1; };
+      const double wide_u = wide(), wide_v = wide();
+      box.low_u[k] = static_cast<float>(u - wide_u);
+      box.high_u[k] = static_cast<float>(u + wide_u);
+      box.low_v[k] = static_cast<float>(v - wide_v);
+      box.high_v[k] = static_cast<float>(v + wide_v);
     }
     const bool monotone = is_monotone(box, 3);
     (monotone ? yes : no) += 1;
