@@ -16,17 +16,23 @@ namespace {
 using testing::bits;
 
 TEST(WriteObj, HasTheseLines) {
-  const Frame frame{.mesh = {.vertex_count = 5, .faces = {{0, 1, 2}}, .edges = {{3, 0}}, .points = {4}},
-                    .positions = {{0.1, 2, -3}, {0, 0, 1e-300}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}};
+  Frame frame;
+  frame.mesh.vertex_count = 5;
+  frame.mesh.faces = {{0, 1, 2}};
+  frame.mesh.edges = {{3, 0}};
+  frame.mesh.points = {4};
+  frame.positions = {{0.1, 2, -3}, {0, 0, 1e-300}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}};
   EXPECT_EQ(format_obj(frame),
             "v 0.10000000000000001 2 -3\nv 0 0 1e-300\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3\nl 4 1\np 5\n");
 }
 
 TEST(WriteObj, IsReadBackBitForBit) {
   std::mt19937_64 random(1);
-  Frame frame{
-      .mesh = {.vertex_count = 50, .faces = {{0, 1, 2}, {2, 1, 0}, {7, 8, 9}}, .edges = {{4, 3}}, .points = {6, 5}},
-      .positions = {}};
+  Frame frame;
+  frame.mesh.vertex_count = 50;
+  frame.mesh.faces = {{0, 1, 2}, {2, 1, 0}, {7, 8, 9}};
+  frame.mesh.edges = {{4, 3}};
+  frame.mesh.points = {6, 5};
   for (std::size_t v = 0; v < 50; ++v) {
     Position x{-0.0, 0x1p-1074, 0};
     x[2] = std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 2000) - 1100);
