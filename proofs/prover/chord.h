@@ -18,10 +18,10 @@
 // positions is at most 2 M and has one of u; so x_a is wrong by at most (6.1 + 2 + 2 + 1.1) u M < 12 u M. At a
 // breakpoint inside, (t_k - b) / (e - b), taken as a product with a rounded reciprocal, has a relative error of 4.01 u;
 // so L(t_k) is wrong by at most (8.1 + 2 + 2 + 1.1) u M and the deviation, at most 4 M, by 4 u M more: 18 u M. Between
-// breakpoints x - L is linear. Moving L rounds by 2 u M in the middle, 3 u M at the ends and 4 u M in the half width. In
+// breakpoints x - L is linear. Moving L rounds by 2 u M in the middle, 3 u M at the ends, 4 u M in the half width. In
 // all 27 u M, and 8 u M for the two bounds and 5 u M for the sum below; the radius has 64 u M to spare. Products may
-// underflow: less than 2^-1070 in all, for which 2^-1021 is added. Where something overflows, or e - b or its reciprocal
-// is beyond the normal doubles, the radius is infinite and the chord zero.
+// underflow: less than 2^-1070 in all, for which 2^-1021 is added. Where something overflows, or e - b or its
+// reciprocal is beyond the normal doubles, the radius is infinite and the chord zero.
 // A world line without breakpoints inside and with breakpoints at both ends is its chord: then the radius is 0.
 //
 // What this does not do: it does not look for the narrowest strip, only for the one along L.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The end of the recursion over groups in a window: two cells that no box has separated, or one cell by itself.
+// The end of the recursion over groups in a span of a window: two cells that no box has separated, or one cell by itself.
 //
 // Notation
 //   parts    as in proofs/prover/cell_pair.h: what is left of two cells when each shared vertex is dropped from one
 //   piece    a time [begin, end]; it is cut at breakpoints of the vertices in question only
 //   resists  no direction was found for two parts over a piece that has no breakpoint inside
 //
-// Two parts are settled by one direction over the window, or over the pieces into which it is cut. Where a piece
-// resists, each pair of features of the parts is settled in the same way over what is left of the window, and is
-// decided exactly over the pieces in which it resists; it counts once, in the first piece in which it meets.
+// Two parts are settled by one direction over the span, or over the pieces into which it is cut. Where a piece resists,
+// each pair of features of the parts is settled in the same way over what is left of the span, and is decided exactly over
+// the pieces in which it resists; it counts once, in the first piece in which it meets.
 //
 // What this does not do: it never looks at cells other than the two.
 #pragma once

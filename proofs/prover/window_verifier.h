@@ -12,9 +12,10 @@
 //
 // Which pairs of features are counted: as in proofs/prover/verifier.h, each once if it meets anywhere in the closed
 // window. In order of cost: sheets that are monotone as a whole (proofs/prover/monotone.h); the walk over pairs of groups,
-// over chords, where boxes and directions have to hold with the radii added; time cut for the pair of cells in question,
-// until a direction holds or no breakpoint is left inside; each of its pairs of features the same way; and what resists
-// in a piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
+// over chords, where boxes and directions have to hold with the radii added, and where what is monotone around both
+// (proofs/prover/window_traversal.h) is settled at once; time cut for the pair of cells in question, until a direction holds
+// or no breakpoint is left inside; each of its pairs of features the same way; and what resists in a piece without
+// breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
 //
 // What this does not do: it writes no proof, knows no thickness, and reads no files.
 #pragma once
