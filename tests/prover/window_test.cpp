@@ -283,6 +283,27 @@ TEST(Window, ReportsAreTheFirstInCanonicalOrderAndCountsAreExact) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(few.reports[i], all.reports[i]);
 }
 
+TEST(Window, WithTwoBreakpointsIsAStep) {
+  for (const double fall : {0.0, 0.8, 1.5}) {
+    const Step step = two_sheets(11, 25, fall);
+    VerifyOptions options;
+    options.max_reports = 1000000;
+    const VerifyResult expected = verify_step(step.mesh, step.x_t0, step.x_t1, options);
+    WindowOptions same;
+    same.max_reports = options.max_reports;
+    const WindowResult result = verify(line_scene_of(step), same);
+    EXPECT_EQ(result.contacts, expected.contacts);
+    EXPECT_EQ(result.reports, expected.reports);
+    EXPECT_EQ(result.initial_reports, expected.initial_reports);
+    ASSERT_EQ(result.first.has_value(), expected.first.has_value());
+    EXPECT_EQ(result.first.has_value(), fall > 0);
+    if (result.first) {
+      EXPECT_EQ(result.first->contact, *expected.first);
+      EXPECT_EQ(result.first->lower(), expected.first->first.begin);
+    }
+  }
+}
+
 // --- sizes
 
 TEST(Window, TimesAndPlacesOfAnySizeAreRight) {
