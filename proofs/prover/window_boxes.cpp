@@ -49,7 +49,7 @@ Bounds merged_over(std::size_t count, int threads, const Bounds& none, const Of&
 template <int Dim>
 WindowBoxes<Dim>::WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads)
     : forest_(forest), chords_(chords), threads_(threads) {
-  find_phi();
+  if (forest.trees().size() > 1) find_phi();
   bound_roots();
 }
 
@@ -156,6 +156,7 @@ void WindowBoxes<Dim>::look_at_charts() {
 template <int Dim>
 void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
   if (trees.empty()) return;
+  if (forest_.trees().size() == 1) find_phi();
   boxes_.resize(forest_.node_count());
   for (const std::size_t t : trees) {
     const Tree& tree = forest_.trees()[t];
