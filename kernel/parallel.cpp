@@ -116,6 +116,10 @@ int hardware_threads() {
 
 void parallel_for(std::size_t count, int threads, const Task& task) { backends.front().run(count, threads, task); }
 
+void parallel_both(int threads, const std::function<void()>& first, const std::function<void()>& second) {
+  run_std(2, threads, [&](std::size_t i) { i == 0 ? first() : second(); });
+}
+
 std::span<const ParallelBackend> parallel_backends() { return backends; }
 
 }  // namespace noli

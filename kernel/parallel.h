@@ -25,6 +25,11 @@ int hardware_threads();
 /// machine has no thread or memory left.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 
+/// Calls both, at the same time unless `threads` is 1, and returns when both have returned; exceptions as in
+/// parallel_for, `first` before `second`. The other thread is a plain one whatever the back end, so one of the two goes
+/// on while the other waits for a back end to be loaded, which the first loop of a process does.
+void parallel_both(int threads, const std::function<void()>& first, const std::function<void()>& second);
+
 /// One way to get threads. `run` has the contract of parallel_for.
 struct ParallelBackend {
   std::string_view name;  ///< "tbb" or "std"

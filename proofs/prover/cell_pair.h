@@ -41,8 +41,7 @@ class CellPairs {
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
     const unsigned same = same_vertices(a, b);
-    const bool settled = same == 0 ? settle_apart(a, b) : settle_around_corner(a, b, same);
-    if (!settled) settle_unusual(a, b, same);
+    if (!settle_usual(a, b, same)) settle_unusual(a, b, same);
   }
 
   /// Settles the obligation about the features of one cell.
@@ -137,6 +136,12 @@ class CellPairs {
 
   static bool is_single(unsigned mask) { return mask != 0 && (mask & (mask - 1)) == 0; }
 
+  /// Whether the usual directions settle a pair.
+  bool settle_usual(const Cell& a, const Cell& b, unsigned same) {
+    if (same == 0) return settle_apart(a, b);
+    return is_single(same) ? settle_around_corner(a, b, same) : settle_around_edge(a, b, same);
+  }
+
   /// Two cells without a common vertex: whether one of the usual directions separates them.
   bool settle_apart(const Cell& a, const Cell& b) {
     const auto points = points_around<Dim, 2, 3>(a, b, 0, {1, 2}, {0, 1, 2});
@@ -150,7 +155,7 @@ class CellPairs {
 
   /// Two faces that have one vertex in common, each of them once: whether the usual direction settles them.
   bool settle_around_corner(const Cell& a, const Cell& b, unsigned same) {
-    if (!is_single(same) || !are_faces(a, b)) return false;
+    if (!are_faces(a, b)) return false;
     const std::size_t i = place(same) / 3, j = place(same) % 3;
     const auto n = around_corner(points_around<Dim, 2, 2>(a, b, i, {next(i), next(next(i))}, {next(j), next(next(j))}));
     if (!n) return false;
@@ -160,50 +165,58 @@ class CellPairs {
     return true;
   }
 
+  /// Two faces that have two vertices in common, each of them once.
+  struct Hinge {
+    std::size_t a, b, c;  ///< in the first face: the common ones, the other
+    std::size_t d;        ///< the other in the second
+  };
+
+  static std::optional<Hinge> hinge_of(const Cell& a, const Cell& b, unsigned same) {
+    const unsigned rest = same & (same - 1);
+    if (!is_single(rest) || !are_faces(a, b)) return std::nullopt;
+    const std::size_t p = place(same), q = place(rest);
+    if (p / 3 == q / 3 || p % 3 == q % 3) return std::nullopt;
+    return Hinge{p / 3, q / 3, 3 - p / 3 - q / 3, 3 - p % 3 - q % 3};
+  }
+
+  static AroundEdge<Dim> around_hinge(const Cell& a, const Cell& b, const Hinge& hinge) {
+    return around_edge(points_around<Dim, 2, 1>(a, b, hinge.a, {hinge.b, hinge.c}, {hinge.d}));
+  }
+
+  /// Whether the usual directions settle a hinge; if steps are recorded, settle_unusual does it.
+  bool settle_around_edge(const Cell& a, const Cell& b, unsigned same) {
+    if (record_.on()) return false;
+    const auto hinge = hinge_of(a, b, same);
+    if (!hinge) return false;
+    const auto& found = around_hinge(a, b, *hinge).found;
+    if (!(found[0] && found[1] && found[2] && found[3])) return false;
+    tally_.obligations += found.size();
+    return true;
+  }
+
   [[gnu::noinline]] void settle_unusual(const Cell& a, const Cell& b, unsigned same) {
     Progress progress{a, b, pairs_owned<Dim>(a, b)};
     if (same == 0) {
-      const Parts whole{all_corners(a.corners), all_corners(b.corners)};
-      settle_part(progress, whole, true);
+      settle_part(progress, {all_corners(a.corners), all_corners(b.corners)}, true);
     } else {
-      settle_neighbours(progress, find_shared(a, b));
+      const auto hinge = hinge_of(a, b, same);
+      settle_parts(progress, find_shared(a, b), hinge ? around_hinge(a, b, *hinge) : AroundEdge<Dim>{});
     }
     if (!progress.open) return;
     ++tally_.cell_pairs;
     if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
   }
 
-  /// Two faces that have two vertices in common, each of them once.
-  static bool is_hinge(const Cell& a, const Cell& b, const Shared& shared) {
-    return shared.count == 2 && are_faces(a, b) && is_single(shared.in_a[0]) && is_single(shared.in_a[1]) &&
-           is_single(shared.in_b[0]) && is_single(shared.in_b[1]);
-  }
-
-  void settle_neighbours(Progress& progress, const Shared& shared) {
-    if (is_hinge(progress.a, progress.b, shared)) {
-      settle_around_edge(progress, shared);
-    } else {
-      settle_parts(progress, shared);
-    }
-  }
-
-  void settle_around_edge(Progress& progress, const Shared& shared) {
-    const std::size_t i = place(shared.in_a[0]), j = place(shared.in_a[1]);
-    const std::size_t c = 3 - i - j, d = 3 - place(shared.in_b[0]) - place(shared.in_b[1]);
-    const auto known = around_edge(points_around<Dim, 2, 1>(progress.a, progress.b, i, {j, c}, {d}));
-    settle_parts(progress, shared, &known);
-  }
-
   static std::size_t next(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
 
-  void settle_parts(Progress& progress, const Shared& shared, const AroundEdge<Dim>* known = nullptr) {
+  void settle_parts(Progress& progress, const Shared& shared, const AroundEdge<Dim>& known) {
     std::size_t number = 0;
     drop_shared(progress, {all_corners(progress.a.corners), all_corners(progress.b.corners)}, shared, 0, known, number);
   }
 
   /// Goes through the pairs of parts in prefix order and numbers them.
   void drop_shared(Progress& progress, Parts parts, const Shared& shared, std::size_t from,
-                   const AroundEdge<Dim>* known, std::size_t& number) {
+                   const AroundEdge<Dim>& known, std::size_t& number) {
     if (from < shared.count) {
       const CornerMask in_a = shared.in_a[from], in_b = shared.in_b[from];
       record_.drop_vertex(progress.a.vertices[place(in_a)]);
@@ -216,8 +229,8 @@ class CellPairs {
     const std::size_t i = number++;
     if (parts.a == 0 || parts.b == 0) {
       record_.empty();
-    } else if (known != nullptr && known->found[i]) {
-      close(known->n[i], 1);
+    } else if (i < known.found.size() && known.found[i]) {
+      close(known.n[i], 1);
       progress.left &= ~pairs_within<Dim>(progress.a, parts.a, progress.b, parts.b);
     } else {
       settle_part(progress, parts, false);

@@ -6,8 +6,8 @@
 //   word    two numbers of 32 bits, of the first group in the lower half and of the second in the upper; what does not
 //           carry over is done to both at once
 //
-// The walk of the verifier makes some ten of these a cell, and keeps them in a stack. Kept number by number they would
-// be stored in small pieces and loaded in large ones, for which a processor has to wait.
+// The walk of the verifier makes some ten of these a cell, and keeps them in a stack, word by word: a processor has to
+// wait for what is stored in small pieces and loaded in large ones, as compilers like to do with structures.
 //
 // What this does not do: it does not look at the hierarchy.
 #pragma once
@@ -18,7 +18,6 @@ namespace noli {
 
 class GroupPair {
  public:
-  GroupPair() = default;  ///< no pair
   GroupPair(Group first, Group second)
       : node_(word(first.node, second.node)),
         begin_(word(first.begin, second.begin)),
@@ -64,7 +63,40 @@ class GroupPair {
   /// Half of each count, rounded down.
   Word half() const { return count_ >> 1 & 0x7fff'ffff'7fff'ffff; }
 
+  template <std::size_t>
+  friend class GroupPairStack;
+
   Word node_, begin_, count_;
+};
+
+/// The last in is the first out. At most `Size` at once.
+template <std::size_t Size>
+class GroupPairStack {
+ public:
+  bool empty() const { return size_ == 0; }
+  void clear() { size_ = 0; }
+
+  /// Pushes a pair with some notes about it, or, if not `keep`, nothing. Does not branch on that.
+  void push(const GroupPair& pair, std::uint8_t notes, bool keep = true) {
+    node_[size_] = pair.node_;
+    begin_[size_] = pair.begin_;
+    count_[size_] = pair.count_;
+    notes_[size_] = notes;
+    size_ += keep ? 1 : 0;
+  }
+
+  void pop() { --size_; }
+
+  /// The last one that was popped.
+  GroupPair popped() const { return {node_[size_], begin_[size_], count_[size_]}; }
+  std::uint8_t popped_notes() const { return notes_[size_]; }
+
+ private:
+  using Word = GroupPair::Word;
+
+  std::size_t size_ = 0;
+  std::array<Word, Size + 1> node_, begin_, count_;
+  std::array<std::uint8_t, Size + 1> notes_;
 };
 
 }  // namespace noli

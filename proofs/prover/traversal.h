@@ -67,7 +67,7 @@ class Traversal {
         stop_(stop),
         tally_(tally),
         record_(record),
-        recording_(record.on() ? closed : 0),
+        recording_(record.on()),
         cell_pairs_({options.initial, options.strict}, tally, record) {}
 
   /// From now on puts obligations about at most `grain` cells on the list.
@@ -79,10 +79,10 @@ class Traversal {
   /// Settles an obligation. False if it was stopped, or found what first_only looks for, before the end.
   bool run(const Obligation& obligation) {
     stopped_ = stop_.raised();
-    count_ = 0;
-    push({obligation.first, obligation.second});
     closed_ = 0;
-    while (count_ > 0 && !stopped_) take_next();
+    stack_.clear();
+    stack_.push({obligation.first, obligation.second}, 0);
+    while (!stack_.empty() && !stopped_) take_next();
     tally_.obligations += closed_;
     return !stopped_;
   }
@@ -98,9 +98,10 @@ class Traversal {
     after_split = 2  ///< `split_second` has to be recorded before it
   };
 
-  void take_next() {
-    const GroupPair pair = stack_[--count_];
-    const std::uint8_t notes = notes_[count_];
+  [[gnu::always_inline]] void take_next() {
+    stack_.pop();
+    const GroupPair pair = stack_.popped();
+    const std::uint8_t notes = stack_.popped_notes();
     if ((notes & after_split) != 0) record_.split_second();
     if ((notes & closed) != 0) return record_.direction(separating_axis(first_box(pair), second_box(pair)));
     if (put_off(pair)) return;
@@ -123,9 +124,9 @@ class Traversal {
     }
     const Group left = pair.first().left(), right = pair.first().right();
     record_.split_self();
-    push({right, right});
+    stack_.push({right, right}, 0);
     push_tested({left, right});
-    push({left, left});
+    stack_.push({left, left}, 0);
   }
 
   /// What no axis separates. Both groups are split at once, without a test of one with half of the other: that mostly
@@ -157,15 +158,9 @@ class Traversal {
 
   /// Whether an axis separates the two is not branched on, because it cannot be predicted.
   [[gnu::always_inline]] void push_tested(const GroupPair& pair, std::uint8_t notes = 0) {
-    const std::uint8_t separated = axis_separates(first_box(pair), second_box(pair)) ? closed : 0;
-    closed_ += separated;
-    push(pair, notes | separated);
-    count_ -= separated & ~recording_;
-  }
-
-  [[gnu::always_inline]] void push(const GroupPair& pair, int notes = 0) {
-    stack_[count_] = pair;
-    notes_[count_++] = static_cast<std::uint8_t>(notes);
+    const bool separated = axis_separates(first_box(pair), second_box(pair));
+    closed_ += separated ? 1 : 0;
+    stack_.push(pair, static_cast<std::uint8_t>(notes | (separated ? closed : 0)), !separated || recording_);
   }
 
   void look_around() {
@@ -182,16 +177,14 @@ class Traversal {
   const StopSignal& stop_;
   Tally& tally_;
   StepRecord& record_;
-  std::uint8_t recording_;  ///< `closed` or 0
+  bool recording_;
   CellPairs<Dim> cell_pairs_;
   std::uint32_t grain_ = 0;
   std::vector<Deferred>* deferred_ = nullptr;
   unsigned since_look_ = 0;
   bool stopped_ = false;
-  std::size_t closed_ = 0;  ///< obligations closed by an axis
-  std::size_t count_ = 0;   ///< of the obligations on the stack; the last one is next
-  std::array<GroupPair, stack_size> stack_;
-  std::array<std::uint8_t, stack_size> notes_;
+  std::uint64_t closed_ = 0;  ///< obligations closed by an axis
+  GroupPairStack<stack_size> stack_;
 };
 
 }  // namespace noli

@@ -14,7 +14,7 @@ namespace noli {
 namespace {
 
 /// The work is cut into obligations about at most this share of the cells, but no fewer than least_grain of them.
-constexpr std::uint32_t grain_share = 128;
+constexpr std::uint32_t grain_share = 256;
 constexpr std::uint32_t least_grain = 256;
 
 /// What one task leaves behind.
@@ -56,24 +56,19 @@ class Verification {
  public:
   Verification(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                const VerifyOptions& options)
-      : options_(options), stop_(options), top_(blank(x_t0, x_t1)) {
+      : options_(options), stop_(options), none_(x_t0, x_t1, Dim), top_(blank()) {
     CellFeatures features;
-    parallel_for(2, options.threads, [&](std::size_t i) {
-      if (i == 0) {
-        hierarchy_.emplace(mesh, x_t0, x_t1, Dim, options.threads);
-      } else {
-        features = find_owners(mesh, options.strict);
-      }
-    });
+    parallel_both(
+        options.threads, [&] { hierarchy_.emplace(mesh, x_t0, x_t1, Dim, options.threads); },
+        [&] { features = find_owners(mesh, options.strict); });
     gather_vertices(x_t0, x_t1);
     gather_cells(mesh, features);
   }
 
   VerifyResult run() {
     if (options_.sink != nullptr) options_.sink->begin_step(hierarchy_->leaf_cells());
-    const Outcome blank_outcome = top_;
     cut_into_tasks();
-    outcomes_.assign(tasks_.size(), blank_outcome);
+    outcomes_.resize(tasks_.size());
     reporter_.emplace(options_, tasks_.size());
     parallel_for(tasks_.size(), options_.threads, [this](std::size_t i) { run_task(i); });
     VerifyResult result = add_up();
@@ -82,9 +77,7 @@ class Verification {
   }
 
  private:
-  Outcome blank(std::span<const Position> x_t0, std::span<const Position> x_t1) const {
-    return {Tally(options_.max_reports, Earliest(x_t0, x_t1, Dim)), StepRecord(options_.sink != nullptr), false};
-  }
+  Outcome blank() const { return {Tally(options_.max_reports, none_), StepRecord(options_.sink != nullptr), false}; }
 
   void gather_vertices(std::span<const Position> x_t0, std::span<const Position> x_t1) {
     vertices_ = std::make_unique_for_overwrite<MovingVertex<Dim>[]>(x_t0.size());
@@ -112,7 +105,8 @@ class Verification {
   void run_task(std::size_t i) {
     if (i > first_found_) return;
     const Scene<Dim> scene{*hierarchy_, cells_.get()};
-    Outcome& outcome = outcomes_[i];
+    outcomes_[i] = std::make_unique<Outcome>(blank());
+    Outcome& outcome = *outcomes_[i];
     Traversal<Dim> traversal(scene, options_, stop_, outcome.tally, outcome.record);
     outcome.finished = traversal.run(tasks_[i].obligation);
     if (options_.first_only && outcome.tally.found_any()) lower_first_found(i);
@@ -127,8 +121,8 @@ class Verification {
 
   void play_task(std::size_t i) {
     top_.record.play(i == 0 ? 0 : tasks_[i - 1].steps_before, tasks_[i].steps_before, *options_.sink);
-    outcomes_[i].record.play(*options_.sink);
-    outcomes_[i].record.release();
+    outcomes_[i]->record.play(*options_.sink);
+    outcomes_[i]->record.release();
   }
 
   void finish_playing(bool complete) {
@@ -141,8 +135,8 @@ class Verification {
   VerifyResult add_up() {
     bool complete = top_.finished;
     for (std::size_t i = 0; i < outcomes_.size() && i <= first_found_; ++i) {
-      top_.tally += outcomes_[i].tally;
-      complete = complete && outcomes_[i].finished;
+      top_.tally += outcomes_[i]->tally;
+      complete = complete && outcomes_[i]->finished;
     }
     Tally& sum = top_.tally;
     return {complete,
@@ -162,9 +156,10 @@ class Verification {
   std::unique_ptr<MovingVertex<Dim>[]> vertices_;
   std::unique_ptr<StepCell<Dim>[]> cells_;  ///< in the order of the leaves
   std::vector<Deferred> tasks_;
-  std::vector<Outcome> outcomes_;
+  std::vector<std::unique_ptr<Outcome>> outcomes_;  ///< of the tasks that have begun
   std::optional<Reporter> reporter_;
   std::atomic<std::size_t> first_found_ = std::numeric_limits<std::size_t>::max();
+  Earliest none_;
   Outcome top_;  ///< of the walk over the top, then the sum of all
 };
 

@@ -176,5 +176,44 @@ TEST(Parallel, TheLoopOfTheBuildRuns) {
   EXPECT_GE(hardware_threads(), 1);
 }
 
+TEST(Parallel, BothAreCalledOnce) {
+  for (const int threads : thread_counts) {
+    int first = 0, second = 0;
+    parallel_both(
+        threads, [&] { ++first; }, [&] { ++second; });
+    EXPECT_EQ(first, 1) << threads << " threads";
+    EXPECT_EQ(second, 1) << threads << " threads";
+  }
+}
+
+TEST(Parallel, BothGoOnAtOnceUnlessThereIsOneThread) {
+  std::set<std::thread::id> threads;
+  parallel_both(
+      1, [&] { threads.insert(std::this_thread::get_id()); }, [&] { threads.insert(std::this_thread::get_id()); });
+  EXPECT_EQ(threads.size(), 1U);
+  std::atomic<int> begun = 0;  // each waits for the other
+  const auto wait_for_other = [&] {
+    ++begun;
+    while (begun < 2) std::this_thread::yield();
+  };
+  parallel_both(2, wait_for_other, wait_for_other);
+  EXPECT_EQ(begun, 2);
+}
+
+TEST(Parallel, OfBothTheFirstExceptionCounts) {
+  for (const int threads : {1, 2}) {
+    const auto fail = [](const char* what) { return [what] { throw std::runtime_error(what); }; };
+    try {
+      parallel_both(threads, fail("first"), fail("second"));
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "first");
+    }
+    EXPECT_THROW(parallel_both(
+                     threads, [] {}, fail("second")),
+                 std::runtime_error);
+  }
+}
+
 }  // namespace
 }  // namespace noli
