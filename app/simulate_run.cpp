@@ -60,6 +60,7 @@ class Run {
       : request_(request),
         built_(integrator::build_model<Dim>(scene)),
         labels_(labels_of<Dim>(built_.model)),
+        verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
         record_(scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames),
         frame_rate_(scene.frame_rate) {
@@ -124,7 +125,7 @@ class Run {
     WindowOptions options = window_options();
     options.initial = true;
     options.max_reports = 3;
-    const WindowResult result = verify_window(built_.model.mesh, WorldLines::from_frames(x, x), options);
+    const WindowResult result = verifier_.verify(WorldLines::from_frames(x, x), options);
     if (result.contact_count() + result.initial_intersections == 0) return;
     std::string pairs;
     for (const auto& contact : result.reports) pairs += fmt::format("{}{}", pairs.empty() ? "" : ", ", named(contact));
@@ -217,7 +218,7 @@ class Run {
     const auto look = [lines = candidate_->lines.get(), options = window_options(), this] {
       const Stopwatch watch;
       WindowResult result;
-      if (built_.model.mesh.cell_count() > 0) result = verify_window(built_.model.mesh, *lines, options);
+      if (built_.model.mesh.cell_count() > 0) result = verifier_.verify(*lines, options);
       outcome_.verifying_seconds += watch.seconds();
       return result;
     };
@@ -273,6 +274,7 @@ class Run {
   const SimulateRequest& request_;
   integrator::BuiltScene<Dim> built_;
   std::vector<std::uint8_t> labels_;
+  WindowVerifier verifier_;
   RunFolder folder_;
   RecordMode record_;
   double frame_rate_;

@@ -83,7 +83,8 @@ class MotionRun {
   }
 
   void verify(const RunWindow& window) {
-    WindowResult result = verify_window(reader_.mesh(), *window.lines, options());
+    if (!verifier_) verifier_.emplace(reader_.mesh(), beginning(window), options());
+    WindowResult result = verifier_->verify(*window.lines, options());
     const bool drop = meeting_at_end_ && result.contact_count() > 0;
     meeting_at_end_ = result.contact_count() > 0;
     if (drop) drop_contacts_at_begin(window, result);
@@ -91,14 +92,19 @@ class MotionRun {
     add(result);
   }
 
-  /// What meets where a window begins was counted in the window before.
-  void drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
+  std::vector<Position> beginning(const RunWindow& window) const {
     std::vector<Position> x;
     for (VertexId v = 0; v < reader_.mesh().vertex_count; ++v) x.push_back(window.lines->positions(v).front());
+    return x;
+  }
+
+  /// What meets where a window begins was counted in the window before.
+  void drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
+    const std::vector<Position> x = beginning(window);
     WindowOptions resting = options();
     resting.first_only = false;
     resting.max_reports = 0;
-    const WindowResult before = verify_window(reader_.mesh(), WorldLines::from_frames(x, x), resting);
+    const WindowResult before = verifier_->verify(WorldLines::from_frames(x, x), resting);
     result.complete = result.complete && before.complete;
     for (std::size_t i = 0; i < result.contacts.size(); ++i) {
       const std::uint64_t known = before.complete ? before.contacts[i] : result.contacts[i];
@@ -141,6 +147,7 @@ class MotionRun {
   const VerifyRequest& request_;
   RunReader reader_;
   std::vector<std::uint8_t> scripted_;
+  std::optional<WindowVerifier> verifier_;  ///< made where the run begins
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   bool meeting_at_end_ = false;
   bool ended_ = false;  ///< all windows have been read

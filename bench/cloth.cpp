@@ -45,10 +45,10 @@ class Builder {
   VertexId id(int i, int j) const { return static_cast<VertexId>(j * (n_ + 1) + i); }
 
   void add_vertex(const Vec& x) {
-    const auto k = model_.x.size();
     rest_.push_back(x);
-    model_.x.push_back(x + Vec(0, 0, 0.02 / n_ * static_cast<double>(k * 7919 % 17)));
-    model_.v.push_back(Vec(0, 0, 0.1 * static_cast<double>(k * 104729 % 13) - 0.6));
+    const double wave = x[0] * (1 - x[0]) * x[1];
+    model_.x.push_back(x + Vec(0, 0, 0.1 * wave));
+    model_.v.push_back(Vec(0, 0, wave));
     model_.mass.push_back(0);
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sheets of cloth for the benchmarks of the integrator: springs along the edges, hinges between the faces, pinned at
-// two corners, in motion.
+// two corners, in calm motion.
 #pragma once
 
 #include "noli/integrator/model.h"

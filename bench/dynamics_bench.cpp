@@ -54,6 +54,12 @@ double time_simulation(const Simulation<double, 3>& simulation, const RunWindow&
   return (seconds() - begin) / static_cast<double>(simulation.events() - before);
 }
 
+std::vector<Position> positions(const integrator::Model<double, 3>& model) {
+  std::vector<Position> result;
+  for (const auto& x : model.x) result.push_back({x[0], x[1], x[2]});
+  return result;
+}
+
 struct Costs {
   std::vector<double> plain, grouped, recorded, own, certified, breakpoints;
 };
@@ -63,6 +69,7 @@ class Contest {
  public:
   explicit Contest(int cells)
       : mesh_(cloth(cells, 3, Clocks::grouped).mesh),
+        verifier_(mesh_, positions(cloth(cells, 3, Clocks::grouped)), {}),
         plain_(cloth(cells, 3, Clocks::grouped), 1e-7),
         grouped_(cloth(cells, 3, Clocks::grouped)),
         recorded_(cloth(cells, 3, Clocks::grouped)),
@@ -107,13 +114,13 @@ class Contest {
     WindowOptions options;
     options.threads = 1;
     options.initial = false;
-    const WindowResult result =
-        verify_window(mesh_, integrator::world_lines<3>(recording_, mesh_.vertex_count), options);
+    const WindowResult result = verifier_.verify(integrator::world_lines<3>(recording_, mesh_.vertex_count), options);
     contacts_ += result.contact_count();
     return seconds() - begin;
   }
 
   Mesh mesh_;
+  WindowVerifier verifier_;
   PlainLoop<3> plain_;
   Simulation<double, 3> grouped_, recorded_, own_;
   Recording<double, 3> recording_;
