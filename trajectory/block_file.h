@@ -9,9 +9,9 @@
 //             the SHA-256 of the running hash before and this one. So the last commit stands for the whole file.
 //   open      blocks after the last commit: what a crash, a full disk or a kill leaves. Nobody vouches for them.
 //
-// A group is written, then synced to the disk, then its commit block is written and synced: whatever happens, the file is
-// good up to the end of a group. A file that ends in an open group is no error, but is told. One that is damaged before
-// its last commit block is an error.
+// A group is written, then synced to the disk, then its commit block is written and synced: whatever happens, the file
+// is good up to the end of a group. A file that ends in an open group is no error, but is told. One that is damaged
+// before its last commit block is an error.
 //
 // What this does not do: it does not know what the blocks mean (run_file.h does for trajectories).
 #pragma once
@@ -59,7 +59,8 @@ using ByteConsumer = std::function<void(std::string_view)>;
 /// Gives a payload to a consumer, in as many parts as it likes.
 using PayloadSource = std::function<void(const ByteConsumer&)>;
 
-/// Gives the bytes of a block, from its kind to its checksum. Throws std::logic_error when the payload has another length.
+/// Gives the bytes of a block, from its kind to its checksum. Throws std::logic_error when the payload has another
+/// length.
 void put_block(FourLetters kind, std::uint64_t length, const PayloadSource& payload, const ByteConsumer& consumer);
 
 /// The end of a committed group.
@@ -79,8 +80,8 @@ class BlockWriter {
  public:
   /// A new file; `content` says what it is about. Precondition: the sink is empty.
   BlockWriter(std::unique_ptr<Sink> sink, FourLetters content);
-  /// Goes on after a commit, which BlockReader::committed() gave; what follows it is cut off. Precondition: it is one, not
-  /// the beginning of the file.
+  /// Goes on after a commit, which BlockReader::committed() gave; what follows it is cut off. Precondition: it is one,
+  /// not the beginning of the file.
   BlockWriter(std::unique_ptr<Sink> sink, const CommitPoint& committed);
 
   void append(FourLetters kind, std::string_view payload);
@@ -110,19 +111,19 @@ struct Block {
   std::uint64_t payload_offset() const { return offset + block_format::block_header_size; }
 };
 
-/// Reads the blocks of a file, one after another; holds one at a time. A length is believed only when the file has as many
-/// bytes left.
+/// Reads the blocks of a file, one after another; holds one at a time. A length is believed only when the file has as
+/// many bytes left.
 class BlockReader {
  public:
-  /// Throws InputError when the file cannot be opened, or does not begin as a block file about `content` of a version that
-  /// is known.
+  /// Throws InputError when the file cannot be opened, or does not begin as a block file about `content` of a version
+  /// that is known.
   BlockReader(const std::filesystem::path& path, FourLetters content);
   /// The same for bytes in memory; `name` is what errors call them.
   BlockReader(std::string bytes, std::string name, FourLetters content);
 
   /// The next block, commit blocks included; nothing at the end of the file, or where its open group is torn. Whether
-  /// blocks belong to a group is known when its commit block comes. Throws InputError when a commit does not fit what it
-  /// closes, or a block is damaged although commits follow it. After an error the reader must not be used.
+  /// blocks belong to a group is known when its commit block comes. Throws InputError when a commit does not fit what
+  /// it closes, or a block is damaged although commits follow it. After an error the reader must not be used.
   std::optional<Block> next();
 
   /// The end of the last commit that next() passed.

@@ -10,8 +10,8 @@
 
 namespace noli {
 
-/// Bytes are appended. Each function throws std::system_error when it cannot do what it says (disk full, say); then some
-/// of the bytes may have been written.
+/// Bytes are appended. Each function throws std::system_error when it cannot do what it says (disk full, say); then
+/// some of the bytes may have been written.
 class Sink {
  public:
   Sink() = default;
@@ -31,8 +31,8 @@ class FileSink : public Sink {
  public:
   enum class Open { create, existing };
 
-  /// create: the file must not be there yet; its folder is synced, so that the name survives too. Throws std::system_error,
-  /// naming the file.
+  /// create: the file must not be there yet; its folder is synced, so that the name survives too. Throws
+  /// std::system_error, naming the file.
   FileSink(const std::filesystem::path& path, Open how);
   ~FileSink() override;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CRC-32C (Castagnoli), as RFC 3720 appendix B.4 defines it: it finds what a disk or a transfer spoils, not what somebody
-// means to change (sha256.h is for that).
+// CRC-32C (Castagnoli), as RFC 3720 appendix B.4 defines it: it finds what a disk or a transfer spoils, not what
+// somebody means to change (sha256.h is for that).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace noli {
 
-/// The CRC of `bytes`; of a longer text in parts, `crc` being that of the part before: crc32c(b, crc32c(a)) = crc32c(ab).
+/// The CRC of `bytes`; of a longer text in parts, `crc` being that of the part before: crc32c(b, crc32c(a)) =
+/// crc32c(ab).
 std::uint32_t crc32c(std::string_view bytes, std::uint32_t crc = 0);
 
 /// The two ways to it, for tests: plain C++, and the processor's instruction where there is one (three times as fast).

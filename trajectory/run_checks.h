@@ -27,8 +27,8 @@ std::string time_problem(const WindowEnd& before, double begin);
 /// ... with these positions.
 std::string position_problem(const WindowEnd& before, std::span<const Position> begin);
 
-/// Frames ascend in time. Those of window 0 are in [begin, end], those of later ones in (begin, end], so that each moment
-/// belongs to one window; one at the end has the positions there.
+/// Frames ascend in time. Those of window 0 are in [begin, end], those of later ones in (begin, end], so that each
+/// moment belongs to one window; one at the end has the positions there.
 std::string frames_problem(std::uint64_t index, double begin, const WindowEnd& end, std::span<const RunFrame> frames);
 
 }  // namespace noli

@@ -4,8 +4,8 @@
 // what is given here.
 //
 // Notation
-//   window k       the motion from begin to end, k = 0, 1, ...; the end of one is the beginning of the next, bit for bit,
-//                  in time and in every position
+//   window k       the motion from begin to end, k = 0, 1, ...; the end of one is the beginning of the next, bit for
+//                  bit, in time and in every position
 //   record full    every world line is kept
 //   record frames  of each window only the hash of its world lines, frames, and the state at its end, from which it can
 //                  be computed again
@@ -112,9 +112,9 @@ class RunWriter {
   RunWriter(const std::filesystem::path& folder, const RunReader& reader);
   RunWriter(std::unique_ptr<Sink> sink, const RunReader& reader);
 
-  /// Writes a window; it does not count before commit(). Throws std::system_error, and std::logic_error when the window is
-  /// not the one that follows the last committed, bit for bit, or sizes do not fit. After a std::system_error nothing more
-  /// may be written; what is committed stays.
+  /// Writes a window; it does not count before commit(). Throws std::system_error, and std::logic_error when the window
+  /// is not the one that follows the last committed, bit for bit, or sizes do not fit. After a std::system_error
+  /// nothing more may be written; what is committed stays.
   void append_window(const WindowToWrite& window);
   /// Commits the window written last; after this it survives a loss of power.
   void commit();
@@ -142,7 +142,8 @@ class RunWriter {
 ///   if (reader.open_window()) ...
 class RunReader {
  public:
-  /// Throws InputError: no such file, no block file about a trajectory, a header or mesh that is damaged or not complete.
+  /// Throws InputError: no such file, no block file about a trajectory, a header or mesh that is damaged or not
+  /// complete.
   explicit RunReader(const std::filesystem::path& folder);
   /// The same for bytes in memory; `name` is what errors call them.
   RunReader(std::string bytes, std::string name);
@@ -151,13 +152,13 @@ class RunReader {
   const Mesh& mesh() const { return scene_.mesh; }
   const RunScene& scene() const { return scene_; }
 
-  /// The next committed window; nothing when there is none. Throws InputError, with the place in the file, when anything
-  /// in it is not as FORMAT.md says, or it does not begin where the one before ended. After an error the reader must not be
-  /// used.
+  /// The next committed window; nothing when there is none. Throws InputError, with the place in the file, when
+  /// anything in it is not as FORMAT.md says, or it does not begin where the one before ended. After an error the
+  /// reader must not be used.
   std::optional<RunWindow> next_window();
 
-  /// Once next_window() gave nothing: where the file goes on with a window that was never committed, if it does. That is
-  /// no error, but whoever reads the run should be told: open_window_message().
+  /// Once next_window() gave nothing: where the file goes on with a window that was never committed, if it does. That
+  /// is no error, but whoever reads the run should be told: open_window_message().
   std::optional<std::uint64_t> open_window() const { return blocks_.open_group(); }
   /// "FILE: ends in an open window at byte N". Precondition: open_window().
   std::string open_window_message() const;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `log.jsonl` in the folder of a run: one JSON object a line, in the order in which things happened, across all resumptions.
+// `log.jsonl` in the folder of a run: one JSON object a line, in the order in which things happened, across all
+// resumptions.
 //
-// By convention each has a member "event", and whatever a clock or the machine decides stands under "timing", so that the
-// rest is equal from run to run. Nothing of a run is computed from its log.
+// By convention each has a member "event", and whatever a clock or the machine decides stands under "timing", so that
+// the rest is equal from run to run. Nothing of a run is computed from its log.
 #pragma once
 
 #include <filesystem>

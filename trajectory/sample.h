@@ -2,8 +2,9 @@
 //
 // Where world lines are at a moment, in double precision.
 //
-// What this is not: the certified motion. At a breakpoint the position is exact; between two it is rounded, and straight
-// lines between two samples leave out every breakpoint between them. Exact users take the segments (world_lines.h).
+// What this is not: the certified motion. At a breakpoint the position is exact; between two it is rounded, and
+// straight lines between two samples leave out every breakpoint between them. Exact users take the segments
+// (world_lines.h).
 #pragma once
 
 #include <vector>

@@ -22,8 +22,8 @@ using SeriesShape = std::vector<std::uint64_t>;
 /// std::system_error, naming the file and the array, when it cannot be written.
 class SeriesFile {
  public:
-  /// Whether Noli was built with HDF5 (CMake option NOLI_WITH_HDF5). If not, the constructor throws std::system_error with
-  /// std::errc::not_supported, and what is missing.
+  /// Whether Noli was built with HDF5 (CMake option NOLI_WITH_HDF5). If not, the constructor throws std::system_error
+  /// with std::errc::not_supported, and what is missing.
   static bool available();
 
   explicit SeriesFile(const std::filesystem::path& path);
@@ -32,8 +32,9 @@ class SeriesFile {
   SeriesFile(const SeriesFile&) = delete;
   SeriesFile& operator=(const SeriesFile&) = delete;
 
-  /// Adds an array; a name "energy/kinetic" is an array in a group. `unit` is SI, "1" for a pure number. Without a shape it
-  /// has one dimension. The name must be new. Throws std::logic_error when the shape does not fit the number of values.
+  /// Adds an array; a name "energy/kinetic" is an array in a group. `unit` is SI, "1" for a pure number. Without a
+  /// shape it has one dimension. The name must be new. Throws std::logic_error when the shape does not fit the number
+  /// of values.
   void add(const std::string& name, const std::string& unit, std::span<const double> values, SeriesShape shape = {});
   void add(const std::string& name, const std::string& unit, std::span<const std::int64_t> values,
            SeriesShape shape = {});

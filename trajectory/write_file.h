@@ -8,12 +8,12 @@
 
 namespace noli {
 
-/// Writes the file, or what was there is overwritten. Throws std::system_error, naming the file, when it cannot be written
-/// in full; then part of it may be there.
+/// Writes the file, or what was there is overwritten. Throws std::system_error, naming the file, when it cannot be
+/// written in full; then part of it may be there.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// The same by way of a file beside it ("PATH.part") that is synced and then takes the name: at any moment, even after a
-/// loss of power, the old file is there or the new one. Throws std::system_error; then the old one is.
+/// The same by way of a file beside it ("PATH.part") that is synced and then takes the name: at any moment, even after
+/// a loss of power, the old file is there or the new one. Throws std::system_error; then the old one is.
 void replace_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace noli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes OBJ files that read_obj reads back bit for bit: coordinates with 17 significant digits, faces as `f`, loose edges
-// as `l`, loose points as `p`.
+// Writes OBJ files that read_obj reads back bit for bit: coordinates with 17 significant digits, faces as `f`, loose
+// edges as `l`, loose points as `p`.
 #pragma once
 
 #include <filesystem>

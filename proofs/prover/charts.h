@@ -8,21 +8,22 @@
 //   r        here: the projection of the given positions along the mean normal of the group's faces, rounded, linear on
 //            each face; its values at the vertices are the layout
 //   Q        the least rectangle that holds the layout of the group and of all faces that share a vertex with it
-//   S        faces, the group's among them: all that are reached over shared vertices by way of faces whose own rectangle
-//            overlaps Q, that is, has points inside Q in common with it
+//   S        faces, the group's among them: all that are reached over shared vertices by way of faces whose own
+//            rectangle overlaps Q, that is, has points inside Q in common with it
 //
 // Claim: r maps the points of S that are laid out in Q one to one to Q if (1) each face of S is laid out strictly
-// counterclockwise; (2) S has no edge twice in one direction; (3) the edges without an opposite do not overlap Q; (4) some
-// point inside Q is inside exactly one face and on no other. Proof. As in proofs/prover/sheet.h: a point off all edges is
-// covered as often as the edges of (3) wind around it, which inside Q is always the same, by (4) once. So the faces cover
-// Q, and do not overlap in it. Around a point in Q (on its border: in the half or quarter disc around it that is in Q) the
-// faces are sectors, each joined to the next by an edge that overlaps Q and so has both of its faces: they share the point.
-// So no other point of S is laid out there. All four are decided exactly. (An edge whose face beyond is not in S does not
-// overlap Q, as the rectangle of that face does not.)
+// counterclockwise; (2) S has no edge twice in one direction; (3) the edges without an opposite do not overlap Q; (4)
+// some point inside Q is inside exactly one face and on no other. Proof. As in proofs/prover/sheet.h: a point off all
+// edges is covered as often as the edges of (3) wind around it, which inside Q is always the same, by (4) once. So the
+// faces cover Q, and do not overlap in it. Around a point in Q (on its border: in the half or quarter disc around it
+// that is in Q) the faces are sectors, each joined to the next by an edge that overlaps Q and so has both of its faces:
+// they share the point.
+// So no other point of S is laid out there. All four are decided exactly. (An edge whose face beyond is not in S does
+// not overlap Q, as the rectangle of that face does not.)
 //
-// Then the claim of proofs/prover/monotone.h holds for the faces of S and Q: its proof needs no more than that a segment
-// in Q is the layout of a path. So where S is monotone, nothing that is laid out in Q meets: the group, all faces next to
-// it, and what else of S is in Q.
+// Then the claim of proofs/prover/monotone.h holds for the faces of S and Q: its proof needs no more than that a
+// segment in Q is the layout of a path. So where S is monotone, nothing that is laid out in Q meets: the group, all
+// faces next to it, and what else of S is in Q.
 //
 // What this does not do: borders of the mesh mostly have no charts, nor have places where it bends by more than about a
 // right angle within a few faces, or where faces are not oriented alike.

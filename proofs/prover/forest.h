@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cells of a mesh in binary trees: one for each sheet, one for each other part of some size, one for all the rest. It
-// depends on the mesh and one set of positions only, so it is made once for a run.
+// The cells of a mesh in binary trees: one for each sheet, one for each other part of some size, one for all the rest.
+// It depends on the mesh and one set of positions only, so it is made once for a run.
 //
 // Notation
 //   tree     as in proofs/prover/hierarchy.h: a node over m > 1 leaves has the first m / 2 in its left child; nodes and
 //            leaves of all trees are numbered through
-//   part, sheet   as in proofs/prover/layout.h and sheet.h; the tree of a sheet splits the layout, the others the positions. Parts that
-//            are no sheets have charts (proofs/prover/charts.h)
+//   part, sheet   as in proofs/prover/layout.h and sheet.h; the tree of a sheet splits the layout, the others the
+//            positions. Parts that are no sheets have charts (proofs/prover/charts.h)
 //   extent   of a group of a sheet: the rectangle that its layout fills, rounded outwards
 //
 // What this does not do: it knows of no motion.
@@ -76,7 +76,8 @@ class Forest {
   /// The tree of the part that a vertex is in.
   static constexpr std::uint32_t no_part = ~std::uint32_t{0};
   std::uint32_t part_of(VertexId v) const { return part_of_[v]; }
-  /// Of the edges of cells that end in a vertex, the shortest one's length at the given positions; infinite if none does.
+  /// Of the edges of cells that end in a vertex, the shortest one's length at the given positions; infinite if none
+  /// does.
   float size(VertexId v) const { return sizes_[v]; }
 
   const Charts& charts() const { return *charts_; }

@@ -136,7 +136,8 @@ class Flattener {
     return true;
   }
 
-  /// The places in the border that are corners of its convex hull, ascending. (Andrew's chain, on places in the border.)
+  /// The places in the border that are corners of its convex hull, ascending. (Andrew's chain, on places in the
+  /// border.)
   std::vector<std::size_t> hull_of(const Border& border) const {
     std::vector<std::size_t> order(border.size()), hull;
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -10,21 +10,22 @@
 //             second axis
 //   p, q      two vectors;   a = p.f_u, c = q.f_v, 2 b = p.f_v + q.f_u
 //
-// Claim: if there are p and q with a > 0, c > 0, a c > b^2 for all faces whose layout meets a rectangle Q, then different
-// points of K whose layouts are in Q are at different places. Proof. Let d = r(y) - r(x), not zero. The segment from r(x)
-// to r(y) is in D and in Q, which are convex. Along it, F changes by d_u f_u + d_v f_v per unit of its length |d|, with
-// the tangents of the face that it goes through, and (d_u p + d_v q) . (d_u f_u + d_v f_v) = a d_u^2 + 2 b d_u d_v +
-// c d_v^2 > 0. So (d_u p + d_v q) . (F(y) - F(x)) > 0.
+// Claim: if there are p and q with a > 0, c > 0, a c > b^2 for all faces whose layout meets a rectangle Q, then
+// different points of K whose layouts are in Q are at different places. Proof. Let d = r(y) - r(x), not zero. The
+// segment from r(x) to r(y) is in D and in Q, which are convex. Along it, F changes by d_u f_u + d_v f_v per unit of
+// its length |d|, with the tangents of the face that it goes through, and (d_u p + d_v q) . (d_u f_u + d_v f_v) = a
+// d_u^2 + 2 b d_u d_v + c d_v^2 > 0. So (d_u p + d_v q) . (F(y) - F(x)) > 0.
 //
 // The tangents are affine in the positions. So while corners move linearly, they are between those at both ends, and
-// where corners stray by up to a radius the tangents do by as much times the entries of R^-1. What is kept of faces is a
-// box around their tangents at both ends, radii added: the inequalities have to hold for the whole box, be it that of all
-// faces together or, with the same p and q, that of each.
+// where corners stray by up to a radius the tangents do by as much times the entries of R^-1. What is kept of faces is
+// a box around their tangents at both ends, radii added: the inequalities have to hold for the whole box, be it that of
+// all faces together or, with the same p and q, that of each.
 //
 // Rounding. Positions are relative to an origin and rounded to float; what that costs is part of their radius. In place
 // of R^-1 there is M in float, with |R M - I| <= 2^-16 in each entry, so that E R^-1 is E M times a matrix that differs
 // from I by at most 2^-15 in each. E M takes a difference, a product and a sum of floats, 3 * 2^-24 of the sum of the
-// sizes of its terms. Both are less than 2^-14 times the sum of the sizes of all terms of f_u and f_v along the same axis.
+// sizes of its terms. Both are less than 2^-14 times the sum of the sizes of all terms of f_u and f_v along the same
+// axis.
 // Nothing overflows, as positions are below 2^60 and entries of M at most 2^30; products may underflow, by 2^-148 each.
 //
 // What this does not do: p and q are guessed from the middle of a box; that there are none is never shown.
@@ -46,8 +47,8 @@ struct LaidFace {
   bool usable;
 };
 
-/// Takes the face a, b, c of a layout. It is usable only if |R| |M| <= 2^30 (greatest entries), so that what is computed
-/// of R M is wrong by less than 2^-20.
+/// Takes the face a, b, c of a layout. It is usable only if |R| |M| <= 2^30 (greatest entries), so that what is
+/// computed of R M is wrong by less than 2^-20.
 inline LaidFace laid_face(const std::array<VertexId, 3>& vertices, const Point2& a, const Point2& b, const Point2& c) {
   const double r00 = b[0] - a[0], r01 = c[0] - a[0], r10 = b[1] - a[1], r11 = c[1] - a[1];
   const double per_area = 1 / (r00 * r11 - r01 * r10);

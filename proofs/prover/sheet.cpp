@@ -41,8 +41,8 @@ Edges edges_of(std::span<const LocalFace> faces, std::size_t vertices) {
   return edges;
 }
 
-/// For each vertex the next on the border, `nowhere` if it is not on it; nothing at all if (2) does not hold or two edges
-/// of the border leave one vertex.
+/// For each vertex the next on the border, `nowhere` if it is not on it; nothing at all if (2) does not hold or two
+/// edges of the border leave one vertex.
 std::vector<std::uint32_t> border_edges(const Edges& edges) {
   const auto vertices = static_cast<std::uint32_t>(edges.begin.size() - 1);
   std::vector<std::uint32_t> next(vertices, nowhere);

@@ -4,8 +4,8 @@
 // tangents, and which charts are monotone.
 //
 // Notation
-//   box      as in proofs/prover/hierarchy.h: if on one axis the boxes of two groups are in the same strict order at both
-//            ends of the span, it separates the world lines throughout
+//   box      as in proofs/prover/hierarchy.h: if on one axis the boxes of two groups are in the same strict order at
+//            both ends of the span, it separates the world lines throughout
 //   phi      as there, the same at both ends and for all trees
 //
 // What this does not do: bounds below the roots are made only for the trees for which that is asked.

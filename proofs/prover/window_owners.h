@@ -19,8 +19,8 @@ namespace noli {
 /// For each cell 1 if all its vertices are scripted, else 0. `scripted` as in WindowOptions.
 std::vector<std::uint8_t> scripted_cells(const Mesh& mesh, std::span<const std::uint8_t> scripted);
 
-/// Passes corners and edges that belong to a scripted cell on to the least cell that has them and is not scripted, where
-/// there is one.
+/// Passes corners and edges that belong to a scripted cell on to the least cell that has them and is not scripted,
+/// where there is one.
 void prefer_free_owners(const Mesh& mesh, const std::vector<std::uint8_t>& scripted_cell, CellFeatures& features);
 
 }  // namespace noli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The end of the recursion over groups in a span of a window: two cells that no box has separated, or one cell by itself.
+// The end of the recursion over groups in a span of a window: two cells that no box has separated, or one cell by
+// itself.
 //
 // Notation
 //   parts    as in proofs/prover/cell_pair.h: what is left of two cells when each shared vertex is dropped from one
@@ -8,8 +9,8 @@
 //   resists  no direction was found for two parts over a piece that has no breakpoint inside
 //
 // Two parts are settled by one direction over the span, or over the pieces into which it is cut. Where a piece resists,
-// each pair of features of the parts is settled in the same way over what is left of the span, and is decided exactly over
-// the pieces in which it resists; it counts once, in the first piece in which it meets.
+// each pair of features of the parts is settled in the same way over what is left of the span, and is decided exactly
+// over the pieces in which it resists; it counts once, in the first piece in which it meets.
 //
 // What this does not do: it never looks at cells other than the two.
 #pragma once
@@ -219,8 +220,8 @@ class WindowPairs {
     return false;
   }
 
-  /// Settles two parts over [begin, end] by directions; calls resist(a, b, begin, end), with the chords of the piece, on
-  /// pieces that resist, in order, until one returns false, and returns whether none did.
+  /// Settles two parts over [begin, end] by directions; calls resist(a, b, begin, end), with the chords of the piece,
+  /// on pieces that resist, in order, until one returns false, and returns whether none did.
   template <class Resist>
   bool settle_over(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, double begin, double end,
                    const Resist& resist) {

@@ -11,11 +11,11 @@
 //   scripted pairs   pairs of cells all of whose vertices are scripted: not looked at
 //
 // Which pairs of features are counted: as in proofs/prover/verifier.h, each once if it meets anywhere in the closed
-// window. In order of cost: sheets that are monotone as a whole (proofs/prover/monotone.h); the walk over pairs of groups,
-// over chords, where boxes and directions have to hold with the radii added, and where what is monotone around both
-// (proofs/prover/window_traversal.h) is settled at once; time cut for the pair of cells in question, until a direction holds
-// or no breakpoint is left inside; each of its pairs of features the same way; and what resists in a piece without
-// breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
+// window. In order of cost: sheets that are monotone as a whole (proofs/prover/monotone.h); the walk over pairs of
+// groups, over chords, where boxes and directions have to hold with the radii added, and where what is monotone around
+// both (proofs/prover/window_traversal.h) is settled at once; time cut for the pair of cells in question, until a
+// direction holds or no breakpoint is left inside; each of its pairs of features the same way; and what resists in a
+// piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
 //
 // What this does not do: it writes no proof, knows no thickness, and reads no files.
 #pragma once
@@ -78,19 +78,21 @@ struct WindowResult {
 /// Verifies windows of one run, one after another.
 class WindowVerifier {
  public:
-  /// Takes what does not change from window to window: `x`, a position for each vertex, decides how cells are grouped and
-  /// laid out, not what is answered; best is where the run begins, or a rest shape. Of the options it takes dimension,
-  /// strict and scripted, which hold from now on. Preconditions: there are x.size() = mesh.vertex_count vertices, every
-  /// index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is empty or has an entry for each vertex.
+  /// Takes what does not change from window to window: `x`, a position for each vertex, decides how cells are grouped
+  /// and laid out, not what is answered; best is where the run begins, or a rest shape. Of the options it takes
+  /// dimension, strict and scripted, which hold from now on. Preconditions: there are x.size() = mesh.vertex_count
+  /// vertices, every index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is empty or has an
+  /// entry for each vertex.
   /// O(n log n).
   WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options);
   ~WindowVerifier();
   WindowVerifier(WindowVerifier&&) noexcept;
   WindowVerifier& operator=(WindowVerifier&&) noexcept;
 
-  /// Precondition: the lines have as many vertices as the mesh. In two dimensions the third coordinate is not looked at.
-  /// Deterministic, for any number of threads, as verify_step is. Memory is linear in the mesh, beside the lines. May be
-  /// called from several threads at once. Throws std::bad_alloc, and what `progress` throws.
+  /// Precondition: the lines have as many vertices as the mesh. In two dimensions the third coordinate is not looked
+  /// at.
+  /// Deterministic, for any number of threads, as verify_step is. Memory is linear in the mesh, beside the lines. May
+  /// be called from several threads at once. Throws std::bad_alloc, and what `progress` throws.
   WindowResult verify(const WorldLines& lines, const WindowOptions& options) const;
 
  private:

@@ -125,8 +125,8 @@ TEST(Monotone, TheBoxHoldsTheTangents) {
   }
 }
 
-/// As the layout moves along d, faces move by d_u f_u + d_v f_v: a box of vectors, on one side of a plane through 0, so 0
-/// is not in it.
+/// As the layout moves along d, faces move by d_u f_u + d_v f_v: a box of vectors, on one side of a plane through 0, so
+/// 0 is not in it.
 TEST(Monotone, NoDirectionOfTheLayoutIsLost) {
   Random random(10);
   int yes = 0, no = 0;

@@ -26,7 +26,8 @@ struct Motion {
   }
 };
 
-/// Every vertex v of the surface goes through place(v, t) at some of the times 0, 1, ..., 6, always at the first and last.
+/// Every vertex v of the surface goes through place(v, t) at some of the times 0, 1, ..., 6, always at the first and
+/// last.
 template <class Place>
 Motion moving(const Surface& surface, std::uint64_t seed, const Place& place) {
   Random random(seed);

@@ -191,7 +191,8 @@ TEST(Window, PairsOfScriptedCellsAreNotLookedAt) {
 }
 
 TEST(Window, AScriptedVertexOfAFreeCellIsLookedAt) {
-  // Vertex 0 belongs to a scripted face, which comes first, and to a free one: its contact counts because of the latter.
+  // Vertex 0 belongs to a scripted face, which comes first, and to a free one: its contact counts because of the
+  // latter.
   LineScene scene;
   const VertexId v = scene.vertex({{0, {1, 1, 1}}, {1, {1, 1, -1}}});
   const VertexId a = scene.vertex({1, 1, 5}), b = scene.vertex({2, 1, 5}), c = scene.vertex({1, 2, 6});

@@ -126,7 +126,8 @@ void set(Block& block, std::size_t offset, T value) {
   block.payload.replace(offset, bytes.size(), bytes);
 }
 
-// Blocks of the sample: HEAD MESH LABL CMIT, then WIND LINE VELO STAT CMIT (full) or WIND HASH FRAM.. ENDP VELO STAT CMIT.
+// Blocks of the sample: HEAD MESH LABL CMIT, then WIND LINE VELO STAT CMIT (full) or WIND HASH FRAM.. ENDP VELO STAT
+// CMIT.
 constexpr std::size_t head = 0, mesh = 1, labels = 2, first_window = 4, second_window = 9;
 
 struct Spoiled {
