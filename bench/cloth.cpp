@@ -15,7 +15,7 @@ using integrator::Hinge;
 using integrator::Model;
 using Vec = integrator::Vec<double, 3>;
 
-constexpr double mass_per_area = 0.2, rigidity = 1e-5, stiffness = 60;
+constexpr double mass_per_area = 0.2, stiffness = 60;
 
 /// From 0 to 1, widths between growing by `grading` from the first to the last.
 double graded(int i, int n, double grading) {
@@ -25,7 +25,7 @@ double graded(int i, int n, double grading) {
 
 class Builder {
  public:
-  Builder(int cells, double grading) : n_(cells) {
+  Builder(int cells, double grading) : n_(cells), rigidity_(0.1 * stiffness / (cells * cells)) {
     for (int j = 0; j <= n_; ++j) {
       for (int i = 0; i <= n_; ++i) add_vertex({graded(i, n_, grading), static_cast<double>(j) / n_, 0});
     }
@@ -70,10 +70,11 @@ class Builder {
     }
     const std::array<VertexId, 4> v = {a, b, opposite, other->second};
     model_.forces.hinges.add(
-        Hinge<double>::from_rest(v, {rest_[v[0]], rest_[v[1]], rest_[v[2]], rest_[v[3]]}, rigidity), 1);
+        Hinge<double>::from_rest(v, {rest_[v[0]], rest_[v[1]], rest_[v[2]], rest_[v[3]]}, rigidity_), 1);
   }
 
   int n_;
+  double rigidity_;
   std::vector<Vec> rest_;
   std::map<std::pair<VertexId, VertexId>, VertexId> opposite_;
   Model<double, 3> model_;

@@ -17,6 +17,7 @@
 #include "noli/integrator/calendar.h"
 #include "noli/integrator/groups.h"
 #include "noli/integrator/kick.h"
+#include "noli/integrator/lookahead.h"
 #include "noli/integrator/scripts.h"
 #include "noli/integrator/simulation.h"
 
@@ -113,6 +114,9 @@ class Engine {
     Group group;
   };
 
+  static constexpr std::size_t kinds = std::tuple_size_v<Divisions>;
+  static constexpr std::size_t longest_row = 64;
+
   template <class Recorder>
   using Now = Kicked<S, Dim, Recorder>;
 
@@ -165,7 +169,7 @@ class Engine {
 
   void take_forces(Model<S, Dim>& model) {
     auto lists = model.forces.lists();
-    take_lists(lists, std::make_index_sequence<std::tuple_size_v<Divisions>>{});
+    take_lists(lists, std::make_index_sequence<kinds>{});
     make_calendar();
   }
 
@@ -189,8 +193,20 @@ class Engine {
   void make_calendar() {
     if (clocks_ != Clocks::own) return;
     std::vector<double> steps;
-    for_each_division([&](const auto& d) { steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end()); });
-    calendar_ = Calendar(steps, time());
+    std::vector<std::uint32_t> kind_of;
+    std::uint32_t kind = 0;
+    for_each_division([&](const auto& d) {
+      steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end());
+      kind_of.resize(steps.size(), kind++);
+    });
+    calendar_ = Calendar(steps, kind_of, time());
+    shelve(std::make_index_sequence<kinds>{});
+    claims_ = Claims(particles_.size());
+  }
+
+  template <std::size_t... I>
+  void shelve(std::index_sequence<I...>) {
+    ((shelves_[I] = Shelf(std::get<I>(divisions_).list.forces, std::get<I>(divisions_).first)), ...);
   }
 
   template <class F>
@@ -216,7 +232,8 @@ class Engine {
   template <class Recorder, class F>
   void start_division(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
     for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
-      fire_one(now, division, i, S(0.5) * S(division.list.steps[i]), books);
+      const Lone half{now.t, 0.5 * division.list.steps[i], i};
+      fire_lone(now.record, division, std::span(&half, 1), books);
     }
   }
 
@@ -226,11 +243,11 @@ class Engine {
     Slot* slot = next_slot();
     const double slot_time = slot != nullptr ? slot->group.clock.time() : std::numeric_limits<double>::infinity();
     const double turn_time = timeline_.next_time();
-    if (turn_time <= end && turn_time <= slot_time && (calendar_.empty() || turn_time <= calendar_.front().time)) {
+    if (turn_time <= end && turn_time <= slot_time && (calendar_.empty() || turn_time <= calendar_.front().time())) {
       turn(Now<Recorder>{particles_, record, turn_time});
       return true;
     }
-    if (!calendar_.empty() && calendar_.front().time <= end && calendar_.front().time < slot_time) {
+    if (!calendar_.empty() && calendar_.front().time() <= end && calendar_.front().time() < slot_time) {
       run_calendar(end, std::min(slot_time, turn_time), record, books);
       return true;
     }
@@ -272,55 +289,46 @@ class Engine {
     for_each_division(fire_if);
   }
 
-  /// Events of the calendar up to `end` that are before `other`.
+  /// Events of the calendar up to `end` that are before `other`: as many as have no vertex in common, then as many
+  /// again, and so on.
   template <class Recorder>
   void run_calendar(double end, double other, Recorder& record, Books<S, Dim>& books) {
-    while (calendar_.front().time <= end && calendar_.front().time < other) {
-      const Calendar::Entry entry = calendar_.front();
-      const Now<Recorder> now{particles_, record, entry.time};
-      const S h(entry.clock.step);
+    const auto is_due = [&] { return calendar_.front().time() <= end && calendar_.front().time() < other; };
+    while (is_due()) {
+      gather_row<Recorder>(is_due);
+      fire_row(record, books, std::make_index_sequence<kinds>{});
+    }
+  }
+
+  /// The next events without a vertex in common, at least one.
+  template <class Recorder, class IsDue>
+  void gather_row(const IsDue& is_due) {
+    constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // asks after each event
+    row_sizes_ = {};
+    claims_.clear();
+    for (std::size_t size = 0; size < (watched ? 1 : longest_row) && is_due(); ++size) {
+      const Calendar::Entry& entry = calendar_.front();
+      const Shelf& shelf = shelves_[entry.kind];
+      if (!claims_.claim(shelf, entry.event)) return;
+      row_[entry.kind][row_sizes_[entry.kind]++] = {entry.time(), entry.step, entry.event - shelf.first()};
       look_ahead();
       calendar_.advance();
-      fire_numbered(now, entry.event, h, books, std::make_index_sequence<std::tuple_size_v<Divisions>>{});
     }
   }
 
   /// Forces that come next are anywhere in memory: asks for them, and for the particles of those that have come, before
   /// they are needed.
   void look_ahead() const {
-    constexpr std::size_t far = 8, near = 4;
-    if (calendar_.ahead() >= far) {
-      with_force(calendar_.ahead(far).event, [](const auto& force) { __builtin_prefetch(&force); });
-    }
-    if (calendar_.ahead() >= near) {
-      with_force(calendar_.ahead(near).event, [this](const auto& force) {
-        for (const VertexId v : force.vertices) __builtin_prefetch(&particles_[v], 1);
-      });
-    }
-  }
-
-  template <class Do>
-  void with_force(std::size_t number, const Do& act) const {
-    const auto try_division = [&](const auto& division) {
-      const std::size_t i = number - division.first;
-      if (i < division.list.forces.size()) act(division.list.forces[i]);
-    };
-    for_each_division(try_division);
+    constexpr std::size_t far = 24, near = 12;
+    if (calendar_.ahead() < far) return;
+    const Calendar::Entry &later = calendar_.ahead(far), &soon = calendar_.ahead(near);
+    shelves_[later.kind].prefetch(later.event);
+    shelves_[soon.kind].for_each_vertex(soon.event, [this](VertexId v) { __builtin_prefetch(&particles_[v], 1); });
   }
 
   template <class Recorder, std::size_t... I>
-  void fire_numbered(const Now<Recorder>& now, std::size_t number, const S& h, Books<S, Dim>& books,
-                     std::index_sequence<I...>) {
-    (void)(fire_if_in(now, std::get<I>(divisions_), number, h, books) || ...);
-  }
-
-  template <class Recorder, class F>
-  bool fire_if_in(const Now<Recorder>& now, const Division<F>& division, std::size_t number, const S& h,
-                  Books<S, Dim>& books) {
-    const std::size_t i = number - division.first;
-    if (i >= division.list.forces.size()) return false;
-    fire_one(now, division, i, h, books);
-    return true;
+  void fire_row(Recorder& record, Books<S, Dim>& books, std::index_sequence<I...>) {
+    (fire_lone(record, std::get<I>(divisions_), std::span(row_[I].data(), row_sizes_[I]), books), ...);
   }
 
   template <class Recorder, class F>
@@ -335,14 +343,13 @@ class Engine {
     }
   }
 
-  /// Flattened, like the next: what is called for each force is a few dozen operations on numbers that are best left in
-  /// registers. So is the account.
+  /// Flattened, like fire_lone_as: what is called for each force is a few dozen operations on numbers that are best left
+  /// in registers. So is the account.
   template <bool Damped, class Recorder, class F>
   [[gnu::flatten]] void fire_group_as(const Now<Recorder>& now, const Division<F>& division, const Group& group,
                                       const S& h, Account<S, Dim>& account) {
     const std::span<const F> forces(division.list.forces.data() + group.begin, group.end - group.begin);
     Account<S, Dim> sum;
-    sum.events = forces.size();
     kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, sum);
     account += sum;
     if constexpr (std::is_same_v<Recorder, detail::Watch>) {
@@ -351,22 +358,26 @@ class Engine {
   }
 
   template <class Recorder, class F>
-  void fire_one(const Now<Recorder>& now, const Division<F>& division, std::size_t i, const S& h,
-                Books<S, Dim>& books) {
-    ++events_;
-    now.record.reserve(F::size);
+  void fire_lone(Recorder& record, const Division<F>& division, std::span<const Lone> firing, Books<S, Dim>& books) {
+    if (firing.empty()) return;
+    events_ += firing.size();
+    record.reserve(F::size * firing.size());
+    const LoneBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record};
     if (division.damped) {
-      fire_one_as<true>(now, division.list.forces[i], h, books.of(F::kind));
+      fire_lone_as<true>(blows, books.of(F::kind));
     } else {
-      fire_one_as<false>(now, division.list.forces[i], h, books.of(F::kind));
+      fire_lone_as<false>(blows, books.of(F::kind));
     }
   }
 
   template <bool Damped, class Recorder, class F>
-  [[gnu::flatten]] void fire_one_as(const Now<Recorder>& now, const F& force, const S& h, Account<S, Dim>& account) {
-    kick<Damped>(now, force, h, account);
-    ++account.events;
-    if constexpr (std::is_same_v<Recorder, detail::Watch>) watch(now, force);
+  [[gnu::flatten]] void fire_lone_as(const LoneBlows<F, S, Dim, Recorder>& blows, Account<S, Dim>& account) {
+    strike<Damped, F, S, Dim>(blows, account);
+    if constexpr (std::is_same_v<Recorder, detail::Watch>) {
+      for (const Lone& lone : blows.firing) {
+        watch(Now<Recorder>{particles_, blows.record, lone.t}, blows.forces[lone.force]);
+      }
+    }
   }
 
   template <class Recorder>
@@ -379,7 +390,7 @@ class Engine {
       if (p.inverse_mass == S(0) || dv == Vec<S, Dim>::Zero()) continue;
       const Vec<S, Dim> x = p.at(now.t), v = p.v + dv;
       const Vec<S, Dim> impulse = masses_[i] * dv;
-      book<S, Dim>(sum, p.inverse_mass, x, impulse, p.v, v);
+      sum.work += S(0.5) * impulse.dot(p.v + v);
       sum.impulse += impulse;
       sum.angular_impulse += moment<S, Dim>(x, impulse);
       set_velocity(now, static_cast<VertexId>(i), x, v);
@@ -421,6 +432,10 @@ class Engine {
   std::vector<Slot> slots_;
   Calendar calendar_;
   std::size_t own_forces_ = 0;
+  std::array<Shelf, kinds> shelves_;
+  Claims claims_;
+  std::array<std::array<Lone, longest_row>, kinds> row_;  ///< forces of the calendar that fire together, by kind
+  std::array<std::size_t, kinds> row_sizes_{};
   std::uint64_t windows_ = 0;
   std::uint64_t events_ = 0;
 };

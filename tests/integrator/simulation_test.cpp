@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "models.h"
+#include "noli/integrator/clocks.h"
 #include "noli/integrator/particle.h"
 
 namespace noli::integrator {
@@ -296,6 +298,96 @@ TEST(Simulation, ModelsThatAreNoneAreRefused) {
   bad = good;
   bad.window_length = 0;
   EXPECT_THROW((Simulation<double, 3>{bad}), std::invalid_argument);
+}
+
+/// Algorithm 1 for clocks of their own, as plainly as can be: one force after the other, from a sorted list.
+class OneByOne {
+ public:
+  explicit OneByOne(const Model<double, 3>& model) : model_(model), t_(model.x.size(), 0.0) {
+    for (std::size_t i = 0; i < springs(); ++i) kick(i, 0, 0.5 * step(i));
+    for (std::size_t i = springs(); i < count(); ++i) kick(i, 0, 0.5 * step(i));
+  }
+
+  void run_to(double end) {
+    std::vector<std::pair<double, std::size_t>> events;
+    for (std::size_t i = 0; i < count(); ++i) {
+      for (Clock clock{step(i), first_after(begin_, step(i))}; clock.time() <= end; ++clock.next) {
+        events.emplace_back(clock.time(), i);
+      }
+    }
+    std::sort(events.begin(), events.end());
+    for (const auto& [t, i] : events) kick(i, t, step(i));
+    for (VertexId v = 0; v < t_.size(); ++v) {
+      model_.x[v] = at(v, end);
+      t_[v] = end;
+    }
+    begin_ = end;
+  }
+
+  const Model<double, 3>& model() const { return model_; }
+
+ private:
+  std::size_t springs() const { return model_.forces.edge_springs.forces.size(); }
+  std::size_t count() const { return springs() + model_.forces.hinges.forces.size(); }
+  double step(std::size_t i) const {
+    return i < springs() ? model_.forces.edge_springs.steps[i] : model_.forces.hinges.steps[i - springs()];
+  }
+  Vec<double, 3> at(VertexId v, double t) const { return model_.x[v] + (t - t_[v]) * model_.v[v]; }
+
+  void kick(std::size_t i, double t, double h) {
+    if (i < springs()) {
+      kick(model_.forces.edge_springs.forces[i], t, h);
+    } else {
+      kick(model_.forces.hinges.forces[i - springs()], t, h);
+    }
+  }
+
+  template <class F>
+  void kick(const F& force, double t, double h) {
+    Stencil<double, 3, F::size> x;
+    for (std::size_t i = 0; i < F::size; ++i) x[i] = at(force.vertices[i], t);
+    const auto gradient = force.gradient(x);
+    for (std::size_t i = 0; i < F::size; ++i) {
+      const VertexId v = force.vertices[i];
+      const Vec<double, 3> after = model_.v[v] + 1 / model_.mass[v] * (-h * gradient[i]);
+      if (after == model_.v[v]) continue;
+      model_.x[v] = x[i];
+      t_[v] = t;
+      model_.v[v] = after;
+    }
+  }
+
+  Model<double, 3> model_;
+  std::vector<double> t_;
+  double begin_ = 0;
+};
+
+/// Forces that have no vertex in common are fired together; nobody must notice.
+TEST(Simulation, WithClocksOfTheirOwnForcesFireAsIfOneByOne) {
+  for (const int cells : {1, 3, 12}) {
+    SheetOptions options;
+    options.cells = cells;
+    options.membrane = false;
+    options.window = 0.25;
+    Model<double, 3> model = sheet(options);
+    model.clocks = Clocks::own;
+    choose_steps(model, 0.5);
+    for (std::size_t i = 0; i < model.forces.edge_springs.steps.size(); ++i) {
+      model.forces.edge_springs.steps[i] *= 1 + 0.1 * test::noise(i);
+    }
+    Simulation<double, 3> simulation(model);
+    OneByOne reference(model);
+    for (int window = 1; window <= 5; ++window) {
+      run(simulation, 1);
+      reference.run_to(window * model.window_length);
+      const auto s = simulation.snapshot();
+      for (std::size_t i = 0; i < s.x.size(); ++i) {
+        ASSERT_EQ(s.x[i], reference.model().x[i]) << i;
+        ASSERT_EQ(s.v[i], reference.model().v[i]) << i;
+      }
+    }
+    EXPECT_GT(simulation.events(), 200u);
+  }
 }
 
 }  // namespace
