@@ -10,6 +10,7 @@
 #include "noli/app/commands.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/run_info.h"
 #include "noli/audit/any_query.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/file_info.h"
@@ -20,11 +21,12 @@ namespace {
 
 constexpr const char* footer =
     "For meshes (PLY, OBJ): format, counts, extent, what is degenerate. For queries (CSV): how many, how many with a "
-    "label.\n"
+    "label. For the folder of a run: windows, times, breakpoints, bytes, and whether the file is whole.\n"
     "Examples:\n"
     "  noli info frame.ply\n"
     "  noli info frames/*.obj --json info.json\n"
-    "  noli info unit-tests-edge-edge-0.csv";
+    "  noli info unit-tests-edge-edge-0.csv\n"
+    "  noli info runs/cloth";
 
 struct InfoArguments {
   std::vector<std::filesystem::path> files;
@@ -72,8 +74,14 @@ Json mesh_info(const std::filesystem::path& path) {
   return json;
 }
 
+Json info_of(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return run_info(path);
+  return is_csv(path) ? query_info(path) : mesh_info(path);
+}
+
 std::string as_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return digits17(value.get<double>());
   if (!value.is_array()) return value.dump();
   std::string text;
   for (const Json& item : value) text += (text.empty() ? "" : ", ") + digits17(item.get<double>());
@@ -94,7 +102,7 @@ std::string info_text(const Json& files) {
 ExitCode run(const InfoArguments& arguments) {
   const Output output(arguments.json, arguments.files);
   Json files = Json::array();
-  for (const auto& path : arguments.files) files.push_back(is_csv(path) ? query_info(path) : mesh_info(path));
+  for (const auto& path : arguments.files) files.push_back(info_of(path));
   output.write(info_text(files), {{"verdict", "described"}, {"files", files}});
   return ExitCode::holds;
 }
@@ -105,7 +113,9 @@ Command add_info(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("info", "What is in a file");
   command->footer(footer);
   const auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("files", arguments->files, "PLY, OBJ or CSV files")->required()->type_name("FILE");
+  command->add_option("files", arguments->files, "PLY, OBJ or CSV files, or folders of runs")
+      ->required()
+      ->type_name("FILE");
   add_json_option(*command, arguments->json);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -56,6 +56,10 @@ void set_up_child(const ProcessOptions& options, const Pipe& out, const Pipe& er
     ::_exit(126);
   }
   if (options.close_standard_output) ::close(STDOUT_FILENO);
+  if (options.file_size) {
+    const struct rlimit limit = {*options.file_size, *options.file_size};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   if (options.address_space) {
     const struct rlimit limit = {*options.address_space, *options.address_space};
     ::setrlimit(RLIMIT_AS, &limit);

@@ -20,6 +20,7 @@ struct ProcessOptions {
   bool close_standard_output = false;          ///< start without one
   bool hang_up = false;                        ///< standard output is a pipe that nobody reads
   std::optional<std::uint64_t> address_space;  ///< limit, in bytes
+  std::optional<std::uint64_t> file_size;      ///< limit, in bytes: as if the disk were full
   bool obey_permissions = false;               ///< of files and folders, even when the tests are run by root
 };
 

@@ -12,6 +12,7 @@
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 #include "noli/trajectory/frames.h"
+#include "noli/trajectory/run_file.h"
 
 namespace noli::app_tests {
 namespace {
@@ -244,6 +245,97 @@ TEST_F(Simulate, FramesAreExported) {
   EXPECT_EQ(run_noli({"export", run_path("run"), "-o", run_path("frames/x.ply")}).exit_code, 3);
   EXPECT_EQ(run_noli({"export", run_path("run"), "--fps", "8", "-o", run_path("vtu/f_%d.vtu")}).exit_code, 0);
   EXPECT_TRUE(fs::exists(run_path("vtu/f.pvd")));
+}
+
+/// A beam in the plane: cheap, so it can run for long.
+Json beam(double duration) {
+  Json json = Json::parse(bytes_of(fs::path(NOLI_SOURCE_DIR) / "scenes/cantilever.json"));
+  json["duration"] = duration;
+  return json;
+}
+
+TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {
+  for (const char* record : {"frames", "full"}) {
+    Json json = beam(2);
+    json["record"] = record;
+    const auto run = [&](const std::string& name, double duration) {
+      json["duration"] = duration;
+      return run_noli({"simulate", scene(json), "-o", run_path(record + name)});
+    };
+    const Process once = run("once", 2), tenfold = run("tenfold", 20);
+    ASSERT_EQ(once.exit_code, 0) << once.err;
+    ASSERT_EQ(tenfold.exit_code, 0) << tenfold.err;
+    EXPECT_LT(static_cast<double>(tenfold.peak_bytes), 1.1 * static_cast<double>(once.peak_bytes)) << record;
+    // Nor does that of reading it, resuming included.
+    const Process short_verify = run_noli({"verify", run_path(record + std::string("once"))});
+    const Process long_verify = run_noli({"verify", run_path(record + std::string("tenfold"))});
+    EXPECT_LT(static_cast<double>(long_verify.peak_bytes), 1.1 * static_cast<double>(short_verify.peak_bytes));
+    json["duration"] = 20.02;
+    const Process resumed =
+        run_noli({"simulate", scene(json), "-o", run_path(record + std::string("tenfold")), "--resume"});
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_LT(static_cast<double>(resumed.peak_bytes), 1.2 * static_cast<double>(once.peak_bytes)) << record;
+  }
+}
+
+/// Of each window: the hash of its world lines.
+std::vector<Sha256Digest> hashes(const std::string& run) {
+  std::vector<Sha256Digest> result;
+  RunReader reader(run);
+  while (auto window = reader.next_window()) {
+    result.push_back(window->lines ? lines_hash(reader.scene().header.dimension, *window->lines) : window->lines_hash);
+  }
+  return result;
+}
+
+TEST_F(Simulate, WhatIsWrittenDoesNotChangeTheMotion) {
+  Json json = beam(0.2);
+  const auto run = [&](const std::string& name) {
+    EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path(name)}).exit_code, 0);
+    return hashes(run_path(name));
+  };
+  const auto at_100 = run("100");
+  json["frame_rate"] = 37;
+  const auto at_37 = run("37");
+  json["record"] = "full";
+  const auto full = run("full");
+  EXPECT_EQ(at_100.size(), 10u);
+  EXPECT_TRUE(at_100 == at_37);
+  EXPECT_TRUE(at_100 == full);
+  json["gravity"] = {0, -0.06};
+  EXPECT_FALSE(at_100 == run("another"));
+}
+
+TEST_F(Simulate, AFullDiskLeavesTheCommittedWindows) {
+  const std::string file = scene(hanging_sheet());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  ProcessOptions options;
+  options.file_size = blocks("whole").size() / 2;
+  const Process process = run_noli({"simulate", file, "-o", run_path("run")}, options);
+  EXPECT_EQ(process.exit_code, 4);
+  EXPECT_NE(process.err.find("trajectory.blocks: File too large"), std::string::npos) << process.err;
+  const Json verified = json_of({"verify", run_path("run")}, 0);
+  EXPECT_GT(verified["steps"], 5);
+  EXPECT_LT(verified["steps"], 20);
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--resume"}).exit_code, 0);
+  EXPECT_TRUE(blocks("run") == blocks("whole"));
+}
+
+TEST_F(Simulate, InfoSaysWhatIsInARun) {
+  const std::string file = scene(hanging_sheet());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.07"}).exit_code, 0);
+  const Json info = json_of({"info", run_path("run")}, 0)["files"][0];
+  EXPECT_EQ(info["format"], "Noli run");
+  EXPECT_EQ(info["dimension"], 3);
+  EXPECT_EQ(info["record"], "full");
+  EXPECT_EQ(info["vertices"], 49);
+  EXPECT_EQ(info["faces"], 72);
+  EXPECT_EQ(info["windows"], 7);
+  EXPECT_EQ(info["end_time"], 0.07);
+  EXPECT_EQ(info["open_window"], false);
+  EXPECT_EQ(info["bytes"], blocks("run").size());
+  EXPECT_GT(info["breakpoints"], 7 * 49);
+  EXPECT_EQ(run_noli({"info", folder.path("none")}).exit_code, 3);
 }
 
 }  // namespace

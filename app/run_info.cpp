@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/run_info.h"
+
+#include <algorithm>
+
+#include "noli/trajectory/run_file.h"
+#include "noli/trajectory/run_manifest.h"
+
+namespace noli::app {
+namespace {
+
+/// Sums over the windows.
+struct Totals {
+  std::uint64_t breakpoints = 0, most_breakpoints = 0, frames = 0;
+  double end_time = 0;
+
+  void add(const RunWindow& window) {
+    breakpoints += window.breakpoints;
+    most_breakpoints = std::max(most_breakpoints, window.breakpoints);
+    frames += window.frames.size();
+    end_time = window.end;
+  }
+};
+
+Json versions_of(const std::filesystem::path& folder) {
+  Json json = Json::object();
+  for (const auto& [program, version] : read_manifest(folder).versions) json[program] = version;
+  return json;
+}
+
+}  // namespace
+
+Json run_info(const std::filesystem::path& folder) {
+  RunReader reader(folder);
+  Totals totals;
+  while (const auto window = reader.next_window()) totals.add(*window);
+  const RunHeader& header = reader.header();
+  const Mesh& mesh = reader.mesh();
+  return {{"file", folder.string()},
+          {"format", "Noli run"},
+          {"versions", versions_of(folder)},
+          {"dimension", header.dimension},
+          {"record", header.record == RecordMode::full ? "full" : "frames"},
+          {"vertices", mesh.vertex_count},
+          {"faces", mesh.faces.size()},
+          {"loose_edges", mesh.edges.size()},
+          {"loose_points", mesh.points.size()},
+          {"window", header.window_length},
+          {"windows", reader.windows()},
+          {"end_time", totals.end_time},
+          {"breakpoints", totals.breakpoints},
+          {"most_breakpoints_in_a_window", totals.most_breakpoints},
+          {"frames", totals.frames},
+          {"open_window", reader.open_window().has_value()},
+          {"bytes", std::filesystem::file_size(trajectory_path(folder))}};
+}
+
+}  // namespace noli::app

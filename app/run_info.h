@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is in the folder of a run, for `noli info`.
+#pragma once
+
+#include <filesystem>
+
+#include "noli/app/json.h"
+
+namespace noli::app {
+
+/// Reads the run from beginning to end, one window at a time, checking what the file says of itself. Throws InputError
+/// when it is no run or is damaged.
+Json run_info(const std::filesystem::path& folder);
+
+}  // namespace noli::app
