@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What asynchrony saves: a soft plate with an inset of four per cent of its elements whose steps are a hundred times
+// shorter (scenes/stiff_inset.json, without gravity), the inset struck so that what it does is what there is to get
+// right. Beside it synchronous Verlet, with the step that the inset needs: its energy from the same integrator with all
+// steps equal, its time from the plain loop (bench/plain_loop.h), which writes nothing down.
+//
+// Energy error: the largest difference from the beginning at the ends of windows, in parts of the beginning.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+
+#include "noli/bench/bench.h"
+#include "noli/bench/plain_loop.h"
+#include "noli/bench/report.h"
+#include "noli/integrator/groups.h"
+#include "noli/integrator/scene/build_model.h"
+#include "noli/integrator/scene/read_scene.h"
+#include "noli/integrator/simulation.h"
+#include "noli/trajectory/text.h"
+
+namespace noli::bench {
+namespace {
+
+using integrator::Model;
+using integrator::Simulation;
+
+constexpr int windows = 5;
+
+template <class Each>
+void for_each_list(Model<double, 3>& model, const Each& each) {
+  std::apply([&](auto&... list) { (each(list), ...); }, model.forces.lists());
+}
+
+double least_step(Model<double, 3>& model) {
+  double least = std::numeric_limits<double>::infinity();
+  for_each_list(model, [&](auto& list) {
+    for (const double h : list.steps) least = std::min(least, h);
+  });
+  return std::ldexp(model.window_length, -integrator::step_exponent(least, model.window_length));
+}
+
+/// Gives the vertices of the forces with short steps velocities that depend on nothing but their order.
+void strike_inset(Model<double, 3>& model, double short_step) {
+  constexpr double speed = 0.1;
+  std::vector<bool> struck(model.x.size(), false);
+  for_each_list(model, [&](auto& list) {
+    for (std::size_t i = 0; i < list.forces.size(); ++i) {
+      if (list.steps[i] > short_step) continue;
+      for (const VertexId v : list.forces[i].vertices) struck[v] = true;
+    }
+  });
+  std::mt19937_64 random(1);
+  const auto number = [&] { return speed * (static_cast<double>(random() >> 11) * 0x1p-52 - 1); };
+  for (std::size_t v = 0; v < struck.size(); ++v) {
+    if (struck[v]) model.v[v] = {number(), number(), number()};
+  }
+}
+
+Model<double, 3> plate() {
+  const auto file = std::filesystem::path(NOLI_SOURCE_DIR) / "scenes/stiff_inset.json";
+  const auto scene = integrator::parse_scene(read_whole_file(file), file.string());
+  Model<double, 3> model = integrator::build_model<3>(scene).model;
+  model.gravity.reset();
+  strike_inset(model, 2 * least_step(model));
+  return model;
+}
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+struct Measured {
+  std::uint64_t events = 0;
+  double seconds = 0, energy_error = 0;
+};
+
+double energy(const Simulation<double, 3>& simulation) {
+  const auto state = simulation.state();
+  return state.kinetic_mean + state.potential_sum();
+}
+
+Measured simulate(const Model<double, 3>& model) {
+  Simulation<double, 3> simulation(model);
+  integrator::Books<double, 3> books;
+  const double start = energy(simulation);
+  Measured result;
+  for (int i = 0; i < windows; ++i) {
+    const double begin = seconds();
+    simulation.run_window(books);
+    result.seconds += seconds() - begin;
+    result.energy_error = std::max(result.energy_error, std::abs(energy(simulation) - start) / start);
+  }
+  result.events = simulation.events();
+  return result;
+}
+
+double time_plain(const Model<double, 3>& model, double step) {
+  PlainLoop<3> loop(model, step);
+  const auto steps = static_cast<std::uint64_t>(std::llround(windows * model.window_length / step));
+  const double begin = seconds();
+  for (std::uint64_t i = 0; i < steps; ++i) loop.step();
+  return seconds() - begin;
+}
+
+void add_row(Table& table, const char* name, const Measured& measured, double least) {
+  table.row({name, fmt::format("{:.2e}", least), fmt::format("{}", measured.events),
+             fmt::format("{:.2f}", measured.seconds), fmt::format("{:.1e}", measured.energy_error)});
+}
+
+}  // namespace
+
+bool run() {
+  Model<double, 3> own = plate(), equal = own;
+  const double least = least_step(own);
+  for_each_list(equal, [&](auto& list) { std::fill(list.steps.begin(), list.steps.end(), least); });
+  std::vector<double> asynchronous, synchronous;
+  Measured a, s = simulate(equal);
+  for (int i = 0; i < passes; ++i) {
+    a = simulate(own);
+    asynchronous.push_back(a.seconds);
+    synchronous.push_back(time_plain(equal, least));
+  }
+  a.seconds = median(asynchronous);
+  s.seconds = median(synchronous);
+  Table table({"plate with a stiff inset", "least step, s", "forces fired", "s", "energy error"});
+  add_row(table, "asynchronous", a, least);
+  add_row(table, "synchronous Verlet", s, least);
+  std::fputs(fmt::format("\n{}\n{:.1f} times fewer forces, {:.1f} times less time, {:.2f} of the energy error\n",
+                         table.text(), static_cast<double>(s.events) / static_cast<double>(a.events),
+                         s.seconds / a.seconds, a.energy_error / s.energy_error)
+                 .c_str(),
+             stdout);
+  return true;
+}
+
+}  // namespace noli::bench
