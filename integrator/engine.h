@@ -6,7 +6,7 @@
 //   division  all forces of one kind, in the order of their numbers
 //   slot      what fires many forces in a row: a group of a division, or gravity
 //
-// With clocks of their own, forces are in a Calendar and only gravity has a slot. A division that is empty has no slot
+// With clocks of their own, forces are in OwnClocks and only gravity has a slot. A division that is empty has no slot
 // and no event, so what a scene does not have costs nothing.
 #pragma once
 
@@ -14,10 +14,9 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "noli/integrator/calendar.h"
 #include "noli/integrator/groups.h"
 #include "noli/integrator/kick.h"
-#include "noli/integrator/lookahead.h"
+#include "noli/integrator/own_clocks.h"
 #include "noli/integrator/scripts.h"
 #include "noli/integrator/simulation.h"
 
@@ -27,7 +26,7 @@ template <class F>
 struct Division {
   ForceList<F> list;
   bool damped = false;    ///< some of them are; then all go the way of damped ones
-  std::size_t first = 0;  ///< number, among all forces of the calendar, of the first one
+  std::size_t first = 0;  ///< number, among all forces with clocks of their own, of the first
 };
 
 namespace detail {
@@ -67,7 +66,7 @@ class Engine {
     }
     for (Slot& slot : slots_) slot.group.clock.next = first_after(t, slot.group.clock.step);
     timeline_.skip_to(t);
-    make_calendar();
+    make_own_clocks();
   }
 
   double time() const { return static_cast<double>(windows_) * window_length_; }
@@ -115,7 +114,6 @@ class Engine {
   };
 
   static constexpr std::size_t kinds = std::tuple_size_v<Divisions>;
-  static constexpr std::size_t longest_row = 64;
 
   template <class Recorder>
   using Now = Kicked<S, Dim, Recorder>;
@@ -170,7 +168,7 @@ class Engine {
   void take_forces(Model<S, Dim>& model) {
     auto lists = model.forces.lists();
     take_lists(lists, std::make_index_sequence<kinds>{});
-    make_calendar();
+    make_own_clocks();
   }
 
   template <class Lists, std::size_t... I>
@@ -190,23 +188,18 @@ class Engine {
     for (const Group& group : make_groups(division.list, window_length_)) slots_.push_back({F::kind, group});
   }
 
-  void make_calendar() {
+  void make_own_clocks() {
     if (clocks_ != Clocks::own) return;
+    std::array<Shelf, kinds> shelves;
+    std::array<std::size_t, kinds> counts{};
     std::vector<double> steps;
-    std::vector<std::uint32_t> kind_of;
-    std::uint32_t kind = 0;
+    std::size_t kind = 0;
     for_each_division([&](const auto& d) {
+      shelves[kind] = Shelf(d.list.forces, d.first);
+      counts[kind++] = d.list.forces.size();
       steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end());
-      kind_of.resize(steps.size(), kind++);
     });
-    calendar_ = Calendar(steps, kind_of, time());
-    shelve(std::make_index_sequence<kinds>{});
-    claims_ = Claims(particles_.size());
-  }
-
-  template <std::size_t... I>
-  void shelve(std::index_sequence<I...>) {
-    ((shelves_[I] = Shelf(std::get<I>(divisions_).list.forces, std::get<I>(divisions_).first)), ...);
+    own_ = OwnClocks<kinds>(shelves, counts, steps, particles_.size(), time());
   }
 
   template <class F>
@@ -243,12 +236,12 @@ class Engine {
     Slot* slot = next_slot();
     const double slot_time = slot != nullptr ? slot->group.clock.time() : std::numeric_limits<double>::infinity();
     const double turn_time = timeline_.next_time();
-    if (turn_time <= end && turn_time <= slot_time && (calendar_.empty() || turn_time <= calendar_.front().time())) {
+    if (turn_time <= end && turn_time <= slot_time && (own_.empty() || turn_time <= own_.next_time())) {
       turn(Now<Recorder>{particles_, record, turn_time});
       return true;
     }
-    if (!calendar_.empty() && calendar_.front().time() <= end && calendar_.front().time() < slot_time) {
-      run_calendar(end, std::min(slot_time, turn_time), record, books);
+    if (!own_.empty() && own_.next_time() <= end && own_.next_time() < slot_time) {
+      run_own(end, std::min(slot_time, turn_time), record, books);
       return true;
     }
     if (slot_time > end) return false;
@@ -289,46 +282,21 @@ class Engine {
     for_each_division(fire_if);
   }
 
-  /// Events of the calendar up to `end` that are before `other`: as many as have no vertex in common, then as many
-  /// again, and so on.
+  /// Forces with clocks of their own, up to `end` and before `other`.
   template <class Recorder>
-  void run_calendar(double end, double other, Recorder& record, Books<S, Dim>& books) {
-    const auto is_due = [&] { return calendar_.front().time() <= end && calendar_.front().time() < other; };
+  void run_own(double end, double other, Recorder& record, Books<S, Dim>& books) {
+    constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // asks after each force
+    const auto is_due = [&] { return own_.next_time() <= end && own_.next_time() < other; };
+    const auto prefetch = [this](VertexId v) { __builtin_prefetch(&particles_[v], 1); };
     while (is_due()) {
-      gather_row<Recorder>(is_due);
+      own_.take_row(watched ? 1 : own_.longest_row, is_due, prefetch);
       fire_row(record, books, std::make_index_sequence<kinds>{});
     }
   }
 
-  /// The next events without a vertex in common, at least one.
-  template <class Recorder, class IsDue>
-  void gather_row(const IsDue& is_due) {
-    constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // asks after each event
-    row_sizes_ = {};
-    claims_.clear();
-    for (std::size_t size = 0; size < (watched ? 1 : longest_row) && is_due(); ++size) {
-      const Calendar::Entry& entry = calendar_.front();
-      const Shelf& shelf = shelves_[entry.kind];
-      if (!claims_.claim(shelf, entry.event)) return;
-      row_[entry.kind][row_sizes_[entry.kind]++] = {entry.time(), entry.step, entry.event - shelf.first()};
-      look_ahead();
-      calendar_.advance();
-    }
-  }
-
-  /// Forces that come next are anywhere in memory: asks for them, and for the particles of those that have come, before
-  /// they are needed.
-  void look_ahead() const {
-    constexpr std::size_t far = 24, near = 12;
-    if (calendar_.ahead() < far) return;
-    const Calendar::Entry &later = calendar_.ahead(far), &soon = calendar_.ahead(near);
-    shelves_[later.kind].prefetch(later.event);
-    shelves_[soon.kind].for_each_vertex(soon.event, [this](VertexId v) { __builtin_prefetch(&particles_[v], 1); });
-  }
-
   template <class Recorder, std::size_t... I>
   void fire_row(Recorder& record, Books<S, Dim>& books, std::index_sequence<I...>) {
-    (fire_lone(record, std::get<I>(divisions_), std::span(row_[I].data(), row_sizes_[I]), books), ...);
+    (fire_lone(record, std::get<I>(divisions_), own_.row(I), books), ...);
   }
 
   template <class Recorder, class F>
@@ -430,12 +398,8 @@ class Engine {
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;
   std::vector<Slot> slots_;
-  Calendar calendar_;
+  OwnClocks<kinds> own_;
   std::size_t own_forces_ = 0;
-  std::array<Shelf, kinds> shelves_;
-  Claims claims_;
-  std::array<std::array<Lone, longest_row>, kinds> row_;  ///< forces of the calendar that fire together, by kind
-  std::array<std::size_t, kinds> row_sizes_{};
   std::uint64_t windows_ = 0;
   std::uint64_t events_ = 0;
 };

@@ -232,6 +232,8 @@ TEST_F(Simulate, ExplainSaysWhatIsActive) {
   EXPECT_EQ(process.exit_code, 0);
   EXPECT_NE(process.out.find("membrane"), std::string::npos);
   EXPECT_NE(process.out.find("hinge"), std::string::npos);
+  const Json json = json_of({"explain", scene(hanging_sheet())}, 0);
+  EXPECT_EQ(json["bodies"][0]["vertices"], 49);
 }
 
 TEST_F(Simulate, FramesAreExported) {
