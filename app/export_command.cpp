@@ -6,6 +6,7 @@
 
 #include "noli/app/commands.h"
 #include "noli/app/export_run.h"
+#include "noli/app/options.h"
 #include "noli/app/output.h"
 
 namespace noli::app {
@@ -36,7 +37,7 @@ Command add_export(CLI::App& app) {
   const auto request = std::make_shared<ExportRequest>();
   command->add_option("run", request->run, "The folder of a run")->required()->type_name("RUN");
   command->add_option("--fps", request->fps, "Frames a second of simulated time")
-      ->check(CLI::PositiveNumber)
+      ->check(is_positive())
       ->capture_default_str();
   command->add_option("-o,--output", request->pattern, "Names of the files, e.g. frames/%05d.ply (.obj, .vtu)")
       ->required()

@@ -60,9 +60,8 @@ class Export {
 
   ExportOutcome operator()() {
     while (auto window = reader_.next_window()) {
-      outcome_.interrupted = interrupted().load(std::memory_order_relaxed);
-      if (outcome_.interrupted) break;
       write_frames(*window);
+      if (is_interrupted()) break;
       ++outcome_.windows;
       outcome_.end = window->end;
     }
@@ -74,9 +73,16 @@ class Export {
  private:
   void write_frames(const RunWindow& window) {
     if (!window.lines) return write_recorded(window);
-    for (const double t : frame_times(window.index, window.begin, window.end, request_.fps)) {
+    for_each_frame_time(window.index, window.begin, window.end, request_.fps, [&](double t) {
+      if (is_interrupted()) return false;
       write(t, sample(*window.lines, t));
-    }
+      return true;
+    });
+  }
+
+  bool is_interrupted() {
+    outcome_.interrupted = outcome_.interrupted || interrupted().load(std::memory_order_relaxed);
+    return outcome_.interrupted;
   }
 
   /// Of a run that recorded frames alone: those, whatever was asked for.

@@ -4,20 +4,19 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 namespace noli::app {
 
-/// Those of window `index`: after its begin, up to its end; the first window also has that at its begin. So each frame
-/// is in one window.
-inline std::vector<double> frame_times(std::uint64_t index, double begin, double end, double rate) {
-  std::vector<double> times;
+/// Calls each(time) for those of window `index`: after its begin, up to its end; the first window also has that at its
+/// begin. So each frame is in one window. each() says whether to go on.
+template <class Each>
+void for_each_frame_time(std::uint64_t index, double begin, double end, double rate, const Each& each) {
   auto i = static_cast<std::uint64_t>(begin * rate);
   i = i > 0 ? i - 1 : 0;
   for (;; ++i) {
     const double t = static_cast<double>(i) / rate;
-    if (t > end) return times;
-    if (t > begin || (index == 0 && t == begin)) times.push_back(t);
+    if (t > end) return;
+    if ((t > begin || (index == 0 && t == begin)) && !each(t)) return;
   }
 }
 

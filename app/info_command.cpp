@@ -10,6 +10,7 @@
 #include "noli/app/commands.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/run_info.h"
 #include "noli/audit/any_query.h"
 #include "noli/trajectory/error.h"
@@ -100,7 +101,7 @@ std::string info_text(const Json& files) {
 }
 
 ExitCode run(const InfoArguments& arguments) {
-  const Output output(arguments.json, arguments.files);
+  const Output output(arguments.json, with_files_of_runs(arguments.files));
   Json files = Json::array();
   for (const auto& path : arguments.files) files.push_back(info_of(path));
   output.write(info_text(files), {{"verdict", "described"}, {"files", files}});

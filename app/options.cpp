@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/options.h"
 
+#include <charconv>
+#include <cmath>
+
 namespace noli::app {
 
 void add_json_option(CLI::App& command, std::optional<std::string>& path) {
@@ -14,6 +17,17 @@ void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "How many threads; 0: all there are")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
+}
+
+CLI::Validator is_positive() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        double number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        return whole && number > 0 && std::isfinite(number) ? "" : text + ": expected a number above 0";
+      },
+      "");
 }
 
 CLI::Validator is_dimension() {

@@ -15,6 +15,9 @@ void add_json_option(CLI::App& command, std::optional<std::string>& path);
 /// --threads N: 0 for all there are.
 void add_threads_option(CLI::App& command, int& threads);
 
+/// Accepts numbers above 0 that are finite.
+CLI::Validator is_positive();
+
 /// Accepts 2 and 3.
 CLI::Validator is_dimension();
 

@@ -135,12 +135,7 @@ bool write_file(const std::string& path, const std::string& text) {
 Output::Output(std::optional<std::string> json_path, const std::vector<std::filesystem::path>& inputs)
     : json_path_(std::move(json_path)) {
   if (!json_path_ || *json_path_ == "-") return;
-  for (const auto& input : inputs) {
-    std::error_code error;
-    if (std::filesystem::equivalent(input, *json_path_, error)) {
-      throw UsageError("--json " + *json_path_ + ": is read too; expected a file that is not");
-    }
-  }
+  require_other_file(*json_path_, inputs, "--json");
   if (is_standard_output(*json_path_)) {
     throw UsageError("--json " + *json_path_ + ": standard output goes there; expected another file, or '-'");
   }
@@ -152,6 +147,18 @@ void Output::write(const std::string& text, const Json& json) const {
   if (*json_path_ == "-") return write_standard_output(to_text(json));
   if (!write_file(*json_path_, to_text(json))) throw WriteError(*json_path_ + ": cannot be written: " + reason());
   write_standard_output(text);
+}
+
+void require_other_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
+                        const std::string& option) {
+  std::error_code error;
+  for (const auto& input : inputs) {
+    if (!std::filesystem::equivalent(input, file, error)) continue;
+    throw UsageError(option + " " + file.string() + ": is read too; expected a file that is not");
+  }
+  if (std::filesystem::is_directory(file, error)) {
+    throw UsageError(option + " " + file.string() + ": is a folder; expected a file");
+  }
 }
 
 void require_writable_folder(const std::string& folder, const std::string& option) {

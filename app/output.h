@@ -32,6 +32,10 @@ class Output {
   std::optional<std::string> json_path_;
 };
 
+/// Throws UsageError, naming `option`, when the file is one of the inputs, or a folder.
+void require_other_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
+                        const std::string& option);
+
 /// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, the folder
 /// itself.
 void require_writable_folder(const std::string& folder, const std::string& option);

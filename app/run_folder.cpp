@@ -16,11 +16,13 @@ namespace fs = std::filesystem;
 
 std::string text_of(const Json& scene) { return scene.dump(2) + "\n"; }
 
-/// Whether a folder holds nothing but what a run is made of: what may be removed with --force.
+/// Whether a folder holds nothing but what a run is made of, or nothing at all: what may be removed with --force. What
+/// a run begins with is trajectory.blocks; a lonely scene.json is somebody's scene.
 bool is_run(const fs::path& folder) {
   static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks", "log.jsonl",
                                               "series.h5"};
   if (!fs::is_directory(folder)) return false;
+  if (!fs::is_empty(folder) && !fs::exists(folder / "trajectory.blocks")) return false;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
     if (names.count((name.extension() == ".part" ? name.stem() : name).string()) == 0) return false;
@@ -28,13 +30,36 @@ bool is_run(const fs::path& folder) {
   return true;
 }
 
-/// What a run's bytes do not depend on.
+/// A scene without what a run's bytes do not depend on.
 Json essential(Json scene) {
-  for (const char* field : {"duration", "title", "about", "frame_rate", "short"}) scene.erase(field);
+  for (const char* field : {"duration", "title", "about", "short"}) scene.erase(field);
+  if (scene.value("record", "") != "frames") scene.erase("frame_rate");
   return scene;
 }
 
+/// Nobody else may be writing to a run that is replaced.
+void require_idle(const fs::path& folder) {
+  if (!fs::exists(folder / "log.jsonl")) return;
+  try {
+    const RunLog log(folder);
+  } catch (const std::system_error& error) {
+    throw UsageError("--force: " + folder.string() + " cannot be replaced: " + error.what());
+  }
+}
+
+/// What is in a folder, but not the folder: it may be the current one.
+void clear(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
+  for (const fs::path& entry : entries) fs::remove_all(entry);
+}
+
 }  // namespace
+
+/// Without a "." or a slash at its end, which some operations on folders do not take.
+RunFolder::RunFolder(const fs::path& path) : path_(path.lexically_normal()) {
+  if (!path_.has_filename() && path_.has_relative_path()) path_ = path_.parent_path();
+}
 
 void RunFolder::make(bool force) {
   std::error_code error;
@@ -45,31 +70,50 @@ void RunFolder::make(bool force) {
     }
     if (!is_run(path_))
       throw UsageError("-o " + path_.string() + ": is no run; expected a folder that may be replaced");
-    fs::remove_all(path_);
+    require_idle(path_);
+    clear(path_);
   }
   fs::create_directories(path_, error);
   if (error) throw UsageError("-o " + path_.string() + ": cannot be made: " + error.message());
 }
 
-void RunFolder::begin(const Json& scene) {
-  write_manifest(path_, text_of(scene), {{"noli", version_number()}});
+void RunFolder::begin(const Json& scene, const Sha256Digest& model) {
+  write_manifest(path_, text_of(scene), {{"noli", version_number()}}, model);
   log_.emplace(path_);
   log({{"event", "begin"}});
 }
 
 bool RunFolder::has_begun() const {
   if (!is_run(path_)) throw UsageError("--resume: " + path_.string() + " is no run; expected the folder of one");
-  return fs::exists(path_ / "manifest.json");
+  if (fs::exists(path_ / "manifest.json")) return true;
+  // The log comes after the manifest.
+  if (!fs::exists(path_ / "log.jsonl")) return false;
+  throw UsageError("--resume: " + path_.string() + " has lost its manifest.json; expected a whole run");
 }
 
-void RunFolder::go_on(const Json& scene) {
-  const Json there = Json::parse(read_scene(path_, read_manifest(path_)));
-  if (essential(there) != essential(scene)) {
+void RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
+  const RunManifest manifest = read_manifest(path_);
+  const Json there = Json::parse(read_scene(path_, manifest), nullptr, false);
+  if (!there.is_object() || essential(there) != essential(scene)) {
     throw InputError((path_ / "scene.json").string(), "",
                      "is another scene; expected the one to go on with (its duration may differ)");
   }
+  if (manifest.model_sha256 && *manifest.model_sha256 != model) {
+    throw InputError((path_ / "manifest.json").string(), "/model/sha256",
+                     "the run began with other meshes or paths; expected those files that the scene names unchanged");
+  }
   log_.emplace(path_);
   log({{"event", "resume"}});
+}
+
+std::vector<fs::path> with_files_of_runs(std::vector<fs::path> paths) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(path, error)) files.push_back(entry.path());
+  }
+  paths.insert(paths.end(), files.begin(), files.end());
+  return paths;
 }
 
 void RunFolder::log(std::uint64_t window, const SeriesRow& row) {

@@ -7,34 +7,36 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "noli/app/json.h"
 #include "noli/app/run_series.h"
 #include "noli/trajectory/run_log.h"
+#include "noli/trajectory/sha256.h"
 
 namespace noli::app {
 
 class RunFolder {
  public:
-  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit RunFolder(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
 
   /// Makes the folder. Throws UsageError when there is something by that name; with `force` a run that is there is
-  /// removed first, but nothing that is no run.
+  /// removed first, but nothing that is no run, and no run that another process writes to.
   void make(bool force);
 
   /// Writes the manifest, with the scene as it was read: overrides applied, defaults filled in. From now on the run has
-  /// begun: without a manifest there is none to go on with.
-  void begin(const Json& scene);
+  /// begun: without a manifest there is none to go on with. `model`: hash of what the scene came to.
+  void begin(const Json& scene, const Sha256Digest& model);
 
   /// Whether there is a run to go on with, and not just what is left of one that ended before it began. Throws
-  /// UsageError when the folder is no run at all.
+  /// UsageError when the folder is no run at all, or one that has lost its manifest.
   bool has_begun() const;
 
-  /// Goes on with it. Throws InputError when it is one of another scene. The duration, the title and what is only
-  /// looked at may differ.
-  void go_on(const Json& scene);
+  /// Goes on with it. Throws InputError when it is one of another scene, or a file that the scene names has changed. The
+  /// duration, the title and what is only looked at may differ.
+  void go_on(const Json& scene, const Sha256Digest& model);
 
   /// A line of the log for a window that has been committed.
   void log(std::uint64_t window, const SeriesRow& row);
@@ -45,5 +47,8 @@ class RunFolder {
   std::filesystem::path path_;
   std::optional<RunLog> log_;
 };
+
+/// The same paths, and what is in those that are folders of runs.
+std::vector<std::filesystem::path> with_files_of_runs(std::vector<std::filesystem::path> paths);
 
 }  // namespace noli::app

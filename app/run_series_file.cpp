@@ -8,6 +8,7 @@
 
 #include "noli/app/frame_times.h"
 #include "noli/app/run_series.h"
+#include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/series_file.h"
@@ -23,7 +24,10 @@ struct Extent {
 };
 
 std::uint64_t frames_in(const RunWindow& window, double rate) {
-  return window.lines ? frame_times(window.index, window.begin, window.end, rate).size() : window.frames.size();
+  if (!window.lines) return window.frames.size();
+  std::uint64_t count = 0;
+  for_each_frame_time(window.index, window.begin, window.end, rate, [&count](double) { return ++count > 0; });
+  return count;
 }
 
 Extent measure(const std::filesystem::path& run, double rate) {
@@ -36,6 +40,16 @@ Extent measure(const std::filesystem::path& run, double rate) {
   return extent;
 }
 
+/// The series of a window, from the bytes that the run keeps of its state.
+SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run) {
+  try {
+    return decode_row(window.state);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(trajectory_path(run).string(), "",
+                     "the state of window " + std::to_string(window.index) + ": " + error.what());
+  }
+}
+
 class Series {
  public:
   Series(const std::filesystem::path& run, double rate)
@@ -43,7 +57,7 @@ class Series {
     declare();
     std::uint64_t row = 0;
     while (const auto window = reader_.next_window()) {
-      write(row++, decode_row(window->state));
+      write(row++, row_of(*window, run));
       write_frames(*window);
     }
     file_.close();
@@ -96,9 +110,10 @@ class Series {
       for (const RunFrame& frame : window.frames) write_frame(frame.time, frame.positions);
       return;
     }
-    for (const double t : frame_times(window.index, window.begin, window.end, rate_)) {
+    for_each_frame_time(window.index, window.begin, window.end, rate_, [&](double t) {
       write_frame(t, sample(*window.lines, t));
-    }
+      return true;
+    });
   }
 
   void write_frame(double time, const std::vector<Position>& positions) {

@@ -9,6 +9,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/reproduce_run.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/simulate_report.h"
 #include "noli/app/simulate_run.h"
 
@@ -38,12 +39,21 @@ struct SimulateArguments {
 /// The words of --reproduce.
 ExitCode reproduce(const SimulateArguments& arguments) {
   const SimulateRequest& request = arguments.request;
+  const auto inputs = with_files_of_runs({request.scene, *arguments.reproduce});
+  const Output output(arguments.json, inputs);
+  require_other_file(request.run, inputs, "-o");
   const ReproduceOutcome outcome =
       run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
-  write_standard_output(fmt::format("verdict {} window {} breakpoints {}\n{}, SHA-256 {}, is in {}.\n",
-                                    outcome.same ? "same" : "different", arguments.window, outcome.breakpoints,
-                                    outcome.same ? "The window of the run" : "Another window than the run has",
-                                    hex(outcome.found), request.run.string()));
+  const char* const verdict = outcome.same ? "same" : "different";
+  output.write(
+      fmt::format("verdict {} window {} breakpoints {}\n{}, SHA-256 {}, is in {}.\n", verdict, arguments.window,
+                  outcome.breakpoints, outcome.same ? "The window of the run" : "Another window than the run has",
+                  hex(outcome.found), request.run.string()),
+      {{"verdict", verdict},
+       {"window", arguments.window},
+       {"breakpoints", outcome.breakpoints},
+       {"sha256", hex(outcome.found)},
+       {"expected", hex(outcome.expected)}});
   return outcome.same ? ExitCode::holds : ExitCode::refuted;
 }
 
@@ -51,7 +61,7 @@ ExitCode run(SimulateArguments& arguments) {
   SimulateRequest& request = arguments.request;
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
-  const Output output(arguments.json, {request.scene});
+  const Output output(arguments.json, with_files_of_runs({request.scene, request.run}));
   const SimulateOutcome outcome = run_simulate(request);
   output.write(simulate_text(request, outcome), simulate_json(request, outcome));
   return exit_code(outcome);
@@ -72,14 +82,19 @@ Command add_simulate(CLI::App& app) {
       ->type_name("RUN");
   command->add_flag("--short", request.brief, "The scene's short form");
   auto* const resume = command->add_flag("--resume", request.resume, "Go on with the run that is in the folder");
-  command->add_flag("--force", request.force, "Replace the run that is in the folder")->excludes(resume);
-  command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
-      ->check(CLI::PositiveNumber)
-      ->type_name("SECONDS");
+  auto* const force =
+      command->add_flag("--force", request.force, "Replace the run that is in the folder")->excludes(resume);
+  auto* const until =
+      command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
+          ->check(is_positive())
+          ->type_name("SECONDS");
   auto* const again = command
                           ->add_option("--reproduce", arguments->reproduce,
                                        "Integrate one window of this run again; its block goes to the file -o")
-                          ->type_name("RUN");
+                          ->type_name("RUN")
+                          ->excludes(resume)
+                          ->excludes(force)
+                          ->excludes(until);
   command->add_option("--window", arguments->window, "Which window, from 0")->needs(again)->type_name("K");
   command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h")
       ->type_name("TIME");

@@ -7,6 +7,7 @@
 #include "noli/app/contact_report.h"
 #include "noli/app/machine.h"
 #include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -76,6 +77,15 @@ std::string end_text(const SimulateOutcome& outcome) {
   return "";
 }
 
+/// What has been verified.
+std::string statement(const SimulateOutcome& outcome) {
+  return fmt::format(
+      "no two features that share no vertex meet at any time from 0 to {} s. Not compared: two cells whose vertices "
+      "are "
+      "all scripted or pinned.",
+      outcome.time);
+}
+
 double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
 
 }  // namespace
@@ -94,6 +104,7 @@ ExitCode exit_code(const SimulateOutcome& outcome) {
 Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcome) {
   Json json = {{"verdict", verdict(outcome)}, {"end", name(outcome.end)}};
   json["title"] = outcome.title;
+  json["statement"] = statement(outcome);
   json["windows"] = outcome.windows;
   json["windows_total"] = outcome.windows_total;
   json["window_length"] = outcome.window_length;
@@ -123,10 +134,8 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
                   name(outcome.end), outcome.windows, outcome.windows_total, digits17(outcome.time),
                   outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none"));
   text += end_text(outcome) + "\n";
-  text += fmt::format(
-      "{}: {} windows of {} s committed to {}, each verified exactly: no two features that share no vertex "
-      "meet at any time from 0 to {} s, pairs of scripted cells apart.\n",
-      outcome.title, outcome.windows, outcome.window_length, request.run.string(), outcome.time);
+  text += fmt::format("{}: {} windows of {} s committed to {}, each verified exactly: {}\n", on_one_line(outcome.title),
+                      outcome.windows, outcome.window_length, request.run.string(), statement(outcome));
   text += fmt::format(
       "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
       "beside it; {:.0f} MB.\n",

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <future>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
 #include "noli/app/exit_code.h"
@@ -24,6 +27,7 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
+#include "noli/trajectory/sha256.h"
 
 namespace noli::app {
 namespace {
@@ -34,6 +38,17 @@ using integrator::Recording;
 using integrator::Scene;
 using integrator::Simulation;
 using integrator::Snapshot;
+using integrator::Vec;
+
+/// Their bits, low byte first.
+void hash_numbers(std::span<const double> numbers, Sha256& hash) {
+  for (const double number : numbers) {
+    std::array<char, 8> bytes{};
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(bits >> (8 * i));
+    hash.update({bytes.data(), bytes.size()});
+  }
+}
 
 /// Which vertices nothing moves but the scene: no two cells of them alone are compared.
 template <int Dim>
@@ -42,6 +57,27 @@ std::vector<std::uint8_t> labels_of(const Model<double, Dim>& model) {
   for (const VertexId v : model.pinned) labels[v] = scripted_vertex;
   for (const auto& script : model.scripts) labels[script.vertex] = scripted_vertex;
   return labels;
+}
+
+template <int Dim>
+void hash_vectors(const std::vector<Vec<double, Dim>>& vectors, Sha256& hash) {
+  for (const auto& v : vectors) hash_numbers(std::span<const double>(v.data(), Dim), hash);
+}
+
+/// Of what a model's motion follows from: initial state, masses, steps, paths. The scene is hashed apart; this tells
+/// whether the files that it names are the same.
+template <int Dim>
+Sha256Digest hash_of(const Model<double, Dim>& model) {
+  Sha256 hash;
+  hash_vectors<Dim>(model.x, hash);
+  hash_vectors<Dim>(model.v, hash);
+  hash_numbers(model.mass, hash);
+  std::apply([&](const auto&... list) { (hash_numbers(list.steps, hash), ...); }, model.forces.lists());
+  for (const auto& script : model.scripts) {
+    hash_numbers(script.times, hash);
+    hash_vectors<Dim>(script.positions, hash);
+  }
+  return hash.digest();
 }
 
 /// A window that has been integrated and waits for its verdict.
@@ -70,6 +106,7 @@ class Run {
     outcome_.cells = built_.model.mesh.cell_count();
     outcome_.window_length = scene.window;
     outcome_.windows_total = windows_up_to(request.until.value_or(scene.duration));
+    require_cells();
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     if (!request.resume) refuse_contact_at_start();
     open(scene);
@@ -98,7 +135,18 @@ class Run {
 
  private:
   std::uint64_t windows_up_to(double time) const {
-    return static_cast<std::uint64_t>(std::ceil(time / outcome_.window_length * (1 - 0x1p-50)));
+    constexpr double most = 0x1p53;
+    const double windows = std::ceil(time / outcome_.window_length * (1 - 0x1p-50));
+    if (windows < most) return static_cast<std::uint64_t>(windows);
+    const std::string problem = fmt::format("expected fewer than 2^53 windows of {} s", outcome_.window_length);
+    if (request_.until) throw UsageError("--until: " + problem);
+    throw InputError(request_.scene.string(), "/duration", problem);
+  }
+
+  void require_cells() const {
+    if (outcome_.cells > 0) return;
+    throw InputError(request_.scene.string(), "/bodies",
+                     "expected a mesh with faces, edges or points; what has none of them touches nothing");
   }
 
   bool stopped() {
@@ -121,7 +169,6 @@ class Run {
   /// At rest where it begins: what meets then meets at the start.
   void refuse_contact_at_start() const {
     const auto x = positions_of<Dim>(built_.model.x);
-    if (built_.model.mesh.cell_count() == 0) return;
     WindowOptions options = window_options();
     options.initial = true;
     options.max_reports = 3;
@@ -174,11 +221,11 @@ class Run {
     if (!go_on) {
       folder_.make(request_.force || request_.resume);
       writer_.emplace(folder_.path(), run_scene(scene));
-      folder_.begin(scene.document);
+      folder_.begin(scene.document, hash_of<Dim>(built_.model));
       simulation_.emplace(built_.model);
       return;
     }
-    folder_.go_on(scene.document);
+    folder_.go_on(scene.document, hash_of<Dim>(built_.model));
     RunReader reader(folder_.path());
     if (reader.scene() != run_scene(scene)) {
       throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
@@ -186,10 +233,19 @@ class Run {
     Snapshot<double, Dim> last;
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
+      require_whole(*window);
     }
     writer_.emplace(folder_.path(), reader);
     outcome_.windows_before = last.windows;
     simulation_.emplace(simulation_at<Dim>(built_.model, last));
+  }
+
+  /// Windows of a run that can be gone on with are those that a simulation writes.
+  void require_whole(const RunWindow& window) const {
+    if (window.end == static_cast<double>(window.index + 1) * outcome_.window_length) return;
+    throw InputError(folder_.path().string(), "",
+                     fmt::format("window {} ends at {} s; expected {} s to go on with it", window.index, window.end,
+                                 static_cast<double>(window.index + 1) * outcome_.window_length));
   }
 
   // --- Windows -------------------------------------------------------------------------------------------------------
@@ -218,7 +274,7 @@ class Run {
     const auto look = [lines = candidate_->lines.get(), options = window_options(), this] {
       const Stopwatch watch;
       WindowResult result;
-      if (built_.model.mesh.cell_count() > 0) result = verifier_.verify(*lines, options);
+      result = verifier_.verify(*lines, options);
       outcome_.verifying_seconds += watch.seconds();
       return result;
     };
@@ -253,10 +309,11 @@ class Run {
   std::vector<RunFrame> frames_of(const Candidate& window) const {
     std::vector<RunFrame> frames;
     if (record_ == RecordMode::full) return frames;
-    for (const double t :
-         frame_times(window.index, window.lines->first_time(), window.lines->last_time(), frame_rate_)) {
-      frames.push_back({t, sample(*window.lines, t)});
-    }
+    const WorldLines& lines = *window.lines;
+    for_each_frame_time(window.index, lines.first_time(), lines.last_time(), frame_rate_, [&](double t) {
+      frames.push_back({t, sample(lines, t)});
+      return true;
+    });
     return frames;
   }
 

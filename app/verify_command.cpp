@@ -6,6 +6,7 @@
 #include "noli/app/duration.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/verify_report.h"
 #include "noli/app/verify_run.h"
 
@@ -47,7 +48,7 @@ ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
-  const Output output(arguments.json, request.frames);
+  const Output output(arguments.json, with_files_of_runs(request.frames));
   const VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
   output.write(verify_text(request, outcome), verify_json(request, outcome));
   return exit_code(outcome.verdict);

@@ -56,7 +56,8 @@ int hex_digit(char c) {
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-Sha256Digest parse_digest(const std::string& text, const std::string& file) {
+Sha256Digest digest_at(const Json& json, const std::string& pointer, const std::string& file) {
+  const std::string text = text_at(json, pointer, file);
   Sha256Digest digest{};
   bool good = text.size() == 2 * digest.size();
   for (std::size_t i = 0; good && i < digest.size(); ++i) {
@@ -64,18 +65,19 @@ Sha256Digest parse_digest(const std::string& text, const std::string& file) {
     good = high >= 0 && low >= 0;
     digest[i] = static_cast<std::uint8_t>(16 * high + low);
   }
-  if (!good) throw InputError(file, "/scene/sha256", "expected 64 hexadecimal digits in lower case");
+  if (!good) throw InputError(file, pointer, "expected 64 hexadecimal digits in lower case");
   return digest;
 }
 
 }  // namespace
 
 void write_manifest(const std::filesystem::path& folder, std::string_view scene,
-                    const std::map<std::string, std::string>& versions) {
-  const Json manifest = {{"format", format_name},
-                         {"version", format_version},
-                         {"scene", {{"file", scene_name}, {"sha256", hex(sha256(scene))}}},
-                         {"versions", versions}};
+                    const std::map<std::string, std::string>& versions, const std::optional<Sha256Digest>& model) {
+  Json manifest = {{"format", format_name},
+                   {"version", format_version},
+                   {"scene", {{"file", scene_name}, {"sha256", hex(sha256(scene))}}},
+                   {"versions", versions}};
+  if (model) manifest["model"] = {{"sha256", hex(*model)}};
   replace_file(folder / scene_name, scene);
   replace_file(folder / manifest_name, manifest.dump(2) + "\n");
 }
@@ -86,7 +88,8 @@ RunManifest read_manifest(const std::filesystem::path& folder) {
   const Json json = parse(read_whole_file(path), file);
   check_format(json, file);
   RunManifest manifest;
-  manifest.scene_sha256 = parse_digest(text_at(json, "/scene/sha256", file), file);
+  manifest.scene_sha256 = digest_at(json, "/scene/sha256", file);
+  if (json.contains("model")) manifest.model_sha256 = digest_at(json, "/model/sha256", file);
   const Json& versions = member(json, "/versions", file);
   if (!versions.is_object()) throw InputError(file, "/versions", "expected an object");
   for (const auto& [name, version] : versions.items()) {

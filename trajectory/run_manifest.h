@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,13 +19,15 @@ namespace noli {
 struct RunManifest {
   Sha256Digest scene_sha256{};
   std::map<std::string, std::string> versions;  ///< of the program and what it stands on, by name
+  std::optional<Sha256Digest> model_sha256;     ///< of what the scene and the files that it names came to
 
   friend bool operator==(const RunManifest&, const RunManifest&) = default;
 };
 
 /// Writes scene.json and then manifest.json; each is there whole or not at all. Throws std::system_error.
 void write_manifest(const std::filesystem::path& folder, std::string_view scene,
-                    const std::map<std::string, std::string>& versions);
+                    const std::map<std::string, std::string>& versions,
+                    const std::optional<Sha256Digest>& model = std::nullopt);
 
 /// Throws InputError: no manifest, not JSON, of another format or version, a member that is missing or of another type.
 /// Members that are not known are ignored.

@@ -23,9 +23,13 @@ bool is_pointer(const std::string& text) {
 
 /// Whether a pointer names a field of an object, there or new, or an item of an array that is there.
 bool is_place(const Json& document, const Pointer& target) {
-  if (document.contains(target)) return true;
-  const Pointer parent = target.parent_pointer();
-  return document.contains(parent) && document.at(parent).is_object();
+  try {
+    if (document.contains(target)) return true;
+    const Pointer parent = target.parent_pointer();
+    return document.contains(parent) && document.at(parent).is_object();
+  } catch (const Json::out_of_range&) {
+    return false;  // an index beyond all numbers
+  }
 }
 
 /// Puts the overrides of the short form in their places.

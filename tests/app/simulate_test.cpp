@@ -13,6 +13,7 @@
 #include "noli/tests/app/scene.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/run_file.h"
+#include "noli/trajectory/run_log.h"
 
 namespace noli::app_tests {
 namespace {
@@ -338,6 +339,122 @@ TEST_F(Simulate, InfoSaysWhatIsInARun) {
   EXPECT_EQ(info["bytes"], blocks("run").size());
   EXPECT_GT(info["breakpoints"], 7 * 49);
   EXPECT_EQ(run_noli({"info", folder.path("none")}).exit_code, 3);
+}
+
+/// Two bars in the plane; the upper one reaches the lower one at 0.5 s.
+Json falling_bar() {
+  return Json::parse(R"({
+      "noli_scene": 1, "dimension": 2, "duration": 1, "window": 0.25, "bodies": [
+        {"name": "a", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}},
+         "material": {"edge_stiffness": 0, "mass_per_vertex": 1}},
+        {"name": "b", "mesh": {"chain": {"points": [[0, 0.5], [0, 1.5]], "segments": 1}}, "velocity": [0, -1],
+         "material": {"edge_stiffness": 0, "mass_per_vertex": 1}}]})");
+}
+
+TEST_F(Simulate, TimesBeyondAllWindowsAreRefused) {
+  const std::string file = scene(falling_bar());
+  for (const char* until : {"1e300", "1e19", "nan", "inf", "-1", "0"}) {
+    EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", until}).exit_code, 3) << until;
+    EXPECT_FALSE(fs::exists(run_path("run"))) << until;
+  }
+  EXPECT_EQ(json_of({"simulate", file, "-o", run_path("run"), "--until", "1e9"}, 1)["first_time"], 0.5);
+}
+
+TEST_F(Simulate, WhatIsNotComparedIsPartOfTheStatement) {
+  Json json = falling_bar();
+  json["bodies"][0]["pin"] = {"all"};
+  json["scripts"] = Json::parse(R"([{"body": "b", "path": [{"t": 0, "move": [0, 0]}, {"t": 1, "move": [0, -0.75]}]}])");
+  const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 0);
+  EXPECT_NE(result["statement"].get<std::string>().find("all scripted or pinned"), std::string::npos);
+}
+
+TEST_F(Simulate, WithoutCellsThereIsNothingToCertify) {
+  folder.write("points.obj", "v 0 0 0\nv 1 0 0\n");
+  Json json = falling_triangle();
+  json["bodies"] = Json::parse(R"([{"name": "points", "mesh": {"file": "points.obj"},
+                                   "material": {"edge_stiffness": 0, "mass_per_vertex": 1}}])");
+  json.erase("scripts");
+  const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("/bodies: expected a mesh with faces, edges or points"), std::string::npos) << process.err;
+}
+
+TEST_F(Simulate, OnlyRunsAreReplaced) {
+  const std::string file = scene(hanging_sheet());
+  const std::string there = fs::path(file).parent_path();  // with nothing but the scene
+  for (const char* how : {"--force", "--resume"}) {
+    const Process process = run_noli({"simulate", file, "-o", there, how, "--until", "0.01"});
+    EXPECT_EQ(process.exit_code, 3) << how;
+    EXPECT_TRUE(fs::exists(file)) << how;
+  }
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run/."), "--until", "0.05"}).exit_code, 0);
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run/"), "--until", "0.05", "--force"}).exit_code, 0);
+  fs::remove(run_path("run/manifest.json"));
+  const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--resume"});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("has lost its manifest.json"), std::string::npos) << process.err;
+}
+
+TEST_F(Simulate, ARunThatIsBeingWrittenIsNotReplaced) {
+  const std::string file = scene(hanging_sheet());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.05"}).exit_code, 0);
+  {
+    const RunLog writer(run_path("run"));
+    const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--force"});
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_NE(process.err.find("cannot be replaced"), std::string::npos) << process.err;
+  }
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--force", "--until", "0.05"}).exit_code, 0);
+}
+
+TEST_F(Simulate, FilesOfARunAreNotOverwritten) {
+  const std::string file = scene(hanging_sheet());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.05"}).exit_code, 0);
+  const std::string before = blocks("run");
+  const std::string kept = run_path("run/trajectory.blocks");
+  EXPECT_EQ(run_noli({"verify", run_path("run"), "--json", kept}).exit_code, 3);
+  EXPECT_EQ(run_noli({"info", run_path("run"), "--json", kept}).exit_code, 3);
+  EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--resume", "--json", kept}).exit_code, 3);
+  EXPECT_EQ(run_noli({"simulate", file, "--reproduce", run_path("run"), "--window", "1", "-o", kept}).exit_code, 3);
+  EXPECT_EQ(run_noli({"simulate", file, "--reproduce", run_path("run"), "--window", "1", "-o", file}).exit_code, 3);
+  EXPECT_TRUE(blocks("run") == before);
+  const Json again =
+      json_of({"simulate", file, "--reproduce", run_path("run"), "--window", "1", "-o", run_path("1.block")}, 0);
+  EXPECT_EQ(again["verdict"], "same");
+}
+
+TEST_F(Simulate, ARunDoesNotGoOnWithOtherFiles) {
+  const std::string file = scene(falling_triangle());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.1"}).exit_code, 0);
+  folder.write("upright.obj", "v 0 -0.25 0.375\nv -0.25 -0.25 1\nv 0.25 -0.25 1\nf 1 2 3\n");
+  const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--resume"});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("/model/sha256"), std::string::npos) << process.err;
+}
+
+TEST_F(Simulate, RecordedFramesKeepTheirRate) {
+  Json json = beam(0.1);
+  ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run"), "--until", "0.04"}).exit_code, 0);
+  json["frame_rate"] = 37;
+  EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run"), "--resume"}).exit_code, 3);
+  json["frame_rate"] = 100;
+  json["duration"] = 0.2;
+  EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run"), "--resume"}).exit_code, 0);
+}
+
+TEST_F(Simulate, ExportWantsAFiniteRate) {
+  ASSERT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run_path("run"), "--until", "0.1"}).exit_code, 0);
+  for (const char* fps : {"nan", "inf", "0", "-1", "1e999"}) {
+    EXPECT_EQ(run_noli({"export", run_path("run"), "--fps", fps, "-o", run_path("%d.ply")}).exit_code, 3) << fps;
+  }
+}
+
+TEST_F(Simulate, ShortFormsNameTheirBadPointer) {
+  Json json = hanging_sheet();
+  json["short"] = {{"/bodies/99999999999999999999", Json::object()}};
+  const Process process = run_noli({"simulate", scene(json), "--short", "-o", run_path("run")});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("/short"), std::string::npos) << process.err;
 }
 
 }  // namespace

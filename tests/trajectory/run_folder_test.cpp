@@ -21,9 +21,15 @@ TEST(RunManifest, IsReadBackWithItsScene) {
   const test::TemporaryFolder folder;
   write_manifest(folder.path(), "{\"scene\": 1}\r\n", {{"noli", "0.1.0"}, {"gmp", "6.2.1"}});
   const RunManifest manifest = read_manifest(folder.path());
-  EXPECT_EQ(manifest, (RunManifest{sha256("{\"scene\": 1}\r\n"), {{"noli", "0.1.0"}, {"gmp", "6.2.1"}}}));
+  EXPECT_EQ(manifest, (RunManifest{sha256("{\"scene\": 1}\r\n"), {{"noli", "0.1.0"}, {"gmp", "6.2.1"}}, std::nullopt}));
   EXPECT_EQ(read_scene(folder.path(), manifest), "{\"scene\": 1}\r\n");
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"manifest.json", "scene.json"}));
+}
+
+TEST(RunManifest, MayHaveTheHashOfTheModel) {
+  const test::TemporaryFolder folder;
+  write_manifest(folder.path(), "{}", {{"noli", "0.1.0"}}, sha256("model"));
+  EXPECT_EQ(read_manifest(folder.path()).model_sha256, sha256("model"));
 }
 
 TEST(RunManifest, HasTheseBytes) {
