@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include "noli/kernel/parallel.h"
 
@@ -173,7 +172,7 @@ void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
       level = std::move(next);
     }
     parallel_for(level.size(), threads_, [&](std::size_t i) { fit(level[i], tree.sheet); });
-    for (const Group g : inner | std::views::reverse) join(g, tree.sheet);
+    for (auto g = inner.rbegin(); g != inner.rend(); ++g) join(*g, tree.sheet);
   }
 }
 
