@@ -34,8 +34,8 @@ class RunFolder {
   /// UsageError when the folder is no run at all, or one that has lost its manifest.
   bool has_begun() const;
 
-  /// Goes on with it. Throws InputError when it is one of another scene, or a file that the scene names has changed. The
-  /// duration, the title and what is only looked at may differ.
+  /// Goes on with it. Throws InputError when it is one of another scene, or a file that the scene names has changed.
+  /// The duration, the title and what is only looked at may differ.
   void go_on(const Json& scene, const Sha256Digest& model);
 
   /// A line of the log for a window that has been committed.

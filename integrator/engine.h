@@ -311,8 +311,8 @@ class Engine {
     }
   }
 
-  /// Flattened, like fire_lone_as: what is called for each force is a few dozen operations on numbers that are best left
-  /// in registers. So is the account.
+  /// Flattened, like fire_lone_as: what is called for each force is a few dozen operations on numbers that are best
+  /// left in registers. So is the account.
   template <bool Damped, class Recorder, class F>
   [[gnu::flatten]] void fire_group_as(const Now<Recorder>& now, const Division<F>& division, const Group& group,
                                       const S& h, Account<S, Dim>& account) {

@@ -54,8 +54,8 @@ TEST(Physics, ACantileverHasItsFrequency) {
 }
 
 /// A taut string of n segments between fixed ends: of its first mode, sin(pi x / L) sqrt(tension / density), a lumped
-/// string has the frequency (2 n / (2 pi L)) sin(pi / 2n) sqrt(T / rho), of second order in 1/n. The deflection is small
-/// enough not to change the tension.
+/// string has the frequency (2 n / (2 pi L)) sin(pi / 2n) sqrt(T / rho), of second order in 1/n. The deflection is
+/// small enough not to change the tension.
 double string_frequency(int segments) {
   constexpr double length = 2, tension = 3, density = 0.5, natural = 0.5;  // of the rest length to the length
   Model<double, 2> model;
