@@ -27,7 +27,7 @@ class Ledger {
   }
 
   State<S, Dim> state() {
-    engine_.for_each_division([this](const auto& division) { add_division(division); });
+    engine_.for_each_division([&](const auto& division) { add_division(division); });
     if (engine_.gravity()) add_gravity();
     for (std::size_t i = 0; i < v_mean_.size(); ++i) add_particle(i);
     return state_;

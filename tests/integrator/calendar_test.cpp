@@ -15,7 +15,7 @@ namespace {
 class Reference {
  public:
   Reference(const std::vector<double>& steps, double now) {
-    for (std::size_t i = 0; i < steps.size(); ++i) clocks_.push_back({steps[i], first_after(now, steps[i])});
+    for (const double h : steps) clocks_.push_back({h, first_after(now, h)});
     for (std::size_t i = 0; i < steps.size(); ++i) queue_.emplace(clocks_[i].time(), i);
   }
 

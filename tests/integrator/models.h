@@ -52,9 +52,9 @@ inline Model<double, 3> sheet(const SheetOptions& o) {
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
       const auto k = static_cast<std::uint64_t>(rest.size());
-      rest.push_back({i * d, j * d, 0});
-      model.x.push_back({i * d, j * d, o.wave * d * noise(k)});
-      model.v.push_back(o.speed * Vec<double, 3>(noise(3 * k + 1000), noise(3 * k + 1001), noise(3 * k + 1002)));
+      rest.emplace_back(i * d, j * d, 0);
+      model.x.emplace_back(i * d, j * d, o.wave * d * noise(k));
+      model.v.emplace_back(o.speed * Vec<double, 3>(noise(3 * k + 1000), noise(3 * k + 1001), noise(3 * k + 1002)));
       model.mass.push_back(0.2 * d * d);
     }
   }

@@ -62,8 +62,8 @@ double string_frequency(int segments) {
   const double d = length / segments, k = tension / (d * (1 - natural));
   const double step = 0.05 * std::sqrt(density * d / (4 * k));
   for (int i = 0; i <= segments; ++i) {
-    model.x.push_back({i * d, 1e-5 * std::sin(std::numbers::pi * i / segments)});
-    model.v.push_back({0, 0});
+    model.x.emplace_back(i * d, 1e-5 * std::sin(std::numbers::pi * i / segments));
+    model.v.emplace_back(0, 0);
     model.mass.push_back(density * d);
     if (i == segments) continue;
     const auto a = static_cast<VertexId>(i);
@@ -93,8 +93,8 @@ Model<double, 2> uneven_chain() {
   Model<double, 2> model;
   const std::vector<double> stiffness = {1, 30, 1000, 5, 200};
   for (std::size_t i = 0; i <= stiffness.size(); ++i) {
-    model.x.push_back({1.1 * static_cast<double>(i), 0.1 * test::noise(i)});
-    model.v.push_back({0, 0});
+    model.x.emplace_back(1.1 * static_cast<double>(i), 0.1 * test::noise(i));
+    model.v.emplace_back(0, 0);
     model.mass.push_back(1);
   }
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
