@@ -114,16 +114,6 @@ class CellPairs {
     return shared;
   }
 
-  /// From the middle of the second part to the middle of the first, at mid-time, four times as long.
-  static Direction<Dim> between_middles(const PartPair<Dim>& pair) {
-    Direction<Dim> n;
-    for (std::size_t k = 0; k < Dim; ++k) {
-      const auto &p = pair.d[0][k], &q = pair.d[1][k];
-      n[k] = ((p[0] + q[0]) + (p[1] + q[1]) + (p[2] + q[2])) - ((p[4] + q[4]) + (p[5] + q[5]) + (p[6] + q[6]));
-    }
-    return n;
-  }
-
   void close(const Direction<Dim>& n, double sign) {
     ++tally_.obligations;
     if (!record_.on()) return;

@@ -165,4 +165,15 @@ int separates(const PartPair<Dim>& pair, const Direction<Dim>& n, Interval inter
   return 0;
 }
 
+/// From the middle of the second part to the middle of the first, at mid-time, four times as long.
+template <int Dim>
+Direction<Dim> between_middles(const PartPair<Dim>& pair) {
+  Direction<Dim> n;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    const auto &p = pair.d[0][k], &q = pair.d[1][k];
+    n[k] = ((p[0] + q[0]) + (p[1] + q[1]) + (p[2] + q[2])) - ((p[4] + q[4]) + (p[5] + q[5]) + (p[6] + q[6]));
+  }
+  return n;
+}
+
 }  // namespace noli

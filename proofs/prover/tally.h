@@ -47,15 +47,17 @@ inline bool initial_less(const InitialIntersection& a, const InitialIntersection
   return a.first_cell != b.first_cell ? a.first_cell < b.first_cell : a.second_cell < b.second_cell;
 }
 
-struct Tally {
-  Tally(std::size_t max_reports, const Earliest& none)
+/// `First`: what finds the first contact of all.
+template <class First>
+struct TallyWith {
+  TallyWith(std::size_t max_reports, const First& none)
       : reports(max_reports), initial_reports(max_reports), earliest(none) {}
 
   std::array<std::uint64_t, all_feature_pairs.size()> contacts{};
   std::uint64_t initial_intersections = 0;
   Least<FeatureContact, canonical_less> reports;
   Least<InitialIntersection, initial_less> initial_reports;
-  Earliest earliest;
+  First earliest;
   StageCounters stages;
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
@@ -75,7 +77,7 @@ struct Tally {
     initial_reports.add({std::min(a, b), std::max(a, b)});
   }
 
-  Tally& operator+=(const Tally& other) {
+  TallyWith& operator+=(const TallyWith& other) {
     for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i] += other.contacts[i];
     initial_intersections += other.initial_intersections;
     reports.add(other.reports);
@@ -87,5 +89,8 @@ struct Tally {
     return *this;
   }
 };
+
+/// Of a step between two frames.
+using Tally = TallyWith<Earliest>;
 
 }  // namespace noli

@@ -192,16 +192,6 @@ class WindowPairs {
     return c;
   }
 
-  /// From the middle of the second part to the middle of the first, at mid-time, four times as long.
-  static Direction<Dim> between_middles(const PartPair<Dim>& pair) {
-    Direction<Dim> n;
-    for (std::size_t k = 0; k < Dim; ++k) {
-      const auto &p = pair.d[0][k], &q = pair.d[1][k];
-      n[k] = ((p[0] + q[0]) + (p[1] + q[1]) + (p[2] + q[2])) - ((p[4] + q[4]) + (p[5] + q[5]) + (p[6] + q[6]));
-    }
-    return n;
-  }
-
   /// Whether a direction was found that separates the parts, with the radii of their cells.
   bool apart(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part) {
     PartPair<Dim> pair = pair_of(a, a_part, b, b_part, place(a_part));
