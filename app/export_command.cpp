@@ -23,6 +23,8 @@ ExitCode run(const ExportRequest& request) {
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
                                  digits17(outcome.end), !outcome.interrupted);
   if (!outcome.pvd.empty()) text += fmt::format("Series: {}\n", outcome.pvd);
+  if (outcome.recorded)
+    text += "The run recorded frames: these were written, at the scene's frame_rate, not at --fps.\n";
   if (outcome.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
   text += "Straight lines between these frames are not the certified motion; the world lines of the run are.\n";
   write_standard_output(text);

@@ -72,6 +72,7 @@ class Export {
 
  private:
   void write_frames(const RunWindow& window) {
+    outcome_.recorded = !window.lines;
     if (!window.lines) return write_recorded(window);
     for_each_frame_time(window.index, window.begin, window.end, request_.fps, [&](double t) {
       if (is_interrupted()) return false;

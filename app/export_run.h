@@ -30,6 +30,7 @@ struct ExportOutcome {
   std::string pvd;  ///< the series that ParaView opens, if the format is vtu
   bool open_window = false;
   bool interrupted = false;
+  bool recorded = false;  ///< the run recorded frames, and these were written
 };
 
 /// Writes the frames, one in memory at a time. Of a run that recorded frames alone, those are written, and fps does not

@@ -12,17 +12,6 @@
 namespace noli::app {
 namespace {
 
-const char* name(RunEnd end) {
-  switch (end) {
-    case RunEnd::done: return "done";
-    case RunEnd::contact: return "contact";
-    case RunEnd::not_finite: return "not_finite";
-    case RunEnd::interrupted: return "interrupted";
-    case RunEnd::out_of_time: return "time_limit";
-  }
-  return "";
-}
-
 const char* verdict(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return "no_contact";

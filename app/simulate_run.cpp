@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "noli/app/contact_report.h"
 #include "noli/app/exit_code.h"
 #include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
@@ -30,6 +31,18 @@
 #include "noli/trajectory/sha256.h"
 
 namespace noli::app {
+
+const char* name(RunEnd end) {
+  switch (end) {
+    case RunEnd::done: return "done";
+    case RunEnd::contact: return "contact";
+    case RunEnd::not_finite: return "not_finite";
+    case RunEnd::interrupted: return "interrupted";
+    case RunEnd::out_of_time: return "time_limit";
+  }
+  return "";
+}
+
 namespace {
 
 using integrator::Books;
@@ -235,6 +248,11 @@ class Run {
       last = snapshot_of<Dim>(*window);
       require_whole(*window);
     }
+    if (last.windows > outcome_.windows_total) {
+      throw InputError(folder_.path().string(), "",
+                       fmt::format("has {} windows, {} more than asked for; expected a later time to go on to",
+                                   last.windows, last.windows - outcome_.windows_total));
+    }
     writer_.emplace(folder_.path(), reader);
     outcome_.windows_before = last.windows;
     simulation_.emplace(simulation_at<Dim>(built_.model, last));
@@ -326,6 +344,17 @@ class Run {
     outcome_.series = write_series_file(folder_.path(), frame_rate_);
     outcome_.windows = writer_->windows();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
+    log_end();
+  }
+
+  void log_end() {
+    Json entry = {{"event", "end"}, {"end", name(outcome_.end)}, {"windows", outcome_.windows}};
+    if (outcome_.contact && outcome_.contact->first) {
+      entry["first"] = contact_json(outcome_.contact->first->contact);
+      entry["first"]["kind"] = noli::name(outcome_.contact->first->kind);
+      entry["first_time"] = outcome_.contact->first->lower();
+    }
+    folder_.log(entry);
   }
 
   const SimulateRequest& request_;

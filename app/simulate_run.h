@@ -44,6 +44,9 @@ enum class RunEnd {
   out_of_time
 };
 
+/// As in the JSON and the log.
+const char* name(RunEnd end);
+
 struct SimulateOutcome {
   RunEnd end = RunEnd::done;
   std::string title;

@@ -9,6 +9,7 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/verify_report.h"
 #include "noli/app/verify_run.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -44,9 +45,17 @@ ExitCode exit_code(Verdict verdict) {
   return ExitCode::failure;
 }
 
+/// Before anything else is said about a single one.
+void require_there(const std::vector<std::filesystem::path>& frames) {
+  std::error_code error;
+  if (frames.size() != 1 || std::filesystem::exists(std::filesystem::status(frames[0], error))) return;
+  throw InputError(frames[0].string(), "", "cannot be opened: there is no such file or folder");
+}
+
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
+  require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   const Output output(arguments.json, with_files_of_runs(request.frames));
   const VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);

@@ -84,6 +84,11 @@ TEST_F(Simulate, EndsAtTheFirstContactAndNamesIt) {
   EXPECT_EQ(json["first"]["pair"], "vertex_face");
   EXPECT_EQ(json["first"]["features"], Json::parse("[[3], [0, 1, 2]]"));
   EXPECT_EQ(json["windows"], 39);  // 39 * 2^-7 < 0.3125 <= 40 * 2^-7
+  const std::string log = bytes_of(run_path("run/log.jsonl"));
+  const Json last = Json::parse(log.substr(log.rfind('\n', log.size() - 2) + 1));
+  EXPECT_EQ(last["event"], "end");
+  EXPECT_EQ(last["end"], "contact");
+  EXPECT_EQ(last["first_time"], 0.3125);
   const Json verified = json_of({"verify", run_path("run")}, 0);
   EXPECT_EQ(verified["steps"], 39);
   // A little less, and nothing touches.
@@ -118,6 +123,9 @@ TEST_F(Simulate, ResumingGivesTheBytesOfTheWholeRun) {
   const Json json = json_of({"simulate", file, "-o", run_path("parts"), "--resume"}, 0);
   EXPECT_EQ(json["timing"]["windows_before"], 7);
   EXPECT_TRUE(blocks("parts") == blocks("whole"));
+  const Process past = run_noli({"simulate", file, "-o", run_path("parts"), "--resume", "--until", "0.07"});
+  EXPECT_EQ(past.exit_code, 3);
+  EXPECT_NE(past.err.find("has 25 windows, 18 more than asked for"), std::string::npos) << past.err;
 }
 
 /// Starts a run, kills it after a while, again and again until it is done.
@@ -339,6 +347,9 @@ TEST_F(Simulate, InfoSaysWhatIsInARun) {
   EXPECT_EQ(info["bytes"], blocks("run").size());
   EXPECT_GT(info["breakpoints"], 7 * 49);
   EXPECT_EQ(run_noli({"info", folder.path("none")}).exit_code, 3);
+  const Process none = run_noli({"verify", folder.path("none")});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.err.find("no such file or folder"), std::string::npos) << none.err;
 }
 
 /// Two bars in the plane; the upper one reaches the lower one at 0.5 s.
