@@ -25,6 +25,7 @@ Json first_json(const SimulateOutcome& outcome) {
   if (!outcome.contact || !outcome.contact->first) return nullptr;
   Json json = contact_json(outcome.contact->first->contact);
   json["kind"] = noli::name(outcome.contact->first->kind);
+  json["names"] = outcome.first_names;
   json["window"] = outcome.windows;
   json["time"] = outcome.contact->first->lower();
   return json;
@@ -45,10 +46,10 @@ std::string end_text(const SimulateOutcome& outcome) {
     case RunEnd::contact: {
       const FirstInWindow& first = *outcome.contact->first;
       return fmt::format(
-          "Contact in window {}: first {}, {}, at {} s ({} pairs of features in the window). The window is not "
+          "Contact in window {}: first {} ({}), {}, at {} s ({} pairs of features in the window). The window is not "
           "part of the run.",
-          outcome.windows, contact_text(first.contact), noli::name(first.kind), digits17(first.lower()),
-          outcome.contact->contact_count());
+          outcome.windows, contact_text(first.contact), on_one_line(outcome.first_names), noli::name(first.kind),
+          digits17(first.lower()), outcome.contact->contact_count());
     }
     case RunEnd::not_finite: {
       const integrator::NotFinite& found = *outcome.not_finite;

@@ -307,6 +307,7 @@ class Run {
     if (!result.complete) throw std::logic_error("a window was not verified to its end");
     if (result.contact_count() > 0) {
       outcome_.end = RunEnd::contact;
+      if (result.first) outcome_.first_names = named(result.first->contact);
       outcome_.contact = std::move(result);
     } else {
       commit(*candidate_);

@@ -58,6 +58,7 @@ struct SimulateOutcome {
   double time = 0;                               ///< of the last commit [s]
   std::uint64_t events = 0, breakpoints = 0;     ///< of this call
   std::optional<WindowResult> contact;           ///< of the window that was refused
+  std::string first_names;                       ///< the features of its first one, by body and number there
   std::optional<integrator::NotFinite> not_finite;
   bool series = false;  ///< series.h5 was written; false: Noli was built without HDF5
   double seconds = 0, simulating_seconds = 0, verifying_seconds = 0;

@@ -83,6 +83,7 @@ TEST_F(Simulate, EndsAtTheFirstContactAndNamesIt) {
   EXPECT_EQ(json["first_time"], 0.3125);
   EXPECT_EQ(json["first"]["pair"], "vertex_face");
   EXPECT_EQ(json["first"]["features"], Json::parse("[[3], [0, 1, 2]]"));
+  EXPECT_EQ(json["first"]["names"], "vertex upright[0] meets face level[0]-level[1]-level[2]");
   EXPECT_EQ(json["windows"], 39);  // 39 * 2^-7 < 0.3125 <= 40 * 2^-7
   const std::string log = bytes_of(run_path("run/log.jsonl"));
   const Json last = Json::parse(log.substr(log.rfind('\n', log.size() - 2) + 1));
