@@ -59,6 +59,7 @@ class Export {
   }
 
   ExportOutcome operator()() {
+    outcome_.recorded = reader_.header().record == RecordMode::frames;
     while (auto window = reader_.next_window()) {
       write_frames(*window);
       if (is_interrupted()) break;
@@ -72,7 +73,6 @@ class Export {
 
  private:
   void write_frames(const RunWindow& window) {
-    outcome_.recorded = !window.lines;
     if (!window.lines) return write_recorded(window);
     for_each_frame_time(window.index, window.begin, window.end, request_.fps, [&](double t) {
       if (is_interrupted()) return false;

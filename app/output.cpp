@@ -93,7 +93,6 @@ bool can_write(const std::string& path) {
   struct stat status = {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) return false;
-  if (exists && S_ISDIR(status.st_mode)) return errno = EISDIR, false;
   if (exists && ::access(path.c_str(), W_OK) != 0) return false;
   if (!is_replaced(path) || TemporaryFile(link_target(path)).is_open()) return true;
   return exists && must_be_kept(errno);

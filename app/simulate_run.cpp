@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <future>
 #include <memory>
@@ -25,6 +23,7 @@
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/kernel/parallel.h"
+#include "noli/trajectory/bytes.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
@@ -53,16 +52,6 @@ using integrator::Simulation;
 using integrator::Snapshot;
 using integrator::Vec;
 
-/// Their bits, low byte first.
-void hash_numbers(std::span<const double> numbers, Sha256& hash) {
-  for (const double number : numbers) {
-    std::array<char, 8> bytes{};
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(bits >> (8 * i));
-    hash.update({bytes.data(), bytes.size()});
-  }
-}
-
 /// Which vertices nothing moves but the scene: no two cells of them alone are compared.
 template <int Dim>
 std::vector<std::uint8_t> labels_of(const Model<double, Dim>& model) {
@@ -70,6 +59,12 @@ std::vector<std::uint8_t> labels_of(const Model<double, Dim>& model) {
   for (const VertexId v : model.pinned) labels[v] = scripted_vertex;
   for (const auto& script : model.scripts) labels[script.vertex] = scripted_vertex;
   return labels;
+}
+
+void hash_numbers(std::span<const double> numbers, Sha256& hash) {
+  std::string bytes;
+  put_all(bytes, numbers);
+  hash.update(bytes);
 }
 
 template <int Dim>

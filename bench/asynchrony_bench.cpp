@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -18,6 +17,7 @@
 #include "noli/bench/bench.h"
 #include "noli/bench/plain_loop.h"
 #include "noli/bench/report.h"
+#include "noli/bench/timing.h"
 #include "noli/integrator/groups.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
@@ -69,13 +69,6 @@ Model<double, 3> plate() {
   model.gravity.reset();
   strike_inset(model, 2 * least_step(model));
   return model;
-}
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 struct Measured {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "noli/bench/plain_loop.h"
 #include "noli/bench/report.h"
 #include "noli/bench/textbook.h"
+#include "noli/bench/timing.h"
 #include "noli/integrator/simulation.h"
 #include "noli/proofs/prover/window_verifier.h"
 
@@ -29,13 +29,6 @@ using integrator::Simulation;
 
 constexpr std::uint64_t events_a_pass = 3'000'000;
 constexpr int sizes[] = {31, 99, 299};
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 /// Seconds a force fired of the plain loop.
 double time_plain(PlainLoop<3>& loop) {

@@ -25,8 +25,7 @@ namespace noli::integrator {
 template <class F>
 struct Division {
   ForceList<F> list;
-  bool damped = false;    ///< some of them are; then all go the way of damped ones
-  std::size_t first = 0;  ///< number, among all forces with clocks of their own, of the first
+  bool damped = false;  ///< some of them are; then all go the way of damped ones
 };
 
 namespace detail {
@@ -180,11 +179,7 @@ class Engine {
   void take_list(Division<F>& division, ForceList<F>& list) {
     division.list = std::move(list);
     for (const F& force : division.list.forces) division.damped |= force.damping != S(0);
-    division.first = own_forces_;
-    if (clocks_ == Clocks::own) {
-      own_forces_ += division.list.forces.size();
-      return;
-    }
+    if (clocks_ == Clocks::own) return;
     for (const Group& group : make_groups(division.list, window_length_)) slots_.push_back({F::kind, group});
   }
 
@@ -195,7 +190,7 @@ class Engine {
     std::vector<double> steps;
     std::size_t kind = 0;
     for_each_division([&](const auto& d) {
-      shelves[kind] = Shelf(d.list.forces, d.first);
+      shelves[kind] = Shelf(d.list.forces, steps.size());
       counts[kind++] = d.list.forces.size();
       steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end());
     });
@@ -399,7 +394,6 @@ class Engine {
   Divisions divisions_;
   std::vector<Slot> slots_;
   OwnClocks<kinds> own_;
-  std::size_t own_forces_ = 0;
   std::uint64_t windows_ = 0;
   std::uint64_t events_ = 0;
 };

@@ -43,13 +43,6 @@ void set_velocity(const Kicked<S, Dim, Recorder>& now, VertexId i, const Vec<S, 
   p.v = v;
 }
 
-/// act(0), ..., act(N - 1), each with a constant: arrays that are only indexed so need not be in memory.
-template <std::size_t N, class Act>
-void unrolled(const Act& act) {
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (act(std::integral_constant<std::size_t, I>{}), ...); }
-  (std::make_index_sequence<N>{});
-}
-
 /// Whether any coordinate differs; mostly the first one does.
 template <class S, int Dim>
 bool differ(const Vec<S, Dim>& a, const Vec<S, Dim>& b) {
@@ -127,12 +120,12 @@ template <class F, class S, int Dim, class Blows>
 void find_impulses(const Blows& blows, std::size_t k, Stencil<S, Dim, F::size>& impulses) {
   const F& force = blows.force(k);
   Stencil<S, Dim, F::size> x;
-  unrolled<F::size>([&](auto i) { x[i] = blows.position(k, force.vertices[i]); });
+  for (std::size_t i = 0; i < F::size; ++i) x[i] = blows.position(k, force.vertices[i]);
   const Stencil<S, Dim, F::size> gradient = force.gradient(x);
   const S minus_h = -blows.step(k);
-  unrolled<F::size>([&](auto i) {
+  for (std::size_t i = 0; i < F::size; ++i) {
     for (int d = 0; d < Dim; ++d) impulses[i][d] = minus_h * gradient[i][d];
-  });
+  }
 }
 
 /// Gives the vertices of blow k their velocities; books what that does.
@@ -141,7 +134,7 @@ void apply(const Blows& blows, std::size_t k, const Stencil<S, Dim, N>& impulses
   const auto& force = blows.force(k);
   Stencil<S, Dim, N> v;
   S twice_work(0);
-  unrolled<N>([&](auto i) {
+  for (std::size_t i = 0; i < N; ++i) {
     const Vec<S, Dim>& before = blows.velocity(force.vertices[i]);
     const S& inverse_mass = blows.inverse_mass(force.vertices[i]);
     v[i] = before + inverse_mass * impulses[i];
@@ -150,18 +143,18 @@ void apply(const Blows& blows, std::size_t k, const Stencil<S, Dim, N>& impulses
     } else {
       twice_work += impulses[i].dot(before + v[i]);
     }
-  });
+  }
   account.work += S(0.5) * twice_work;
   if constexpr (Damped) {
     Stencil<S, Dim, N> x;
     std::array<S, N> inverse_mass;
-    unrolled<N>([&](auto i) {
+    for (std::size_t i = 0; i < N; ++i) {
       x[i] = blows.position(k, force.vertices[i]);
       inverse_mass[i] = blows.inverse_mass(force.vertices[i]);
-    });
+    }
     account.damping_work += damp(force, x, v, inverse_mass, blows.step(k));
   }
-  unrolled<N>([&](auto i) { blows.settle(k, force.vertices[i], v[i]); });
+  for (std::size_t i = 0; i < N; ++i) blows.settle(k, force.vertices[i], v[i]);
 }
 
 /// Fires all.
