@@ -76,18 +76,24 @@ class Engine {
   const Divisions& divisions() const { return divisions_; }
   const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
 
-  template <class Recorder>
-  void run_window(Recorder& record, Books<S, Dim>& books) {
+  /// False when `stop`, which is asked now and then, said so: then the state is one between two events of the window.
+  template <class Recorder, class Stop>
+  bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
     record.reserve(particles_.size());
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       record.put(static_cast<VertexId>(i), particles_[i].t, particles_[i].x, true);
     }
     if (windows_ == 0) start(record, books);
+    std::uint64_t turns = 0, last = events_;
     while (run_next(end, record, books)) {
+      if (events_ + ++turns - last < events_between_questions) continue;
+      if (stop()) return false;
+      last = events_ + turns;
     }
     close(end, record);
     ++windows_;
+    return true;
   }
 
   /// Groups and, with clocks of their own, forces that have the same step.
@@ -112,12 +118,12 @@ class Engine {
     Group group;
   };
 
+  static constexpr std::uint64_t events_between_questions = 1 << 14;  ///< a millisecond, about
+  static constexpr int most_rows = 256;
   static constexpr std::size_t kinds = std::tuple_size_v<Divisions>;
 
   template <class Recorder>
   using Now = Kicked<S, Dim, Recorder>;
-
-  static constexpr bool never(double t) { return t == std::numeric_limits<double>::infinity(); }
 
   // --- Construction --------------------------------------------------------------------------------------------------
 
@@ -277,13 +283,13 @@ class Engine {
     for_each_division(fire_if);
   }
 
-  /// Forces with clocks of their own, up to `end` and before `other`.
+  /// Forces with clocks of their own, up to `end` and before `other`; some rows of them.
   template <class Recorder>
   void run_own(double end, double other, Recorder& record, Books<S, Dim>& books) {
     constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // asks after each force
     const auto is_due = [&] { return own_.next_time() <= end && own_.next_time() < other; };
     const auto prefetch = [this](VertexId v) { __builtin_prefetch(&particles_[v], 1); };
-    while (is_due()) {
+    for (int rows = 0; rows < most_rows && is_due(); ++rows) {
       own_.take_row(watched ? 1 : own_.longest_row, is_due, prefetch);
       fire_row(record, books, std::make_index_sequence<kinds>{});
     }

@@ -16,6 +16,7 @@
 #include <tuple>
 #include <vector>
 
+#include "noli/integrator/contact_settings.h"
 #include "noli/integrator/forces/edge_spring.h"
 #include "noli/integrator/forces/hinge.h"
 #include "noli/integrator/forces/membrane.h"
@@ -89,6 +90,7 @@ struct Model {
   Forces<S, Dim> forces;
   double window_length = 0;  ///< W [s], positive
   Clocks clocks = Clocks::grouped;
+  std::optional<ContactSettings> contact;  ///< nothing: things that meet end the run
 };
 
 }  // namespace noli::integrator

@@ -5,6 +5,11 @@
 #include "noli/integrator/engine.h"
 
 namespace noli::integrator {
+namespace {
+
+constexpr auto never = [] { return false; };
+
+}  // namespace
 
 template <class S, int Dim>
 Simulation<S, Dim>::Simulation(Model<S, Dim> model) : engine_(std::make_unique<Engine<S, Dim>>(std::move(model))) {}
@@ -33,13 +38,18 @@ std::uint64_t Simulation<S, Dim>::windows() const {
 
 template <class S, int Dim>
 void Simulation<S, Dim>::run_window(Recording<S, Dim>& recording, Books<S, Dim>& books) {
-  engine_->run_window(recording, books);
+  engine_->run_window(recording, books, never);
+}
+
+template <class S, int Dim>
+bool Simulation<S, Dim>::run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop) {
+  return engine_->run_window(recording, books, stop);
 }
 
 template <class S, int Dim>
 void Simulation<S, Dim>::run_window(Books<S, Dim>& books) {
   NoRecording nothing;
-  engine_->run_window(nothing, books);
+  engine_->run_window(nothing, books, never);
 }
 
 template <class S, int Dim>
@@ -83,18 +93,20 @@ bool Simulation<S, Dim>::finite() const {
 }
 
 template <class S, int Dim>
-NotFinite Simulation<S, Dim>::find_not_finite() {
+std::optional<NotFinite> Simulation<S, Dim>::find_not_finite(const Stop& stop) {
   detail::Watch watch;
   Books<S, Dim> books;
   try {
-    engine_->run_window(watch, books);
+    if (!engine_->run_window(watch, books, stop)) return std::nullopt;
   } catch (const NotFinite& found) {
     return found;
   }
   // No force left it: a particle has run out of the numbers while nothing acted on it.
   for (std::size_t i = 0; i < engine_->particles().size(); ++i) {
     const auto& p = engine_->particles()[i];
-    if (!p.x.allFinite() || !p.v.allFinite()) return {engine_->time(), std::nullopt, {}, static_cast<VertexId>(i)};
+    if (!p.x.allFinite() || !p.v.allFinite()) {
+      return NotFinite{engine_->time(), std::nullopt, {}, static_cast<VertexId>(i)};
+    }
   }
   throw std::logic_error("find_not_finite: all numbers of the window are finite");
 }

@@ -17,6 +17,7 @@
 // What this does not do: contact (certificates/), and choosing steps (integrator/stable_step.h).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -67,6 +68,9 @@ struct NotFinite {
   VertexId vertex;                ///< whose velocity or position it is
 };
 
+/// Whether to stop.
+using Stop = std::function<bool()>;
+
 /// integrator/engine.h
 template <class S, int Dim>
 class Engine;
@@ -89,6 +93,9 @@ class Simulation {
   /// Runs the next window. Records each vertex at both its ends and at each change of velocity between; books work and
   /// impulses.
   void run_window(Recording<S, Dim>& recording, Books<S, Dim>& books);
+  /// The same, asking after every some ten thousand events whether to stop. False when it was told to: then this is
+  /// somewhere within the window, and of no more use.
+  bool run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop);
   /// The same without a recording: the same numbers.
   void run_window(Books<S, Dim>& books);
 
@@ -104,9 +111,9 @@ class Simulation {
   /// Whether all positions and velocities are finite numbers.
   bool finite() const;
   /// Runs the next window, looking at each event, up to the first that leaves something that is not finite: to be asked
-  /// when finite() has become false, of a simulation that starts from the snapshot before. Throws std::logic_error when
-  /// there is none.
-  NotFinite find_not_finite();
+  /// when finite() has become false, of a simulation that starts from the snapshot before. Nothing when `stop` said so.
+  /// Throws std::logic_error when there is none.
+  std::optional<NotFinite> find_not_finite(const Stop& stop);
 
  private:
   std::unique_ptr<Engine<S, Dim>> engine_;

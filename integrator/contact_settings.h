@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What two things do to each other when they come near: penalty layers nested without end (Harmon et al. 2009,
+// section 3).
+//
+// Notation
+//   l         number of a layer, 1, 2, ...
+//   eta(l)    thickness: the layer acts on a pair of features that is nearer than this [m]; eta(1) l^-a
+//   r(l)      stiffness of the layer [N/m]; r(1) l^b
+//   h(l)      step of the layer [s]; h(1) l^-c; it fires at the times k h(l)
+//   e         part of the energy of an approach that comes back, 0 to 1
+//   mu        Coulomb's coefficient of friction
+//
+// That no speed gets through needs sum r(l) eta(l)^2 = infinity, that is b - 2 a >= -1, and that no layer is passed
+// between two of its own kicks needs h(l) / eta(l) -> 0, that is c > a.
+//
+// What this does not do: it holds no state of a run.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "noli/trajectory/mesh.h"
+
+namespace noli::integrator {
+
+/// Exponents a, b, c in quarters, so that two square roots do for powers and all machines agree on the bits.
+struct LayerSchedule {
+  int thickness_quarters = 1;  ///< 4 a; the papers' schedule is l^(-1/4), l^3, l^(-3/2)
+  int stiffness_quarters = 12;
+  int step_quarters = 6;
+
+  bool diverges() const { return stiffness_quarters - 2 * thickness_quarters >= -4; }
+  bool outruns() const { return step_quarters > thickness_quarters; }
+  friend bool operator==(const LayerSchedule&, const LayerSchedule&) = default;
+};
+
+/// l^(quarters / 4). Precondition: l >= 1, quarters >= 0.
+inline double quarter_power(std::uint32_t l, int quarters) {
+  const double base = l, root = std::sqrt(base), fourth = std::sqrt(root);
+  double power = 1;
+  for (int i = 0; i < quarters / 4; ++i) power *= base;
+  if (quarters % 4 >= 2) power *= root;
+  if (quarters % 2 == 1) power *= fourth;
+  return power;
+}
+
+/// How two groups of bodies meet.
+struct ContactMaterial {
+  double thickness = 0;    ///< eta(1) [m], positive
+  double stiffness = 0;    ///< r(1) [N/m], positive
+  double step = 0;         ///< h(1) [s], positive
+  double restitution = 1;  ///< e
+  double friction = 0;     ///< mu
+
+  friend bool operator==(const ContactMaterial&, const ContactMaterial&) = default;
+};
+
+/// Contact in a scene: which material two vertices' groups have, if they are not excluded from contact.
+struct ContactSettings {
+  static constexpr std::uint16_t excluded = 0xffff;
+
+  LayerSchedule schedule;
+  std::uint32_t most_layers = 10000;  ///< a pair that needs more ends the run
+  std::vector<ContactMaterial> materials;
+  std::vector<std::uint16_t> groups;  ///< of each vertex: its group, 0, 1, ..., group_count - 1
+  std::uint16_t group_count = 1;
+  std::vector<std::uint16_t> material_of;  ///< [g * group_count + h]: of groups g and h, symmetric; or `excluded`
+
+  std::uint16_t material(VertexId i, VertexId j) const {
+    return material_of[static_cast<std::size_t>(groups[i]) * group_count + groups[j]];
+  }
+};
+
+inline double layer_thickness(const ContactMaterial& m, const LayerSchedule& s, std::uint32_t l) {
+  return m.thickness / quarter_power(l, s.thickness_quarters);
+}
+inline double layer_stiffness(const ContactMaterial& m, const LayerSchedule& s, std::uint32_t l) {
+  return m.stiffness * quarter_power(l, s.stiffness_quarters);
+}
+inline double layer_step(const ContactMaterial& m, const LayerSchedule& s, std::uint32_t l) {
+  return m.step / quarter_power(l, s.step_quarters);
+}
+
+}  // namespace noli::integrator
