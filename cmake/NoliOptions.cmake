@@ -26,6 +26,6 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 # Headers are included as <noli/kernel/contact.h> in the build tree as they are once installed.
 set(NOLI_INCLUDE_ROOT "${CMAKE_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${NOLI_INCLUDE_ROOT}/noli")
-foreach(layer kernel trajectory integrator proofs audit app tests bench)
+foreach(layer kernel trajectory certificates integrator proofs audit app tests bench)
   file(CREATE_LINK "${CMAKE_SOURCE_DIR}/${layer}" "${NOLI_INCLUDE_ROOT}/noli/${layer}" SYMBOLIC)
 endforeach()

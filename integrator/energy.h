@@ -10,7 +10,7 @@
 // 2009 leave it open; see also Hairer, Lubich, Wanner, "Geometric numerical integration illustrated by the
 // Stormer-Verlet method", 2003, section 1.4).
 //
-// What this does not do: damping impulses count as if they were none in v_mean.
+// What this does not do: damping impulses, restitution and friction count as if they were none in v_mean.
 #pragma once
 
 #include <cmath>
@@ -29,6 +29,7 @@ class Ledger {
   State<S, Dim> state() {
     engine_.for_each_division([&](const auto& division) { add_division(division); });
     if (engine_.gravity()) add_gravity();
+    if (engine_.contact() != nullptr) add_contact();
     for (std::size_t i = 0; i < v_mean_.size(); ++i) add_particle(i);
     return state_;
   }
@@ -75,6 +76,23 @@ class Ledger {
       if (now) v_mean_[i] -= (S(0.5) * S(gravity.step)) * gravity.acceleration;
     }
     state_.potential[static_cast<std::size_t>(ForceKind::gravity)] = potential;
+  }
+
+  void add_contact() {
+    if constexpr (std::is_same_v<S, double>) {
+      double potential = 0;
+      engine_.contact()->for_each_acting(
+          [&](const certificates::Stencil& pair, const certificates::Closest<Dim>& c, double g, double r, double h) {
+            potential += 0.5 * r * g * g;
+            if (!strikes(h)) return;
+            const auto impulses = normal_impulses(c, c.distance(), -0.5 * h * r * g);
+            for (std::size_t i = 0; i < pair.size(); ++i) {
+              const VertexId v = pair.vertices[i];
+              v_mean_[v] -= engine_.particles()[v].inverse_mass * impulses[i];
+            }
+          });
+      state_.potential[static_cast<std::size_t>(ForceKind::contact)] = potential;
+    }
   }
 
   void add_particle(std::size_t i) {

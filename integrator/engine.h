@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "noli/integrator/contact.h"
 #include "noli/integrator/groups.h"
 #include "noli/integrator/kick.h"
 #include "noli/integrator/own_clocks.h"
@@ -50,8 +51,8 @@ class Engine {
     check(model);
     make_particles(model);
     take_forces(model);
-    if (!gravity_) return;
-    slots_.insert(slots_.begin(), {ForceKind::gravity, {{gravity_->step, 1}, 0, particles_.size(), {}}});
+    if (gravity_) slots_.insert(slots_.begin(), {ForceKind::gravity, {{gravity_->step, 1}, 0, particles_.size(), {}}});
+    make_contact(model);
   }
 
   /// The state of all clocks follows from the time.
@@ -75,6 +76,7 @@ class Engine {
   const std::vector<S>& masses() const { return masses_; }
   const Divisions& divisions() const { return divisions_; }
   const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
+  const Contact<Dim>* contact() const { return contact_.get(); }
 
   /// False when `stop`, which is asked now and then, said so: then the state is one between two events of the window.
   template <class Recorder, class Stop>
@@ -85,6 +87,7 @@ class Engine {
       record.put(static_cast<VertexId>(i), particles_[i].t, particles_[i].x, true);
     }
     if (windows_ == 0) start(record, books);
+    start_contact(record, books);
     std::uint64_t turns = 0, last = events_;
     while (run_next(end, record, books)) {
       if (events_ + ++turns - last < events_between_questions) continue;
@@ -121,6 +124,7 @@ class Engine {
   static constexpr std::uint64_t events_between_questions = 1 << 14;  ///< a millisecond, about
   static constexpr int most_rows = 256;
   static constexpr std::size_t kinds = std::tuple_size_v<Divisions>;
+  static constexpr bool has_contact = std::is_same_v<S, double>;
 
   template <class Recorder>
   using Now = Kicked<S, Dim, Recorder>;
@@ -203,6 +207,29 @@ class Engine {
     own_ = OwnClocks<kinds>(shelves, counts, steps, particles_.size(), time());
   }
 
+  void make_contact(const Model<S, Dim>& model) {
+    if (!model.contact) return;
+    if constexpr (has_contact) {
+      contact_ = std::make_unique<Contact<Dim>>(*model.contact, model.mesh, particles_, look_steps(), window_length_);
+    } else {
+      throw std::invalid_argument("model: contact is computed in double precision only");
+    }
+  }
+
+  /// Of each vertex the shortest step of what acts on it.
+  std::vector<double> look_steps() const {
+    std::vector<double> steps(particles_.size(), gravity_ ? gravity_->step : std::numeric_limits<double>::infinity());
+    for_each_division([&](const auto& division) {
+      for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
+        for (const VertexId v : division.list.forces[i].vertices) steps[v] = std::min(steps[v], division.list.steps[i]);
+      }
+    });
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (particles_[i].inverse_mass == S(0)) steps[i] = std::numeric_limits<double>::infinity();
+    }
+    return steps;
+  }
+
   template <class F>
   static void add_steps(const Division<F>& division, std::vector<StepGroup>& result) {
     std::vector<double> steps = division.list.steps;
@@ -223,6 +250,16 @@ class Engine {
     std::apply([&](auto&... division) { (start_division(now, division, books), ...); }, divisions_);
   }
 
+  /// Certificates begin with what is there; layers that act at time 0 do half of what they do later.
+  template <class Recorder>
+  void start_contact(Recorder& record, Books<S, Dim>& books) {
+    if constexpr (has_contact) {
+      if (!contact_ || contact_->started()) return;
+      contact_->start(time());
+      if (windows_ == 0) contact_->fire_halves(record, books.of(ForceKind::contact));
+    }
+  }
+
   template <class Recorder, class F>
   void start_division(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
     for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
@@ -231,17 +268,21 @@ class Engine {
     }
   }
 
-  /// The next event, or the next few. False when there is none up to `end`.
+  /// The next event, or the next few. False when there is none up to `end`. Of events of one time, breakpoints of
+  /// scripts come first, then certificates, forces and layers of contact.
   template <class Recorder>
   bool run_next(double end, Recorder& record, Books<S, Dim>& books) {
     Slot* slot = next_slot();
     const double slot_time = slot != nullptr ? slot->group.clock.time() : std::numeric_limits<double>::infinity();
     const double turn_time = timeline_.next_time();
-    if (turn_time <= end && turn_time <= slot_time && (own_.empty() || turn_time <= own_.next_time())) {
+    const double own_time = own_.empty() ? std::numeric_limits<double>::infinity() : own_.next_time();
+    const double force_time = std::min(slot_time, own_time);
+    if (turn_time <= end && turn_time <= force_time && !contact_before(turn_time)) {
       turn(Now<Recorder>{particles_, record, turn_time});
       return true;
     }
-    if (!own_.empty() && own_.next_time() <= end && own_.next_time() < slot_time) {
+    if (contact_ && run_contact(end, force_time, record, books)) return true;
+    if (own_time <= end && own_time < slot_time) {
       run_own(end, std::min(slot_time, turn_time), record, books);
       return true;
     }
@@ -249,6 +290,37 @@ class Engine {
     ++slot->group.clock.next;
     fire_slot(Now<Recorder>{particles_, record, slot_time}, *slot, books);
     return true;
+  }
+
+  /// Whether something of contact happens before t.
+  bool contact_before(double t) const {
+    return contact_ && (contact_->next_certificate() < t || contact_->next_layer() < t);
+  }
+
+  /// The next event of contact, if it is up to `end` and nothing else comes before it.
+  template <class Recorder>
+  bool run_contact(double end, double force_time, Recorder& record, Books<S, Dim>& books) {
+    if constexpr (has_contact) {
+      const double certificate = contact_->next_certificate(), layer = contact_->next_layer();
+      if (certificate <= end && certificate <= force_time && certificate <= layer) {
+        contact_->run_certificate();
+        ++events_;
+        return true;
+      }
+      if (layer <= end && layer < force_time) {
+        events_ += contact_->fire_next(record, books.of(ForceKind::contact));
+        return true;
+      }
+    }
+    return false;
+  }
+
+  template <class Recorder, class Vertices>
+  void look(const Now<Recorder>& now, const Vertices& vertices) const {
+    if (!contact_) return;
+    for (const VertexId v : vertices) {
+      if (particles_[v].inverse_mass != S(0)) contact_->look(v, now.t);
+    }
   }
 
   /// The slot that fires next; of several, the first.
@@ -270,6 +342,7 @@ class Engine {
     const Turn<S, Dim>& turn = timeline_.take();
     now.record.reserve(1);
     set_velocity(now, turn.vertex, turn.x, turn.v);
+    if (contact_ && contact_->started()) contact_->look(turn.vertex, now.t);
   }
 
   template <class Recorder>
@@ -289,8 +362,9 @@ class Engine {
     constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // asks after each force
     const auto is_due = [&] { return own_.next_time() <= end && own_.next_time() < other; };
     const auto prefetch = [this](VertexId v) { __builtin_prefetch(&particles_[v], 1); };
-    for (int rows = 0; rows < most_rows && is_due(); ++rows) {
-      own_.take_row(watched ? 1 : own_.longest_row, is_due, prefetch);
+    const bool alone = watched || contact_;  // what certificates see must be of one time
+    for (int rows = 0; rows < (contact_ ? 1 : most_rows) && is_due(); ++rows) {
+      own_.take_row(alone ? 1 : own_.longest_row, is_due, prefetch);
       fire_row(record, books, std::make_index_sequence<kinds>{});
     }
   }
@@ -310,6 +384,7 @@ class Engine {
     } else {
       fire_group_as<false>(now, division, group, h, books.of(F::kind));
     }
+    look(now, group.vertices);
   }
 
   /// Flattened, like fire_lone_as: what is called for each force is a few dozen operations on numbers that are best
@@ -336,6 +411,10 @@ class Engine {
       fire_lone_as<true>(blows, books.of(F::kind));
     } else {
       fire_lone_as<false>(blows, books.of(F::kind));
+    }
+    if (!contact_ || !contact_->started()) return;
+    for (const Lone& lone : firing) {
+      look(Now<Recorder>{particles_, record, lone.t}, division.list.forces[lone.force].vertices);
     }
   }
 
@@ -367,6 +446,10 @@ class Engine {
     }
     events_ += sum.events;
     books.of(ForceKind::gravity) += sum;
+    if (!contact_ || !contact_->started()) return;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      if (particles_[i].inverse_mass != S(0)) contact_->look(static_cast<VertexId>(i), now.t);
+    }
   }
 
   template <class Recorder>
@@ -400,6 +483,7 @@ class Engine {
   Divisions divisions_;
   std::vector<Slot> slots_;
   OwnClocks<kinds> own_;
+  std::unique_ptr<Contact<Dim>> contact_;  ///< of the particles above; nothing in scenes without contact
   std::uint64_t windows_ = 0;
   std::uint64_t events_ = 0;
 };

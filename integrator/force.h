@@ -10,7 +10,7 @@
 // A force is a small value type. Asynchronous Contact Mechanics (Harmon et al. 2009, section 3) gives every force a
 // clock of its own; clocks are not here but in integrator/clocks.h, so that forces of one clock can be fired in a row.
 //
-// What this does not do: contact. Its layers are events of another kind.
+// What this does not do: contact. Its layers act on pairs that come and go (integrator/contact.h).
 #pragma once
 
 #include <concepts>
@@ -23,8 +23,8 @@
 namespace noli::integrator {
 
 /// Also the order in which events of one time happen (design, "Dynamics"): by kind, then by number.
-enum class ForceKind : std::uint8_t { gravity, edge_spring, membrane, hinge, turning };
-constexpr std::size_t force_kinds = 5;
+enum class ForceKind : std::uint8_t { gravity, edge_spring, membrane, hinge, turning, contact };
+constexpr std::size_t force_kinds = 6;
 
 constexpr std::string_view name(ForceKind kind) {
   switch (kind) {
@@ -33,6 +33,7 @@ constexpr std::string_view name(ForceKind kind) {
     case ForceKind::membrane: return "membrane";
     case ForceKind::hinge: return "hinge";
     case ForceKind::turning: return "turning";
+    case ForceKind::contact: return "contact";
   }
   return "";
 }

@@ -85,6 +85,11 @@ std::vector<StepGroup> Simulation<S, Dim>::groups() const {
 }
 
 template <class S, int Dim>
+certificates::CertificateCounts Simulation<S, Dim>::certificates() const {
+  return engine_->contact() != nullptr ? engine_->contact()->counts() : certificates::CertificateCounts{};
+}
+
+template <class S, int Dim>
 bool Simulation<S, Dim>::finite() const {
   for (const auto& p : engine_->particles()) {
     if (!p.x.allFinite() || !p.v.allFinite()) return false;

@@ -22,6 +22,7 @@
 #include <optional>
 #include <vector>
 
+#include "noli/certificates/counts.h"
 #include "noli/integrator/books.h"
 #include "noli/integrator/model.h"
 #include "noli/integrator/recording.h"
@@ -107,6 +108,8 @@ class Simulation {
   /// Forces fired since time 0 of this object, start kicks included.
   std::uint64_t events() const;
   std::vector<StepGroup> groups() const;
+  /// What certificates have cost since time 0 of this object; nothing without contact.
+  certificates::CertificateCounts certificates() const;
 
   /// Whether all positions and velocities are finite numbers.
   bool finite() const;

@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Certificates as cells: no two features are nearer than their next layer, and who has to be asked when is decided
+// vertex by vertex.
+//
+// Notation (design, "Certificates"; slabs: Harmon et al. 2009, section 5)
+//   eta(l)      thickness of layer l of a pair; L: the number of layers that are active for it
+//   certificate   of a pair: it is farther apart than eta(L + 1). Layers beyond L then give no impulse
+//   slice       a stretch of time for which the broad phase is done at once
+//   tube        a vertex's plan for the slice. Pairs that a direction keeps eta(1) apart for the whole slice, the tubes'
+//               radii included, are settled: they are not even remembered
+//   near pair   one that is not; it has a slab of thickness eta(L + 1), whose two sides are walls of its vertices
+//   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared with the guard
+//               alone, which takes a few operations; the walls are looked at when the guard is used up
+//   look        a vertex is looked at whenever its velocity changes, and at least every look_step(i) if that is finite.
+//               It must hold its guard until the next look; else it is planned anew, and if its walls are too near for
+//               that, an event is due when the guard ends
+//   repair      a wall that is used up: a new slab for the pair where it is now; or if it has no room, the next layer
+//
+// Activating a layer early does nothing to the motion, since its impulses are zero; so everything here may err to that
+// side, and does: thresholds for activation lie a quarter of a layer's width outside, and `margin` stands for all
+// rounding between what is extrapolated here and what is recorded: 2^-44 of the largest coordinate within reach.
+//
+// Host, the dynamics:
+//   Line<Dim> line(v)                 how a vertex moves now
+//   bool immovable(v)                 pinned or scripted: two such features are no pair
+//   std::uint16_t material(v, w)      of contact between them, or no_material
+//   double thickness(material, l)     eta(l), decreasing to 0
+//   double look_step(v)
+//   std::uint16_t thickest()          the material with the largest eta(1)
+//   void activate(stencil, material, l, t), deactivate(stencil, material, l)
+//
+// What this does not do: it moves nothing, and it proves nothing: what is recorded is verified exactly elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "noli/certificates/counts.h"
+#include "noli/certificates/features.h"
+#include "noli/certificates/hierarchy.h"
+#include "noli/certificates/plan.h"
+#include "noli/certificates/slab.h"
+
+namespace noli::certificates {
+
+constexpr std::uint16_t no_material = 0xffff;
+
+/// A pair that is followed by itself.
+template <int Dim>
+struct NearPair {
+  Stencil stencil;
+  std::uint16_t material = 0;
+  std::uint32_t layers = 0;  ///< L
+  Slab<Dim> slab;
+};
+
+template <int Dim, class Host>
+class Cells {
+ public:
+  using Near = NearPair<Dim>;
+
+  /// `longest_slice`: in the unit of time. Nothing is certified before start().
+  Cells(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> x, double longest_slice)
+      : host_(host),
+        features_(mesh, Dim),
+        longest_(longest_slice),
+        length_(longest_slice),
+        tubes_(x.size()),
+        guards_(x.size()),
+        due_(x.size(), never),
+        nears_of_(x.size()),
+        waiting_(x.size(), false) {
+    std::vector<Vector<Dim>> centres;
+    for (const auto& cell : features_.cells()) centres.push_back(x[cell.vertices[0]]);
+    hierarchy_ = Hierarchy<Dim>(centres);
+    measure(x);
+  }
+
+  /// Certifies the present state, whatever layers that takes.
+  void start(double t) {
+    for (std::size_t i = 0; i < tubes_.size(); ++i) tubes_[i].line = line_at(static_cast<VertexId>(i), t);
+    begin_slice(t);
+  }
+
+  /// To be called of a vertex at time t after its velocity may have changed, and as often as look_step says.
+  void look(VertexId i, double t) {
+    const double ahead = std::min(t + host_.look_step(i), slice_end_);
+    if (guards_[i].holds(host_.line(i), ahead)) return;
+    plan_soon(i);
+    settle(t);
+  }
+
+  /// Of the next event of a certificate.
+  double next_time() {
+    while (!events_.empty() && due_[events_.top().second] != events_.top().first) events_.pop();
+    return events_.empty() ? slice_due_ : std::min(slice_due_, events_.top().first);
+  }
+
+  /// Precondition: nothing else happens before next_time().
+  void run_next() {
+    const double t = next_time();
+    if (t == slice_due_) return begin_slice(t);
+    const VertexId i = events_.top().second;
+    events_.pop();
+    due_[i] = never;
+    plan_soon(i);
+    settle(t);
+  }
+
+  const std::vector<Near>& nears() const { return nears_; }
+  const CertificateCounts& counts() const { return counts_; }
+
+  /// Layers l of this pair gives no impulse at this distance. Drops it, if it is the deepest one and the pair is so far
+  /// out that it will not be needed soon.
+  void drop_if_clear(PairKey key, std::uint32_t l, double distance, double t) {
+    const std::uint32_t near = index_.at(key);
+    Near& pair = nears_[near];
+    if (pair.layers != l) return;
+    const double eta = host_.thickness(pair.material, l);
+    if (!(distance > eta + 0.5 * (eta - host_.thickness(pair.material, l + 1)) + 128 * margin_)) return;
+    lose_layer(pair);
+    put_up_slab(near, t);
+    settle(t);
+  }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  /// Of a slab's slack: below it, the slab is put up anew.
+  static constexpr double worn = 0.3;
+  /// Of the time to a wall: a plan ends there.
+  static constexpr double reach = 0.75;
+
+  using Event = std::pair<double, VertexId>;
+
+  Line<Dim> line_at(VertexId i, double t) const {
+    const Line<Dim> line = host_.line(i);
+    return {line.at(t), t, line.v};
+  }
+
+  // --- Slices --------------------------------------------------------------------------------------------------------
+
+  /// Radii of tubes: a part of the shortest edge at a vertex.
+  void measure(std::span<const Vector<Dim>> x) {
+    constexpr double part = 0.12;
+    sizes_.assign(x.size(), never);
+    for (const auto& [a, b] : features_.edges()) {
+      const double length = part * std::sqrt((x[a] - x[b]).squaredNorm());
+      sizes_[a] = std::min(sizes_[a], length);
+      sizes_[b] = std::min(sizes_[b], length);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (sizes_[i] == never) sizes_[i] = 2 * host_.thickness(host_.thickest(), 1);
+    }
+  }
+
+  void begin_slice(double t) {
+    ++counts_.slices;
+    adapt_length();
+    const double before = slice_begin_;
+    slice_begin_ = t;
+    slice_end_ = slice_due_ = t + length_;
+    retubed_ = 0;
+    margin_ = 0;
+    for (std::size_t i = 0; i < tubes_.size(); ++i) begin_tube(static_cast<VertexId>(i), before, t);
+    std::fill(due_.begin(), due_.end(), never);
+    events_ = {};
+    hierarchy_.refit([this](std::uint32_t cell) { return box_of(cell); });
+    find_near(t);
+    for (std::size_t i = 0; i < tubes_.size(); ++i) plan_soon(static_cast<VertexId>(i));
+    settle(t);
+  }
+
+  /// Longer while nobody leaves his tube, shorter when many do.
+  void adapt_length() {
+    const std::size_t n = tubes_.size();
+    if (retubed_ * 8 > n) length_ = std::max(length_ / 2, longest_ * 0x1p-12);
+    if (retubed_ * 64 < n) length_ = std::min(length_ * 2, longest_);
+  }
+
+  /// Follows what the vertex did on average since the last slice began: if it shakes, its mean goes on.
+  void begin_tube(VertexId i, double before, double t) {
+    const Line<Dim> now = line_at(i, t);
+    Line<Dim> line = now;
+    if (counts_.slices > 1 && t > before && !host_.immovable(i)) line.v = (now.x - begun_[i]) / (t - before);
+    set_tube(i, now, line);
+    if (begun_.size() < tubes_.size()) begun_.resize(tubes_.size());
+    begun_[i] = now.x;
+  }
+
+  /// Unless that would lead out of the tube before anyone looks.
+  void set_tube(VertexId i, const Line<Dim>& now, Line<Dim> line) {
+    const double look = std::min(host_.look_step(i), slice_end_ - now.t);
+    if (!((line.v - now.v).squaredNorm() * look * look <= 0.25 * sizes_[i] * sizes_[i])) line.v = now.v;
+    tubes_[i] = {line, sizes_[i], slice_end_};
+    const double reach_out = line.x.cwiseAbs().maxCoeff() + line.v.cwiseAbs().maxCoeff() * (slice_end_ - now.t);
+    margin_ = std::max(margin_, 0x1p-44 * (reach_out + sizes_[i]));
+  }
+
+  MovingBox<Dim> box_of(std::uint32_t cell) const {
+    MovingBox<Dim> box = MovingBox<Dim>::empty();
+    const auto& c = features_.cells()[cell];
+    for (std::uint8_t k = 0; k < c.size; ++k) {
+      const Plan<Dim>& tube = tubes_[c.vertices[k]];
+      const Vector<Dim> room =
+          Vector<Dim>::Constant(tube.radius + 0.5 * host_.thickness(host_.thickest(), 1) + 4 * margin_);
+      const Vector<Dim> begin = tube.line.at(slice_begin_), end = tube.line.at(slice_end_);
+      box.add({{begin - room, end - room}, {begin + room, end + room}});
+    }
+    return box;
+  }
+
+  /// All near pairs anew; of those that were near before, layers stay.
+  void find_near(double t) {
+    std::vector<Near> old;
+    old.swap(nears_);
+    std::unordered_map<PairKey, std::uint32_t> old_index;
+    old_index.swap(index_);
+    for (auto& list : nears_of_) list.clear();
+    hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+      features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
+    });
+    for (Near& pair : old) {
+      const auto found = index_.find(pair.stencil.key);
+      if (found != index_.end()) {
+        nears_[found->second].layers = pair.layers;
+      } else {
+        while (pair.layers > 0) lose_layer(pair);
+      }
+    }
+    for (std::uint32_t n = 0; n < nears_.size(); ++n) put_up_slab(n, t);
+  }
+
+  // --- Pairs ---------------------------------------------------------------------------------------------------------
+
+  /// Remembers a pair that the tubes do not settle. Its slab is still to be put up.
+  void consider(const Stencil& s, double t) {
+    bool moves = false;
+    for (std::size_t k = 0; k < s.size(); ++k) moves |= !host_.immovable(s.vertices[k]);
+    if (!moves) return;
+    const std::uint16_t material = host_.material(s.vertices[0], s.vertices[s.first()]);
+    if (material == no_material || settled(s, material, t) || index_.contains(s.key)) return;
+    const auto n = static_cast<std::uint32_t>(nears_.size());
+    index_.emplace(s.key, n);
+    nears_.push_back({s, material, 0, {}});
+    for (std::size_t k = 0; k < s.size(); ++k) nears_of_[s.vertices[k]].push_back(n);
+    counts_.most_near = std::max<std::uint64_t>(counts_.most_near, nears_.size());
+  }
+
+  /// Whether some direction keeps the tubes apart until the slice's end.
+  bool settled(const Stencil& s, std::uint16_t material, double t) const {
+    const double eta = host_.thickness(material, 1) + 8 * margin_;
+    for (const double when : {t, slice_end_, 0.5 * (t + slice_end_)}) {
+      std::array<Vector<Dim>, 4> x;
+      for (std::size_t k = 0; k < s.size(); ++k) x[k] = tubes_[s.vertices[k]].line.at(when);
+      const Closest<Dim> c = closest<Dim>(s.kind, std::span<const Vector<Dim>>(x.data(), s.size()));
+      const double d = c.distance();
+      if (!(d > eta)) return false;
+      const Vector<Dim> n = c.r / d;
+      if (gap(s, n, t) > eta && gap(s, n, slice_end_) > eta) return true;
+    }
+    return false;
+  }
+
+  double gap(const Stencil& s, const Vector<Dim>& n, double t) const {
+    double low = never, high = -never;
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      const Plan<Dim>& tube = tubes_[s.vertices[k]];
+      const double height = n.dot(tube.line.at(t));
+      if (k < s.first()) {
+        low = std::min(low, height - tube.radius);
+      } else {
+        high = std::max(high, height + tube.radius);
+      }
+    }
+    return low - high;
+  }
+
+  /// A slab where the pair is now; layers are activated until one fits. Plans that do not respect it are to be made
+  /// anew.
+  void put_up_slab(std::uint32_t near, double t) {
+    Near& pair = nears_[near];
+    const Stencil& s = pair.stencil;
+    std::array<Vector<Dim>, 4> x, v;
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      const Line<Dim> line = host_.line(s.vertices[k]);
+      x[k] = line.at(t);
+      v[k] = line.v;
+    }
+    const std::span<const Vector<Dim>> xs(x.data(), s.size()), vs(v.data(), s.size());
+    const Closest<Dim> c = closest<Dim>(s.kind, xs);
+    ++counts_.repairs;
+    for (;;) {
+      const double eta = host_.thickness(pair.material, pair.layers + 1);
+      const double room = 0.25 * (eta - host_.thickness(pair.material, pair.layers + 2)) + 64 * margin_;
+      if (c.distance() - eta > room) {
+        pair.slab = slab_between<Dim>(s, c, xs, vs, t, 0.5 * eta);
+        if (pair.slab.slack > 0.25 * room) break;
+      }
+      activate(near, t);
+    }
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      if (!respects(guards_[s.vertices[k]], pair.slab, k < s.first(), t)) plan_soon(s.vertices[k]);
+    }
+  }
+
+  bool respects(const Plan<Dim>& guard, const Slab<Dim>& slab, bool of_a, double t) const {
+    if (guard.until < t) return false;
+    const double need = guard.radius + 4 * margin_;
+    return slab.clearance(of_a, guard.line.at(t), t) >= need &&
+           slab.clearance(of_a, guard.line.at(guard.until), guard.until) >= need;
+  }
+
+  void activate(std::uint32_t near, double t) {
+    Near& pair = nears_[near];
+    ++pair.layers;
+    ++counts_.activations;
+    counts_.deepest = std::max(counts_.deepest, pair.layers);
+    host_.activate(pair.stencil, pair.material, pair.layers, t);
+  }
+
+  void lose_layer(Near& pair) {
+    ++counts_.deactivations;
+    host_.deactivate(pair.stencil, pair.material, pair.layers--);
+  }
+
+  // --- Vertices ------------------------------------------------------------------------------------------------------
+
+  void plan_soon(VertexId i) {
+    if (waiting_[i]) return;
+    waiting_[i] = true;
+    work_.push_back(i);
+  }
+
+  [[gnu::noinline]] void settle(double t) {
+    for (std::size_t done = 0; done < work_.size(); ++done) {
+      if (done == most_at_once * (tubes_.size() + 1)) {
+        throw std::runtime_error("certificates: no end of repairs at one instant");
+      }
+      waiting_[work_[done]] = false;
+      plan(work_[done], t);
+    }
+    work_.clear();
+  }
+
+  /// A guard from now on.
+  void plan(VertexId i, double t) {
+    ++counts_.plans;
+    const Line<Dim> now = line_at(i, t);
+    const double ahead = std::min(t + host_.look_step(i), slice_end_);
+    if (must_leave_tube(i, now, ahead)) leave_tube(i, now);
+    Plan<Dim>& guard = guards_[i];
+    if (nears_of_[i].empty()) {
+      guard = tubes_[i];
+    } else {
+      guard = plan_within(i, now);
+    }
+    due_[i] = guard.holds(now, ahead) ? never : guard.until;
+    if (due_[i] != never) events_.push({due_[i], i});
+  }
+
+  /// Free ones follow their tube until they are looked at; those with walls want some room in it.
+  bool must_leave_tube(VertexId i, const Line<Dim>& now, double ahead) const {
+    const Plan<Dim>& tube = tubes_[i];
+    if (nears_of_[i].empty()) return !tube.holds(now, ahead);
+    return (now.x - tube.line.at(now.t)).squaredNorm() > 0.5 * tube.radius * tube.radius;
+  }
+
+  void leave_tube(VertexId i, const Line<Dim>& now) {
+    ++counts_.tubes;
+    ++retubed_;
+    Line<Dim> line = now;
+    const double elapsed = now.t - tubes_[i].line.t;
+    if (elapsed > 0.25 * length_ && !host_.immovable(i)) line.v = (now.x - begun_[i]) / (now.t - slice_begin_);
+    set_tube(i, now, line);
+    for (const std::uint32_t cell : features_.cells_of(i)) hierarchy_.enlarge(cell, box_of(cell));
+    const std::size_t known = nears_.size();
+    for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell, now.t);
+    for (std::size_t n = known; n < nears_.size(); ++n) put_up_slab(static_cast<std::uint32_t>(n), now.t);
+    if (retubed_ * 8 > tubes_.size() + 64) slice_due_ = now.t;
+  }
+
+  /// Pairs of this cell that the vertex is part of.
+  void find_near_cell(VertexId i, std::uint32_t cell, double t) {
+    hierarchy_.for_each_near(box_of(cell), [&](std::uint32_t other) {
+      if (other == cell) return;
+      features_.for_each_pair(cell, other, [&](const Stencil& s) {
+        for (std::size_t k = 0; k < s.size(); ++k) {
+          if (s.vertices[k] == i) return consider(s, t);
+        }
+      });
+    });
+  }
+
+  /// Along the vertex's own motion, until it has used up part of the way to a wall.
+  Plan<Dim> plan_within(VertexId i, const Line<Dim>& now) {
+    const Plan<Dim>& tube = tubes_[i];
+    const Vector<Dim> e = now.x - tube.line.at(now.t), w = now.v - tube.line.v;
+    const double edge = 0.5 * (tube.radius + std::sqrt(e.squaredNorm()));
+    double until = std::min(slice_end_, now.t + time_to_leave<Dim>(e, w, edge));
+    double radius = tube.radius - edge;
+    for (const std::uint32_t n : nears_of_[i]) {
+      const auto [clearance, closing] = wall(n, i, now);
+      if (closing > 0) until = std::min(until, now.t + reach * (clearance / closing));
+    }
+    for (const std::uint32_t n : nears_of_[i]) {
+      const Slab<Dim>& slab = nears_[n].slab;
+      const bool of_a = side_of(n, i);
+      const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
+      radius = std::min(radius, clearance - std::max(0.0, slab.closing(of_a, now.v)) * (until - now.t));
+    }
+    if (!(until > now.t)) throw std::runtime_error("certificates: a wall fails again at once");
+    return {now, std::max(0.0, radius - 4 * margin_), until};
+  }
+
+  struct Wall {
+    double clearance, closing;
+  };
+
+  /// Put up anew if it is worn.
+  Wall wall(std::uint32_t near, VertexId i, const Line<Dim>& now) {
+    const bool of_a = side_of(near, i);
+    for (;;) {
+      const Slab<Dim>& slab = nears_[near].slab;
+      const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
+      if (clearance > worn * slab.slack) return {clearance, slab.closing(of_a, now.v)};
+      if (slab.since == now.t && slab.slack > 0) {
+        // Just put up and worn already: another velocity will not help.
+        activate(near, now.t);
+      }
+      put_up_slab(near, now.t);
+    }
+  }
+
+  bool side_of(std::uint32_t near, VertexId i) const {
+    const Stencil& s = nears_[near].stencil;
+    return s.vertices[0] == i || (s.first() == 2 && s.vertices[1] == i);
+  }
+
+  static constexpr std::size_t most_at_once = 1000;
+
+  Host& host_;
+  Features features_;
+  Hierarchy<Dim> hierarchy_;
+  double longest_, length_;
+  double slice_begin_ = 0, slice_end_ = 0;
+  double slice_due_ = 0;  ///< when the next one begins: earlier than the end if too many have left their tubes
+  double margin_ = 0;
+  std::size_t retubed_ = 0;
+  std::vector<double> sizes_;       ///< radii of tubes
+  std::vector<Vector<Dim>> begun_;  ///< where vertices were when the slice began
+  std::vector<Plan<Dim>> tubes_, guards_;
+  std::vector<double> due_;  ///< of a vertex: time of its event, or never
+  std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
+  std::vector<Near> nears_;
+  std::unordered_map<PairKey, std::uint32_t> index_;
+  std::vector<std::vector<std::uint32_t>> nears_of_;  ///< of a vertex: its near pairs
+  std::vector<VertexId> work_;
+  std::vector<bool> waiting_;
+  CertificateCounts counts_;
+};
+
+}  // namespace noli::certificates

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace noli::certificates {
+
+/// What certificates cost.
+struct CertificateCounts {
+  std::uint64_t slices = 0;
+  std::uint64_t tubes = 0;                           ///< left before the slice's end
+  std::uint64_t plans = 0;                           ///< guards made
+  std::uint64_t repairs = 0;                         ///< slabs
+  std::uint64_t activations = 0, deactivations = 0;  ///< of layers
+  std::uint64_t most_near = 0;                       ///< near pairs at a time
+  std::uint32_t deepest = 0;                         ///< layer
+};
+
+}  // namespace noli::certificates

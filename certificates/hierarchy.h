@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A kinetic hierarchy: boxes that move linearly over a stretch of time, in a binary tree over the cells.
+//
+// Notation
+//   stretch   [begin, end] of time
+//   box       low(t), high(t), linear in between what they are at begin and end; holds what is in it at every t between,
+//             since that moves linearly too
+// Two boxes are apart over the whole stretch if along one axis one is below the other at begin and at end.
+//
+// The tree is built once, by medians, over where cells are then; boxes are refitted. What moves together stays together
+// mostly; where it does not, boxes overlap more and answers stay the same.
+//
+// What this does not do: no distances; whoever fills in leaves adds what has to be kept clear.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "noli/certificates/vector.h"
+
+namespace noli::certificates {
+
+template <int Dim>
+struct MovingBox {
+  std::array<Vector<Dim>, 2> low, high;  ///< at begin and end
+
+  static MovingBox empty() {
+    MovingBox box;
+    box.low.fill(Vector<Dim>::Constant(std::numeric_limits<double>::infinity()));
+    box.high.fill(Vector<Dim>::Constant(-std::numeric_limits<double>::infinity()));
+    return box;
+  }
+
+  void add(const MovingBox& other) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = low[k].cwiseMin(other.low[k]);
+      high[k] = high[k].cwiseMax(other.high[k]);
+    }
+  }
+
+  bool apart(const MovingBox& other) const {
+    for (int d = 0; d < Dim; ++d) {
+      if (low[0][d] > other.high[0][d] && low[1][d] > other.high[1][d]) return true;
+      if (other.low[0][d] > high[0][d] && other.low[1][d] > high[1][d]) return true;
+    }
+    return false;
+  }
+};
+
+template <int Dim>
+class Hierarchy {
+ public:
+  using Box = MovingBox<Dim>;
+
+  /// Over cells with these centres.
+  explicit Hierarchy(std::span<const Vector<Dim>> centres = {}) {
+    if (centres.empty()) return;
+    order_.resize(centres.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    place_.resize(centres.size());
+    boxes_.resize(2 * centres.size() - 1);
+    nodes_.resize(boxes_.size());
+    build(0, 0, static_cast<std::uint32_t>(centres.size()), none, centres);
+  }
+
+  /// Takes all boxes anew; box_of(cell) gives those of the leaves.
+  template <class BoxOf>
+  void refit(const BoxOf& box_of) {
+    for (std::size_t n = nodes_.size(); n-- > 0;) {
+      if (is_leaf(n)) {
+        boxes_[n] = box_of(order_[nodes_[n].begin]);
+      } else {
+        boxes_[n] = boxes_[left(n)];
+        boxes_[n].add(boxes_[nodes_[n].right]);
+      }
+    }
+  }
+
+  /// Makes the box of a cell larger, and all around it.
+  void enlarge(std::uint32_t cell, const Box& box) {
+    for (std::uint32_t n = place_[cell]; n != none; n = nodes_[n].parent) boxes_[n].add(box);
+  }
+
+  /// Calls each(a, b) for all pairs of different cells whose boxes are not apart, once.
+  template <class Each>
+  void for_each_pair(Each&& each) const {
+    if (!nodes_.empty()) within(0, each);
+  }
+
+  /// Calls each(cell) for all cells whose boxes are not apart from this one.
+  template <class Each>
+  void for_each_near(const Box& box, Each&& each) const {
+    if (!nodes_.empty()) near(0, box, each);
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  /// Cells order_[begin, end); a node's left child is the next node.
+  struct Node {
+    std::uint32_t begin, end, right, parent;
+  };
+
+  bool is_leaf(std::size_t n) const { return nodes_[n].end - nodes_[n].begin == 1; }
+  static std::size_t left(std::size_t n) { return n + 1; }
+
+  std::uint32_t build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::uint32_t parent,
+                      std::span<const Vector<Dim>> centres) {
+    nodes_[node] = {begin, end, none, parent};
+    if (end - begin == 1) {
+      place_[order_[begin]] = node;
+      return node + 1;
+    }
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    const int axis = longest_axis(begin, end, centres);
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                     [&](std::uint32_t a, std::uint32_t b) {
+                       return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
+                     });
+    const std::uint32_t right = build(node + 1, begin, middle, node, centres);
+    nodes_[node].right = right;
+    return build(right, middle, end, node, centres);
+  }
+
+  int longest_axis(std::uint32_t begin, std::uint32_t end, std::span<const Vector<Dim>> centres) const {
+    Vector<Dim> low = centres[order_[begin]], high = low;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      low = low.cwiseMin(centres[order_[i]]);
+      high = high.cwiseMax(centres[order_[i]]);
+    }
+    int axis = 0;
+    for (int d = 1; d < Dim; ++d) {
+      if (high[d] - low[d] > high[axis] - low[axis]) axis = d;
+    }
+    return axis;
+  }
+
+  template <class Each>
+  void within(std::size_t n, Each&& each) const {
+    if (is_leaf(n)) return;
+    within(left(n), each);
+    within(nodes_[n].right, each);
+    between(left(n), nodes_[n].right, each);
+  }
+
+  template <class Each>
+  void between(std::size_t a, std::size_t b, Each&& each) const {
+    if (boxes_[a].apart(boxes_[b])) return;
+    if (is_leaf(a) && is_leaf(b)) return each(order_[nodes_[a].begin], order_[nodes_[b].begin]);
+    if (nodes_[a].end - nodes_[a].begin >= nodes_[b].end - nodes_[b].begin) {
+      between(left(a), b, each);
+      between(nodes_[a].right, b, each);
+    } else {
+      between(a, left(b), each);
+      between(a, nodes_[b].right, each);
+    }
+  }
+
+  template <class Each>
+  void near(std::size_t n, const Box& box, Each&& each) const {
+    if (boxes_[n].apart(box)) return;
+    if (is_leaf(n)) return each(order_[nodes_[n].begin]);
+    near(left(n), box, each);
+    near(nodes_[n].right, box, each);
+  }
+
+  std::vector<std::uint32_t> order_;  ///< cells
+  std::vector<std::uint32_t> place_;  ///< of a cell: its leaf
+  std::vector<Node> nodes_;           ///< in depth-first order
+  std::vector<Box> boxes_;
+};
+
+}  // namespace noli::certificates

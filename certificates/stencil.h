@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two features that may come near each other, and who they are for good.
+//
+// Notation
+//   A, B     the two features; vertices of A come first
+//   key      64 bits that name a pair whatever happens in a run: kind, then the numbers of its features. Everything that
+//            happens to several pairs at one time happens in the order of their keys
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "noli/kernel/query.h"
+#include "noli/trajectory/mesh.h"
+
+namespace noli::certificates {
+
+using PairKey = std::uint64_t;
+
+struct Stencil {
+  FeaturePair kind;
+  std::array<VertexId, 4> vertices{};  ///< of A, then of B; the first size() count
+  PairKey key;
+
+  std::size_t first() const { return first_size(kind); }  ///< vertices of A
+  std::size_t size() const { return point_count(kind); }  ///< of both
+};
+
+/// Preconditions: a, b < 2^31: numbers of the features, each among those of its sort.
+constexpr PairKey pair_key(FeaturePair kind, std::uint32_t a, std::uint32_t b) {
+  return static_cast<PairKey>(kind) << 62 | static_cast<PairKey>(a) << 31 | b;
+}
+
+}  // namespace noli::certificates

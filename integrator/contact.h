@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contact in a run: the layers that are active, each with its clock, and the certificates that say which have to be.
+//
+// Notation: that of integrator/contact_settings.h, and
+//   layer     of a material: (material, l). All pairs for which it is active fire together, in the order of their keys
+// Layer l fires at the times k h(l) of the run, whenever a pair joined it, and writes only where it acts. So a run in
+// which layers are activated when they are needed is, bit for bit, the run in which they always were (design, "What an
+// event may write").
+//
+// What this does not do: which pairs are near is for certificates/cells.h.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <tuple>
+#include <vector>
+
+#include "noli/certificates/cells.h"
+#include "noli/integrator/books.h"
+#include "noli/integrator/clocks.h"
+#include "noli/integrator/contact_impulse.h"
+#include "noli/integrator/contact_settings.h"
+#include "noli/integrator/kick.h"
+
+namespace noli::integrator {
+
+/// A pair came so near that it would need more layers than the scene allows, or to distance zero.
+struct ContactLimit : std::runtime_error {
+  ContactLimit(const certificates::Stencil& which, double when)
+      : std::runtime_error("contact: a pair of features needs more layers than allowed"), pair(which), time(when) {}
+  certificates::Stencil pair;
+  double time;
+};
+
+template <int Dim>
+class Contact {
+ public:
+  using Particles = std::vector<Particle<double, Dim>>;
+
+  /// `look_steps`: of each vertex, how often it fires at least; infinity for those that nothing does. The particles stay
+  /// where they are.
+  Contact(const ContactSettings& settings, const Mesh& mesh, Particles& particles, std::vector<double> look_steps,
+          double longest_slice)
+      : settings_(settings),
+        particles_(particles),
+        look_steps_(std::move(look_steps)),
+        layers_(settings.materials.size()),
+        cells_(*this, mesh, positions(particles), longest_slice) {}
+
+  Contact(const Contact&) = delete;
+  Contact& operator=(const Contact&) = delete;
+
+  // --- What happens when ---------------------------------------------------------------------------------------------
+
+  bool started() const { return started_; }
+
+  /// Certifies where things are.
+  void start(double t) {
+    started_ = true;
+    cells_.start(t);
+  }
+
+  /// A vertex has been looked at by an event at time t.
+  void look(VertexId i, double t) { cells_.look(i, t); }
+
+  double next_certificate() { return cells_.next_time(); }
+  void run_certificate() { cells_.run_next(); }
+
+  double next_layer() const { return agenda_.empty() ? never : std::get<0>(*agenda_.begin()); }
+
+  /// Fires the next layer.
+  template <class Recorder>
+  std::size_t fire_next(Recorder& record, Account<double, Dim>& account) {
+    const auto [t, material, l] = *agenda_.begin();
+    Layer& layer = layers_[material][l - 1];
+    agenda_.erase(agenda_.begin());
+    ++layer.clock.next;
+    agenda_.insert({layer.clock.time(), material, l});
+    return fire(record, account, material, l, t, layer.clock.step);
+  }
+
+  /// The half kicks with which a run begins.
+  template <class Recorder>
+  void fire_halves(Recorder& record, Account<double, Dim>& account) {
+    for (std::uint16_t m = 0; m < layers_.size(); ++m) {
+      for (std::uint32_t l = 1; l <= layers_[m].size(); ++l) {
+        fire(record, account, m, l, 0, 0.5 * layers_[m][l - 1].clock.step);
+      }
+    }
+  }
+
+  /// Calls each(pair, closest points, g, r(l), h(l)) for all active layers that act where things are now.
+  template <class Each>
+  void for_each_acting(Each&& each) const {
+    for (const auto& of_material : layers_) {
+      for (const Layer& layer : of_material) {
+        for (const certificates::Stencil& pair : layer.pairs) {
+          std::array<Vec<double, Dim>, 4> x;
+          for (std::size_t i = 0; i < pair.size(); ++i) x[i] = particles_[pair.vertices[i]].x;
+          const auto c =
+              certificates::closest<Dim>(pair.kind, std::span<const Vec<double, Dim>>(x.data(), pair.size()));
+          const double g = c.distance() - layer.thickness;
+          if (g < 0) each(pair, c, g, layer.stiffness, layer.clock.step);
+        }
+      }
+    }
+  }
+
+  const certificates::CertificateCounts& counts() const { return cells_.counts(); }
+  std::uint64_t impulses() const { return impulses_; }
+
+  // --- For the certificates ------------------------------------------------------------------------------------------
+
+  certificates::Line<Dim> line(VertexId i) const {
+    const auto& p = particles_[i];
+    return {p.x, p.t, p.v};
+  }
+  bool immovable(VertexId i) const { return particles_[i].inverse_mass == 0; }
+  std::uint16_t material(VertexId i, VertexId j) const { return settings_.material(i, j); }
+  double thickness(std::uint16_t material, std::uint32_t l) const {
+    return layer_thickness(settings_.materials[material], settings_.schedule, l);
+  }
+  double look_step(VertexId i) const { return look_steps_[i]; }
+  std::uint16_t thickest() const {
+    const auto& all = settings_.materials;
+    const auto less = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };
+    return static_cast<std::uint16_t>(std::max_element(all.begin(), all.end(), less) - all.begin());
+  }
+
+  void activate(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double t) {
+    if (l > settings_.most_layers) throw ContactLimit(pair, t);
+    auto& of_material = layers_[material];
+    while (of_material.size() < l) {
+      of_material.push_back(make_layer(material, static_cast<std::uint32_t>(of_material.size() + 1)));
+    }
+    Layer& layer = of_material[l - 1];
+    if (layer.pairs.empty()) {
+      // At t itself the layer gives nothing, being activated before it is needed.
+      layer.clock.next = std::max(layer.clock.next, first_after(t, layer.clock.step));
+      agenda_.insert({layer.clock.time(), material, l});
+    }
+    layer.pairs.insert(place(layer, pair.key), pair);
+  }
+
+  void deactivate(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l) {
+    Layer& layer = layers_[material][l - 1];
+    layer.pairs.erase(place(layer, pair.key));
+    if (layer.pairs.empty()) agenda_.erase({layer.clock.time(), material, l});
+  }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  struct Layer {
+    Clock clock;
+    double thickness, stiffness;
+    std::vector<certificates::Stencil> pairs;  ///< for which it is active, by key
+  };
+
+  static std::vector<Vec<double, Dim>> positions(const Particles& particles) {
+    std::vector<Vec<double, Dim>> x;
+    for (const auto& p : particles) x.push_back(p.x);
+    return x;
+  }
+
+  Layer make_layer(std::uint16_t material, std::uint32_t l) const {
+    const ContactMaterial& m = settings_.materials[material];
+    return {{layer_step(m, settings_.schedule, l), 1},
+            layer_thickness(m, settings_.schedule, l),
+            layer_stiffness(m, settings_.schedule, l),
+            {}};
+  }
+
+  static auto place(Layer& layer, certificates::PairKey key) {
+    return std::lower_bound(layer.pairs.begin(), layer.pairs.end(), key,
+                            [](const certificates::Stencil& s, certificates::PairKey k) { return s.key < k; });
+  }
+
+  template <class Recorder>
+  std::size_t fire(Recorder& record, Account<double, Dim>& account, std::uint16_t material, std::uint32_t l, double t,
+                   double h) {
+    firing_ = layers_[material][l - 1].pairs;  // the list may change while they fire
+    record.reserve(4 * firing_.size());
+    const Kicked<double, Dim, Recorder> now{particles_, record, t};
+    for (const certificates::Stencil& pair : firing_) {
+      const double d = fire_pair(now, account, pair, settings_.materials[material], layers_[material][l - 1], h);
+      if (d > layers_[material][l - 1].thickness) cells_.drop_if_clear(pair.key, l, d, t);
+    }
+    account.events += firing_.size();
+    return firing_.size();
+  }
+
+  /// Of one pair; returns the distance.
+  template <class Recorder>
+  double fire_pair(const Kicked<double, Dim, Recorder>& now, Account<double, Dim>& account,
+                   const certificates::Stencil& pair, const ContactMaterial& material, const Layer& layer, double h) {
+    const std::size_t n = pair.size();
+    std::array<Vec<double, Dim>, 4> x, v;
+    std::array<double, 4> inverse_mass{};
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& p = particles_[pair.vertices[i]];
+      x[i] = p.at(now.t);
+      v[i] = p.v;
+      inverse_mass[i] = p.inverse_mass;
+    }
+    const std::span<const Vec<double, Dim>> xs(x.data(), n), vs(v.data(), n);
+    const auto c = certificates::closest<Dim>(pair.kind, xs);
+    const double d = c.distance(), g = d - layer.thickness;
+    if (!(g < 0)) return d;
+    if (!(d > 0)) throw ContactLimit(pair, now.t);
+    const double share = opening_speed<Dim>(c, d, vs) > 0 ? material.restitution : 1;
+    const double push = -share * h * layer.stiffness * g;
+    if (push == 0) return d;
+    ++impulses_;
+    add<true>(account, normal_impulses(c, d, push), x, v, inverse_mass, n);
+    if (material.friction > 0) rub(account, material.friction * push, c, x, v, inverse_mass, n);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (inverse_mass[i] == 0 || !differ<double, Dim>(v[i], particles_[pair.vertices[i]].v)) continue;
+      set_velocity(now, pair.vertices[i], x[i], v[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (inverse_mass[i] != 0) cells_.look(pair.vertices[i], now.t);
+    }
+    return d;
+  }
+
+  void rub(Account<double, Dim>& account, double most, const certificates::Closest<Dim>& c,
+           const std::array<Vec<double, Dim>, 4>& x, std::array<Vec<double, Dim>, 4>& v,
+           const std::array<double, 4>& inverse_mass, std::size_t n) const {
+    Slip<Dim> s = slip<Dim>(c, {x.data(), n}, {v.data(), n});
+    const double yield = yielding<Dim>(s, {inverse_mass.data(), n});
+    if (!(s.speed > 0) || !(yield > 0)) return;
+    const double magnitude = std::min(most, s.speed / yield);
+    for (std::size_t i = 0; i < n; ++i) s.against[i] *= magnitude;
+    add<false>(account, s.against, x, v, inverse_mass, n);
+  }
+
+  /// Gives impulses and books them.
+  template <bool Conservative>
+  static void add(Account<double, Dim>& account, const Impulses<Dim>& impulses,
+                  const std::array<Vec<double, Dim>, 4>& x, std::array<Vec<double, Dim>, 4>& v,
+                  const std::array<double, 4>& inverse_mass, std::size_t n) {
+    double twice_work = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (inverse_mass[i] == 0) {
+        book_support<double, Dim>(account, x[i], impulses[i]);
+        continue;
+      }
+      const Vec<double, Dim> before = v[i];
+      v[i] += inverse_mass[i] * impulses[i];
+      twice_work += impulses[i].dot(before + v[i]);
+    }
+    (Conservative ? account.work : account.damping_work) += 0.5 * twice_work;
+  }
+
+  ContactSettings settings_;
+  Particles& particles_;
+  std::vector<double> look_steps_;
+  std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
+  std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
+  std::vector<certificates::Stencil> firing_;
+  std::uint64_t impulses_ = 0;
+  bool started_ = false;
+  certificates::Cells<Dim, Contact> cells_;
+};
+
+}  // namespace noli::integrator

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What one penalty layer does to one pair when it fires.
+//
+// Notation (Harmon et al. 2009, section 3)
+//   x_i, v_i, m_i   vertices of the pair; w_i, r, d, b_k: as in certificates/closest.h
+//   g         d - eta; the layer acts if g < 0
+//   J_n       s h r(l) |g|: the impulse between the closest points, pushing apart; s = 1 while they approach, e while
+//             they part, so e is the part of the energy that comes back
+//   friction  impulse of magnitude j = min(mu J_n, what stops the slip) against the slip of the closest points along the
+//             features. The slip is that of the points' parameters, which rigid motions do not change; so neither
+//             impulse changes momentum or angular momentum (see friction_direction)
+//
+// What this does not do: it changes no velocity, and no one's clock.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "noli/certificates/closest.h"
+#include "noli/integrator/vector.h"
+
+namespace noli::integrator {
+
+template <int Dim>
+using Impulses = std::array<Vec<double, Dim>, 4>;
+
+/// J_n along the gradient of the distance. `push`: J_n.
+template <int Dim>
+Impulses<Dim> normal_impulses(const certificates::Closest<Dim>& c, double d, double push) {
+  Impulses<Dim> impulses;
+  const Vec<double, Dim> n = c.r / d;
+  for (std::size_t i = 0; i < 4; ++i) impulses[i] = (push * c.weights[i]) * n;
+  return impulses;
+}
+
+/// d(d)/dt: negative while the closest points approach.
+template <int Dim>
+double opening_speed(const certificates::Closest<Dim>& c, double d, std::span<const Vec<double, Dim>> v) {
+  double sum = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) sum += c.weights[i] * c.r.dot(v[i]);
+  return sum / d;
+}
+
+/// The slip of a pair: its speed, and the generalized force of magnitude 1 against it.
+template <int Dim>
+struct Slip {
+  double speed = 0;         ///< sqrt(rate . (b_j . b_k) rate) [m/s]; 0: nothing slips, or nothing can
+  Impulses<Dim> against{};  ///< impulse on each vertex, if the friction's is 1
+};
+
+/// With rate the parameters' rates and y = -rate / speed, the force of magnitude 1 that does the work -speed per second
+/// on every motion is sum y_k dc_k/dv_i: c_k = b_k . u + (db_k/dt) . r, u = sum w_i v_i. It is a force along gradients
+/// of functions that rigid motions leave alone.
+template <int Dim>
+Slip<Dim> slip(const certificates::Closest<Dim>& c, std::span<const Vec<double, Dim>> x,
+               std::span<const Vec<double, Dim>> v) {
+  Slip<Dim> result;
+  for (auto& impulse : result.against) impulse.setZero();
+  if (c.slide_count == 0) return result;
+  Vec<double, Dim> u = c.weights[0] * v[0];
+  for (std::size_t i = 1; i < v.size(); ++i) u += c.weights[i] * v[i];
+  std::array<Vec<double, Dim>, 2> b;
+  std::array<double, 2> rhs{}, rate{};
+  for (std::size_t k = 0; k < c.slide_count; ++k) {
+    const auto [to, from] = c.slides[k];
+    b[k] = x[to] - x[from];
+    rhs[k] = b[k].dot(u) + (v[to] - v[from]).dot(c.r);
+  }
+  const double aa = b[0].squaredNorm();
+  if (c.slide_count == 1) {
+    rate[0] = rhs[0] / aa;
+  } else {
+    const double ab = b[0].dot(b[1]), bb = b[1].squaredNorm(), det = aa * bb - ab * ab;
+    if (!(det > 0)) return result;
+    rate[0] = (bb * rhs[0] - ab * rhs[1]) / det;
+    rate[1] = (aa * rhs[1] - ab * rhs[0]) / det;
+  }
+  double squared = 0;
+  for (std::size_t k = 0; k < c.slide_count; ++k) squared += rate[k] * rhs[k];
+  if (!(squared > 0)) return result;
+  result.speed = std::sqrt(squared);
+  for (std::size_t k = 0; k < c.slide_count; ++k) {
+    const double y = -rate[k] / result.speed;
+    for (std::size_t i = 0; i < v.size(); ++i) result.against[i] += (y * c.weights[i]) * b[k];
+    result.against[c.slides[k].to] += y * c.r;
+    result.against[c.slides[k].from] -= y * c.r;
+  }
+  return result;
+}
+
+/// How much of the slip's speed an impulse of magnitude 1 takes: the friction that stops it is speed / this.
+template <int Dim>
+double yielding(const Slip<Dim>& slip, std::span<const double> inverse_mass) {
+  double sum = 0;
+  for (std::size_t i = 0; i < inverse_mass.size(); ++i) sum += inverse_mass[i] * slip.against[i].squaredNorm();
+  return sum;
+}
+
+}  // namespace noli::integrator
