@@ -27,6 +27,7 @@
 //   std::uint16_t material(v, w)      of contact between them, or no_material
 //   double thickness(material, l)     eta(l), decreasing to 0
 //   double look_step(v)
+//   std::uint32_t least_layers()      so many are always active for a pair that is near
 //   std::uint16_t thickest()          the material with the largest eta(1)
 //   void activate(stencil, material, l, t), deactivate(stencil, material, l)
 //
@@ -40,30 +41,16 @@
 #include <utility>
 #include <vector>
 
-#include "noli/certificates/counts.h"
 #include "noli/certificates/features.h"
 #include "noli/certificates/hierarchy.h"
+#include "noli/certificates/near_pair.h"
 #include "noli/certificates/plan.h"
-#include "noli/certificates/slab.h"
 
 namespace noli::certificates {
-
-constexpr std::uint16_t no_material = 0xffff;
-
-/// A pair that is followed by itself.
-template <int Dim>
-struct NearPair {
-  Stencil stencil;
-  std::uint16_t material = 0;
-  std::uint32_t layers = 0;  ///< L
-  Slab<Dim> slab;
-};
 
 template <int Dim, class Host>
 class Cells {
  public:
-  using Near = NearPair<Dim>;
-
   /// `longest_slice`: in the unit of time. Nothing is certified before start().
   Cells(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> x, double longest_slice)
       : host_(host),
@@ -112,18 +99,13 @@ class Cells {
     settle(t);
   }
 
-  const std::vector<Near>& nears() const { return nears_; }
   const CertificateCounts& counts() const { return counts_; }
 
-  /// Layers l of this pair gives no impulse at this distance. Drops it, if it is the deepest one and the pair is so far
-  /// out that it will not be needed soon.
+  /// Layer l of this pair gives no impulse at this distance: it may go, if it is not needed soon.
   void drop_if_clear(PairKey key, std::uint32_t l, double distance, double t) {
     const std::uint32_t near = index_.at(key);
-    Near& pair = nears_[near];
-    if (pair.layers != l) return;
-    const double eta = host_.thickness(pair.material, l);
-    if (!(distance > eta + 0.5 * (eta - host_.thickness(pair.material, l + 1)) + 128 * margin_)) return;
-    lose_layer(pair);
+    if (!is_clear(host_, nears_[near], l, distance, margin_)) return;
+    lose_layer(host_, nears_[near], counts_);
     put_up_slab(near, t);
     settle(t);
   }
@@ -216,7 +198,7 @@ class Cells {
 
   /// All near pairs anew; of those that were near before, layers stay.
   void find_near(double t) {
-    std::vector<Near> old;
+    std::vector<NearPair<Dim>> old;
     old.swap(nears_);
     std::unordered_map<PairKey, std::uint32_t> old_index;
     old_index.swap(index_);
@@ -224,12 +206,12 @@ class Cells {
     hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
       features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
     });
-    for (Near& pair : old) {
+    for (NearPair<Dim>& pair : old) {
       const auto found = index_.find(pair.stencil.key);
       if (found != index_.end()) {
         nears_[found->second].layers = pair.layers;
       } else {
-        while (pair.layers > 0) lose_layer(pair);
+        while (pair.layers > 0) lose_layer(host_, pair, counts_);
       }
     }
     for (std::uint32_t n = 0; n < nears_.size(); ++n) put_up_slab(n, t);
@@ -239,11 +221,8 @@ class Cells {
 
   /// Remembers a pair that the tubes do not settle. Its slab is still to be put up.
   void consider(const Stencil& s, double t) {
-    bool moves = false;
-    for (std::size_t k = 0; k < s.size(); ++k) moves |= !host_.immovable(s.vertices[k]);
-    if (!moves) return;
-    const std::uint16_t material = host_.material(s.vertices[0], s.vertices[s.first()]);
-    if (material == no_material || settled(s, material, t) || index_.contains(s.key)) return;
+    const std::uint16_t material = material_of(host_, s);
+    if (material == no_material || index_.contains(s.key) || settled(s, material, t)) return;
     const auto n = static_cast<std::uint32_t>(nears_.size());
     index_.emplace(s.key, n);
     nears_.push_back({s, material, 0, {}});
@@ -280,29 +259,11 @@ class Cells {
     return low - high;
   }
 
-  /// A slab where the pair is now; layers are activated until one fits. Plans that do not respect it are to be made
-  /// anew.
+  /// A slab where the pair is now. Plans that do not respect it are to be made anew.
   void put_up_slab(std::uint32_t near, double t) {
-    Near& pair = nears_[near];
+    NearPair<Dim>& pair = nears_[near];
+    fit_slab(host_, pair, t, margin_, counts_);
     const Stencil& s = pair.stencil;
-    std::array<Vector<Dim>, 4> x, v;
-    for (std::size_t k = 0; k < s.size(); ++k) {
-      const Line<Dim> line = host_.line(s.vertices[k]);
-      x[k] = line.at(t);
-      v[k] = line.v;
-    }
-    const std::span<const Vector<Dim>> xs(x.data(), s.size()), vs(v.data(), s.size());
-    const Closest<Dim> c = closest<Dim>(s.kind, xs);
-    ++counts_.repairs;
-    for (;;) {
-      const double eta = host_.thickness(pair.material, pair.layers + 1);
-      const double room = 0.25 * (eta - host_.thickness(pair.material, pair.layers + 2)) + 64 * margin_;
-      if (c.distance() - eta > room) {
-        pair.slab = slab_between<Dim>(s, c, xs, vs, t, 0.5 * eta);
-        if (pair.slab.slack > 0.25 * room) break;
-      }
-      activate(near, t);
-    }
     for (std::size_t k = 0; k < s.size(); ++k) {
       if (!respects(guards_[s.vertices[k]], pair.slab, k < s.first(), t)) plan_soon(s.vertices[k]);
     }
@@ -313,19 +274,6 @@ class Cells {
     const double need = guard.radius + 4 * margin_;
     return slab.clearance(of_a, guard.line.at(t), t) >= need &&
            slab.clearance(of_a, guard.line.at(guard.until), guard.until) >= need;
-  }
-
-  void activate(std::uint32_t near, double t) {
-    Near& pair = nears_[near];
-    ++pair.layers;
-    ++counts_.activations;
-    counts_.deepest = std::max(counts_.deepest, pair.layers);
-    host_.activate(pair.stencil, pair.material, pair.layers, t);
-  }
-
-  void lose_layer(Near& pair) {
-    ++counts_.deactivations;
-    host_.deactivate(pair.stencil, pair.material, pair.layers--);
   }
 
   // --- Vertices ------------------------------------------------------------------------------------------------------
@@ -409,7 +357,7 @@ class Cells {
     }
     for (const std::uint32_t n : nears_of_[i]) {
       const Slab<Dim>& slab = nears_[n].slab;
-      const bool of_a = side_of(n, i);
+      const bool of_a = nears_[n].in_a(i);
       const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
       radius = std::min(radius, clearance - std::max(0.0, slab.closing(of_a, now.v)) * (until - now.t));
     }
@@ -423,22 +371,15 @@ class Cells {
 
   /// Put up anew if it is worn.
   Wall wall(std::uint32_t near, VertexId i, const Line<Dim>& now) {
-    const bool of_a = side_of(near, i);
+    const bool of_a = nears_[near].in_a(i);
     for (;;) {
       const Slab<Dim>& slab = nears_[near].slab;
       const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
       if (clearance > worn * slab.slack) return {clearance, slab.closing(of_a, now.v)};
-      if (slab.since == now.t && slab.slack > 0) {
-        // Just put up and worn already: another velocity will not help.
-        activate(near, now.t);
-      }
+      // Just put up and worn already: only a thinner one can help.
+      if (slab.since == now.t) gain_layer(host_, nears_[near], now.t, counts_);
       put_up_slab(near, now.t);
     }
-  }
-
-  bool side_of(std::uint32_t near, VertexId i) const {
-    const Stencil& s = nears_[near].stencil;
-    return s.vertices[0] == i || (s.first() == 2 && s.vertices[1] == i);
   }
 
   static constexpr std::size_t most_at_once = 1000;
@@ -456,7 +397,7 @@ class Cells {
   std::vector<Plan<Dim>> tubes_, guards_;
   std::vector<double> due_;  ///< of a vertex: time of its event, or never
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
-  std::vector<Near> nears_;
+  std::vector<NearPair<Dim>> nears_;
   std::unordered_map<PairKey, std::uint32_t> index_;
   std::vector<std::vector<std::uint32_t>> nears_of_;  ///< of a vertex: its near pairs
   std::vector<VertexId> work_;

@@ -14,28 +14,22 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
-#include <stdexcept>
 #include <tuple>
 #include <vector>
 
 #include "noli/certificates/cells.h"
+#include "noli/certificates/every_pair.h"
 #include "noli/integrator/books.h"
 #include "noli/integrator/clocks.h"
 #include "noli/integrator/contact_impulse.h"
+#include "noli/integrator/contact_limit.h"
 #include "noli/integrator/contact_settings.h"
 #include "noli/integrator/kick.h"
 
 namespace noli::integrator {
-
-/// A pair came so near that it would need more layers than the scene allows, or to distance zero.
-struct ContactLimit : std::runtime_error {
-  ContactLimit(const certificates::Stencil& which, double when)
-      : std::runtime_error("contact: a pair of features needs more layers than allowed"), pair(which), time(when) {}
-  certificates::Stencil pair;
-  double time;
-};
 
 template <int Dim>
 class Contact {
@@ -50,7 +44,13 @@ class Contact {
         particles_(particles),
         look_steps_(std::move(look_steps)),
         layers_(settings.materials.size()),
-        cells_(*this, mesh, positions(particles), longest_slice) {}
+        has_cells_(settings.certificates == Certificates::cells) {
+    if (has_cells_) {
+      cells_.emplace(*this, mesh, positions(particles), longest_slice);
+    } else {
+      every_pair_.emplace(*this, mesh);
+    }
+  }
 
   Contact(const Contact&) = delete;
   Contact& operator=(const Contact&) = delete;
@@ -62,14 +62,22 @@ class Contact {
   /// Certifies where things are.
   void start(double t) {
     started_ = true;
-    cells_.start(t);
+    ask([t](auto& certificates) { certificates.start(t); });
   }
 
   /// A vertex has been looked at by an event at time t.
-  void look(VertexId i, double t) { cells_.look(i, t); }
+  void look(VertexId i, double t) {
+    if (has_cells_) {
+      cells_->look(i, t);
+    } else {
+      every_pair_->look(i, t);
+    }
+  }
 
-  double next_certificate() { return cells_.next_time(); }
-  void run_certificate() { cells_.run_next(); }
+  double next_certificate() { return has_cells_ ? cells_->next_time() : every_pair_->next_time(); }
+  void run_certificate() {
+    ask([](auto& certificates) { certificates.run_next(); });
+  }
 
   double next_layer() const { return agenda_.empty() ? never : std::get<0>(*agenda_.begin()); }
 
@@ -111,7 +119,9 @@ class Contact {
     }
   }
 
-  const certificates::CertificateCounts& counts() const { return cells_.counts(); }
+  const certificates::CertificateCounts& counts() const {
+    return has_cells_ ? cells_->counts() : every_pair_->counts();
+  }
   std::uint64_t impulses() const { return impulses_; }
 
   // --- For the certificates ------------------------------------------------------------------------------------------
@@ -126,6 +136,7 @@ class Contact {
     return layer_thickness(settings_.materials[material], settings_.schedule, l);
   }
   double look_step(VertexId i) const { return look_steps_[i]; }
+  std::uint32_t least_layers() const { return settings_.least_layers; }
   std::uint16_t thickest() const {
     const auto& all = settings_.materials;
     const auto less = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };
@@ -162,6 +173,19 @@ class Contact {
     std::vector<certificates::Stencil> pairs;  ///< for which it is active, by key
   };
 
+  template <class Question>
+  void ask(const Question& question) {
+    if (has_cells_) {
+      question(*cells_);
+    } else {
+      question(*every_pair_);
+    }
+  }
+
+  void drop_if_clear(certificates::PairKey key, std::uint32_t l, double distance, double t) {
+    ask([=](auto& certificates) { certificates.drop_if_clear(key, l, distance, t); });
+  }
+
   static std::vector<Vec<double, Dim>> positions(const Particles& particles) {
     std::vector<Vec<double, Dim>> x;
     for (const auto& p : particles) x.push_back(p.x);
@@ -189,7 +213,7 @@ class Contact {
     const Kicked<double, Dim, Recorder> now{particles_, record, t};
     for (const certificates::Stencil& pair : firing_) {
       const double d = fire_pair(now, account, pair, settings_.materials[material], layers_[material][l - 1], h);
-      if (d > layers_[material][l - 1].thickness) cells_.drop_if_clear(pair.key, l, d, t);
+      if (d > layers_[material][l - 1].thickness) drop_if_clear(pair.key, l, d, t);
     }
     account.events += firing_.size();
     return firing_.size();
@@ -224,7 +248,7 @@ class Contact {
       set_velocity(now, pair.vertices[i], x[i], v[i]);
     }
     for (std::size_t i = 0; i < n; ++i) {
-      if (inverse_mass[i] != 0) cells_.look(pair.vertices[i], now.t);
+      if (inverse_mass[i] != 0) look(pair.vertices[i], now.t);
     }
     return d;
   }
@@ -266,7 +290,9 @@ class Contact {
   std::vector<certificates::Stencil> firing_;
   std::uint64_t impulses_ = 0;
   bool started_ = false;
-  certificates::Cells<Dim, Contact> cells_;
+  bool has_cells_;
+  std::optional<certificates::Cells<Dim, Contact>> cells_;  ///< or:
+  std::optional<certificates::EveryPair<Dim, Contact>> every_pair_;
 };
 
 }  // namespace noli::integrator

@@ -69,6 +69,7 @@ void expect_sound(const Shape& shape) {
   };
   visit(shape.mesh.faces);
   visit(shape.mesh.edges);
+  for (const VertexId i : shape.mesh.points) used.at(i) = true;
   EXPECT_EQ(std::count(used.begin(), used.end(), true), static_cast<std::ptrdiff_t>(shape.mesh.vertex_count));
   EXPECT_EQ(std::set<Position>(shape.positions.begin(), shape.positions.end()).size(), shape.positions.size());
   for (const auto& [name, ids] : shape.sets) {
@@ -159,7 +160,7 @@ TEST(Turn, DegreesAreReducedExactly) {
 }
 
 TEST(Curve, EqualPartsOfABrokenLine) {
-  const auto points = along_curve({{0, 0, 0}, {3, 0, 0}, {3, 4, 0}}, 7, false);
+  const auto points = along_curve({{0, 0, 0}, {3, 0, 0}, {3, 4, 0}}, 7, {});
   ASSERT_EQ(points.size(), 8u);
   for (std::size_t k = 0; k < 8; ++k) {
     const double s = static_cast<double>(k);
@@ -171,7 +172,7 @@ TEST(Curve, EqualPartsOfABrokenLine) {
 
 TEST(Curve, SmoothGoesThroughItsPointsAtNearlyEqualDistances) {
   const std::vector<Position> given{{0, 0, 0}, {1, 1, 0}, {2, 0, 1}, {3, 0, 0}};
-  const auto points = along_curve(given, 300, true);
+  const auto points = along_curve(given, 300, {.smooth = true});
   for (const Position& g : given) {
     double nearest = 1;
     for (const Vec3& p : points) nearest = std::min(nearest, std::sqrt((p - to_vec(g)).squaredNorm()));
@@ -187,8 +188,8 @@ TEST(Curve, SmoothGoesThroughItsPointsAtNearlyEqualDistances) {
 }
 
 TEST(Curve, OfNoLengthIsRefused) {
-  EXPECT_THROW(along_curve({{1, 2, 3}, {1, 2, 3}}, 4, false), std::invalid_argument);
-  EXPECT_THROW(along_curve({{1, 2, 3}, {1, 2, 3}}, 4, true), std::invalid_argument);
+  EXPECT_THROW(along_curve({{1, 2, 3}, {1, 2, 3}}, 4, {}), std::invalid_argument);
+  EXPECT_THROW(along_curve({{1, 2, 3}, {1, 2, 3}}, 4, {.smooth = true}), std::invalid_argument);
 }
 
 TEST(Generators, Chain) {
@@ -200,6 +201,30 @@ TEST(Generators, Chain) {
   EXPECT_EQ(shape.sets.at("last"), std::vector<VertexId>{8});
   EXPECT_EQ(shape.positions[4], (Position{0, 0, 0}));
   EXPECT_EQ(hash(shape), 0xa56d2bd0e74422ddu);
+}
+
+TEST(Generators, LoosePoints) {
+  const Shape shape = make_shape(LoosePoints{{{1, 2, 3}, {4, 5, 6}}});
+  expect_sound(shape);
+  EXPECT_EQ(shape.mesh.points, (std::vector<VertexId>{0, 1}));
+  EXPECT_EQ(shape.positions[1], (Position{4, 5, 6}));
+}
+
+TEST(Generators, ClosedChain) {
+  const std::vector<Position> square{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  const Shape shape = make_shape(Chain{square, 16, false, true});
+  expect_sound(shape);
+  EXPECT_EQ(shape.mesh.vertex_count, 16u);
+  EXPECT_EQ(shape.mesh.edges.size(), 16u);
+  EXPECT_EQ(joints(shape.mesh).joints.size(), 16u);
+  for (const auto& e : shape.mesh.edges) EXPECT_EQ((at(shape, e[1]) - at(shape, e[0])).squaredNorm(), 0.25);
+  for (const Position& corner : square) {
+    EXPECT_EQ(std::count(shape.positions.begin(), shape.positions.end(), corner), 1) << corner[0] << " " << corner[1];
+  }
+  const Shape smooth = make_shape(Chain{square, 400, true, true});
+  EXPECT_NEAR(std::abs(at(smooth, 50)[0]), 0, 0.01) << "half way along a side";
+  EXPECT_NEAR(at(smooth, 50)[1], -1.25, 0.01) << "Catmull and Rom's bulge: an eighth of the next side's length";
+  EXPECT_TRUE(smooth.sets.empty());
 }
 
 TEST(Generators, Ring) {
@@ -333,6 +358,32 @@ TEST(Generators, Box) {
   EXPECT_NEAR(area(shape), 22, 1e-13);
   EXPECT_TRUE(symmetric(shape, mirror_x) && symmetric(shape, mirror_y) && symmetric(shape, mirror_z));
   EXPECT_EQ(hash(shape), 0xc68c0b57f3d5bf45u);
+}
+
+TEST(Generators, Torus) {
+  const Shape shape = make_shape(Torus{0.5, 0.125, 24, 12});
+  expect_sound(shape);
+  EXPECT_TRUE(oriented(shape.mesh));
+  EXPECT_EQ(border_edges(shape.mesh), 0u);
+  EXPECT_EQ(euler_characteristic(shape.mesh), 0);
+  EXPECT_EQ(shape.mesh.vertex_count, 24u * 12);
+  const double pi = std::numbers::pi;
+  EXPECT_NEAR(volume(shape) / (2 * pi * pi * 0.5 * 0.125 * 0.125), 1, 0.07) << "less by the corners; positive: outward";
+  for (const Position& x : shape.positions) {
+    const double out = std::sqrt(x[0] * x[0] + x[1] * x[1]) - 0.5;
+    EXPECT_NEAR(std::sqrt(out * out + x[2] * x[2]), 0.125, 1e-15);
+  }
+  EXPECT_TRUE(symmetric(shape, mirror_x) && symmetric(shape, mirror_y) && symmetric(shape, mirror_z));
+}
+
+TEST(Generators, Pyramid) {
+  const Shape shape = make_shape(Pyramid{2, 3, 4});
+  expect_sound(shape);
+  EXPECT_TRUE(oriented(shape.mesh));
+  EXPECT_EQ(border_edges(shape.mesh), 4u);
+  EXPECT_NEAR(volume(shape), 8, 1e-14) << "the base, through the origin, adds nothing";
+  EXPECT_EQ(shape.positions[shape.sets.at("tip")[0]], (Position{0, 0, 3}));
+  EXPECT_EQ(shape.sets.at("base").size(), 4u);
 }
 
 TEST(Connectivity, EdgesAndTheirFaces) {

@@ -32,6 +32,16 @@ Model<double, Dim> spring_pair(double m0, double m1, double k, double stretch, d
   return model;
 }
 
+/// Steps from the estimate, times a factor.
+template <int Dim>
+void choose_steps(Model<double, Dim>& model, double factor) {
+  std::vector<double> w(model.x.size());
+  for (std::size_t i = 0; i < w.size(); ++i) w[i] = 1 / model.mass[i];
+  for (const VertexId v : model.pinned) w[v] = 0;
+  std::apply([&](auto&... list) { ((list.steps = stable_steps(list, model.x, w, factor)), ...); },
+             model.forces.lists());
+}
+
 struct SheetOptions {
   int cells = 6;         ///< along each side
   double size = 1;       ///< [m]

@@ -38,7 +38,7 @@ std::string build_problem(const Json& scene, const std::filesystem::path& path =
 double total(const std::vector<double>& mass) { return std::accumulate(mass.begin(), mass.end(), 0.0); }
 
 TEST(BuildModel, AnElasticSheetHasMembranesAndHinges) {
-  const auto [model, bodies] = built(sheet());
+  const auto [model, bodies, contact] = built(sheet());
   EXPECT_EQ(model.mesh.vertex_count, 9u);
   EXPECT_EQ(model.mesh.faces.size(), 8u);
   EXPECT_EQ(model.forces.membranes.forces.size(), 8u);
@@ -102,6 +102,50 @@ TEST(BuildModel, ALoopInThePlaneTurns) {
   EXPECT_EQ(model.forces.edge_springs.forces[0].constant, 100);
   EXPECT_NEAR(model.forces.edge_springs.forces[0].rest_length, std::sin(std::numbers::pi / 8), 1e-15);
   EXPECT_NEAR(total(model.mass), 0.08, 1e-15);
+}
+
+TEST(BuildModel, AnArrayIsCopiesInRows) {
+  Json scene = sheet();
+  scene["bodies"][0]["transform"]["translate"] = {10, 0, 0};
+  scene["bodies"][0]["array"] = {{"counts", {2, 3, 2}}, {"spacing", {2, 3, 0.5}}};
+  scene["bodies"][0]["pin"] = {"left_top"};
+  const auto [model, bodies, contact] = built(scene);
+  ASSERT_EQ(model.mesh.vertex_count, 12u * 9);
+  EXPECT_EQ(model.mesh.faces.size(), 12u * 8);
+  EXPECT_EQ(model.forces.membranes.forces.size(), 12u * 8);
+  EXPECT_EQ(model.forces.hinges.forces.size(), 12u * 8) << "copies are not joined";
+  EXPECT_NEAR(total(model.mass), 120, 1e-12);
+  for (VertexId i = 0; i < 9; ++i) {
+    EXPECT_EQ(model.x[9 + i], model.x[i] + (Vec<double, 3>(2, 0, 0)));
+    EXPECT_EQ(model.x[18 + i], model.x[i] + (Vec<double, 3>(0, 3, 0)));
+    EXPECT_EQ(model.x[99 + i], model.x[i] + (Vec<double, 3>(2, 6, 0.5)));
+  }
+  EXPECT_EQ(model.mesh.faces[8],
+            (std::array{model.mesh.faces[0][0] + 9, model.mesh.faces[0][1] + 9, model.mesh.faces[0][2] + 9}));
+  EXPECT_EQ(bodies[0].pinned, 12u) << "one of each copy";
+  EXPECT_EQ(model.pinned[1], model.pinned[0] + 9);
+}
+
+TEST(BuildModel, ArraysThatDoNotFit) {
+  const auto problem = [](const char* array) {
+    return build_problem(changed(sheet(), "/bodies/0/array", Json::parse(array)));
+  };
+  EXPECT_EQ(problem(R"({"counts": [2, 1, 1]})"),
+            "s.json: /bodies/0/array/spacing: expected a spacing along axis 0, of which there are 2 copies");
+  EXPECT_EQ(problem(R"({"counts": [2, 1], "spacing": [1, 1, 1]})"),
+            "s.json: /bodies/0/array/counts: expected 3 numbers, as many as the scene has dimensions, found [2,1]");
+  EXPECT_EQ(problem(R"({"counts": [1000000, 1000000, 1000000], "spacing": [1, 1, 1]})"),
+            "s.json: /bodies/0/array/counts: expected at most 20000000 vertices, found 9e+18");
+}
+
+TEST(BuildModel, LoosePointsHaveMassByVertexOnly) {
+  Json scene = loop();
+  scene["bodies"][0]["mesh"] = R"({"points": {"at": [[0, 1], [2, 1]]}})"_json;
+  const auto model = built<2>(scene).model;
+  EXPECT_EQ(model.mesh.points, (std::vector<VertexId>{0, 1}));
+  EXPECT_EQ(total(model.mass), 0.02);
+  scene["bodies"][0]["material"] = R"({"edge_stiffness": 1, "mass_per_length": 1})"_json;
+  EXPECT_NE(build_problem<2>(scene), "");
 }
 
 TEST(BuildModel, AnElasticCurveIsABeam) {
@@ -186,7 +230,7 @@ TEST(BuildModel, SecondBodiesAreNumberedOn) {
   Json scene = changed(sheet(), "/bodies/0/pin", {"left"});
   scene["bodies"].push_back(scene["bodies"][0]);
   scene["bodies"][1]["transform"] = R"({"translate": [0, 0, 1]})"_json;
-  const auto [model, bodies] = built(scene);
+  const auto [model, bodies, contact] = built(scene);
   EXPECT_EQ(bodies[1].first, 9u);
   EXPECT_EQ(bodies[1].name, "body1");
   EXPECT_EQ(model.pinned, (std::vector<VertexId>{0, 3, 6, 9, 12, 15}));
@@ -195,7 +239,7 @@ TEST(BuildModel, SecondBodiesAreNumberedOn) {
 }
 
 TEST(BuildModel, ForcesThatMoveNothingAreLeftOut) {
-  const auto [model, bodies] = built(changed(sheet(), "/bodies/0/pin", R"([0, 1, 3, 4])"_json));
+  const auto [model, bodies, contact] = built(changed(sheet(), "/bodies/0/pin", R"([0, 1, 3, 4])"_json));
   EXPECT_EQ(model.forces.membranes.forces.size(), 6u);
   EXPECT_EQ(model.forces.hinges.forces.size(), 7u);
   EXPECT_EQ(bodies[0].idle_forces, 3u);
@@ -278,7 +322,7 @@ TEST(Scripts, PathsAreDisplacements) {
   scene["scripts"] = R"([{"body": "body0", "vertices": ["left"],
                           "path": [{"t": 0.5, "move": [0, 0, 1]}, {"t": 2, "move": [0, 0, 3]}]}])"_json;
   scene["bodies"][0]["velocity"] = {1, 1, 1};
-  const auto [model, bodies] = built(scene);
+  const auto [model, bodies, contact] = built(scene);
   ASSERT_EQ(model.scripts.size(), 3u);
   EXPECT_EQ(bodies[0].scripted, 3u);
   EXPECT_EQ(model.scripts[1].vertex, 3u);

@@ -41,7 +41,7 @@ TEST(Explain, WhatIsActiveAndWhatIsLeftOut) {
   EXPECT_EQ(why(plain, "damping"), "no material has any");
   EXPECT_EQ(why(plain, "scripts"), "the scene has none");
   EXPECT_EQ(why(plain, "pinned vertices"), "the scene has none");
-  EXPECT_EQ(why(plain, "contact forces"), "there are none yet: a contact ends the run");
+  EXPECT_EQ(why(plain, "contact forces"), "the scene has no \"contact\": a contact ends the run");
   EXPECT_EQ(why(plain, "third coordinate"), "");
 }
 
@@ -99,8 +99,11 @@ TEST(Explain, EveryDefaultIsListed) {
                            "/allow_unstable",
                            "/gravity_step",
                            "/scripts",
+                           "/contact",
                            "/bodies/0/name",
                            "/bodies/0/mesh/grid/diagonals",
+                           "/bodies/0/array/counts",
+                           "/bodies/0/array/spacing",
                            "/bodies/0/deform/stretch",
                            "/bodies/0/deform/twist",
                            "/bodies/0/transform/scale",

@@ -138,6 +138,10 @@ INSTANTIATE_TEST_SUITE_P(
             "/bodies/0/mesh/grid/cells/0: expected a number not less than 1, found 0"},
         Bad{"/bodies/0/mesh/grid/cells", "[10000000, 10000000]",
             "/bodies/0/mesh/grid/cells: expected at most 20000000 vertices, found 100000020000001"},
+        Bad{"/bodies/0/mesh", R"({"chain": {"points": [[0,0,0],[1,0,0]], "segments": 2, "closed": true}})",
+            "/bodies/0/mesh/chain/segments: expected at least 3, as the chain is closed, found 2"},
+        Bad{"/bodies/0/mesh", R"({"torus": {"radius": 1, "tube_radius": 1, "segments": 3, "sides": 3}})",
+            "/bodies/0/mesh/torus/tube_radius: expected less than the radius, 1 [m], found 1"},
         Bad{"/bodies/0/pin", "[-1]", "/bodies/0/pin/0: expected a number not less than 0, found -1"},
         Bad{"/bodies/0/pin", "[true]", "/bodies/0/pin/0: expected an integer or a string or an object, found true"},
         Bad{"/bodies/0/pin", "[{\"box\": [[1,0,0],[0,1,1]]}]",
@@ -197,8 +201,9 @@ TEST(ReadScene, StepsAboveTheLimitAreAcceptedOnRequest) {
 TEST(ReadScene, ThePlaneHasCurvesAndDegreesOnly) {
   const Json loop = testing::loop();
   EXPECT_EQ(problem_of(loop), "");
-  EXPECT_EQ(problem_of(changed(loop, "/bodies/0/mesh", R"({"grid": {"size": [1, 1], "cells": [1, 1]}})"_json)),
-            "s.json: /bodies/0/mesh/grid: expected \"chain\", \"ring\" or \"file\" in a scene of dimension 2");
+  EXPECT_EQ(
+      problem_of(changed(loop, "/bodies/0/mesh", R"({"grid": {"size": [1, 1], "cells": [1, 1]}})"_json)),
+      "s.json: /bodies/0/mesh/grid: expected \"points\", \"chain\", \"ring\" or \"file\" in a scene of dimension 2");
   EXPECT_EQ(problem_of(changed(loop, "/bodies/0/spin", "[0, 0, 1]"_json)),
             "s.json: /bodies/0/spin: expected one number, as the scene has dimension 2, found [0,0,1]");
   EXPECT_EQ(problem_of(changed(loop, "/bodies/0/deform/twist", 1)),
@@ -258,9 +263,9 @@ void visit_leaves(const Json& value, const Json::json_pointer& at,
 
 /// Another value that a scene may have in the same place.
 Json other(const Json& value) {
-  static const std::map<std::string, std::string> twins = {{"frames", "full"},          {"own", "grouped"},
-                                                           {"parallel", "alternating"}, {"stretch", "bend"},
-                                                           {"left", "right"},           {"body0", "curve"}};
+  static const std::map<std::string, std::string> twins = {
+      {"frames", "full"}, {"own", "grouped"}, {"parallel", "alternating"}, {"stretch", "bend"},
+      {"left", "right"},  {"body0", "curve"}, {"body2", "body3"}};
   if (value.is_boolean()) return !value.get<bool>();
   if (value.is_number_integer()) return value.get<int>() + 1;
   if (value.is_number()) return value.get<double>() * 0.75;

@@ -80,7 +80,7 @@ std::vector<Json> scenes_with_every_field() {
        "steps": {"stretch": 0.01, "bend": 0.02},
        "pin": [3, "left", {"box": [[-1.5, -1.5, -1.5], [1.5, 1.5, 1.5]]}]},
       {"name": "curve",
-       "mesh": {"chain": {"points": [[0.5, 0.5, 0.5], [1.5, 1.5, 1.5]], "segments": 3, "smooth": true}},
+       "mesh": {"chain": {"points": [[0.5, 0.5, 0.5], [1.5, 1.5, 1.5]], "segments": 3, "smooth": true, "closed": true}},
        "transform": {"rotate": {"quaternion": [0.5, 0.25, 1.5, 2.5]}},
        "material": {"edge_stiffness": 5.5, "bending_stiffness": 6.5, "mass_per_area": 7.5, "damping": 0.1,
                     "bending_damping": 0.2}},
@@ -95,19 +95,39 @@ std::vector<Json> scenes_with_every_field() {
       {"mesh": {"sphere": {"radius": 1.5, "subdivisions": 2}},
        "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
       {"mesh": {"box": {"size": [1.5, 2.5, 3.5], "cells": [2, 3, 4]}},
+       "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
+      {"mesh": {"points": {"at": [[0.5, 1.5, 2.5]]}}, "array": {"counts": [2, 3, 4], "spacing": [0.5, 1.5, 2.5]},
+       "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
+      {"mesh": {"torus": {"radius": 1.5, "tube_radius": 0.5, "segments": 4, "sides": 5}},
+       "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
+      {"mesh": {"pyramid": {"radius": 1.5, "height": 0.5, "sides": 4}},
        "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}}
     ],
     "scripts": [
       {"body": "body0", "vertices": [5, "right"], "path": [{"t": 0.5, "move": [0.5, 1.5, 2.5]}]},
       {"body": "body0", "vertices": [6], "frames": {"files": ["a.ply", "b.ply"], "rate": 24.5, "from": 0.5}}
     ],
-    "short": {"/duration": 1}})")};
+    "contact": {"thickness": 0.05, "stiffness": 1000.5, "step": 0.0001, "restitution": 0.5, "friction": 0.25,
+                "layers": {"thickness_exponent": 1, "stiffness_exponent": 4, "step_exponent": 3},
+                "most_layers": 100, "exclude": [["body0", "body0"]], "pairs": [
+                  {"bodies": ["body2", "body2"], "thickness": 0.05, "stiffness": 1000.5, "step": 0.0001,
+                   "restitution": 0.5, "friction": 0.25}]},
+    "short": {"/duration": 1}})"),
+          Json::parse(R"({
+    "noli_scene": 1, "duration": 2.5,
+    "bodies": [
+      {"mesh": {"disc": {"radius": 1.5, "rings": 3}}, "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}},
+      {"name": "curve", "mesh": {"disc": {"radius": 1.5, "rings": 3}},
+       "material": {"edge_stiffness": 5.5, "mass_per_vertex": 7.5}}
+    ],
+    "contact": {"stability": 0.125, "newton_restitution": 0.5, "pairs": [
+      {"bodies": ["body0", "body0"], "stability": 0.125, "newton_restitution": 0.25}]}})")};
 }
 
 bool same(const Scene& a, const Scene& b) {
   const auto parts = [](const Scene& s) {
     return std::tie(s.title, s.about, s.dimension, s.duration, s.window, s.seed, s.record, s.frame_rate, s.steps,
-                    s.step_factor, s.allow_unstable, s.gravity, s.gravity_step, s.bodies, s.scripts);
+                    s.step_factor, s.allow_unstable, s.gravity, s.gravity_step, s.bodies, s.scripts, s.contact);
   };
   return parts(a) == parts(b);
 }

@@ -13,19 +13,10 @@
 namespace noli::integrator {
 namespace {
 
+using test::choose_steps;
 using test::sheet;
 using test::SheetOptions;
 using test::spring_pair;
-
-/// Steps from the estimate, times a factor.
-template <int Dim>
-void choose_steps(Model<double, Dim>& model, double factor) {
-  std::vector<double> w(model.x.size());
-  for (std::size_t i = 0; i < w.size(); ++i) w[i] = 1 / model.mass[i];
-  for (const VertexId v : model.pinned) w[v] = 0;
-  std::apply([&](auto&... list) { ((list.steps = stable_steps(list, model.x, w, factor)), ...); },
-             model.forces.lists());
-}
 
 template <int Dim>
 void run(Simulation<double, Dim>& simulation, std::uint64_t windows) {
@@ -274,13 +265,40 @@ TEST(Simulation, WhatIsNotFiniteIsFound) {
   EXPECT_TRUE(simulation.finite());
   run(simulation, 1);
   EXPECT_FALSE(simulation.finite());
-  const NotFinite found = again.find_not_finite();
-  EXPECT_EQ(found.kind, ForceKind::edge_spring);
-  EXPECT_EQ(found.force, (std::vector<VertexId>{0, 1}));
-  EXPECT_EQ(found.vertex, 0);
-  EXPECT_GE(found.time, 0);
+  const auto go_on = [] { return false; };
+  const std::optional<NotFinite> found = again.find_not_finite(go_on);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->kind, ForceKind::edge_spring);
+  EXPECT_EQ(found->force, (std::vector<VertexId>{0, 1}));
+  EXPECT_EQ(found->vertex, 0);
+  EXPECT_GE(found->time, 0);
   Simulation<double, 3> calm(spring_pair<3>(1, 1, 10, 0.1, 0x1p-4));
-  EXPECT_THROW(calm.find_not_finite(), std::logic_error);
+  EXPECT_THROW(calm.find_not_finite(go_on), std::logic_error);
+}
+
+TEST(Simulation, StopsWithinAWindow) {
+  for (const Clocks clocks : {Clocks::grouped, Clocks::own}) {
+    Model<double, 3> model = spring_pair<3>(1, 1, 10, 0.1, 0x1p-20);
+    model.clocks = clocks;
+    model.window_length = 0x1p-3;
+    Simulation<double, 3> stopped(model), asked(model), whole(model);
+    Recording<double, 3> recording, another;
+    Books<double, 3> books, other_books;
+    int questions = 0;
+    EXPECT_FALSE(stopped.run_window(recording, books, [&] { return ++questions == 3; }));
+    EXPECT_EQ(questions, 3);
+    EXPECT_EQ(stopped.windows(), 0);
+    EXPECT_LT(stopped.events(), 60000);
+    Simulation<double, 3> searched(model);
+    EXPECT_FALSE(searched.find_not_finite([] { return true; }).has_value());
+    recording.clear();
+    books = {};
+    EXPECT_TRUE(asked.run_window(recording, books, [&] { return ++questions < 0; }));
+    whole.run_window(another, other_books);
+    EXPECT_GT(questions, 3 + static_cast<int>(whole.events() >> 15));
+    expect_same(asked.snapshot(), whole.snapshot());
+    EXPECT_EQ(recording.stream().size(), another.stream().size());
+  }
 }
 
 TEST(Simulation, ModelsThatAreNoneAreRefused) {

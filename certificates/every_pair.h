@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Certificates as Algorithm 1 has them (Harmon et al. 2009): a slab for every pair of features, each with its failure
+// time, and all of them that depend on a vertex computed anew whenever its velocity may have changed (lines 11 to 13).
+// For tests, for comparison, and for readers: certificates/cells.h does the same for a small part of the cost.
+//
+// Notation: that of certificates/cells.h, and
+//   failure      the first time at which one of a slab's vertices reaches its wall
+//   contingent   of a vertex: the pairs that it is part of
+//
+// What this does not do: it has no broad phase, so it takes memory for the square of the number of features.
+#pragma once
+
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "noli/certificates/features.h"
+#include "noli/certificates/near_pair.h"
+
+namespace noli::certificates {
+
+template <int Dim, class Host>
+class EveryPair {
+ public:
+  /// Host: as in certificates/cells.h.
+  EveryPair(Host& host, const Mesh& mesh) : host_(host), contingent_(mesh.vertex_count) {
+    const Features features(mesh, Dim);
+    const auto cells = static_cast<std::uint32_t>(features.cells().size());
+    for (std::uint32_t a = 0; a < cells; ++a) {
+      for (std::uint32_t b = a + 1; b < cells; ++b) {
+        features.for_each_pair(a, b, [this](const Stencil& s) { add(s); });
+      }
+    }
+    failures_.resize(pairs_.size(), never);
+  }
+
+  void start(double t) {
+    measure(t);
+    for (std::uint32_t p = 0; p < pairs_.size(); ++p) repair(p, t);
+  }
+
+  void look(VertexId i, double t) {
+    measure_one(i, t);
+    for (const std::uint32_t p : contingent_[i]) reschedule(p, t);
+  }
+
+  double next_time() const { return queue_.empty() ? never : queue_.begin()->first; }
+
+  void run_next() {
+    const auto [t, p] = *queue_.begin();
+    repair(p, t);
+  }
+
+  void drop_if_clear(PairKey key, std::uint32_t l, double distance, double t) {
+    const std::uint32_t p = index_.at(key);
+    if (!is_clear(host_, pairs_[p], l, distance, margin_)) return;
+    lose_layer(host_, pairs_[p], counts_);
+    repair(p, t);
+  }
+
+  const CertificateCounts& counts() const { return counts_; }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  void add(const Stencil& s) {
+    const std::uint16_t material = material_of(host_, s);
+    if (material == no_material) return;
+    const auto p = static_cast<std::uint32_t>(pairs_.size());
+    pairs_.push_back({s, material, 0, {}});
+    index_.emplace(s.key, p);
+    for (std::size_t k = 0; k < s.size(); ++k) contingent_[s.vertices[k]].push_back(p);
+    counts_.most_near = pairs_.size();
+  }
+
+  void measure(double t) {
+    for (std::size_t i = 0; i < contingent_.size(); ++i) measure_one(static_cast<VertexId>(i), t);
+  }
+  void measure_one(VertexId i, double t) {
+    margin_ = std::max(margin_, 0x1p-44 * host_.line(i).at(t).cwiseAbs().maxCoeff());
+  }
+
+  void repair(std::uint32_t p, double t) {
+    fit_slab(host_, pairs_[p], t, margin_, counts_);
+    reschedule(p, t);
+  }
+
+  void reschedule(std::uint32_t p, double t) {
+    ++counts_.plans;
+    const double s = failure_time(pairs_[p], t);
+    if (s == failures_[p]) return;
+    if (failures_[p] != never) queue_.erase({failures_[p], p});
+    failures_[p] = s;
+    if (s != never) queue_.insert({s, p});
+  }
+
+  /// Not before t. A clearance that is used up fails at once.
+  double failure_time(const NearPair<Dim>& pair, double t) const {
+    double failure = never;
+    for (std::size_t k = 0; k < pair.stencil.size(); ++k) {
+      const Line<Dim> line = host_.line(pair.stencil.vertices[k]);
+      const bool of_a = k < pair.stencil.first();
+      const double clearance = pair.slab.clearance(of_a, line.at(t), t) - 4 * margin_;
+      const double closing = pair.slab.closing(of_a, line.v);
+      if (!(clearance > 0)) return t;
+      if (closing > 0) failure = std::min(failure, t + clearance / closing);
+    }
+    return failure;
+  }
+
+  Host& host_;
+  std::vector<NearPair<Dim>> pairs_;
+  std::unordered_map<PairKey, std::uint32_t> index_;
+  std::vector<std::vector<std::uint32_t>> contingent_;
+  std::vector<double> failures_;
+  std::set<std::pair<double, std::uint32_t>> queue_;
+  double margin_ = 0;
+  CertificateCounts counts_;
+};
+
+}  // namespace noli::certificates

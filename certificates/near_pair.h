@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pair that is followed by itself: its slab, and how many layers it needs.
+//
+// Notation: that of certificates/cells.h. `margin` stands for all rounding between what is extrapolated here and what is
+// recorded.
+//
+// What this does not do: it says nothing about when a slab fails.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "noli/certificates/counts.h"
+#include "noli/certificates/slab.h"
+
+namespace noli::certificates {
+
+constexpr std::uint16_t no_material = 0xffff;
+
+template <int Dim>
+struct NearPair {
+  Stencil stencil;
+  std::uint16_t material = 0;
+  std::uint32_t layers = 0;  ///< L
+  Slab<Dim> slab;
+
+  bool in_a(VertexId i) const { return stencil.vertices[0] == i || (stencil.first() == 2 && stencil.vertices[1] == i); }
+};
+
+/// Of a pair, or no_material if it is none to contact.
+template <class Host>
+std::uint16_t material_of(const Host& host, const Stencil& s) {
+  bool moves = false;
+  for (std::size_t k = 0; k < s.size(); ++k) moves |= !host.immovable(s.vertices[k]);
+  return moves ? host.material(s.vertices[0], s.vertices[s.first()]) : no_material;
+}
+
+/// One layer more.
+template <int Dim, class Host>
+void gain_layer(Host& host, NearPair<Dim>& pair, double t, CertificateCounts& counts) {
+  ++pair.layers;
+  ++counts.activations;
+  counts.deepest = std::max(counts.deepest, pair.layers);
+  host.activate(pair.stencil, pair.material, pair.layers, t);
+}
+
+template <int Dim, class Host>
+void lose_layer(Host& host, NearPair<Dim>& pair, CertificateCounts& counts) {
+  ++counts.deactivations;
+  host.deactivate(pair.stencil, pair.material, pair.layers--);
+}
+
+/// Puts up a slab of thickness eta(L + 1) where the pair is at time t, after as many more layers as that takes. A layer
+/// is taken when the room that is left is less than a quarter of the next one's width.
+template <int Dim, class Host>
+void fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, CertificateCounts& counts) {
+  const Stencil& s = pair.stencil;
+  std::array<Vector<Dim>, 4> x, v;
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    const Line<Dim> line = host.line(s.vertices[k]);
+    x[k] = line.at(t);
+    v[k] = line.v;
+  }
+  const std::span<const Vector<Dim>> xs(x.data(), s.size()), vs(v.data(), s.size());
+  const Closest<Dim> c = closest<Dim>(s.kind, xs);
+  ++counts.repairs;
+  while (pair.layers < host.least_layers()) gain_layer(host, pair, t, counts);
+  for (;; gain_layer(host, pair, t, counts)) {
+    const double eta = host.thickness(pair.material, pair.layers + 1);
+    const double room = 0.25 * (eta - host.thickness(pair.material, pair.layers + 2)) + 64 * margin;
+    if (!(c.distance() - eta > room)) continue;
+    pair.slab = slab_between<Dim>(s, c, xs, vs, t, 0.5 * eta);
+    if (pair.slab.slack > 0.25 * room) return;
+  }
+}
+
+/// Whether layer l gives no impulse at this distance, is the deepest, and will not be needed soon: then it may go. Twice
+/// as far out as where it would be taken again.
+template <int Dim, class Host>
+bool is_clear(const Host& host, const NearPair<Dim>& pair, std::uint32_t l, double distance, double margin) {
+  if (pair.layers != l || l <= host.least_layers()) return false;
+  const double eta = host.thickness(pair.material, l);
+  return distance > eta + 0.5 * (eta - host.thickness(pair.material, l + 1)) + 128 * margin;
+}
+
+}  // namespace noli::certificates

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contact in scenes: what is read, refused, filled in, built and explained.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "noli/integrator/scene/build_model.h"
+#include "noli/integrator/scene/explain.h"
+#include "noli/trajectory/error.h"
+#include "scenes.h"
+
+namespace noli::integrator {
+namespace {
+
+using testing::changed;
+using testing::loop;
+using testing::sheet;
+
+/// Two sheets and a floor that is pinned.
+Json sheets(const Json& contact) {
+  Json scene = sheet();
+  scene["bodies"][0]["name"] = "low";
+  scene["bodies"].push_back(scene["bodies"][0]);
+  scene["bodies"].push_back(scene["bodies"][0]);
+  scene["bodies"][1]["name"] = "high";
+  scene["bodies"][1]["transform"]["translate"] = {0, 0, 1};
+  scene["bodies"][2]["name"] = "floor";
+  scene["bodies"][2]["transform"]["translate"] = {0, 0, -1};
+  scene["bodies"][2]["pin"] = {"all"};
+  scene["contact"] = contact;
+  return scene;
+}
+
+template <int Dim = 3>
+BuiltScene<Dim> built(const Json& scene) {
+  return build_model<Dim>(parse_scene(scene.dump(), "s.json"));
+}
+
+template <int Dim = 3>
+ContactSettings settings(const Json& scene) {
+  return built<Dim>(scene).model.contact.value();
+}
+
+/// Least and greatest mass of a vertex of the sheet of 10 kg: a corner with two triangles, the middle with eight.
+constexpr double light = 10.0 * 2 / 24, heavy = 10.0 * 8 / 24;
+const double sheet_bound = std::sqrt(0.125) / 2;  ///< half the height of its triangles of legs 0.5
+
+TEST(SceneContact, IsNotThereUnlessItIsSaid) {
+  EXPECT_FALSE(parse_scene(sheet().dump(), "s.json").contact);
+  EXPECT_FALSE(built(sheet()).model.contact);
+  EXPECT_TRUE(built(sheet()).contact.empty());
+}
+
+TEST(SceneContact, DefaultsComeFromTheMeshTheMassesAndTheSpeeds) {
+  Json scene = changed(sheet(), "/contact", Json::object());
+  const ContactSettings still = settings(scene);
+  EXPECT_EQ(still.schedule, LayerSchedule{});
+  EXPECT_EQ(still.most_layers, 10000u);
+  EXPECT_EQ(still.groups, std::vector<std::uint16_t>(9, 0));
+  ASSERT_EQ(still.materials.size(), 1u);
+  EXPECT_NEAR(still.materials[0].thickness, sheet_bound / 2, 1e-15);
+  EXPECT_NEAR(still.materials[0].stiffness, heavy * 1e4, 1e-8) << "a thickness in a window of 0.01 s";
+  EXPECT_NEAR(still.materials[0].step, 0.05 * std::sqrt(light / (2 * heavy * 1e4)), 1e-12);
+  EXPECT_EQ(still.materials[0].restitution, 1);
+  EXPECT_EQ(still.materials[0].friction, 0);
+  scene["gravity"] = {0, 0, -10};
+  scene["bodies"][0]["transform"]["rotate"] = {{"axis", {1, 0, 0}}, {"degrees", 90}};  // 1 m high
+  scene["bodies"][0]["velocity"] = {0, 3, 4};
+  scene["bodies"][0]["pin"] = {"right_top"};
+  scene["scripts"] = R"([{"body": "body0", "vertices": ["right_bottom"],
+                          "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 0.5, "move": [0, 0, 1]}]}])"_json;
+  const double v = 5 + 2 + std::sqrt(20.0), rate = v / (sheet_bound / 2);
+  EXPECT_NEAR(settings(scene).materials[0].stiffness / (heavy * rate * rate), 1, 1e-12);
+}
+
+TEST(SceneContact, InThePlaneTheLengthOfEdgesBounds) {
+  const Json scene = changed(loop(), "/contact", Json::object());
+  EXPECT_NEAR(settings<2>(scene).materials[0].thickness, std::sin(M_PI / 8) / 4, 1e-15);
+}
+
+TEST(SceneContact, TheRestShapeBoundsNotThatOfTheStart) {
+  Json scene = changed(sheet(), "/contact", Json::object());
+  scene["bodies"][0]["transform"]["scale"] = 2;
+  scene["bodies"][0]["deform"]["stretch"] = {0.1, 0.1, 1};
+  EXPECT_NEAR(settings(scene).materials[0].thickness, sheet_bound, 1e-15);
+}
+
+TEST(SceneContact, CellsThatCannotMoveDoNotBound) {
+  Json scene = sheets(Json::object());
+  scene["bodies"][2]["mesh"]["grid"]["cells"] = {100, 100};
+  EXPECT_NEAR(settings(scene).materials[0].thickness, sheet_bound / 2, 1e-15);
+}
+
+TEST(SceneContact, WhatIsSaidIsTaken) {
+  const Json contact = R"({"thickness": 0.05, "stiffness": 200, "stability": 0.1, "newton_restitution": 0.5,
+      "friction": 0.25, "most_layers": 7,
+      "layers": {"thickness_exponent": 0.5, "stiffness_exponent": 2.75, "step_exponent": 1.75}})"_json;
+  ContactSettings s = settings(changed(sheet(), "/contact", contact));
+  EXPECT_EQ(s.materials[0].thickness, 0.05);
+  EXPECT_EQ(s.materials[0].stiffness, 200);
+  EXPECT_NEAR(s.materials[0].step, 0.1 * std::sqrt(light / 400), 1e-16);
+  EXPECT_EQ(s.materials[0].restitution, 0.25);
+  EXPECT_EQ(s.materials[0].friction, 0.25);
+  EXPECT_EQ(s.most_layers, 7u);
+  EXPECT_EQ(s.schedule, (LayerSchedule{2, 11, 7}));
+  s = settings(changed(sheet(), "/contact", R"({"step": 0.001, "stiffness": 200, "restitution": 0})"_json));
+  EXPECT_EQ(s.materials[0].step, 0.001);
+  EXPECT_EQ(s.materials[0].restitution, 0);
+}
+
+TEST(SceneContact, PairsHaveWhatIsSaidOfThemAndTheRestOfAll) {
+  const ContactSettings s = settings(sheets(R"({"stiffness": 100, "step": 0.001, "restitution": 0.5, "pairs": [
+      {"bodies": ["high", "low"], "friction": 0.5, "stability": 0.02},
+      {"bodies": ["floor", "low"], "thickness": 0.01, "newton_restitution": 0.1}], "exclude": [["high", "high"]]})"_json));
+  ASSERT_EQ(s.group_count, 3);
+  EXPECT_EQ(s.materials.size(), 3u);
+  EXPECT_EQ(s.groups[8], 0);
+  EXPECT_EQ(s.groups[9], 1);
+  EXPECT_EQ(s.groups[26], 2);
+  const auto of = [&](VertexId i, VertexId j) { return s.materials.at(s.material(i, j)); };
+  EXPECT_EQ(of(0, 9), of(9, 0));
+  EXPECT_EQ(of(0, 9).friction, 0.5);
+  EXPECT_NEAR(of(0, 9).step, 0.02 * std::sqrt(light / 200), 1e-16) << "its stability, not the step of all";
+  EXPECT_EQ(of(0, 9).restitution, 0.5);
+  EXPECT_EQ(of(0, 18).thickness, 0.01);
+  EXPECT_NEAR(of(0, 18).restitution, 0.01, 1e-17);
+  EXPECT_EQ(of(0, 18).step, 0.001);
+  EXPECT_EQ(of(0, 0), of(9, 18)) << "that of all";
+  EXPECT_EQ(s.material(9, 10), ContactSettings::excluded);
+  EXPECT_EQ(s.material(18, 19), ContactSettings::excluded) << "nothing there can move";
+}
+
+struct Bad {
+  const char* contact;
+  const char* message;
+};
+
+void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.contact; }
+
+class BadContact : public ::testing::TestWithParam<Bad> {};
+
+TEST_P(BadContact, IsAnsweredWithThePathAndWhatWasExpected) {
+  try {
+    built(sheets(Json::parse(GetParam().contact)));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), std::string("s.json: /contact") + GetParam().message);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fields, BadContact,
+    ::testing::Values(
+        Bad{"true", ": expected an object, found true"},
+        Bad{R"({"thicknes": 1})", "/thicknes: unknown field; the nearest known one is \"thickness\""},
+        Bad{R"({"thickness": 0})", "/thickness: expected a number greater than 0 [m], found 0"},
+        Bad{R"({"thickness": 0.2})",
+            "/thickness: expected less than 0.17677669529663687 [m], half the least height at rest of the cells with a "
+            "free vertex, found 0.2; the largest that works is 0.17677669529663684"},
+        Bad{R"({"thickness": 0.17677669529663687})",
+            "/thickness: expected less than 0.17677669529663687 [m], half the least height at rest of the cells with a "
+            "free vertex, found 0.17677669529663687; the largest that works is 0.17677669529663684"},
+        Bad{R"({"pairs": [{"bodies": ["low", "floor"], "thickness": 1}]})",
+            "/pairs/0/thickness: expected less than 0.17677669529663687 [m], half the least height at rest of the "
+            "cells with a free vertex, found 1; the largest that works is 0.17677669529663684"},
+        Bad{R"({"stiffness": 0})", "/stiffness: expected a number greater than 0 [N/m], found 0"},
+        Bad{R"({"stiffness": 1e90})",
+            "/stiffness: expected a step of contact that can be counted over the duration, found "
+            "3.227486121839514e-47 [s]: too stiff, or too light"},
+        Bad{R"({"step": 0.02})", "/step: expected at most the window, 0.01 [s], found 0.02"},
+        Bad{R"({"step": 0.01, "stiffness": 2000})",
+            "/step: expected at most 0.007216878364870323 [s], above which a bounce gains energy without end, or "
+            "\"allow_unstable\": true, found 0.01"},
+        Bad{R"({"stability": 0.75})",
+            "/stability: expected at most 0.5, above which a bounce gains energy without end, or \"allow_unstable\": "
+            "true, found 0.75"},
+        Bad{R"({"step": 0.01, "stability": 0.05})", ": expected at most one of the fields \"step\", \"stability\""},
+        Bad{R"({"restitution": 1, "newton_restitution": 1})",
+            ": expected at most one of the fields \"restitution\", \"newton_restitution\""},
+        Bad{R"({"restitution": 1.01})", "/restitution: expected a number not greater than 1, found 1.01"},
+        Bad{R"({"restitution": -0.01})", "/restitution: expected a number not less than 0, found -0.01"},
+        Bad{R"({"newton_restitution": 2})", "/newton_restitution: expected a number not greater than 1, found 2"},
+        Bad{R"({"friction": -0.1})", "/friction: expected a number not less than 0, found -0.1"},
+        Bad{R"({"most_layers": 0})", "/most_layers: expected a number not less than 1, found 0"},
+        Bad{R"({"layers": {"thickness_exponent": 0.3}})",
+            "/layers/thickness_exponent: expected a multiple of 1/4, found 0.3"},
+        Bad{R"({"layers": {"thickness_exponent": 0}})",
+            "/layers/thickness_exponent: expected a number greater than 0, found 0"},
+        Bad{R"({"layers": {"thickness_exponent": 2, "stiffness_exponent": 2.75, "step_exponent": 3}})",
+            "/layers/stiffness_exponent: expected at least 3, twice the thickness_exponent less 1, found 2.75: the "
+            "layers' energies, stiffness * thickness^2, have a finite sum, so that a great speed gets through"},
+        Bad{R"({"layers": {"thickness_exponent": 1.5}})",
+            "/layers/step_exponent: expected more than 1.5, the thickness_exponent, found 1.5: deep layers could be "
+            "passed between two of their kicks"},
+        Bad{R"({"exclude": [["low", "hihg"]]})",
+            "/exclude/0/1: no body has the name \"hihg\"; the nearest is \"high\""},
+        Bad{R"({"exclude": [["low"]]})", "/exclude/0: expected at least 2 items, found [\"low\"]"},
+        Bad{R"({"pairs": [{"bodies": ["flor", "low"]}]})",
+            "/pairs/0/bodies/0: no body has the name \"flor\"; the nearest is \"floor\""},
+        Bad{R"({"pairs": [{"bodies": ["low", "high"]}, {"bodies": ["high", "low"]}]})",
+            "/pairs/1/bodies: expected bodies that no other pair has, found [\"high\",\"low\"]"},
+        Bad{R"({"pairs": [{"bodies": ["low", "high"]}], "exclude": [["high", "low"]]})",
+            "/pairs/0/bodies: expected bodies that \"exclude\" does not name"},
+        Bad{R"({"pairs": [{"friction": 1}]})", "/pairs/0: expected the field \"bodies\" (their names)"}));
+
+TEST(SceneContact, TheLargestThicknessThatIsNamedWorks) {
+  EXPECT_EQ(settings(sheets(R"({"thickness": 0.17677669529663684})"_json)).materials[0].thickness, 0.17677669529663684);
+}
+
+TEST(SceneContact, TheEdgesOfWhatIsAllowed) {
+  const Json contact = R"({"stability": 0.5, "restitution": 0, "friction": 0, "most_layers": 1,
+      "layers": {"thickness_exponent": 1.25, "stiffness_exponent": 1.5, "step_exponent": 1.5}})"_json;
+  EXPECT_EQ(settings(sheets(contact)).schedule, (LayerSchedule{5, 6, 6}));
+}
+
+TEST(SceneContact, WhatIsUnstableIsAcceptedOnRequest) {
+  Json scene = sheets(R"({"stability": 0.75})"_json);
+  scene["allow_unstable"] = true;
+  EXPECT_GT(settings(scene).materials[0].step, 0);
+}
+
+TEST(SceneContact, LoosePointsNeedAThicknessThatIsSaid) {
+  Json scene = loop();
+  scene["bodies"][0]["pin"] = {"all"};
+  scene["contact"] = Json::object();
+  EXPECT_TRUE(settings<2>(scene).materials.empty()) << "nothing can move";
+}
+
+bool has(const std::vector<std::string>& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+bool left_out(const Explanation& e, const std::string& what, const std::string& why) {
+  return std::any_of(e.left_out.begin(), e.left_out.end(),
+                     [&](const LeftOut& l) { return l.what == what && l.why == why; });
+}
+
+bool took(const Explanation& e, const std::string& path, const Json& value) {
+  return std::find(e.defaults.begin(), e.defaults.end(), DefaultTaken{path, value}) != e.defaults.end();
+}
+
+TEST(ExplainContact, WhatItIsAndWhatIsLeftOut) {
+  const Explanation e = explain(parse_scene(
+      sheets(R"({"thickness": 0.05, "stiffness": 200, "pairs": [{"bodies": ["low", "floor"], "restitution": 0.25}],
+                 "exclude": [["high", "high"]]})"_json)
+          .dump(),
+      "s.json"));
+  EXPECT_TRUE(has(e.active, "contact forces"));
+  EXPECT_TRUE(has(e.active, "restitution"));
+  EXPECT_TRUE(left_out(e, "friction", "its coefficient is 0 everywhere"));
+  EXPECT_TRUE(left_out(e, "contact of high and high", "\"exclude\" names them: they may go through each other"));
+  ASSERT_EQ(e.contact.size(), 2u);
+  EXPECT_EQ(e.contact[0].pairs.size(), 3u) << "low low, low high, high floor";
+  EXPECT_NEAR(e.contact[0].stability, 0.05, 1e-15);
+  const std::string text = to_text(e);
+  EXPECT_NE(text.find("  low with floor: thickness 0.05 m (below 0.176777), stiffness 200 N/m, step 0.00228218 s "
+                      "(stability 0.05), restitution 0.25 of the energy, friction 0\n"),
+            std::string::npos)
+      << text;
+  const Json json = to_json(e);
+  EXPECT_EQ(json["contact"][1]["pairs"], R"([["low", "floor"]])"_json);
+  EXPECT_EQ(json["contact"][1]["stiffness"], 200);
+  EXPECT_EQ(json["layers"]["step_exponent"], 1.5);
+}
+
+TEST(ExplainContact, DefaultsThatDependOnOthersAreListed) {
+  const Explanation e = explain(parse_scene(changed(sheet(), "/contact", Json::object()).dump(), "s.json"));
+  EXPECT_TRUE(took(e, "/contact/thickness", e.contact[0].material.thickness));
+  EXPECT_TRUE(took(e, "/contact/stiffness", e.contact[0].material.stiffness));
+  EXPECT_TRUE(took(e, "/contact/stability", 0.05));
+  EXPECT_TRUE(took(e, "/contact/restitution", 1));
+  EXPECT_TRUE(took(e, "/contact/friction", 0));
+  EXPECT_TRUE(took(e, "/contact/most_layers", 10000));
+  EXPECT_TRUE(left_out(e, "restitution", "it is 1 everywhere"));
+}
+
+TEST(ExplainContact, NothingToMove) {
+  Json scene = changed(sheet(), "/contact", Json::object());
+  scene["bodies"][0]["pin"] = {"all"};
+  const Explanation e = explain(parse_scene(scene.dump(), "s.json"));
+  EXPECT_TRUE(left_out(e, "contact forces", "nothing can move, or all that can is excluded"));
+  EXPECT_EQ(to_text(e).find("Contact: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace noli::integrator
