@@ -50,6 +50,46 @@ Shape shape_of(const Scene& scene, const Body& body, const Field& mesh) {
 }
 
 template <std::size_t N>
+void repeat(std::vector<std::array<VertexId, N>>& cells, std::size_t copies, std::size_t vertices) {
+  const std::size_t n = cells.size();
+  for (std::size_t k = n; k < n * copies; ++k) {
+    cells.push_back(cells[k - n]);
+    for (VertexId& i : cells.back()) i += static_cast<VertexId>(vertices);
+  }
+}
+
+void repeat(std::vector<VertexId>& ids, std::size_t copies, std::size_t vertices) {
+  const std::size_t n = ids.size();
+  for (std::size_t k = n; k < n * copies; ++k) ids.push_back(ids[k - n] + static_cast<VertexId>(vertices));
+}
+
+void require_few_copies(const Array& array, std::size_t vertices, const Field& at) {
+  const double all = 1.0 * array.counts[0] * array.counts[1] * array.counts[2] * static_cast<double>(vertices);
+  if (!(all <= most_vertices)) at.fail(fmt::format("expected at most {} vertices, found {}", most_vertices, all));
+}
+
+/// Copies in rows: of the mesh, its shape at rest, its sets; those at the start moved.
+void repeat(BodyMesh& made, const Array& array) {
+  const std::size_t n = made.shape.mesh.vertex_count, copies = array.copies();
+  Mesh& mesh = made.shape.mesh;
+  repeat(mesh.faces, copies, n);
+  repeat(mesh.edges, copies, n);
+  repeat(mesh.points, copies, n);
+  for (auto& [name, ids] : made.shape.sets) repeat(ids, copies, n);
+  mesh.vertex_count = n * copies;
+  for (std::size_t copy = 1; copy < copies; ++copy) {
+    const std::array<std::size_t, 3> at{copy % array.counts[0], copy / array.counts[0] % array.counts[1],
+                                        copy / array.counts[0] / array.counts[1]};
+    for (std::size_t i = 0; i < n; ++i) {
+      Position x = made.start[i];
+      for (std::size_t axis = 0; axis < 3; ++axis) x[axis] += static_cast<double>(at[axis]) * array.spacing[axis];
+      made.start.push_back(x);
+      made.rest.push_back(made.rest[i]);
+    }
+  }
+}
+
+template <std::size_t N>
 void require_different(const std::vector<std::array<VertexId, N>>& cells, const char* name, const Field& at) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     for (std::size_t i = 0; i < N; ++i) {
@@ -141,6 +181,8 @@ BodyMesh make_body(const Scene& scene, std::size_t index) {
   Placed placed = place(made.shape, body.deform, body.transform);
   made.rest = std::move(placed.rest);
   made.start = std::move(placed.start);
+  require_few_copies(body.array, made.shape.mesh.vertex_count, at["array"]["counts"]);
+  repeat(made, body.array);
   for (std::size_t i = 0; i < made.start.size(); ++i) {
     if (!std::isfinite(to_vec(made.start[i]).squaredNorm())) at.fail(fmt::format("vertex {} is too far away", i));
   }

@@ -9,6 +9,7 @@
 #include "noli/integrator/groups.h"
 #include "noli/integrator/scene/body_forces.h"
 #include "noli/integrator/scene/body_mesh.h"
+#include "noli/integrator/scene/build_contact.h"
 #include "noli/integrator/scene/build_scripts.h"
 #include "noli/integrator/scene/curve.h"
 #include "noli/integrator/scene/place.h"
@@ -194,6 +195,7 @@ BuiltScene<Dim> build_model(const Scene& scene) {
   }
   (std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
   add_gravity(scene, model);
+  add_contact(scene, meshes, inverse_mass, result);
   return result;
 }
 

@@ -20,6 +20,7 @@
 // do not bend.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -41,15 +42,23 @@ struct BuiltBody {
                             ///< than two loose edges: nothing bends there
 };
 
+/// What became of how bodies meet: one of the model's materials.
+struct BuiltContact {
+  double least_mass = 0;                          ///< of the free vertices of the bodies that have it [kg]
+  double bound = 0;                               ///< its thickness is below this [m]; infinite if nothing bounds it
+  std::vector<std::array<std::size_t, 2>> pairs;  ///< of bodies; those of which nothing is free are not there
+};
+
 template <int Dim>
 struct BuiltScene {
   Model<double, Dim> model;
   std::vector<BuiltBody> bodies;
+  std::vector<BuiltContact> contact;  ///< one for each of model.contact->materials
 };
 
 /// Precondition: Dim is the scene's dimension. Throws InputError that names the field: a mesh that does not load, faces
 /// or edges without size, vertices that are not there, scripts that do not fit, steps above the limit of stability
-/// (unless allow_unstable).
+/// (unless allow_unstable), layers too thick for the mesh.
 template <int Dim>
 BuiltScene<Dim> build_model(const Scene& scene);
 

@@ -15,12 +15,14 @@ Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, dou
   return b + (0.5 * t) * (linear + t * (quadratic + t * cubic));
 }
 
-/// The smooth curve as a polyline.
-std::vector<Vec3> smoothed(const std::vector<Vec3>& points) {
+/// The smooth curve as a polyline. A closed one has its first point at its end too.
+std::vector<Vec3> smoothed(const std::vector<Vec3>& points, bool closed) {
   constexpr int chords = 32;
-  std::vector<Vec3> padded{2 * points[0] - points[1]};  // mirrored: the curve leaves straight towards the second point
+  const std::size_t n = points.size();
+  // The ends of an open curve are mirrored: it leaves straight towards the second point.
+  std::vector<Vec3> padded{closed ? points[n - 2] : Vec3(2 * points[0] - points[1])};
   padded.insert(padded.end(), points.begin(), points.end());
-  padded.emplace_back(2 * points.back() - points[points.size() - 2]);
+  padded.emplace_back(closed ? points[1] : Vec3(2 * points[n - 1] - points[n - 2]));
   std::vector<Vec3> fine{points[0]};
   for (std::size_t span = 0; span + 1 < points.size(); ++span) {
     for (int k = 1; k <= chords; ++k) {
@@ -34,11 +36,12 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t n, bool smooth) {
+std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t n, CurveKind kind) {
   std::vector<Vec3> line;
   line.reserve(points.size());
   for (const Position& p : points) line.push_back(to_vec(p));
-  if (smooth) line = smoothed(line);
+  if (kind.closed) line.push_back(line.front());
+  if (kind.smooth) line = smoothed(line, kind.closed);
   std::vector<double> reached{0};  // length up to each point
   for (std::size_t i = 1; i < line.size(); ++i) reached.push_back(reached.back() + length(line[i] - line[i - 1]));
   if (!(reached.back() > 0) || !std::isfinite(reached.back())) throw std::invalid_argument("the curve has no length");
@@ -50,7 +53,7 @@ std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t
     const double part = (goal - reached[piece - 1]) / (reached[piece] - reached[piece - 1]);
     result.emplace_back(line[piece - 1] + part * (line[piece] - line[piece - 1]));
   }
-  result.push_back(line.back());
+  if (!kind.closed) result.push_back(line.back());
   return result;
 }
 

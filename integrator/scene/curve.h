@@ -15,9 +15,14 @@ using Vec3 = Vec<double, 3>;
 inline Vec3 to_vec(const Position& x) { return {x[0], x[1], x[2]}; }
 inline Position to_position(const Vec3& x) { return {x[0], x[1], x[2]}; }
 
-/// n + 1 points, the first and last of which are those of the curve; between them at k/n of its length, along straight
-/// lines, or (smooth) the Catmull-Rom curve. Precondition: at least two points, n >= 1. Throws std::invalid_argument if
-/// the curve has no length.
-std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t n, bool smooth);
+struct CurveKind {
+  bool smooth = false;  ///< the Catmull-Rom curve instead of straight lines
+  bool closed = false;  ///< goes on from the last point to the first
+};
+
+/// n + 1 points, the first and last of which are those of the curve; between them at k/n of its length. Of a closed
+/// curve n, without the last. Precondition: at least two points, n >= 1. Throws std::invalid_argument if the curve has no
+/// length.
+std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t n, CurveKind kind);
 
 }  // namespace noli::integrator

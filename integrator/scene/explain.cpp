@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "noli/integrator/scene/field.h"
 #include "noli/integrator/scene/predict.h"
@@ -31,7 +32,7 @@ class Survey {
     say(any([](const Body& b) { return !b.pin.empty(); }), "pinned vertices", "the scene has none");
     say(scene_.record == Record::full, "world lines in the files",
         "\"record\" is \"frames\": they can be computed again");
-    left_out("contact forces", "there are none yet: a contact ends the run");
+    contact();
     if (scene_.dimension == 2) left_out("third coordinate", "the scene has dimension 2");
   }
 
@@ -54,6 +55,19 @@ class Survey {
   }
 
  private:
+  void contact() {
+    const auto& all = out_.contact;
+    const auto some = [&all](auto&& holds) { return std::any_of(all.begin(), all.end(), holds); };
+    if (!scene_.contact) return left_out("contact forces", "the scene has no \"contact\": a contact ends the run");
+    say(!all.empty(), "contact forces", "nothing can move, or all that can is excluded");
+    say(some([](auto& c) { return c.material.restitution < 1; }), "restitution", "it is 1 everywhere");
+    say(some([](auto& c) { return c.material.friction > 0; }), "friction", "its coefficient is 0 everywhere");
+    for (const BodyPair& pair : scene_.contact->excluded) {
+      left_out(fmt::format("contact of {} and {}", scene_.bodies[pair[0]].name, scene_.bodies[pair[1]].name),
+               "\"exclude\" names them: they may go through each other");
+    }
+  }
+
   template <class Holds>
   bool any(Holds&& holds) const {
     return std::any_of(scene_.bodies.begin(), scene_.bodies.end(), holds);
@@ -83,6 +97,21 @@ void survey_forces(const Forces<double, 2>& forces, Survey& survey) {
   survey.forces(forces.turnings.forces.size(), "turning angles", "no curve with a bending stiffness can move");
 }
 
+/// What bodies do to each other.
+template <int Dim>
+void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
+  if (!built.model.contact) return;
+  e.layers = built.model.contact->schedule;
+  e.most_layers = built.model.contact->most_layers;
+  for (std::size_t i = 0; i < built.contact.size(); ++i) {
+    const BuiltContact& use = built.contact[i];
+    const ContactMaterial& m = built.model.contact->materials[i];
+    PredictedContact predicted{{}, m, m.step / std::sqrt(use.least_mass / (2 * m.stiffness)), use.bound};
+    for (const auto& [a, b] : use.pairs) predicted.pairs.push_back({built.bodies[a].name, built.bodies[b].name});
+    e.contact.push_back(std::move(predicted));
+  }
+}
+
 void warn(const Scene& scene, Explanation& e) {
   if (scene.allow_unstable)
     e.warnings.emplace_back("steps above the limit of stability are accepted (\"allow_unstable\")");
@@ -108,6 +137,18 @@ class Derived {
     add(steps, "stretch", "estimated");
     add(steps, "bend", "estimated");
   }
+  /// Of all pairs that say nothing else, where that is one number.
+  void contact(const Field& at, const std::vector<PredictedContact>& ways) {
+    const auto add_common = [&](const std::string& name, auto of) {
+      const bool same = std::all_of(ways.begin(), ways.end(), [&](auto& way) { return of(way) == of(ways.front()); });
+      if (!ways.empty()) add(at, name, same ? Json(of(ways.front())) : Json("of each pair"));
+    };
+    add_common("thickness", [](const PredictedContact& c) { return c.material.thickness; });
+    add_common("stiffness", [](const PredictedContact& c) { return c.material.stiffness; });
+    if (!at.has("step")) add(at, "stability", default_stability);
+    if (!at.has("newton_restitution")) add(at, "restitution", 1);
+    add(at, "friction", 0);
+  }
   void body(const Body& body, const Field& at) {
     add(at, "name", body.name);
     add(at, "spin", 0);
@@ -127,12 +168,15 @@ void add_derived_defaults(const Scene& scene, const Model<double, Dim>& model, E
   const Field root(scene.document, scene.path.string());
   Derived derived(explanation.defaults);
   if (model.gravity) derived.add(root, "gravity_step", model.gravity->step);
+  derived.add(root, "contact", "none");
+  if (scene.contact) derived.contact(root["contact"], explanation.contact);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) derived.body(scene.bodies[i], root["bodies"][i]);
 }
 
 template <int Dim>
 void explain(const Scene& scene, Explanation& explanation) {
   BuiltScene<Dim> built = build_model<Dim>(scene);
+  add_contact(built, explanation);
   explanation.bodies = std::move(built.bodies);
   Survey survey(scene, explanation);
   survey_forces(built.model.forces, survey);

@@ -10,9 +10,12 @@
 // give it up to two or three directions of oscillation; along each of these the forces of every longer step are the
 // slow ones.
 //
+// Contact has no prediction: its layers fire as long as things are near.
+//
 // What this does not do: it does not look for contact, does not guess how long a run takes, and sees only the start.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -24,6 +27,14 @@ namespace noli::integrator {
 
 struct LeftOut {
   std::string what, why;
+};
+
+/// One way to meet, and the pairs of bodies that do.
+struct PredictedContact {
+  std::vector<std::array<std::string, 2>> pairs;
+  ContactMaterial material;
+  double stability = 0;  ///< c: h(1) / sqrt(m / (2 r(1))), m the least mass
+  double bound = 0;      ///< of the thickness [m]; infinite if nothing bounds it
 };
 
 /// Forces that fire together; or, with steps of their own, all of one kind.
@@ -51,6 +62,9 @@ struct Explanation {
   std::vector<LeftOut> left_out;
   std::vector<BuiltBody> bodies;
   std::vector<PredictedGroup> groups;
+  std::vector<PredictedContact> contact;  ///< empty: none
+  LayerSchedule layers;
+  std::uint32_t most_layers = 0;
   double windows = 0;                             ///< of the whole run
   double events = 0, breakpoints = 0, bytes = 0;  ///< a second of simulated time
   double breakpoints_a_window = 0;

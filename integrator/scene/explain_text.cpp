@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "noli/integrator/scene/explain.h"
@@ -36,6 +38,35 @@ Json group_json(const PredictedGroup& g) {
           {"events_per_second", g.events}};
 }
 
+Json contact_json(const PredictedContact& c) {
+  return {{"pairs", c.pairs},
+          {"thickness", c.material.thickness},
+          {"thickness_below", c.bound},
+          {"stiffness", c.material.stiffness},
+          {"step", c.material.step},
+          {"stability", c.stability},
+          {"restitution", c.material.restitution},
+          {"friction", c.material.friction}};
+}
+
+Json layers_json(const Explanation& e) {
+  return {{"thickness_exponent", e.layers.thickness_quarters / 4.0},
+          {"stiffness_exponent", e.layers.stiffness_quarters / 4.0},
+          {"step_exponent", e.layers.step_quarters / 4.0},
+          {"most_layers", e.most_layers}};
+}
+
+std::string pairs_text(const PredictedContact& c) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, c.pairs.size()); ++i) {
+    const auto& [a, b] = c.pairs[i];
+    text += (i == 0 ? "" : ", ") + (a == b ? a + " with itself" : a + " with " + b);
+  }
+  if (c.pairs.size() > most) text += fmt::format(", and {} more pairs", c.pairs.size() - most);
+  return text;
+}
+
 Json body_json(const BuiltBody& b) {
   return {{"name", b.name},     {"first_vertex", b.first}, {"vertices", b.vertices},
           {"faces", b.faces},   {"edges", b.edges},        {"mass", b.mass},
@@ -67,6 +98,21 @@ void write_activity(Text& out, const Explanation& e) {
   for (const LeftOut& l : e.left_out) out.line("  {}: {}", l.what, l.why);
 }
 
+void write_contact(Text& out, const Explanation& e) {
+  if (e.contact.empty()) return;
+  out.line("Contact: layer l has thickness * l^-{}, stiffness * l^{}, step * l^-{}; a pair has at most {} layers",
+           e.layers.thickness_quarters / 4.0, e.layers.stiffness_quarters / 4.0, e.layers.step_quarters / 4.0,
+           e.most_layers);
+  for (const PredictedContact& c : e.contact) {
+    const std::string bound = std::isfinite(c.bound) ? fmt::format(" (below {:.6g})", c.bound) : "";
+    out.line(
+        "  {}: thickness {:.6g} m{}, stiffness {:.6g} N/m, step {:.6g} s (stability {:.3g}), "
+        "restitution {} of the energy, friction {}",
+        pairs_text(c), c.material.thickness, bound, c.material.stiffness, c.material.step, c.stability,
+        c.material.restitution, c.material.friction);
+  }
+}
+
 void write_predictions(Text& out, const Explanation& e) {
   out.line("Predicted steps:");
   for (const PredictedGroup& g : e.groups) {
@@ -90,6 +136,7 @@ std::string to_text(const Explanation& e) {
   out.line("{} (dimension {})", e.title, e.dimension);
   write_bodies(out, e);
   write_activity(out, e);
+  write_contact(out, e);
   write_predictions(out, e);
   for (const ResonanceWarning& w : e.resonances) out.line("Resonance: {}.", resonance_text(w));
   if (e.resonances.empty()) out.line("Resonance: none found.");
@@ -107,6 +154,9 @@ Json to_json(const Explanation& e) {
   for (const LeftOut& l : e.left_out) left_out.push_back({{"what", l.what}, {"why", l.why}});
   Json& groups = document["groups"] = Json::array();
   for (const PredictedGroup& g : e.groups) groups.push_back(group_json(g));
+  Json& contact = document["contact"] = Json::array();
+  for (const PredictedContact& c : e.contact) contact.push_back(contact_json(c));
+  if (!e.contact.empty()) document["layers"] = layers_json(e);
   document["windows"] = e.windows;
   document["events_per_second"] = e.events;
   document["breakpoints_per_second"] = e.breakpoints;

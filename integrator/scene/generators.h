@@ -4,8 +4,10 @@
 // + - * / sqrt alone (circles: turn.h), so their bits are the same everywhere; what is symmetric on paper about an axis
 // or a diagonal is so bit for bit, unless said otherwise.
 //
+//   points   as they are given
 //   chain    n + 1 vertices at equal parts of the curve's length. Smooth: uniform Catmull-Rom splines (Catmull, Rom
-//            1974) through the points, whose ends are mirrored; lengths are those of 32 chords a span
+//            1974) through the points, whose ends are mirrored; lengths are those of 32 chords a span. Closed: n
+//            vertices, as many as edges
 //   ring     n vertices, the first on the x axis, counterclockwise
 //   grid     rows from bottom to top; in each cell the diagonal from left bottom to right top, or, alternating, in
 //            every second cell the other one. Faces look to +z
@@ -16,6 +18,8 @@
 //            outward
 //   sphere   the icosahedron's 12 vertices, then the middles of edges, level by level. Faces look outward
 //   box      faces look outward
+//   torus    rings of vertices about the tube, the first on the x axis. Faces look outward
+//   pyramid  the base's corners, the first on the x axis, then the tip. Faces look outward
 #pragma once
 
 #include "noli/integrator/scene/scene.h"
@@ -23,6 +27,7 @@
 
 namespace noli::integrator {
 
+Shape make_shape(const LoosePoints& points);
 Shape make_shape(const Chain& chain);
 Shape make_shape(const Ring& ring);
 Shape make_shape(const Grid& grid);
@@ -31,5 +36,7 @@ Shape make_shape(const Disc& disc);
 Shape make_shape(const Rod& rod);
 Shape make_shape(const Sphere& sphere);
 Shape make_shape(const SurfaceOfBox& box);
+Shape make_shape(const Torus& torus);
+Shape make_shape(const Pyramid& pyramid);
 
 }  // namespace noli::integrator

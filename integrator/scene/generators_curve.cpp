@@ -5,9 +5,20 @@
 
 namespace noli::integrator {
 
+Shape make_shape(const LoosePoints& points) {
+  Shape shape;
+  for (const Position& x : points.at) shape.mesh.points.push_back(shape.add(x));
+  return shape;
+}
+
 Shape make_shape(const Chain& chain) {
   Shape shape;
-  for (const Vec3& x : along_curve(chain.points, chain.segments, chain.smooth)) shape.add(to_position(x));
+  const CurveKind kind{chain.smooth, chain.closed};
+  for (const Vec3& x : along_curve(chain.points, chain.segments, kind)) shape.add(to_position(x));
+  if (chain.closed) {
+    for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, (i + 1) % chain.segments});
+    return shape;
+  }
   for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, i + 1});
   shape.sets = {{"first", {0}}, {"last", {chain.segments}}};
   return shape;

@@ -80,7 +80,7 @@ Shape make_shape(const Grid& grid) {
 }
 
 Shape make_shape(const Ribbon& ribbon) {
-  const std::vector<Vec3> curve = along_curve(ribbon.points, ribbon.segments, true);
+  const std::vector<Vec3> curve = along_curve(ribbon.points, ribbon.segments, {.smooth = true});
   const std::uint32_t row = ribbon.across + 1;
   Shape shape;
   Vec3 side = to_vec(ribbon.side);

@@ -155,6 +155,41 @@ Shape make_shape(const Sphere& sphere) {
   return shape;
 }
 
+Shape make_shape(const Torus& torus) {
+  const std::uint32_t n = torus.segments, sides = torus.sides;
+  Shape shape;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const CosSin along = part_of_turn(k, n);
+    for (std::uint32_t j = 0; j < sides; ++j) {
+      const CosSin about = part_of_turn(j, sides);
+      const double r = torus.radius + torus.tube_radius * about.cos;
+      shape.add({r * along.cos, r * along.sin, torus.tube_radius * about.sin});
+    }
+  }
+  const auto vertex = [n, sides](std::uint32_t k, std::uint32_t j) { return (k % n) * sides + j % sides; };
+  for (std::uint32_t k = 0; k < n; ++k) {
+    for (std::uint32_t j = 0; j < sides; ++j) {
+      const VertexId a = vertex(k, j), b = vertex(k + 1, j), c = vertex(k + 1, j + 1), d = vertex(k, j + 1);
+      const bool other = (k + j) % 2 == 1;
+      shape.mesh.faces.push_back(other ? std::array{a, b, d} : std::array{a, b, c});
+      shape.mesh.faces.push_back(other ? std::array{b, c, d} : std::array{a, c, d});
+    }
+  }
+  return shape;
+}
+
+Shape make_shape(const Pyramid& pyramid) {
+  Shape shape;
+  for (std::uint32_t j = 0; j < pyramid.sides; ++j) {
+    const CosSin at = part_of_turn(j, pyramid.sides);
+    shape.sets["base"].push_back(shape.add({pyramid.radius * at.cos, pyramid.radius * at.sin, 0}));
+  }
+  const VertexId tip = shape.add({0, 0, pyramid.height});
+  for (VertexId j = 0; j < tip; ++j) shape.mesh.faces.push_back({j, (j + 1) % tip, tip});
+  shape.sets["tip"] = {tip};
+  return shape;
+}
+
 Shape make_shape(const SurfaceOfBox& box) {
   BoxLattice lattice(box);
   for (std::size_t axis = 0; axis < 3; ++axis) {

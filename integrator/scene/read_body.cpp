@@ -57,6 +57,21 @@ Transform read_transform(const Field& f) {
   return transform;
 }
 
+/// As many counts as the scene has dimensions.
+Array read_array(const Field& f) {
+  const Field counts = f["counts"];
+  const Position numbers = counts.vector();
+  Array array{{}, f["spacing"].vector()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    array.counts[axis] = axis < counts.json().size() ? static_cast<std::uint32_t>(numbers[axis]) : 1;
+    if (array.counts[axis] > 1 && array.spacing[axis] == 0) {
+      f["spacing"].fail(
+          fmt::format("expected a spacing along axis {}, of which there are {} copies", axis, array.counts[axis]));
+    }
+  }
+  return array;
+}
+
 Position read_spin(const Field& f) {
   if (f.dimension() == 3) {
     if (f.json().is_number()) f.fail("expected 3 numbers, as the scene has dimension 3, found " + brief(f.json()));
@@ -105,14 +120,6 @@ Material read_material(const Field& f) {
   return material;
 }
 
-/// Steps are at most as long as a window.
-std::optional<double> read_step(const Field& f, std::string_view name) {
-  if (!f.has(name)) return std::nullopt;
-  const double step = f[name].countable_time();
-  if (step > f.window()) f[name].fail(fmt::format("expected at most the window, {} [s], found {}", f.window(), step));
-  return step;
-}
-
 GivenSteps read_steps(const Field& f) { return {read_step(f, "stretch"), read_step(f, "bend")}; }
 
 Patch read_patch(const Field& f) {
@@ -140,6 +147,15 @@ ScriptFrames read_frames(const Field& f) {
   return {f["files"].json().get<std::vector<std::string>>(), f["rate"].number(), f["from"].number()};
 }
 
+}  // namespace
+
+std::optional<double> read_step(const Field& f, std::string_view name) {
+  if (!f.has(name)) return std::nullopt;
+  const double step = f[name].countable_time();
+  if (step > f.window()) f[name].fail(fmt::format("expected at most the window, {} [s], found {}", f.window(), step));
+  return step;
+}
+
 std::size_t find_body(const Field& name, const std::vector<Body>& bodies) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -149,8 +165,6 @@ std::size_t find_body(const Field& name, const std::vector<Body>& bodies) {
   name.fail(fmt::format("no body has the name {}; the nearest is {}", brief(name.json()),
                         Json(nearest(name.text(), names)).dump()));
 }
-
-}  // namespace
 
 Selection read_selection(const Field& selection) {
   Selection parts;
@@ -172,6 +186,7 @@ Body read_body(const Field& f, std::size_t index) {
   body.mesh = read_mesh_source(f["mesh"]);
   body.deform = read_deform(f["deform"]);
   body.transform = read_transform(f["transform"]);
+  body.array = read_array(f["array"]);
   body.perturb = f["perturb"].number();
   body.velocity = f["velocity"].vector();
   if (f.has("spin")) body.spin = read_spin(f["spin"]);

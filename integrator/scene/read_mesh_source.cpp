@@ -6,15 +6,18 @@
 namespace noli::integrator {
 namespace {
 
-constexpr double most_vertices = 2e7;  ///< of a generated mesh: what fits into memory with all its forces
-
 void require_few(const Field& mesh, double vertices) {
   if (!(vertices <= most_vertices))
     mesh.fail(fmt::format("expected at most {} vertices, found {}", most_vertices, vertices));
 }
 
+LoosePoints read_points(const Field& f) { return {f["at"].vectors()}; }
+
 Chain read_chain(const Field& f) {
-  Chain chain{f["points"].vectors(), f["segments"].count(), f["smooth"].flag()};
+  const Chain chain{f["points"].vectors(), f["segments"].count(), f["smooth"].flag(), f["closed"].flag()};
+  if (chain.closed && chain.segments < 3) {
+    f["segments"].fail(fmt::format("expected at least 3, as the chain is closed, found {}", chain.segments));
+  }
   return chain;
 }
 
@@ -51,10 +54,22 @@ SurfaceOfBox read_box(const Field& f) {
   return box;
 }
 
+Torus read_torus(const Field& f) {
+  const Torus torus{f["radius"].number(), f["tube_radius"].number(), f["segments"].count(), f["sides"].count()};
+  require_few(f, static_cast<double>(torus.segments) * torus.sides);
+  if (!(torus.tube_radius < torus.radius)) {
+    f["tube_radius"].fail(
+        fmt::format("expected less than the radius, {} [m], found {}", torus.radius, torus.tube_radius));
+  }
+  return torus;
+}
+
+Pyramid read_pyramid(const Field& f) { return {f["radius"].number(), f["height"].number(), f["sides"].count()}; }
+
 /// Sheets are for space; curves, and what files have, for both.
 void require_dimension(const Field& mesh, std::string_view kind) {
-  if (mesh.dimension() == 3 || kind == "chain" || kind == "ring" || kind == "file") return;
-  mesh[kind].fail("expected \"chain\", \"ring\" or \"file\" in a scene of dimension 2");
+  if (mesh.dimension() == 3 || kind == "points" || kind == "chain" || kind == "ring" || kind == "file") return;
+  mesh[kind].fail("expected \"points\", \"chain\", \"ring\" or \"file\" in a scene of dimension 2");
 }
 
 }  // namespace
@@ -64,6 +79,7 @@ MeshSource read_mesh_source(const Field& mesh) {
   const Field f = mesh[kind];
   require_dimension(mesh, kind);
   if (kind == "file") return MeshFile{f.text()};
+  if (kind == "points") return read_points(f);
   if (kind == "chain") return read_chain(f);
   if (kind == "ring") return read_ring(f);
   if (kind == "grid") return read_grid(f);
@@ -71,7 +87,9 @@ MeshSource read_mesh_source(const Field& mesh) {
   if (kind == "disc") return read_disc(f);
   if (kind == "rod") return read_rod(f);
   if (kind == "sphere") return read_sphere(f);
-  return read_box(f);
+  if (kind == "box") return read_box(f);
+  if (kind == "torus") return read_torus(f);
+  return read_pyramid(f);
 }
 
 }  // namespace noli::integrator

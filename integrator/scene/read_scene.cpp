@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "noli/integrator/scene/read_body.h"
+#include "noli/integrator/scene/read_contact.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/text.h"
 
@@ -106,6 +107,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form
   for (const Field& body : f["bodies"].items()) scene.bodies.push_back(read_body(body, scene.bodies.size()));
   require_different_names(f["bodies"], scene.bodies);
   for (const Field& script : f["scripts"].items()) scene.scripts.push_back(read_script(script, scene.bodies));
+  if (f.has("contact")) scene.contact = read_contact(f["contact"], scene);
   return scene;
 }
 

@@ -20,15 +20,22 @@
 
 namespace noli::integrator {
 
+constexpr double most_vertices = 2e7;  ///< of a generated mesh: what fits into memory with all its forces
+
 struct MeshFile {
   std::string path;  ///< as the scene has it
   friend bool operator==(const MeshFile&, const MeshFile&) = default;
 };
 
+struct LoosePoints {
+  std::vector<Position> at;
+  friend bool operator==(const LoosePoints&, const LoosePoints&) = default;
+};
+
 struct Chain {
   std::vector<Position> points;
   std::uint32_t segments = 1;
-  bool smooth = false;
+  bool smooth = false, closed = false;
   friend bool operator==(const Chain&, const Chain&) = default;
 };
 
@@ -79,7 +86,20 @@ struct SurfaceOfBox {
   friend bool operator==(const SurfaceOfBox&, const SurfaceOfBox&) = default;
 };
 
-using MeshSource = std::variant<MeshFile, Chain, Ring, Grid, Ribbon, Disc, Rod, Sphere, SurfaceOfBox>;
+struct Torus {
+  double radius = 2, tube_radius = 1;
+  std::uint32_t segments = 3, sides = 3;
+  friend bool operator==(const Torus&, const Torus&) = default;
+};
+
+struct Pyramid {
+  double radius = 1, height = 1;
+  std::uint32_t sides = 3;
+  friend bool operator==(const Pyramid&, const Pyramid&) = default;
+};
+
+using MeshSource =
+    std::variant<MeshFile, LoosePoints, Chain, Ring, Grid, Ribbon, Disc, Rod, Sphere, SurfaceOfBox, Torus, Pyramid>;
 
 struct Deform {
   Position stretch{1, 1, 1};
@@ -105,6 +125,14 @@ struct Transform {
   std::variant<std::monostate, AxisTurn, Quaternion> rotate;
   Position translate{};
   friend bool operator==(const Transform&, const Transform&) = default;
+};
+
+/// Copies in rows.
+struct Array {
+  std::array<std::uint32_t, 3> counts{1, 1, 1};
+  Position spacing{};
+  std::size_t copies() const { return std::size_t{counts[0]} * counts[1] * counts[2]; }
+  friend bool operator==(const Array&, const Array&) = default;
 };
 
 struct ElasticMaterial {
@@ -157,6 +185,7 @@ struct Body {
   MeshSource mesh;
   Deform deform;
   Transform transform;
+  Array array;
   double perturb = 0;
   Position velocity{};
   Position spin{};  ///< in the plane its third coordinate
@@ -187,6 +216,35 @@ struct ScriptedVertices {
   friend bool operator==(const ScriptedVertices&, const ScriptedVertices&) = default;
 };
 
+constexpr double default_stability = 0.05;  ///< of contact: step / sqrt(mass / (2 stiffness))
+constexpr double greatest_stability = 0.5;  ///< above it a bounce gains energy without end
+
+/// How bodies meet, as far as it is said.
+struct ContactValues {
+  std::optional<double> thickness, stiffness, step, stability;
+  std::optional<double> restitution;  ///< of energy, however it was said
+  std::optional<double> friction;
+  friend bool operator==(const ContactValues&, const ContactValues&) = default;
+};
+
+/// Two bodies, by their numbers, the lesser first.
+using BodyPair = std::array<std::size_t, 2>;
+
+struct ContactPair {
+  BodyPair bodies{};
+  ContactValues values;
+  friend bool operator==(const ContactPair&, const ContactPair&) = default;
+};
+
+struct Contact {
+  ContactValues values;  ///< of all pairs that say nothing else
+  LayerSchedule layers;
+  std::uint32_t most_layers = 10000;
+  std::vector<ContactPair> pairs;  ///< each pair at most once
+  std::vector<BodyPair> excluded;  ///< none of `pairs`
+  friend bool operator==(const Contact&, const Contact&) = default;
+};
+
 enum class Record : std::uint8_t { full, frames };
 
 struct Scene {
@@ -204,7 +262,8 @@ struct Scene {
   std::optional<double> gravity_step;
   std::vector<Body> bodies;
   std::vector<ScriptedVertices> scripts;
-  Json document;  ///< what was read: overrides applied, defaults filled in
+  std::optional<Contact> contact;  ///< nothing: a contact ends the run
+  Json document;                   ///< what was read: overrides applied, defaults filled in
   std::vector<DefaultTaken> defaults;
 };
 

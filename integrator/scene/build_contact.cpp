@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/integrator/scene/build_contact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "noli/integrator/scene/curve.h"
+
+namespace noli::integrator {
+namespace {
+
+constexpr std::size_t most_bodies = 4096;  ///< there is a table of their pairs
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
+
+double least_height(const std::vector<Position>& rest, const std::array<VertexId, 2>& edge) {
+  return length(to_vec(rest[edge[1]]) - to_vec(rest[edge[0]]));
+}
+
+/// Of a triangle: twice its area over its longest edge.
+double least_height(const std::vector<Position>& rest, const std::array<VertexId, 3>& face) {
+  const Vec3 a = to_vec(rest[face[1]]) - to_vec(rest[face[0]]), b = to_vec(rest[face[2]]) - to_vec(rest[face[0]]);
+  const Vec3 n(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+  return length(n) / std::max({length(a), length(b), length(b - a)});
+}
+
+/// What of a body counts for contact.
+struct Free {
+  double height = infinity;  ///< H of its cells
+  double least_mass = infinity, greatest_mass = 0;
+
+  bool any() const { return greatest_mass > 0; }
+  friend Free operator|(const Free& a, const Free& b) {
+    return {std::min(a.height, b.height), std::min(a.least_mass, b.least_mass),
+            std::max(a.greatest_mass, b.greatest_mass)};
+  }
+};
+
+Free free_part(const BodyMesh& body, const BuiltBody& built, const std::vector<double>& inverse_mass) {
+  Free part;
+  const auto is_free = [&](VertexId i) { return inverse_mass[built.first + i] != 0; };
+  const auto look = [&](const auto& cells) {
+    for (const auto& cell : cells) {
+      if (std::none_of(cell.begin(), cell.end(), is_free)) continue;
+      part.height = std::min(part.height, least_height(body.rest, cell));
+    }
+  };
+  look(body.shape.mesh.faces);
+  look(body.shape.mesh.edges);
+  for (VertexId i = 0; i < body.mass.size(); ++i) {
+    if (is_free(i)) part = part | Free{infinity, body.mass[i], body.mass[i]};
+  }
+  return part;
+}
+
+template <int Dim>
+double greatest_speed(const Script<double, Dim>& script) {
+  double greatest = 0;
+  for (std::size_t k = 1; k < script.times.size(); ++k) {
+    const Vec<double, Dim> move = script.positions[k] - script.positions[k - 1];
+    greatest = std::max(greatest, std::sqrt(move.squaredNorm()) / (script.times[k] - script.times[k - 1]));
+  }
+  return greatest;
+}
+
+/// Of a fall from top to bottom.
+template <int Dim>
+double falling_speed(const Model<double, Dim>& model) {
+  if (!model.gravity) return 0;
+  double least = infinity, greatest = -infinity;
+  for (const Vec<double, Dim>& x : model.x) {
+    const double height = model.gravity->acceleration.dot(x);
+    least = std::min(least, height);
+    greatest = std::max(greatest, height);
+  }
+  return std::sqrt(2 * (greatest - least));
+}
+
+/// v, but for what the thickness asks of it.
+template <int Dim>
+double meeting_speed(const Model<double, Dim>& model) {
+  double start = 0, scripts = 0;
+  for (const Vec<double, Dim>& v : model.v) start = std::max(start, std::sqrt(v.squaredNorm()));
+  for (const auto& script : model.scripts) scripts = std::max(scripts, greatest_speed(script));
+  return start + scripts + falling_speed(model);
+}
+
+/// How one pair of bodies meets: what is said of it, or of all, or the default.
+class PairContact {
+ public:
+  PairContact(const Scene& scene, const BodyPair& bodies, const Free& part, double speed)
+      : scene_(scene), part_(part), speed_(speed) {
+    const std::vector<ContactPair>& pairs = scene.contact->pairs;
+    const auto found = std::find_if(pairs.begin(), pairs.end(), [&](auto& p) { return p.bodies == bodies; });
+    if (found == pairs.end()) return;
+    pair_ = &*found;
+    index_ = static_cast<std::size_t>(found - pairs.begin());
+  }
+
+  ContactMaterial material() const {
+    ContactMaterial m;
+    m.thickness = thickness();
+    m.stiffness = value(&ContactValues::stiffness).value_or(default_stiffness(m.thickness));
+    if (!(m.stiffness > 0 && std::isfinite(m.stiffness))) {
+      at("stiffness").fail(fmt::format("expected a stiffness; the default, {} [N/m], cannot be used", m.stiffness));
+    }
+    m.step = step(m.stiffness);
+    m.restitution = value(&ContactValues::restitution).value_or(1);
+    m.friction = value(&ContactValues::friction).value_or(0);
+    return m;
+  }
+
+  double bound() const { return part_.height / 2; }
+
+ private:
+  using Value = std::optional<double> ContactValues::*;
+
+  std::optional<double> value(Value which) const {
+    return pair_ != nullptr && pair_->values.*which ? pair_->values.*which : scene_.contact->values.*which;
+  }
+
+  Field contact() const { return Field(scene_.document, scene_.path.string())["contact"]; }
+  /// Where a value is said, for the pair or for all.
+  Field at(std::string_view name) const {
+    if (pair_ != nullptr && contact()["pairs"][index_].has(name)) return contact()["pairs"][index_][name];
+    return contact()[name];
+  }
+
+  double thickness() const {
+    const std::optional<double> given = value(&ContactValues::thickness);
+    if (!given && !(std::isfinite(bound()) && bound() > 0)) {
+      at("thickness").fail("expected a thickness, as no cell with a free vertex has a height to take it from");
+    }
+    const double thickness = given.value_or(bound() / 2);
+    if (!(thickness < bound())) {
+      at("thickness")
+          .fail(fmt::format(
+              "expected less than {} [m], half the least height at rest of the cells with a free vertex, found {}; the "
+              "largest that works is {}",
+              bound(), thickness, std::nextafter(bound(), 0.0)));
+    }
+    return thickness;
+  }
+
+  double default_stiffness(double thickness) const {
+    const double rate = std::max(speed_ / thickness, 1 / scene_.window);
+    return part_.greatest_mass * rate * rate;
+  }
+
+  double step(double stiffness) const {
+    const double limit = std::sqrt(part_.least_mass / (2 * stiffness));
+    const double stability = own_stability().value_or(default_stability);
+    const double step = own_step().value_or(std::min(stability * limit, scene_.window));
+    if (!(step * 0x1p50 > scene_.duration)) {
+      at("stiffness")
+          .fail(fmt::format(
+              "expected a step of contact that can be counted over the duration, found {} [s]: too stiff, or too light",
+              step));
+    }
+    if (step > greatest_stability * limit && !scene_.allow_unstable) {
+      at("step").fail(
+          fmt::format("expected at most {} [s], above which a bounce gains energy without end, or "
+                      "\"allow_unstable\": true, found {}",
+                      greatest_stability * limit, step));
+    }
+    return step;
+  }
+
+  /// A step or a stability that is said of the pair stands for both of all.
+  bool has_own_step() const { return pair_ != nullptr && (pair_->values.step || pair_->values.stability); }
+  std::optional<double> own_step() const { return (has_own_step() ? pair_->values : scene_.contact->values).step; }
+  std::optional<double> own_stability() const {
+    return (has_own_step() ? pair_->values : scene_.contact->values).stability;
+  }
+
+  const Scene& scene_;
+  const ContactPair* pair_ = nullptr;
+  std::size_t index_ = 0;
+  Free part_;
+  double speed_;
+};
+
+/// Gives pairs their materials, each material once.
+template <int Dim>
+class Materials {
+ public:
+  Materials(const Scene& scene, BuiltScene<Dim>& built)
+      : scene_(scene), built_(built), speed_(meeting_speed(built.model)) {
+    const std::size_t n = built.bodies.size();
+    settings().group_count = static_cast<std::uint16_t>(n);
+    settings().material_of.assign(n * n, ContactSettings::excluded);
+  }
+
+  void add(const BodyPair& pair, const Free& part) {
+    const std::vector<BodyPair>& excluded = scene_.contact->excluded;
+    if (!part.any() || std::find(excluded.begin(), excluded.end(), pair) != excluded.end()) return;
+    const PairContact contact(scene_, pair, part, speed_);
+    const std::uint16_t id = find(contact.material());
+    BuiltContact& use = built_.contact[id];
+    use.least_mass = std::min(use.least_mass, part.least_mass);
+    use.bound = std::min(use.bound, contact.bound());
+    use.pairs.push_back(pair);
+    const std::size_t n = built_.bodies.size();
+    settings().material_of[pair[0] * n + pair[1]] = settings().material_of[pair[1] * n + pair[0]] = id;
+  }
+
+ private:
+  ContactSettings& settings() { return *built_.model.contact; }
+
+  std::uint16_t find(const ContactMaterial& material) {
+    std::vector<ContactMaterial>& list = settings().materials;
+    const auto found = std::find(list.begin(), list.end(), material);
+    if (found != list.end()) return static_cast<std::uint16_t>(found - list.begin());
+    if (list.size() == ContactSettings::excluded) contact_field().fail("expected fewer different ways to meet");
+    list.push_back(material);
+    built_.contact.push_back({infinity, infinity, {}});
+    return static_cast<std::uint16_t>(list.size() - 1);
+  }
+
+  Field contact_field() const { return Field(scene_.document, scene_.path.string())["contact"]; }
+
+  const Scene& scene_;
+  BuiltScene<Dim>& built_;
+  double speed_;
+};
+
+std::vector<std::uint16_t> groups_of(const std::vector<BuiltBody>& bodies) {
+  std::vector<std::uint16_t> groups;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    groups.insert(groups.end(), bodies[b].vertices, static_cast<std::uint16_t>(b));
+  }
+  return groups;
+}
+
+}  // namespace
+
+template <int Dim>
+void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const std::vector<double>& inverse_mass,
+                 BuiltScene<Dim>& built) {
+  if (!scene.contact) return;
+  if (bodies.size() > most_bodies) {
+    Field(scene.document, scene.path.string())["bodies"].fail(
+        fmt::format("expected at most {} bodies in a scene with contact, found {}", most_bodies, bodies.size()));
+  }
+  built.model.contact.emplace();
+  built.model.contact->schedule = scene.contact->layers;
+  built.model.contact->most_layers = scene.contact->most_layers;
+  built.model.contact->groups = groups_of(built.bodies);
+  std::vector<Free> parts;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    parts.push_back(free_part(bodies[b], built.bodies[b], inverse_mass));
+  }
+  Materials<Dim> materials(scene, built);
+  for (std::size_t a = 0; a < bodies.size(); ++a) {
+    for (std::size_t b = a; b < bodies.size(); ++b) materials.add({a, b}, parts[a] | parts[b]);
+  }
+}
+
+template void add_contact(const Scene&, const std::vector<BodyMesh>&, const std::vector<double>&, BuiltScene<2>&);
+template void add_contact(const Scene&, const std::vector<BodyMesh>&, const std::vector<double>&, BuiltScene<3>&);
+
+}  // namespace noli::integrator

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the bodies of a scene meet: Model::contact. Each body is a group.
+//
+// Notation, for a pair of bodies
+//   H        least height of a triangle at rest, or length of an edge that has no face, over the cells of the two
+//            bodies that have a free vertex
+//   eta(1)   thickness, below H / 2: two features of one body that share no vertex are then farther apart at rest than
+//            a layer is thick, but for meshes that fold onto themselves
+//   m, M     least and greatest mass of the two bodies' free vertices
+//   v        a speed at which things may meet: the greatest at the start, the greatest of a script, and
+//            sqrt(2 g . (lowest - highest)), added; at least eta(1) / window
+//
+// Defaults: eta(1) = H / 4; r(1) = M (v / eta(1))^2, so that a vertex which comes with v is stopped between a whole and
+// half a thickness, where layers hold 0 to 19 r(1) eta(1)^2; h(1) = c sqrt(m / (2 r(1))), at most the window.
+//
+// What this does not do: it does not look at distances in the start.
+#pragma once
+
+#include <vector>
+
+#include "noli/integrator/scene/body_mesh.h"
+#include "noli/integrator/scene/build_model.h"
+
+namespace noli::integrator {
+
+/// Fills built.model.contact and built.contact if the scene has contact. Pairs of which nothing is free are excluded
+/// like those that the scene excludes. `bodies`: one for each of the scene; inverse_mass: one for each vertex, 0 for
+/// what is pinned or scripted. Throws InputError: a thickness not below H / 2, defaults that cannot be made.
+template <int Dim>
+void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const std::vector<double>& inverse_mass,
+                 BuiltScene<Dim>& built);
+
+}  // namespace noli::integrator
