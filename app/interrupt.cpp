@@ -7,9 +7,14 @@ namespace noli::app {
 namespace {
 
 std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may write it");
+std::atomic<int> requests{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler may write it");
 
-extern "C" void request_stop(int) { stop_requested.store(true, std::memory_order_relaxed); }
+extern "C" void request_stop(int) {
+  stop_requested.store(true, std::memory_order_relaxed);
+  requests.fetch_add(1, std::memory_order_relaxed);
+}
 
 /// Without SA_RESTART, so that waiting for a pipe that nobody writes to ends too (ReadInterrupted).
 void on_signal(int signal, void (*handler)(int)) {
@@ -21,6 +26,8 @@ void on_signal(int signal, void (*handler)(int)) {
 }  // namespace
 
 const std::atomic<bool>& interrupted() { return stop_requested; }
+
+int interruptions() { return requests.load(std::memory_order_relaxed); }
 
 void install_signal_handlers() {
   on_signal(SIGINT, request_stop);

@@ -10,8 +10,10 @@ namespace noli::app {
 /// Becomes true when the user asks to stop. Never becomes false again.
 const std::atomic<bool>& interrupted();
 
-/// SIGINT and SIGTERM set the flag from now on, and end a reader's wait for a pipe with ReadInterrupted; a closed pipe
-/// is an error of writing instead of a signal.
+/// How often the user has asked: what comes after the work may need to be asked again.
+int interruptions();
+
+/// SIGINT and SIGTERM set the flag from now on, and end a reader's wait for a pipe with ReadInterrupted; a closed pipe is an error of writing instead of a signal.
 void install_signal_handlers();
 
 }  // namespace noli::app

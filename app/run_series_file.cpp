@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/run_series_file.h"
 
-#include <array>
-#include <cmath>
+#include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,24 +19,28 @@ namespace {
 
 using integrator::ForceKind;
 
+using Stop = std::function<bool()>;
+
 /// How long the series are.
 struct Extent {
   std::uint64_t windows = 0, frames = 0;
 };
 
-std::uint64_t frames_in(const RunWindow& window, double rate) {
+std::uint64_t frames_in(const RunWindow& window, double rate, const Stop& stop) {
   if (!window.lines) return window.frames.size();
   std::uint64_t count = 0;
-  for_each_frame_time(window.index, window.begin, window.end, rate, [&count](double) { return ++count > 0; });
+  for_each_frame_time(window.index, window.begin, window.end, rate, [&](double) { return ++count > 0 && !stop(); });
   return count;
 }
 
-Extent measure(const std::filesystem::path& run, double rate) {
+/// Nothing when it was stopped.
+std::optional<Extent> measure(const std::filesystem::path& run, double rate, const Stop& stop) {
   RunReader reader(run);
   Extent extent;
   while (const auto window = reader.next_window()) {
     ++extent.windows;
-    extent.frames += frames_in(*window, rate);
+    extent.frames += frames_in(*window, rate, stop);
+    if (stop()) return std::nullopt;
   }
   return extent;
 }
@@ -50,17 +55,54 @@ SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run) {
   }
 }
 
+/// An array of the file that is filled from its beginning, many rows at a time.
+class Column {
+ public:
+  Column(SeriesFile& file, std::string name, const std::string& unit, const SeriesShape& shape)
+      : file_(&file), name_(std::move(name)) {
+    file.declare(name_, unit, shape);
+  }
+
+  /// Precondition: one row.
+  void append(std::span<const double> row) {
+    constexpr std::size_t enough = 1 << 14;
+    waiting_.insert(waiting_.end(), row.begin(), row.end());
+    ++rows_;
+    if (waiting_.size() >= enough) flush();
+  }
+  void append(double value) { append(std::span(&value, 1)); }
+
+  void flush() {
+    if (waiting_.empty()) return;
+    file_->write_rows(name_, written_, waiting_);
+    written_ += rows_;
+    rows_ = 0;
+    waiting_.clear();
+  }
+
+ private:
+  SeriesFile* file_;
+  std::string name_;
+  std::vector<double> waiting_;
+  std::uint64_t written_ = 0, rows_ = 0;
+};
+
 class Series {
  public:
-  Series(const std::filesystem::path& run, double rate)
-      : rate_(rate), extent_(measure(run, rate)), reader_(run), file_(run / "series.h5") {
-    declare();
-    std::uint64_t row = 0;
+  Series(const std::filesystem::path& run, double rate, const Extent& extent, const Stop& stop)
+      : run_(run), rate_(rate), stop_(stop), reader_(run), file_(run / "series.h5") {
+    declare(extent);
+  }
+
+  /// Whether it was not stopped.
+  bool write() {
     while (const auto window = reader_.next_window()) {
-      write(row++, row_of(*window, run));
-      write_frames(*window);
+      write(row_of(*window, run_));
+      if (!write_frames(*window)) return false;
     }
+    for (auto& [name, column] : columns_) column.flush();
     file_.close();
+    return true;
   }
 
  private:
@@ -68,75 +110,88 @@ class Series {
     return std::string(group) + "/" + std::string(name(static_cast<ForceKind>(kind)));
   }
 
-  void declare() {
-    const std::uint64_t n = extent_.windows;
-    file_.declare("time", "s", {n});
-    file_.declare("energy/kinetic", "J", {n});
-    file_.declare("energy/kinetic_mean", "J", {n});
+  void declare(const std::string& name, const std::string& unit, const SeriesShape& shape) {
+    columns_.try_emplace(name, file_, name, unit, shape);
+  }
+
+  void declare(const Extent& extent) {
+    const std::uint64_t n = extent.windows;
+    declare("time", "s", {n});
+    declare("energy/kinetic", "J", {n});
+    declare("energy/kinetic_mean", "J", {n});
     for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
-      file_.declare(of("energy/potential", k), "J", {n});
-      file_.declare(of("work", k), "J", {n});
-      file_.declare(of("damping_work", k), "J", {n});
+      declare(of("energy/potential", k), "J", {n});
+      declare(of("work", k), "J", {n});
+      declare(of("damping_work", k), "J", {n});
     }
-    file_.declare("momentum", "N s", {n, 3});
-    file_.declare("angular_momentum", "N m s", {n, 3});
-    file_.declare("events", "1", {n});
-    file_.declare("breakpoints", "1", {n});
-    file_.declare("frames/time", "s", {extent_.frames});
-    file_.declare("frames/positions", "m", {extent_.frames, reader_.mesh().vertex_count, 3});
+    declare("momentum", "N s", {n, 3});
+    declare("angular_momentum", "N m s", {n, 3});
+    declare("events", "1", {n});
+    declare("breakpoints", "1", {n});
+    declare("frames/time", "s", {extent.frames});
+    declare("frames/positions", "m", {extent.frames, reader_.mesh().vertex_count, 3});
   }
 
-  void put(const std::string& name, std::uint64_t row, double value) {
-    file_.write_row(name, row, std::array<double, 1>{value});
-  }
+  Column& column(const std::string& name) { return columns_.at(name); }
 
-  void write(std::uint64_t i, const SeriesRow& row) {
-    put("time", i, row.time);
-    put("energy/kinetic", i, row.kinetic);
-    put("energy/kinetic_mean", i, row.kinetic_mean);
+  void write(const SeriesRow& row) {
+    column("time").append(row.time);
+    column("energy/kinetic").append(row.kinetic);
+    column("energy/kinetic_mean").append(row.kinetic_mean);
     for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
-      put(of("energy/potential", k), i, row.potential[k]);
-      put(of("work", k), i, row.work[k]);
-      put(of("damping_work", k), i, row.damping_work[k]);
+      column(of("energy/potential", k)).append(row.potential[k]);
+      column(of("work", k)).append(row.work[k]);
+      column(of("damping_work", k)).append(row.damping_work[k]);
     }
-    file_.write_row("momentum", i, row.momentum);
-    file_.write_row("angular_momentum", i, row.angular_momentum);
-    put("events", i, static_cast<double>(row.events));
-    put("breakpoints", i, static_cast<double>(row.breakpoints));
+    column("momentum").append(row.momentum);
+    column("angular_momentum").append(row.angular_momentum);
+    column("events").append(static_cast<double>(row.events));
+    column("breakpoints").append(static_cast<double>(row.breakpoints));
   }
 
-  void write_frames(const RunWindow& window) {
-    if (!window.lines) {
-      for (const RunFrame& frame : window.frames) write_frame(frame.time, frame.positions);
-      return;
+  bool write_frames(const RunWindow& window) {
+    const auto write = [this](double t, const std::vector<Position>& positions) {
+      write_frame(t, positions);
+      return !stop_();
+    };
+    for (const RunFrame& frame : window.frames) {
+      if (!write(frame.time, frame.positions)) return false;
     }
-    for_each_frame_time(window.index, window.begin, window.end, rate_, [&](double t) {
-      write_frame(t, sample(*window.lines, t));
-      return true;
-    });
+    if (!window.lines) return !stop_();
+    for_each_frame_time(window.index, window.begin, window.end, rate_,
+                        [&](double t) { return write(t, sample(*window.lines, t)); });
+    return !stop_();
   }
 
   void write_frame(double time, const std::vector<Position>& positions) {
-    put("frames/time", frame_, time);
-    std::vector<double> flat;
-    flat.reserve(3 * positions.size());
-    for (const Position& x : positions) flat.insert(flat.end(), x.begin(), x.end());
-    file_.write_row("frames/positions", frame_++, flat);
+    column("frames/time").append(time);
+    column("frames/positions").append(std::span<const double>(positions.front().data(), 3 * positions.size()));
   }
 
+  const std::filesystem::path& run_;
   double rate_;
-  Extent extent_;
+  const Stop& stop_;
   RunReader reader_;
   SeriesFile file_;
-  std::uint64_t frame_ = 0;
+  std::map<std::string, Column> columns_;
 };
 
 }  // namespace
 
-bool write_series_file(const std::filesystem::path& run, double frame_rate) {
-  if (!SeriesFile::available()) return false;
-  const Series written(run, frame_rate);
-  return true;
+const char* name(SeriesEnd end) {
+  switch (end) {
+    case SeriesEnd::written: return "written";
+    case SeriesEnd::unavailable: return "unavailable";
+    case SeriesEnd::stopped: return "stopped";
+  }
+  return "";
+}
+
+SeriesEnd write_series_file(const std::filesystem::path& run, double frame_rate, const Stop& stop) {
+  if (!SeriesFile::available()) return SeriesEnd::unavailable;
+  const auto extent = measure(run, frame_rate, stop);
+  const bool written = extent && Series(run, frame_rate, *extent, stop).write();
+  return written ? SeriesEnd::written : SeriesEnd::stopped;
 }
 
 }  // namespace noli::app

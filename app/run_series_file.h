@@ -3,13 +3,24 @@
 // `series.h5` of a run, made from its windows: energies, momenta, works and counts at the ends of windows, and frames.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 
 namespace noli::app {
 
+enum class SeriesEnd : std::uint8_t {
+  written,
+  unavailable,  ///< Noli was built without HDF5
+  stopped       ///< no file is written, and one that is there stays as it is
+};
+
+/// As in the JSON and the log.
+const char* name(SeriesEnd end);
+
 /// Writes RUN/series.h5, or replaces it. Frames are at the multiples of 1 / frame_rate; of a run that recorded frames
-/// alone, those that it has. False when Noli was built without HDF5. Throws InputError (damaged run),
-/// std::system_error.
-bool write_series_file(const std::filesystem::path& run, double frame_rate);
+/// alone, those that it has. `stop` is asked after each window and frame. In memory: a window. Throws InputError
+/// (damaged run), std::system_error.
+SeriesEnd write_series_file(const std::filesystem::path& run, double frame_rate, const std::function<bool()>& stop);
 
 }  // namespace noli::app

@@ -96,7 +96,11 @@ Command add_simulate(CLI::App& app) {
                           ->excludes(force)
                           ->excludes(until);
   command->add_option("--window", arguments->window, "Which window, from 0")->needs(again)->type_name("K");
-  command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h")
+  command
+      ->add_option(
+          "--time-limit", arguments->time_limit,
+          "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped. To write series.h5 "
+          "comes on top, and Ctrl-C ends that too")
       ->type_name("TIME");
   add_json_option(*command, arguments->json);
   add_threads_option(*command, request.threads);

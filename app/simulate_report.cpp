@@ -104,6 +104,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["first"] = first_json(outcome);
   json["contacts"] = counts_json(outcome.contact ? outcome.contact->contacts : ContactCounts{});
   json["not_finite"] = not_finite_json(outcome);
+  json["series"] = name(outcome.series);
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
   json["cells"] = outcome.cells;
@@ -126,6 +127,9 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
   text += end_text(outcome) + "\n";
   text += fmt::format("{}: {} windows of {} s committed to {}, each verified exactly: {}\n", on_one_line(outcome.title),
                       outcome.windows, outcome.window_length, request.run.string(), statement(outcome));
+  if (outcome.series == SeriesEnd::stopped) {
+    text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
+  }
   text += fmt::format(
       "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
       "beside it; {:.0f} MB.\n",

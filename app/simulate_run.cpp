@@ -115,8 +115,9 @@ class Run {
     outcome_.window_length = scene.window;
     outcome_.windows_total = windows_up_to(request.until.value_or(scene.duration));
     require_cells();
+    require_countable_frames(scene);
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
-    if (!request.resume) refuse_contact_at_start();
+    refuse_contact_at_start();
     open(scene);
   }
 
@@ -128,14 +129,12 @@ class Run {
       std::optional<Candidate> next = integrate();
       settle();
       if (outcome_.end != RunEnd::done) break;
-      if (!next) {
-        find_not_finite();
-        break;
-      }
+      if (!next) break;
       verify(std::move(*next));
       progress.show(static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
     }
     settle();
+    find_not_finite();
     conclude();
     outcome_.seconds = watch.seconds();
     return std::move(outcome_);
@@ -157,6 +156,22 @@ class Run {
                      "expected a mesh with faces, edges or points; what has none of them touches nothing");
   }
 
+  /// Frames are told apart by their times, and those that are recorded are in memory for as long as their window is.
+  void require_countable_frames(const Scene& scene) const {
+    const double time = static_cast<double>(outcome_.windows_total) * scene.window;
+    const auto refuse = [&](const std::string& problem) {
+      throw InputError(request_.scene.string(), "/frame_rate", problem);
+    };
+    if (!(time * frame_rate_ < 0x1p53)) refuse(fmt::format("expected fewer than 2^53 frames in {} s", time));
+    if (record_ == RecordMode::full) return;
+    constexpr double most = 0x1p32;
+    const double bytes = 24.0 * static_cast<double>(outcome_.vertices) * scene.window * frame_rate_;
+    if (bytes <= most) return;
+    refuse(fmt::format(
+        "the frames of a window take about {:.2g} bytes; expected at most {:.2g}, as with frame_rate {:.2g}", bytes,
+        most, frame_rate_ * most / bytes));
+  }
+
   bool stopped() {
     if (interrupted().load(std::memory_order_relaxed)) outcome_.end = RunEnd::interrupted;
     if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) outcome_.end = RunEnd::out_of_time;
@@ -171,14 +186,18 @@ class Run {
     options.threads = request_.threads;
     options.initial = false;
     options.scripted = labels_;
+    options.stop = &interrupted();
+    options.deadline = deadline_;
     return options;
   }
 
-  /// At rest where it begins: what meets then meets at the start.
+  /// At rest where it begins: what meets then meets at the start. A run to be gone on with may have no window yet.
   void refuse_contact_at_start() const {
     const auto x = positions_of<Dim>(built_.model.x);
     WindowOptions options = window_options();
     options.initial = true;
+    options.stop = nullptr;
+    options.deadline.reset();
     options.max_reports = 3;
     const WindowResult result = verifier_.verify(WorldLines::from_frames(x, x), options);
     if (result.contact_count() + result.initial_intersections == 0) return;
@@ -242,6 +261,7 @@ class Run {
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
       require_whole(*window);
+      if (stopped()) throw ReadInterrupted(folder_.path().string());
     }
     if (last.windows > outcome_.windows_total) {
       throw InputError(folder_.path().string(), "",
@@ -263,15 +283,18 @@ class Run {
 
   // --- Windows -------------------------------------------------------------------------------------------------------
 
-  /// The next window; nothing when numbers in it are none.
+  /// The next window; nothing when the run ends within it.
   std::optional<Candidate> integrate() {
     const Stopwatch watch;
     before_ = simulation_->snapshot();
     const std::uint64_t events = simulation_->events();
     recording_.clear();
     Books<double, Dim> books;
-    simulation_->run_window(recording_, books);
-    if (!simulation_->finite()) return std::nullopt;
+    if (!simulation_->run_window(recording_, books, [this] { return stopped(); })) return std::nullopt;
+    if (!simulation_->finite()) {
+      finite_ = false;
+      return std::nullopt;
+    }
     Candidate next;
     next.index = before_.windows;
     next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
@@ -286,8 +309,7 @@ class Run {
     candidate_ = std::move(next);
     const auto look = [lines = candidate_->lines.get(), options = window_options(), this] {
       const Stopwatch watch;
-      WindowResult result;
-      result = verifier_.verify(*lines, options);
+      WindowResult result = verifier_.verify(*lines, options);
       outcome_.verifying_seconds += watch.seconds();
       return result;
     };
@@ -299,8 +321,9 @@ class Run {
   void settle() {
     if (!candidate_) return;
     WindowResult result = candidate_->verdict.get();
-    if (!result.complete) throw std::logic_error("a window was not verified to its end");
-    if (result.contact_count() > 0) {
+    if (!result.complete) {
+      if (!stopped()) throw std::logic_error("a window was not verified to its end");
+    } else if (result.contact_count() > 0) {
       outcome_.end = RunEnd::contact;
       if (result.first) outcome_.first_names = named(result.first->contact);
       outcome_.contact = std::move(result);
@@ -331,20 +354,32 @@ class Run {
     return frames;
   }
 
+  /// Of the window in which numbers ran out, if the run came to it.
   void find_not_finite() {
-    outcome_.end = RunEnd::not_finite;
-    outcome_.not_finite = simulation_at<Dim>(built_.model, before_).find_not_finite();
+    if (finite_ || outcome_.end != RunEnd::done) return;
+    outcome_.not_finite = simulation_at<Dim>(built_.model, before_).find_not_finite([this] { return stopped(); });
+    if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
   }
 
   void conclude() {
-    outcome_.series = write_series_file(folder_.path(), frame_rate_);
     outcome_.windows = writer_->windows();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
+    write_series();
     log_end();
+  }
+
+  /// Whoever has asked the run to stop has not asked for less than a whole folder; who asks again has.
+  void write_series() {
+    const int before = interruptions();
+    Progress progress("series.h5");
+    progress.show(0);
+    outcome_.series = write_series_file(folder_.path(), frame_rate_, [before] { return interruptions() > before; });
+    if (outcome_.series == SeriesEnd::stopped && outcome_.end == RunEnd::done) outcome_.end = RunEnd::interrupted;
   }
 
   void log_end() {
     Json entry = {{"event", "end"}, {"end", name(outcome_.end)}, {"windows", outcome_.windows}};
+    entry["series"] = name(outcome_.series);
     if (outcome_.contact && outcome_.contact->first) {
       entry["first"] = contact_json(outcome_.contact->first->contact);
       entry["first"]["kind"] = noli::name(outcome_.contact->first->kind);
@@ -366,6 +401,7 @@ class Run {
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
   Recording<double, Dim> recording_;
   std::optional<Candidate> candidate_;
+  bool finite_ = true;  ///< all numbers of the window that is being integrated
   SimulateOutcome outcome_;
 };
 

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/run_series_file.h"
 #include "noli/integrator/simulation.h"
 #include "noli/proofs/prover/window_verifier.h"
 
@@ -60,11 +61,13 @@ struct SimulateOutcome {
   std::optional<WindowResult> contact;           ///< of the window that was refused
   std::string first_names;                       ///< the features of its first one, by body and number there
   std::optional<integrator::NotFinite> not_finite;
-  bool series = false;  ///< series.h5 was written; false: Noli was built without HDF5
+  SeriesEnd series = SeriesEnd::stopped;
   double seconds = 0, simulating_seconds = 0, verifying_seconds = 0;
 };
 
-/// Runs it. Ends at the last committed window when app::interrupted() or at the time limit. Throws InputError (scene),
+/// Runs it. Ends at the last committed window when app::interrupted() or at the time limit: the one that is being
+/// integrated or verified then is dropped. After that series.h5 is written still, unless the user asks once more to
+/// stop. Throws InputError (scene), ReadInterrupted (while a run to go on with is read),
 /// UsageError (a run that is there, or is not), std::system_error (disk), std::bad_alloc.
 SimulateOutcome run_simulate(const SimulateRequest& request);
 

@@ -37,9 +37,10 @@ class Handle {
 
 std::vector<hsize_t> extents(const SeriesShape& shape) { return {shape.begin(), shape.end()}; }
 
-/// Contiguous; zeros where nothing is written; no time of day in the file.
+/// Contiguous; no zeros written before the values, which would take as long as the values, at once; no time of day in
+/// the file.
 bool make_plain(hid_t properties) {
-  return H5Pset_layout(properties, H5D_CONTIGUOUS) >= 0 && H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC) >= 0 &&
+  return H5Pset_layout(properties, H5D_CONTIGUOUS) >= 0 && H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER) >= 0 &&
          H5Pset_obj_track_times(properties, false) >= 0;
 }
 
@@ -120,16 +121,18 @@ void SeriesFile::declare(const std::string& name, const std::string& unit, const
   impl_->create(name, unit, shape, H5T_IEEE_F64LE);
 }
 
-void SeriesFile::write_row(const std::string& name, std::uint64_t row, std::span<const double> values) {
+void SeriesFile::write_rows(const std::string& name, std::uint64_t first, std::span<const double> values) {
   const Handle dataset(H5Dopen2(impl_->file, name.c_str(), H5P_DEFAULT), H5Dclose);
   impl_->require(dataset.is_open(), name);
   const Handle space(H5Dget_space(dataset), H5Sclose);
   std::vector<hsize_t> count(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
   H5Sget_simple_extent_dims(space, count.data(), nullptr);
-  std::vector<hsize_t> start(count.size(), 0);
-  start[0] = row;
-  count[0] = 1;
+  const hsize_t row = std::accumulate(count.begin() + 1, count.end(), hsize_t{1}, std::multiplies<>());
   const hsize_t size = values.size();
+  impl_->require(row > 0 && size % row == 0, name);
+  std::vector<hsize_t> start(count.size(), 0);
+  start[0] = first;
+  count[0] = size / row;
   const Handle memory(H5Screate_simple(1, &size, nullptr), H5Sclose);
   impl_->require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
                      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0,

@@ -39,10 +39,11 @@ class SeriesFile {
   void add(const std::string& name, const std::string& unit, std::span<const std::int64_t> values,
            SeriesShape shape = {});
 
-  /// Adds an array of doubles that is written row by row, for what does not fit into memory: row i is all with first
-  /// index i. Rows that are not written are 0. Precondition: the shape has at least one dimension.
+  /// Adds an array of doubles that is written in pieces, for what does not fit into memory: row i is all with first
+  /// index i. write_rows() writes row `first` and those after it, as many as there are values for. Preconditions: the
+  /// shape has at least one dimension; each row is written before close().
   void declare(const std::string& name, const std::string& unit, const SeriesShape& shape);
-  void write_row(const std::string& name, std::uint64_t row, std::span<const double> values);
+  void write_rows(const std::string& name, std::uint64_t first, std::span<const double> values);
 
   /// Finishes the file and gives it its name. Nothing may follow.
   void close();

@@ -31,7 +31,7 @@ void SeriesFile::add(const std::string& name, const std::string&, std::span<cons
   refuse(name);
 }
 void SeriesFile::declare(const std::string& name, const std::string&, const SeriesShape&) { refuse(name); }
-void SeriesFile::write_row(const std::string& name, std::uint64_t, std::span<const double>) { refuse(name); }
+void SeriesFile::write_rows(const std::string& name, std::uint64_t, std::span<const double>) { refuse(name); }
 void SeriesFile::close() { refuse("series"); }
 
 }  // namespace noli

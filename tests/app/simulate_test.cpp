@@ -5,60 +5,15 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
+#include "noli/tests/app/simulate_fixture.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_log.h"
 
 namespace noli::app_tests {
 namespace {
-
-using Json = nlohmann::json;
-namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-class Simulate : public testing::Test {
- protected:
-  std::string scene(const Json& json) const { return folder.write("scene.json", json.dump(2)); }
-  std::string run_path(const std::string& name) const { return folder.path(name); }
-  std::string blocks(const std::string& run) const {
-    return bytes_of(fs::path(folder.path(run)) / "trajectory.blocks");
-  }
-
-  /// A small sheet that hangs by two corners and swings.
-  static Json hanging_sheet() {
-    return Json::parse(R"({
-      "noli_scene": 1, "title": "hanging sheet", "duration": 0.25, "window": 0.01, "gravity": [0, 0, -9.81],
-      "bodies": [{"name": "sheet", "mesh": {"grid": {"size": [1, 1], "cells": [6, 6]}}, "perturb": 1e-3,
-                  "material": {"young": 2e4, "poisson": 0.3, "density": 200, "thickness": 0.001, "bending": 100},
-                  "pin": [0, 6]}]})");
-  }
-
-  /// A triangle whose lowest corner comes down through one that rests: all numbers are short, so the first time is
-  /// 0.3125 s exactly.
-  Json falling_triangle() const {
-    folder.write("level.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
-    folder.write("upright.obj", "v 0 -0.25 0.3125\nv -0.25 -0.25 1\nv 0.25 -0.25 1\nf 1 2 3\n");
-    return Json::parse(R"({
-      "noli_scene": 1, "title": "falling triangle", "duration": 1, "window": 0.0078125,
-      "bodies": [{"name": "level", "mesh": {"file": "level.obj"},
-                  "material": {"young": 1e4, "density": 200, "thickness": 0.001}},
-                 {"name": "upright", "mesh": {"file": "upright.obj"},
-                  "material": {"young": 1e4, "density": 200, "thickness": 0.001}}],
-      "scripts": [{"body": "upright", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 1, "move": [0, 0, -1]}]}]})");
-  }
-
-  Folder folder;
-};
 
 TEST_F(Simulate, CommitsWhatTouchesNothing) {
   const Json json = json_of({"simulate", scene(hanging_sheet()), "-o", run_path("run")}, 0);
@@ -104,6 +59,17 @@ TEST_F(Simulate, ABeginningInContactIsRefusedWithItsPairs) {
   EXPECT_NE(process.err.find("vertex upright[0] meets face level[0]-level[1]-level[2]"), std::string::npos)
       << process.err;
   EXPECT_FALSE(fs::exists(folder.path("run")));
+}
+
+TEST_F(Simulate, ABeginningInContactIsRefusedWhenResumedToo) {
+  Json json = falling_triangle();
+  json["bodies"][1]["transform"] = {{"translate", {0, 0, -0.3125}}};
+  const std::string file = scene(json);
+  fs::create_directory(run_path("run"));  // as a call leaves it that ended before the run began
+  const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--resume"});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("the scene begins in contact"), std::string::npos) << process.err;
+  EXPECT_TRUE(fs::is_empty(run_path("run")));
 }
 
 TEST_F(Simulate, ThreadsChangeNoByte) {
@@ -257,13 +223,6 @@ TEST_F(Simulate, FramesAreExported) {
   EXPECT_EQ(run_noli({"export", run_path("run"), "-o", run_path("frames/x.ply")}).exit_code, 3);
   EXPECT_EQ(run_noli({"export", run_path("run"), "--fps", "8", "-o", run_path("vtu/f_%d.vtu")}).exit_code, 0);
   EXPECT_TRUE(fs::exists(run_path("vtu/f.pvd")));
-}
-
-/// A beam in the plane: cheap, so it can run for long.
-Json beam(double duration) {
-  Json json = Json::parse(bytes_of(fs::path(NOLI_SOURCE_DIR) / "scenes/cantilever.json"));
-  json["duration"] = duration;
-  return json;
 }
 
 TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {

@@ -109,15 +109,29 @@ TEST_F(Series, ByRows) {
   const std::vector<double> first{1, 2, 3, 4, 5, 6}, last{7, 8, 9, 10, 11, 12};
   SeriesFile file(path);
   file.declare("positions", "m", {3, 2, 3});
-  file.write_row("positions", 0, first);
-  file.write_row("positions", 2, last);
-  EXPECT_THROW(file.write_row("positions", 3, first), std::system_error) << "no such row";
-  EXPECT_THROW(file.write_row("positions", 1, std::span(first).first(5)), std::system_error) << "too short";
-  EXPECT_THROW(file.write_row("velocities", 1, first), std::system_error) << "no such array";
+  file.write_rows("positions", 0, first);
+  file.write_rows("positions", 2, last);
+  file.write_rows("positions", 1, first);
+  EXPECT_THROW(file.write_rows("positions", 3, first), std::system_error) << "no such row";
+  EXPECT_THROW(file.write_rows("positions", 1, std::span(first).first(5)), std::system_error) << "too short";
+  EXPECT_THROW(file.write_rows("velocities", 1, first), std::system_error) << "no such array";
   file.close();
   const auto positions = read_array<double>(path, "positions", H5T_NATIVE_DOUBLE);
   EXPECT_EQ(positions.shape, (std::vector<hsize_t>{3, 2, 3}));
-  EXPECT_EQ(positions.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 0, 7, 8, 9, 10, 11, 12}));
+  EXPECT_EQ(positions.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+}
+
+TEST_F(Series, BySeveralRowsAtOnce) {
+  const std::vector<double> values{1, 2, 3, 4, 5, 6, 7, 8};
+  SeriesFile file(path);
+  file.declare("positions", "m", {5, 2});
+  file.write_rows("positions", 1, values);
+  file.write_rows("positions", 0, std::span(values).first(2));
+  EXPECT_THROW(file.write_rows("positions", 2, values), std::system_error) << "one row too many";
+  EXPECT_THROW(file.write_rows("positions", 0, std::span(values).first(3)), std::system_error) << "half a row";
+  file.close();
+  EXPECT_EQ(read_array<double>(path, "positions", H5T_NATIVE_DOUBLE).values,
+            (std::vector<double>{1, 2, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
 TEST_F(Series, IsThereWhenItIsClosed) {

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs of small scenes, for the tests of the commands that write and read them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+
+namespace noli::app_tests {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+inline std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Simulate : public testing::Test {
+ protected:
+  std::string scene(const Json& json) const { return folder.write("scene.json", json.dump(2)); }
+  std::string run_path(const std::string& name) const { return folder.path(name); }
+  std::string blocks(const std::string& run) const {
+    return bytes_of(fs::path(folder.path(run)) / "trajectory.blocks");
+  }
+
+  /// A small sheet that hangs by two corners and swings.
+  static Json hanging_sheet() {
+    return Json::parse(R"({
+      "noli_scene": 1, "title": "hanging sheet", "duration": 0.25, "window": 0.01, "gravity": [0, 0, -9.81],
+      "bodies": [{"name": "sheet", "mesh": {"grid": {"size": [1, 1], "cells": [6, 6]}}, "perturb": 1e-3,
+                  "material": {"young": 2e4, "poisson": 0.3, "density": 200, "thickness": 0.001, "bending": 100},
+                  "pin": [0, 6]}]})");
+  }
+
+  /// A triangle whose lowest corner comes down through one that rests: all numbers are short, so the first time is
+  /// 0.3125 s exactly.
+  Json falling_triangle() const {
+    folder.write("level.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("upright.obj", "v 0 -0.25 0.3125\nv -0.25 -0.25 1\nv 0.25 -0.25 1\nf 1 2 3\n");
+    return Json::parse(R"({
+      "noli_scene": 1, "title": "falling triangle", "duration": 1, "window": 0.0078125,
+      "bodies": [{"name": "level", "mesh": {"file": "level.obj"},
+                  "material": {"young": 1e4, "density": 200, "thickness": 0.001}},
+                 {"name": "upright", "mesh": {"file": "upright.obj"},
+                  "material": {"young": 1e4, "density": 200, "thickness": 0.001}}],
+      "scripts": [{"body": "upright", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 1, "move": [0, 0, -1]}]}]})");
+  }
+
+  Folder folder;
+};
+
+/// A bar in the plane at rest, so that many events leave few breakpoints.
+inline Json resting_bar(double duration, double window) {
+  Json json = Json::parse(R"({
+      "noli_scene": 1, "dimension": 2, "bodies": [
+        {"name": "bar", "mesh": {"chain": {"points": [[0, 0], [1, 0]], "segments": 1}}, "steps": {"stretch": 1e-3},
+         "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})");
+  json["duration"] = duration;
+  json["window"] = window;
+  return json;
+}
+
+inline Json last_entry(const std::string& run) {
+  const std::string log = bytes_of(fs::path(run) / "log.jsonl");
+  return Json::parse(log.substr(log.rfind('\n', log.size() - 2) + 1));
+}
+
+inline ProcessOptions interrupt_after(int milliseconds) {
+  ProcessOptions options;
+  options.signal = SIGINT;
+  options.signal_after = std::chrono::milliseconds(milliseconds);
+  return options;
+}
+
+/// A beam in the plane: cheap, so it can run for long.
+inline Json beam(double duration) {
+  Json json = Json::parse(bytes_of(fs::path(NOLI_SOURCE_DIR) / "scenes/cantilever.json"));
+  json["duration"] = duration;
+  return json;
+}
+
+}  // namespace noli::app_tests
