@@ -24,6 +24,7 @@ class MotionRun {
     }
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     const Mesh& mesh = reader_.mesh();
+    outcome_.steps_total = reader_.count_windows();
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
@@ -135,7 +136,7 @@ class MotionRun {
   void conclude() {
     stopped();
     const bool enough = outcome_.touches() && !request_.keep_going;
-    outcome_.steps_total = reader_.windows();
+    if (ended_) outcome_.steps_total = reader_.windows();
     outcome_.open_window = ended_ && reader_.open_window().has_value();
     outcome_.complete = outcome_.complete && (ended_ || enough);
     // A run of which nothing was committed yet proves nothing.

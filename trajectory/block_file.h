@@ -126,6 +126,9 @@ class BlockReader {
   /// it closes, or a block is damaged although commits follow it. After an error the reader must not be used.
   std::optional<Block> next();
 
+  /// How many commit blocks the file has, by the headers of its blocks alone: no payload is read, nothing is checked.
+  std::uint64_t count_commits();
+
   /// The end of the last commit that next() passed.
   const CommitPoint& committed() const { return committed_; }
   /// Once next() gave nothing: where the open group begins, if the file ends in one.

@@ -173,6 +173,20 @@ std::optional<Block> BlockReader::next() {
   return block;
 }
 
+std::uint64_t BlockReader::count_commits() {
+  using namespace block_format;
+  std::uint64_t count = 0;
+  for (std::uint64_t at = file_header_size; size_ - at >= block_header_size + checksum_size;) {
+    const std::string header = read(at, block_header_size);
+    const std::uint64_t left = size_ - at - block_header_size - checksum_size;
+    const auto length = get<std::uint64_t>(header.data() + 4);
+    if (length > left) break;
+    count += get<FourLetters>(header.data()) == commit;
+    at += block_header_size + length + checksum_size;
+  }
+  return count;
+}
+
 std::optional<std::uint64_t> BlockReader::open_group() const {
   return committed_.offset < size_ ? std::optional(committed_.offset) : std::nullopt;
 }

@@ -142,6 +142,8 @@ std::optional<RunWindow> RunReader::next_window() {
   return window;
 }
 
+std::uint64_t RunReader::count_windows() { return std::max<std::uint64_t>(blocks_.count_commits(), 1) - 1; }
+
 std::string RunReader::open_window_message() const {
   return fmt::format("{}: ends in an open window at {}", blocks_.name(), byte_place(open_window().value()));
 }

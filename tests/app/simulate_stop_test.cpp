@@ -61,6 +61,17 @@ TEST_F(SimulateStop, WritingTheSeriesCanBeInterrupted) {
   EXPECT_TRUE(blocks("run") == before);
 }
 
+TEST_F(SimulateStop, StepsInAllAreThoseOfTheRun) {
+  const std::string file = scene(resting_bar(1, 0x1p-9));
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run")}).exit_code, 0);
+  const Json whole = json_of({"verify", run_path("run")}, 0);
+  EXPECT_EQ(whole["steps"], 512);
+  EXPECT_EQ(whole["steps_total"], 512);
+  const Json part = json_of({"verify", run_path("run"), "--time-limit", "1ms"}, 2);
+  EXPECT_LT(part["steps"], 512);
+  EXPECT_EQ(part["steps_total"], 512);
+}
+
 TEST_F(SimulateStop, FramesThatCannotBeAreRefused) {
   Json json = resting_bar(1e9, 1e8);
   json["frame_rate"] = 1e9;
