@@ -23,6 +23,7 @@ ExitCode run(const ExportRequest& request) {
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
                                  digits17(outcome.end), !outcome.interrupted);
   if (!outcome.pvd.empty()) text += fmt::format("Series: {}\n", outcome.pvd);
+  if (outcome.removed > 0) text += fmt::format("Removed: {} files of an earlier export.\n", outcome.removed);
   if (outcome.recorded)
     text += "The run recorded frames: these were written, at the scene's frame_rate, not at --fps.\n";
   if (outcome.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
@@ -44,6 +45,9 @@ Command add_export(CLI::App& app) {
   command->add_option("-o,--output", request->pattern, "Names of the files, e.g. frames/%05d.ply (.obj, .vtu)")
       ->required()
       ->type_name("PATTERN");
+  command->add_flag("--force", request->force,
+                    "Replace files of that pattern that are there, and remove those that this export does not have; "
+                    "without it they are an error");
   return {command, [request] { return run(*request); }};
 }
 

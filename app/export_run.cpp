@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <optional>
 #include <vector>
 
 #include "noli/app/exit_code.h"
 #include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/output.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/write_obj.h"
@@ -25,6 +27,19 @@ struct Pattern {
   FrameFormat format = FrameFormat::ply;
 
   std::filesystem::path file(std::uint64_t i) const { return fmt::format("{}{:0{}}{}", before, i, width, after); }
+  std::filesystem::path folder() const { return file(0).parent_path(); }
+
+  /// The number in the name of a file of the folder, if it is one of the pattern.
+  std::optional<std::uint64_t> number(const std::filesystem::path& path) const {
+    const std::string name = path.filename().string();
+    const std::size_t begin = std::filesystem::path(before).filename().string().size();
+    if (name.size() <= begin + after.size()) return std::nullopt;
+    std::uint64_t i = 0;
+    const char* const end = name.data() + name.size() - after.size();
+    const auto [rest, error] = std::from_chars(name.data() + begin, end, i);
+    if (error != std::errc() || rest != end || file(i).filename() != name) return std::nullopt;
+    return i;
+  }
 };
 
 [[noreturn]] void refuse(const std::string& pattern) {
@@ -46,7 +61,7 @@ Pattern parse_pattern(const std::string& text) {
   }
   const std::string width = text.substr(percent + 1, d - percent - 1);
   const bool digits = width.size() <= 3 && width.find_first_not_of("0123456789") == std::string::npos;
-  if (!digits || (!width.empty() && width[0] != '0')) refuse(text);
+  if (!digits || (!width.empty() && width[0] != '0') || text.find('/', d) != std::string::npos) refuse(text);
   return {text.substr(0, percent), text.substr(d + 1), width.empty() ? 0 : std::stoul(width), format_of(text)};
 }
 
@@ -54,8 +69,8 @@ class Export {
  public:
   explicit Export(const ExportRequest& request)
       : request_(request), pattern_(parse_pattern(request.pattern)), reader_(request.run) {
-    const auto folder = pattern_.file(0).parent_path();
-    if (!folder.empty()) std::filesystem::create_directories(folder);
+    find_earlier();
+    make_writable_folder(pattern_.folder(), "-o");
   }
 
   ExportOutcome operator()() {
@@ -68,10 +83,33 @@ class Export {
     }
     outcome_.open_window = !outcome_.interrupted && reader_.open_window().has_value();
     if (pattern_.format == FrameFormat::vtu) write_series();
+    remove_earlier();
     return std::move(outcome_);
   }
 
  private:
+  /// What earlier exports left.
+  void find_earlier() {
+    const std::filesystem::path folder = pattern_.folder();
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error)) {
+      const std::filesystem::path path = folder / entry.path().filename();
+      const bool series = pattern_.format == FrameFormat::vtu && path == pvd_path();
+      if (!series && !pattern_.number(path)) continue;
+      if (entry.is_directory(error)) throw UsageError("-o " + path.string() + ": is a folder; expected a file");
+      if (!series) earlier_.push_back(path);
+      if (request_.force) continue;
+      throw UsageError("-o " + request_.pattern + ": " + path.string() +
+                       " is there already; expected no such file, or --force");
+    }
+  }
+
+  void remove_earlier() {
+    for (const auto& path : earlier_) {
+      if (pattern_.number(path) >= outcome_.frames) outcome_.removed += std::filesystem::remove(path) ? 1 : 0;
+    }
+  }
+
   void write_frames(const RunWindow& window) {
     if (!window.lines) return write_recorded(window);
     for_each_frame_time(window.index, window.begin, window.end, request_.fps, [&](double t) {
@@ -105,22 +143,25 @@ class Export {
   }
 
   /// Beside the frames, named like them without the number.
+  std::filesystem::path pvd_path() const {
+    std::string stem = std::filesystem::path(pattern_.before).filename().string();
+    while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();
+    return pattern_.folder() / ((stem.empty() ? "series" : stem) + ".pvd");
+  }
+
   void write_series() {
     std::vector<PvdEntry> entries;
     for (std::uint64_t i = 0; i < outcome_.frames; ++i) {
       entries.push_back({times_[i], pattern_.file(i).filename().string()});
     }
-    const std::filesystem::path folder = pattern_.file(0).parent_path();
-    std::string stem = std::filesystem::path(pattern_.before).filename().string();
-    while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();
-    const auto path = folder / ((stem.empty() ? "series" : stem) + ".pvd");
-    write_pvd(path, entries);
-    outcome_.pvd = path.string();
+    write_pvd(pvd_path(), entries);
+    outcome_.pvd = pvd_path().string();
   }
 
   const ExportRequest& request_;
   Pattern pattern_;
   RunReader reader_;
+  std::vector<std::filesystem::path> earlier_;
   std::vector<double> times_;
   ExportOutcome outcome_;
 };

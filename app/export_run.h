@@ -21,20 +21,24 @@ struct ExportRequest {
   std::filesystem::path run;
   double fps = 60;
   std::string pattern;  ///< with one %d or %0Nd, where the number of the frame goes; its ending names the format
+  bool force = false;   ///< files of that pattern that are there may be replaced or removed
 };
 
 struct ExportOutcome {
   std::uint64_t frames = 0;
   std::uint64_t windows = 0;
-  double end = 0;   ///< of the run [s]
-  std::string pvd;  ///< the series that ParaView opens, if the format is vtu
+  double end = 0;             ///< of the run [s]
+  std::string pvd;            ///< the series that ParaView opens, if the format is vtu
+  std::uint64_t removed = 0;  ///< files of an earlier export that were not replaced
   bool open_window = false;
   bool interrupted = false;
   bool recorded = false;  ///< the run recorded frames, and these were written
 };
 
 /// Writes the frames, one in memory at a time. Of a run that recorded frames alone, those are written, and fps does not
-/// matter. Throws InputError (no run, a damaged one), UsageError (pattern), std::system_error (disk).
+/// matter. In the end no file of that pattern is there but those just written. Throws InputError (no run, a damaged
+/// one), UsageError (pattern; a place that cannot be written to; without `force`, files of that pattern that are there),
+/// std::system_error (disk).
 ExportOutcome run_export(const ExportRequest& request);
 
 }  // namespace noli::app

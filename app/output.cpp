@@ -138,7 +138,7 @@ Output::Output(std::optional<std::string> json_path, const std::vector<std::file
   if (is_standard_output(*json_path_)) {
     throw UsageError("--json " + *json_path_ + ": standard output goes there; expected another file, or '-'");
   }
-  if (!can_write(*json_path_)) throw UsageError("--json " + *json_path_ + ": cannot be written: " + reason());
+  require_writable_file(*json_path_, "--json");
 }
 
 void Output::write(const std::string& text, const Json& json) const {
@@ -160,6 +160,26 @@ void require_other_file(const std::filesystem::path& file, const std::vector<std
   }
 }
 
+void require_writable_file(const std::filesystem::path& file, const std::string& option) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    throw UsageError(option + " " + file.string() + ": is a folder; expected a file");
+  }
+  if (can_write(file.string())) return;
+  throw UsageError(option + " " + file.string() + ": cannot be written: " + reason() +
+                   "; expected a file in a folder that is there and may be written to");
+}
+
+void make_writable_folder(const std::filesystem::path& folder, const std::string& option) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw UsageError(option + " " + folder.string() + ": cannot be made: " + error.message() +
+                     "; expected a folder, or a place for one");
+  }
+  require_writable_folder(folder.empty() ? "." : folder.string(), option);
+}
+
 void require_writable_folder(const std::string& folder, const std::string& option) {
   const std::filesystem::path path(folder);
   std::error_code error;
@@ -167,7 +187,8 @@ void require_writable_folder(const std::string& folder, const std::string& optio
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
   const std::string probed = (exists ? path : parent) / "probe";
   if (TemporaryFile(probed).is_open()) return;
-  throw UsageError(option + " " + folder + ": cannot be written: " + reason());
+  throw UsageError(option + " " + folder + ": cannot be written: " + reason() +
+                   "; expected a folder that may be written to, or a place for one");
 }
 
 void write_standard_output(const std::string& text) {

@@ -36,9 +36,17 @@ class Output {
 void require_other_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
                         const std::string& option);
 
+/// Throws UsageError, naming `option`, when the file cannot be written: one that is there, or a new one in its folder.
+/// Leaves nothing behind.
+void require_writable_file(const std::filesystem::path& file, const std::string& option);
+
 /// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, the folder
 /// itself.
 void require_writable_folder(const std::string& folder, const std::string& option);
+
+/// Makes a folder, and those that it is in, unless it is there. Throws UsageError, naming `option`, when it cannot be
+/// made, or no files in it.
+void make_writable_folder(const std::filesystem::path& folder, const std::string& option);
 
 /// Writes to standard output, all of it. Throws WriteError.
 void write_standard_output(const std::string& text);

@@ -5,8 +5,10 @@
 #include <string>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/output.h"
 #include "noli/app/version.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_manifest.h"
 
 namespace noli::app {
@@ -21,9 +23,11 @@ std::string text_of(const Json& scene) { return scene.dump(2) + "\n"; }
 bool is_run(const fs::path& folder) {
   static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks", "log.jsonl",
                                               "series.h5"};
-  if (!fs::is_directory(folder)) return false;
-  if (!fs::is_empty(folder) && !fs::exists(folder / "trajectory.blocks")) return false;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  std::error_code error;
+  fs::directory_iterator entries(folder, error);
+  if (error) return false;
+  if (entries != fs::directory_iterator() && !fs::exists(folder / "trajectory.blocks", error)) return false;
+  for (const auto& entry : entries) {
     const fs::path name = entry.path().filename();
     if (names.count((name.extension() == ".part" ? name.stem() : name).string()) == 0) return false;
   }
@@ -70,11 +74,11 @@ void RunFolder::make(bool force) {
     }
     if (!is_run(path_))
       throw UsageError("-o " + path_.string() + ": is no run; expected a folder that may be replaced");
+    require_writable_folder(path_.string(), "-o");
     require_idle(path_);
     clear(path_);
   }
-  fs::create_directories(path_, error);
-  if (error) throw UsageError("-o " + path_.string() + ": cannot be made: " + error.message());
+  make_writable_folder(path_, "-o");
 }
 
 void RunFolder::begin(const Json& scene, const Sha256Digest& model) {
@@ -85,6 +89,9 @@ void RunFolder::begin(const Json& scene, const Sha256Digest& model) {
 
 bool RunFolder::has_begun() const {
   if (!is_run(path_)) throw UsageError("--resume: " + path_.string() + " is no run; expected the folder of one");
+  require_writable_folder(path_.string(), "--resume");
+  const fs::path trajectory = trajectory_path(path_);
+  if (fs::exists(trajectory)) require_writable_file(trajectory, "--resume");
   if (fs::exists(path_ / "manifest.json")) return true;
   // The log comes after the manifest.
   if (!fs::exists(path_ / "log.jsonl")) return false;
@@ -102,7 +109,11 @@ void RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
     throw InputError((path_ / "manifest.json").string(), "/model/sha256",
                      "the run began with other meshes or paths; expected those files that the scene names unchanged");
   }
-  log_.emplace(path_);
+  try {
+    log_.emplace(path_);
+  } catch (const std::system_error& lock) {
+    throw UsageError("--resume: " + std::string(lock.what()) + "; expected a run that may be written to");
+  }
   log({{"event", "resume"}});
 }
 

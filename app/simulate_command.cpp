@@ -42,6 +42,7 @@ ExitCode reproduce(const SimulateArguments& arguments) {
   const auto inputs = with_files_of_runs({request.scene, *arguments.reproduce});
   const Output output(arguments.json, inputs);
   require_other_file(request.run, inputs, "-o");
+  require_writable_file(request.run, "-o");
   const ReproduceOutcome outcome =
       run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
   const char* const verdict = outcome.same ? "same" : "different";
