@@ -99,6 +99,15 @@ class FileRun {
   std::vector<char> contact_;
 };
 
+/// What was asked for, or what the file's name says.
+FeaturePair kind_of(const std::filesystem::path& path, std::optional<FeaturePair> asked) {
+  const std::optional<FeaturePair> kind = asked ? asked : query_kind(path);
+  if (kind) return *kind;
+  throw UsageError(path.string() +
+                   ": the name does not say what the queries are; expected one of vertex-face, edge-edge, vertex-edge, "
+                   "vertex-vertex in it, or --kind");
+}
+
 void require_decided(const CcdFile& file, int dimension) {
   const auto& types = audit::all_query_types;
   if (std::find(types.begin(), types.end(), audit::QueryType{file.pair, dimension}) != types.end()) return;
@@ -132,21 +141,18 @@ CcdCounts& CcdCounts::operator+=(const CcdCounts& other) {
   return *this;
 }
 
-FeaturePair query_kind(const std::filesystem::path& path, std::optional<FeaturePair> asked) {
-  if (asked) return *asked;
+std::optional<FeaturePair> query_kind(const std::filesystem::path& path) {
   const auto kind = kind_from_file_name(path);
   for (const FeaturePair pair : all_feature_pairs) {
     if (kind == audit::file_kind(pair)) return pair;
   }
-  throw UsageError(path.string() +
-                   ": the name does not say what the queries are; expected one of vertex-face, edge-edge, vertex-edge, "
-                   "vertex-vertex in it, or --kind");
+  return std::nullopt;
 }
 
 CcdOutcome run_ccd(const CcdRequest& request) {
   CcdOutcome outcome;
   for (const auto& path : request.files) {
-    outcome.files.push_back({path, query_kind(path, request.pair), {}, {}, {}});
+    outcome.files.push_back({path, kind_of(path, request.pair), {}, {}, {}});
     require_decided(outcome.files.back(), request.dimension);
   }
   const auto records = read_all(outcome);

@@ -66,7 +66,7 @@ struct CcdOutcome {
 /// Reads all files, then decides them. Throws InputError, UsageError (no kind, no such kind in this dimension).
 CcdOutcome run_ccd(const CcdRequest& request);
 
-/// The kind of query in a file: what was asked for, or what its name says. Throws UsageError when neither does.
-FeaturePair query_kind(const std::filesystem::path& path, std::optional<FeaturePair> asked);
+/// The kind of query in a file, if its name says it.
+std::optional<FeaturePair> query_kind(const std::filesystem::path& path);
 
 }  // namespace noli::app

@@ -42,15 +42,20 @@ bool is_csv(const std::filesystem::path& path) {
 }
 
 Json query_info(const std::filesystem::path& path) {
-  const FeaturePair pair = query_kind(path, std::nullopt);
-  const auto records = read_query_csv(path, audit::file_kind(pair));
+  const std::optional<FeaturePair> pair = query_kind(path);
+  if (!pair) {
+    throw InputError(path.string(), "",
+                     "the name does not say what the queries are; expected one of vertex-face, edge-edge, vertex-edge, "
+                     "vertex-vertex in it");
+  }
+  const auto records = read_query_csv(path, audit::file_kind(*pair));
   const auto count_label = [&](bool label) {
     return std::count_if(records.begin(), records.end(),
                          [=](const QueryRecord& record) { return record.label == label; });
   };
   return {{"file", path.string()},
           {"format", "CSV of queries"},
-          {"kind", name(pair)},
+          {"kind", name(*pair)},
           {"queries", records.size()},
           {"labelled", count_label(false) + count_label(true)},
           {"labelled_contact", count_label(true)}};

@@ -39,5 +39,15 @@ TEST(Info, SaysTheSameInText) {
   EXPECT_NE(process.out.find("loose_edges 1"), std::string::npos) << process.out;
 }
 
+TEST(Info, SuggestsNoOptionThatItDoesNotHave) {
+  const Folder folder;
+  const auto path = folder.write("queries.csv", "0,1,0,1,0,1,0\n");
+  const Process process = run_noli({"info", path});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find(path + ": the name does not say what the queries are"), std::string::npos) << process.err;
+  EXPECT_EQ(process.err.find("--kind"), std::string::npos) << process.err;
+  EXPECT_NE(run_noli({"ccd", path}).err.find("--kind"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace noli::app_tests
