@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
 
 namespace noli::app {
@@ -11,9 +13,14 @@ std::atomic<int> requests{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler may write it");
 
+/// Once a second: what begins to wait after the user asked is interrupted too, though it came a moment too late for the
+/// user's own signal.
+extern "C" void remind(int) { ::alarm(1); }
+
 extern "C" void request_stop(int) {
   stop_requested.store(true, std::memory_order_relaxed);
   requests.fetch_add(1, std::memory_order_relaxed);
+  ::alarm(1);
 }
 
 /// Without SA_RESTART, so that waiting for a pipe that nobody writes to ends too (ReadInterrupted).
@@ -30,6 +37,7 @@ const std::atomic<bool>& interrupted() { return stop_requested; }
 int interruptions() { return requests.load(std::memory_order_relaxed); }
 
 void install_signal_handlers() {
+  on_signal(SIGALRM, remind);
   on_signal(SIGINT, request_stop);
   on_signal(SIGTERM, request_stop);
   on_signal(SIGPIPE, SIG_IGN);

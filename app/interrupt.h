@@ -13,7 +13,8 @@ const std::atomic<bool>& interrupted();
 /// How often the user has asked: what comes after the work may need to be asked again.
 int interruptions();
 
-/// SIGINT and SIGTERM set the flag from now on, and end a reader's wait for a pipe with ReadInterrupted; a closed pipe is an error of writing instead of a signal.
+/// SIGINT and SIGTERM set the flag from now on, and end a reader's wait for a pipe with ReadInterrupted, also one that
+/// begins later (within a second); a closed pipe is an error of writing instead of a signal.
 void install_signal_handlers();
 
 }  // namespace noli::app

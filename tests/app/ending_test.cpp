@@ -88,6 +88,15 @@ TEST_P(EndedBySignal, WhileTheRestOfAPipeIsWaitedFor) {
   EXPECT_NE(process.out.find("Undecided (interrupted)"), std::string::npos) << process.out;
 }
 
+TEST_P(EndedBySignal, AMomentBeforeAPipeIsWaitedFor) {
+  const Folder folder;
+  const auto pipe = folder.path("pipe.ply");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  ProcessOptions at_once;
+  at_once.signal = GetParam();
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(run_noli({"info", pipe}, at_once).exit_code, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EndedBySignal, testing::Values(SIGINT, SIGTERM),
                          [](const auto& test) { return test.param == SIGINT ? "Interrupt" : "Terminate"; });
 

@@ -94,8 +94,8 @@ bool catches(pid_t process, int signal) {
 }
 
 void send_signal(pid_t process, int signal, std::chrono::milliseconds after) {
-  for (int wait = 0; wait < 1000 && !catches(process, signal); ++wait)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int wait = 0; wait < 100'000 && !catches(process, signal); ++wait)
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
   std::this_thread::sleep_for(after);
   ::kill(process, signal);
 }
