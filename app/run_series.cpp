@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/run_series.h"
 
-#include <bit>
 #include <stdexcept>
+
+#include "noli/trajectory/bytes.h"
 
 namespace noli::app {
 namespace {
@@ -23,35 +24,27 @@ void each_real(Row& row, F&& f) {
   }
 }
 
-void append(std::string& bytes, std::uint64_t word) {
-  for (int i = 0; i < 8; ++i) bytes += static_cast<char>(word >> (8 * i) & 0xff);
-}
-
-std::uint64_t word_at(std::string_view bytes, std::size_t index) {
-  std::uint64_t word = 0;
-  for (std::size_t i = 0; i < 8; ++i) {
-    word |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[8 * index + i])) << (8 * i);
-  }
-  return word;
-}
-
 }  // namespace
 
 std::string encode(const SeriesRow& row) {
   std::string bytes;
-  each_real(row, [&bytes](double x) { append(bytes, std::bit_cast<std::uint64_t>(x)); });
-  append(bytes, row.events);
-  append(bytes, row.breakpoints);
+  each_real(row, [&bytes](double x) { put(bytes, x); });
+  put(bytes, row.events);
+  put(bytes, row.breakpoints);
   return bytes;
 }
 
 SeriesRow decode_row(std::string_view bytes) {
   if (bytes.size() != 8 * (reals + counts)) throw std::invalid_argument("a window's series has another size");
   SeriesRow row;
-  std::size_t index = 0;
-  each_real(row, [&](double& x) { x = std::bit_cast<double>(word_at(bytes, index++)); });
-  row.events = word_at(bytes, reals);
-  row.breakpoints = word_at(bytes, reals + 1);
+  const char* at = bytes.data();
+  const auto take = [&at]<class T>(T& value) {
+    value = get<T>(at);
+    at += sizeof(T);
+  };
+  each_real(row, take);
+  take(row.events);
+  take(row.breakpoints);
   return row;
 }
 
