@@ -70,8 +70,9 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
   bool open(Json container) {
+    Json& there = insert(std::move(container));
     if (open_.size() == deepest) throw InputError(file_, path(), fmt::format("expected at most {} levels", deepest));
-    open_.push_back(&insert(std::move(container)));
+    open_.push_back(&there);
     key_of_.emplace_back();
     return true;
   }
@@ -80,7 +81,7 @@ class Builder : public nlohmann::json_sax<Json> {
     key_of_.pop_back();
     return true;
   }
-  /// The JSON pointer of the field that is being read.
+  /// The JSON pointer of the field that is being read. Precondition: arrays have their item already.
   std::string path() const {
     Json::json_pointer pointer;
     for (std::size_t i = 0; i < open_.size(); ++i) {

@@ -58,6 +58,12 @@ TEST(ParseJson, SixtyFourLevelsAreEnough) {
   const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
   EXPECT_EQ(parse_error(nested(64)), "");
   EXPECT_NE(parse_error(nested(65)).find("expected at most 64 levels"), std::string::npos);
+  std::string path;
+  for (int i = 0; i < 64; ++i) path += "/0";
+  EXPECT_NE(parse_error(std::string(65, '[')).find(path + ": expected at most 64 levels"), std::string::npos)
+      << parse_error(std::string(65, '['));
+  EXPECT_NE(parse_error(std::string(63, '[') + "[7,[").find(path.substr(2) + "/1: expected at most"),
+            std::string::npos);
   EXPECT_NE(parse_error(nested(5000000)).find("expected at most 64 levels"), std::string::npos);
 }
 
