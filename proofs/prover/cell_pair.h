@@ -48,7 +48,8 @@ class CellPairs {
   void settle_self(const Cell& c) {
     if (c.corners == 3) {
       for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
-    } else if (options_.strict && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1]) {
+    } else if (options_.strict && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1] &&
+               !all_loose(c, corner_bit(0) | corner_bit(1))) {
       const MovingCell<Dim> at = gather(c);
       examine({FeaturePair::vertex_vertex, &at, corner_feature(0), &at, corner_feature(1)});
     }
@@ -291,7 +292,7 @@ class CellPairs {
   void settle_opposite(const Cell& c, unsigned corner) {
     const unsigned edge = (corner + 1) % 3;
     const FeatureMask mask = corner_bit(static_cast<int>(corner)) | edge_bit(static_cast<int>(edge));
-    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0;
+    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0 && !all_loose(c, mask);
     const bool wanted = options_.strict || (Dim == 2 && (c.shared & mask) != 0);
     const VertexId v = c.vertices[corner];
     if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;

@@ -29,6 +29,8 @@ constexpr FeatureMask cell_bit = 64;
 struct CellFeatures {
   std::vector<FeatureMask> owned;   ///< the corners and edges it owns; cell_bit if it is listed
   std::vector<FeatureMask> shared;  ///< the corners and edges that another cell has as well
+  std::vector<FeatureMask> loose;   ///< the corners of a face or edge that are loose points too, the edges of a face
+                                    ///< that are loose edges too
 };
 
 /// Number of corners of a cell: 3 (a face), 2 (a loose edge) or 1 (a loose point).

@@ -96,6 +96,7 @@ Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features,
           cell,
           features.owned[cell],
           features.shared[cell],
+          features.loose[cell],
           static_cast<std::uint8_t>(corner_count(mesh, cell)),
           scripted};
 }

@@ -28,7 +28,7 @@ namespace noli {
 struct Leaf {
   std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/features.h
   std::uint32_t cell;
-  FeatureMask owned, shared;
+  FeatureMask owned, shared, loose;
   std::uint8_t corners;
   bool scripted;  ///< all its vertices are
 };

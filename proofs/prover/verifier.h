@@ -17,7 +17,7 @@
 //   2D  vertex_edge   every vertex of a cell against every edge      vertex_vertex  loose points against loose points
 // each pair once, only pairs that share no vertex and belong to two different cells (with `strict` also: in 3D each
 // corner of a face against the edge opposite to it, as vertex_edge; in 2D the pairs of one cell; the two ends of a
-// loose edge, as vertex_vertex). An edge is a pair of vertex ids, whichever cells list it and how often; a face that is
+// loose edge, as vertex_vertex; not once more if they are a loose point and edge, or two loose points). An edge is a pair of vertex ids, whichever cells list it and how often; a face that is
 // listed twice is two faces. In 3D all other incidences of features are contained in these; a vertex on an edge of a
 // face is also on the face. Vertices are who they are by index.
 //

@@ -107,10 +107,11 @@ void add_strict(const Mesh& mesh, int dimension, std::map<PairKey, int>& pairs) 
   for (Cell cell : cells_of(mesh)) {
     std::sort(cell.begin(), cell.end());
     if (!seen.insert(cell).second) continue;
-    if (cell.size() == 2 && cell[0] != cell[1]) ++pairs[vertex_vertex(cell[0], cell[1])];
+    // What is a pair of two cells already is no other pair.
+    if (cell.size() == 2 && cell[0] != cell[1]) pairs[vertex_vertex(cell[0], cell[1])] = 1;
     for (const VertexId v : std::set(cell.begin(), cell.end())) {
       for (const Edge& e : edges_of(cell)) {
-        if (cell.size() == 3 && dimension == 3 && !has(e, v)) ++pairs[vertex_edge(v, e)];
+        if (cell.size() == 3 && dimension == 3 && !has(e, v)) pairs[vertex_edge(v, e)] = 1;
       }
     }
   }

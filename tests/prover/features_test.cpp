@@ -31,6 +31,20 @@ TEST(Features, WhatSeveralCellsHaveIsShared) {
   EXPECT_EQ(features.shared[2], 0);
 }
 
+TEST(Features, WhatIsACellOfItsOwnTooIsLoose) {
+  Mesh mesh;
+  mesh.vertex_count = 5;
+  mesh.faces = {{0, 1, 2}, {2, 1, 3}};
+  mesh.edges = {{3, 2}, {3, 4}};
+  mesh.points = {4, 0};
+  const CellFeatures features = find_owners(mesh, true);
+  EXPECT_EQ(features.loose[0], corner_bit(0));
+  EXPECT_EQ(features.loose[1], edge_bit(2));
+  EXPECT_EQ(features.loose[2], 0);
+  EXPECT_EQ(features.loose[3], corner_bit(1));
+  EXPECT_EQ(features.loose[4] | features.loose[5], 0);
+}
+
 TEST(Features, AVertexThatACellHasTwiceCountsOnce) {
   Mesh mesh;
   mesh.vertex_count = 2;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "noli/proofs/prover/window_verifier.h"
 #include "scenes.h"
 
 namespace noli::testing {
@@ -233,6 +234,31 @@ TEST(Verifier, StrictLooksAtTheEndsOfALooseEdge) {
   step.mesh.edges = {{step.vertex({0, 0, 0}), step.vertex({1, 0, 0}, {-1, 0, 0})}};
   EXPECT_EQ(verify(step).contact_count(), 0u);
   EXPECT_EQ(verify(step, strictly()).contacts, (std::array<std::uint64_t, 4>{0, 0, 0, 1}));
+}
+
+TEST(Verifier, StrictCountsAPairOfFeaturesOnce) {
+  Step step;
+  const VertexId a = step.vertex({0, 1, 0}, {0, -1, 0}), b = step.vertex({-1, 0, 0}), c = step.vertex({1, 0, 0});
+  step.mesh.faces = {{a, b, c}};
+  step.mesh.edges = {{c, b}};
+  const std::array<std::uint64_t, 4> one = {0, 0, 1, 0};
+  EXPECT_EQ(verify(step, strictly()).contacts, one) << "a corner, no cell, against the loose edge";
+  step.mesh.points = {a};  // a pair of two cells now, which is there without being strict
+  EXPECT_EQ(verify(step).contacts, one);
+  EXPECT_EQ(verify(step, strictly()).contacts, one);
+  const WorldLines lines = WorldLines::from_frames(step.x_t0, step.x_t1);
+  WindowOptions window;
+  EXPECT_EQ(verify_window(step.mesh, lines, window).contacts, one);
+  window.strict = true;
+  EXPECT_EQ(verify_window(step.mesh, lines, window).contacts, one);
+  Step closing;
+  const VertexId p = closing.vertex({0, 0, 0}), q = closing.vertex({1, 0, 0}, {-1, 0, 0});
+  closing.mesh.edges = {{p, q}};
+  closing.mesh.points = {p, q};
+  for (const bool strict : {false, true}) {
+    EXPECT_EQ(verify(closing, strict ? strictly() : VerifyOptions()).contacts,
+              (std::array<std::uint64_t, 4>{0, 0, 0, 1}));
+  }
 }
 
 TEST(Verifier, In2DTheThirdCoordinateIsNotLookedAt) {
