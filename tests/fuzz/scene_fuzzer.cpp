@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes: whatever the text, an InputError of one line, or a scene that can be explained (so its meshes, forces and
+// steps are made), or that is refused by one line then.
+//
+// Input: 'S' for the short form, anything else for the full one; then the text. Scenes of more than a few hundred
+// vertices are read only, and so are those that name files.
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+#include "check_frame.h"
+#include "noli/integrator/scene/explain.h"
+#include "noli/integrator/scene/read_scene.h"
+#include "noli/trajectory/error.h"
+
+namespace {
+
+using noli::fuzz::require;
+using noli::integrator::Json;
+
+constexpr double many = 500;
+
+/// About how large a mesh becomes, by the whole numbers of its description: each multiplies it.
+double size_of(const Json& value, const std::string& name) {
+  if (value.is_number_integer()) {
+    const double n = value.get<double>();
+    return name == "subdivisions" ? (n < 4 ? 20 * (1 << static_cast<int>(std::max(n, 0.0)) * 2) : 2 * many)
+                                  : std::max(n, 0.0) + 1;
+  }
+  double size = 1;
+  if (!value.is_structured()) return size;
+  for (const auto& [key, item] : value.items()) {
+    const bool counts = value.is_object() || name == "cells" || name == "counts" || name == "array";
+    if (counts) size *= size_of(item, value.is_object() ? key : name);
+  }
+  return size;
+}
+
+bool names_files(const Json& document) {
+  const auto mesh_file = [](const Json& body) { return body["mesh"].contains("file"); };
+  const auto frames = [](const Json& script) { return script.contains("frames"); };
+  const Json& bodies = document["bodies"];
+  const Json scripts = document.value("scripts", Json::array());
+  return std::any_of(bodies.begin(), bodies.end(), mesh_file) || std::any_of(scripts.begin(), scripts.end(), frames);
+}
+
+bool is_small(const Json& document) {
+  double size = 0;
+  for (const Json& body : document["bodies"]) {
+    size += size_of(body["mesh"], "mesh") * (body.contains("array") ? size_of(body["array"], "array") : 1);
+  }
+  return size <= many;
+}
+
+void read_and_explain(std::string_view text, noli::integrator::Form form) {
+  const noli::integrator::Scene scene = noli::integrator::parse_scene(text, "input", form);
+  require(!scene.bodies.empty() && scene.duration > 0 && scene.window > 0);
+  if (names_files(scene.document) || !is_small(scene.document)) return;
+  const noli::integrator::Explanation explanation = noli::integrator::explain(scene);
+  require(explanation.bodies.size() == scene.bodies.size());
+  require(!to_text(explanation).empty() && to_json(explanation).is_object());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  try {
+    read_and_explain(text, data[0] == 'S' ? noli::integrator::Form::brief : noli::integrator::Form::full);
+  } catch (const noli::InputError& error) {
+    const std::string_view message = error.what();
+    require(message.starts_with("input: ") && message.find('\n') == std::string_view::npos);
+  }
+  return 0;
+}
