@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "noli/integrator/scene/field.h"
+#include "noli/integrator/scene/pinch.h"
 #include "noli/integrator/scene/predict.h"
 
 namespace noli::integrator {
@@ -125,6 +126,17 @@ void warn(const Scene& scene, Explanation& e) {
   if (clips) e.warnings.emplace_back("some steps are as long as the window and could be longer with a longer one");
 }
 
+template <int Dim>
+void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation& e) {
+  for (const Pinch& pinch : find_pinches(built, duration)) {
+    e.warnings.push_back(
+        fmt::format("{} and {} come to touch each other at about {:.6g} s: what is free between them then is pressed "
+                    "to no gap, for "
+                    "which no number of layers is enough",
+                    built.bodies[pinch.bodies[0]].name, built.bodies[pinch.bodies[1]].name, pinch.time));
+  }
+}
+
 /// Fields that the schema gives no default, because it depends on others: what stands for those that are absent.
 class Derived {
  public:
@@ -177,6 +189,7 @@ template <int Dim>
 void explain(const Scene& scene, Explanation& explanation) {
   BuiltScene<Dim> built = build_model<Dim>(scene);
   add_contact(built, explanation);
+  if (built.model.contact) warn_of_pinches(built, scene.duration, explanation);
   explanation.bodies = std::move(built.bodies);
   Survey survey(scene, explanation);
   survey_forces(built.model.forces, survey);

@@ -277,6 +277,53 @@ TEST(ExplainContact, DefaultsThatDependOnOthersAreListed) {
   EXPECT_TRUE(left_out(e, "restitution", "it is 1 everywhere"));
 }
 
+/// A ring between two walls; where the upper one goes within the first second.
+std::vector<std::string> warnings_of_walls(double move, double start = 1) {
+  Json scene = loop();
+  scene["contact"] = Json::object();
+  scene["window"] = 0.1;
+  for (const double y : {-1.0, start}) {
+    Json wall = scene["bodies"][0];
+    wall["mesh"] = R"({"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}})"_json;
+    wall["transform"]["translate"] = {0, y};
+    scene["bodies"].push_back(wall);
+  }
+  scene["bodies"][1]["name"] = "anvil";
+  scene["bodies"][1]["pin"] = {"all"};
+  scene["bodies"][2]["name"] = "hammer";
+  scene["scripts"] = R"([{"body": "hammer", "path": [{"t": 0, "move": [0, 0]}, {"t": 1, "move": [0.5, 0]}]}])"_json;
+  scene["scripts"][0]["path"][1]["move"][1] = move;
+  return explain(parse_scene(scene.dump(), "s.json")).warnings;
+}
+
+TEST(ExplainContact, WarnsOfScriptsThatPinch) {
+  EXPECT_TRUE(warnings_of_walls(-1.9).empty());
+  const std::vector<std::string> warnings = warnings_of_walls(-2.5);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].starts_with("anvil and hammer come to touch each other at about 0.8 s: ")) << warnings[0];
+  EXPECT_TRUE(warnings_of_walls(1, -1).empty()) << "they touch from the start: walls that slide along others";
+}
+
+TEST(ExplainContact, WarnsOfScriptsThatPinchInSpace) {
+  Json scene = sheets(Json::object());
+  scene["bodies"].push_back(scene["bodies"][2]);
+  scene["bodies"][3]["name"] = "press";
+  scene["bodies"][3]["pin"] = Json::array();
+  scene["bodies"][3]["transform"]["translate"] = {0.2, 0.3, 2};
+  const auto warnings = [&scene](double move) {
+    scene["scripts"] =
+        R"([{"body": "press", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 0.5, "move": [0, 0, 0]}]}])"_json;
+    scene["scripts"][0]["path"][1]["move"][2] = move;
+    return explain(parse_scene(scene.dump(), "s.json")).warnings;
+  };
+  const auto pinches = [](const std::string& w) {
+    return w.starts_with("floor and press come to touch each other at about 0.25 s: ");
+  };
+  const auto far = warnings(-2.9), through = warnings(-6);
+  EXPECT_FALSE(std::any_of(far.begin(), far.end(), [](auto& w) { return w.find(" touch ") != w.npos; }));
+  EXPECT_EQ(std::count_if(through.begin(), through.end(), pinches), 1);
+}
+
 TEST(ExplainContact, NothingToMove) {
   Json scene = changed(sheet(), "/contact", Json::object());
   scene["bodies"][0]["pin"] = {"all"};
