@@ -56,15 +56,21 @@ class Cells {
       : host_(host),
         features_(mesh, Dim),
         longest_(longest_slice),
-        length_(longest_slice),
+        length_(longest_slice / 8),
+        courses_(x.size()),
         tubes_(x.size()),
         guards_(x.size()),
         due_(x.size(), never),
         nears_of_(x.size()),
         waiting_(x.size(), false) {
     std::vector<Vector<Dim>> centres;
-    for (const auto& cell : features_.cells()) centres.push_back(x[cell.vertices[0]]);
-    hierarchy_ = Hierarchy<Dim>(centres);
+    std::vector<bool> fixed;
+    for (const auto& cell : features_.cells()) {
+      centres.push_back(x[cell.vertices[0]]);
+      fixed.push_back(std::all_of(cell.vertices.begin(), cell.vertices.begin() + cell.size,
+                                  [this](VertexId v) { return host_.immovable(v); }));
+    }
+    hierarchy_ = Hierarchy<Dim>(centres, fixed);
     measure(x);
   }
 
@@ -77,7 +83,7 @@ class Cells {
   /// To be called of a vertex at time t after its velocity may have changed, and as often as look_step says.
   void look(VertexId i, double t) {
     const double ahead = std::min(t + host_.look_step(i), slice_end_);
-    if (guards_[i].holds(host_.line(i), ahead)) return;
+    if (guards_[i].holds(host_.line(i), ahead) || slice_due_ <= t) return;  // or: the next slice begins at once
     plan_soon(i);
     settle(t);
   }
@@ -101,10 +107,11 @@ class Cells {
 
   const CertificateCounts& counts() const { return counts_; }
 
-  /// Layer l of this pair gives no impulse at this distance: it may go, if it is not needed soon.
-  void drop_if_clear(PairKey key, std::uint32_t l, double distance, double t) {
+  /// Layer l of this pair gives no impulse at this distance: if it is the deepest and not needed soon, it goes.
+  void drop_if_clear(PairKey key, std::uint16_t material, std::uint32_t l, double distance, double t) {
+    if (!is_clear(host_, material, l, distance, margin_)) return;
     const std::uint32_t near = index_.at(key);
-    if (!is_clear(host_, nears_[near], l, distance, margin_)) return;
+    if (nears_[near].layers != l) return;
     lose_layer(host_, nears_[near], counts_);
     put_up_slab(near, t);
     settle(t);
@@ -118,6 +125,11 @@ class Cells {
   static constexpr double reach = 0.75;
 
   using Event = std::pair<double, VertexId>;
+
+  /// Where a vertex was when the slice began, and how it moved on average in the slice before.
+  struct Course {
+    Vector<Dim> x = Vector<Dim>::Zero(), v = Vector<Dim>::Zero();
+  };
 
   Line<Dim> line_at(VertexId i, double t) const {
     const Line<Dim> line = host_.line(i);
@@ -144,11 +156,13 @@ class Cells {
     ++counts_.slices;
     adapt_length();
     const double before = slice_begin_;
+    const double next_before = t - before;
     slice_begin_ = t;
     slice_end_ = slice_due_ = t + length_;
     retubed_ = 0;
     margin_ = 0;
     for (std::size_t i = 0; i < tubes_.size(); ++i) begin_tube(static_cast<VertexId>(i), before, t);
+    length_before_ = next_before;
     std::fill(due_.begin(), due_.end(), never);
     events_ = {};
     hierarchy_.refit([this](std::uint32_t cell) { return box_of(cell); });
@@ -161,17 +175,24 @@ class Cells {
   void adapt_length() {
     const std::size_t n = tubes_.size();
     if (retubed_ * 8 > n) length_ = std::max(length_ / 2, longest_ * 0x1p-12);
-    if (retubed_ * 64 < n) length_ = std::min(length_ * 2, longest_);
+    if (retubed_ * 64 < n && counts_.slices > 2) length_ = std::min(length_ * 2, longest_);
   }
 
-  /// Follows what the vertex did on average since the last slice began: if it shakes, its mean goes on.
+  /// Goes on as the vertex went on average since the last slice began, and with the change of that: what shakes, stays
+  /// in the middle; what falls, falls on.
   void begin_tube(VertexId i, double before, double t) {
     const Line<Dim> now = line_at(i, t);
     Line<Dim> line = now;
-    if (counts_.slices > 1 && t > before && !host_.immovable(i)) line.v = (now.x - begun_[i]) / (t - before);
+    Course& course = courses_[i];
+    if (counts_.slices > 1 && t > before && !host_.immovable(i)) {
+      const Vector<Dim> mean = (now.x - course.x) / (t - before);
+      line.v = mean;
+      if (counts_.slices > 2)
+        line.v += ((length_ + (t - before)) / ((t - before) + length_before_)) * (mean - course.v);
+      course.v = mean;
+    }
+    course.x = now.x;
     set_tube(i, now, line);
-    if (begun_.size() < tubes_.size()) begun_.resize(tubes_.size());
-    begun_[i] = now.x;
   }
 
   /// Unless that would lead out of the tube before anyone looks.
@@ -204,6 +225,7 @@ class Cells {
     old_index.swap(index_);
     for (auto& list : nears_of_) list.clear();
     hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+      if (cells_settled(a, b, t)) return;
       features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
     });
     for (NearPair<Dim>& pair : old) {
@@ -233,29 +255,50 @@ class Cells {
   /// Whether some direction keeps the tubes apart until the slice's end.
   bool settled(const Stencil& s, std::uint16_t material, double t) const {
     const double eta = host_.thickness(material, 1) + 8 * margin_;
+    const std::span<const VertexId> a(s.vertices.data(), s.first()),
+        b(s.vertices.data() + s.first(), s.size() - s.first());
     for (const double when : {t, slice_end_, 0.5 * (t + slice_end_)}) {
       std::array<Vector<Dim>, 4> x;
       for (std::size_t k = 0; k < s.size(); ++k) x[k] = tubes_[s.vertices[k]].line.at(when);
       const Closest<Dim> c = closest<Dim>(s.kind, std::span<const Vector<Dim>>(x.data(), s.size()));
       const double d = c.distance();
       if (!(d > eta)) return false;
-      const Vector<Dim> n = c.r / d;
-      if (gap(s, n, t) > eta && gap(s, n, slice_end_) > eta) return true;
+      if (keeps_apart(a, b, c.r / d, eta, t)) return true;
     }
     return false;
   }
 
-  double gap(const Stencil& s, const Vector<Dim>& n, double t) const {
-    double low = never, high = -never;
-    for (std::size_t k = 0; k < s.size(); ++k) {
-      const Plan<Dim>& tube = tubes_[s.vertices[k]];
-      const double height = n.dot(tube.line.at(t));
-      if (k < s.first()) {
-        low = std::min(low, height - tube.radius);
-      } else {
-        high = std::max(high, height + tube.radius);
+  /// The same for all pairs of two cells that have no vertex in common, by the direction between their centres.
+  /// Silent otherwise.
+  bool cells_settled(std::uint32_t a, std::uint32_t b, double t) const {
+    const auto& p = features_.cells()[a];
+    const auto& q = features_.cells()[b];
+    for (std::size_t k = 0; k < p.size; ++k) {
+      for (std::size_t j = 0; j < q.size; ++j) {
+        if (p.vertices[k] == q.vertices[j]) return false;
       }
     }
+    const std::span<const VertexId> of_p(p.vertices.data(), p.size), of_q(q.vertices.data(), q.size);
+    Vector<Dim> n = centre(of_p, t) - centre(of_q, t);
+    const double length = std::sqrt(n.squaredNorm());
+    return length > 0 && keeps_apart(of_p, of_q, n / length, host_.thickness(host_.thickest(), 1) + 8 * margin_, t);
+  }
+
+  Vector<Dim> centre(std::span<const VertexId> vertices, double t) const {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (const VertexId v : vertices) sum += tubes_[v].line.at(t);
+    return sum / static_cast<double>(vertices.size());
+  }
+
+  bool keeps_apart(std::span<const VertexId> a, std::span<const VertexId> b, const Vector<Dim>& n, double eta,
+                   double t) const {
+    return gap(a, b, n, t) > eta && gap(a, b, n, slice_end_) > eta;
+  }
+
+  double gap(std::span<const VertexId> a, std::span<const VertexId> b, const Vector<Dim>& n, double t) const {
+    double low = never, high = -never;
+    for (const VertexId v : a) low = std::min(low, n.dot(tubes_[v].line.at(t)) - tubes_[v].radius);
+    for (const VertexId v : b) high = std::max(high, n.dot(tubes_[v].line.at(t)) + tubes_[v].radius);
     return low - high;
   }
 
@@ -286,10 +329,11 @@ class Cells {
 
   [[gnu::noinline]] void settle(double t) {
     for (std::size_t done = 0; done < work_.size(); ++done) {
+      waiting_[work_[done]] = false;
+      if (slice_due_ <= t) continue;
       if (done == most_at_once * (tubes_.size() + 1)) {
         throw std::runtime_error("certificates: no end of repairs at one instant");
       }
-      waiting_[work_[done]] = false;
       plan(work_[done], t);
     }
     work_.clear();
@@ -323,7 +367,7 @@ class Cells {
     ++retubed_;
     Line<Dim> line = now;
     const double elapsed = now.t - tubes_[i].line.t;
-    if (elapsed > 0.25 * length_ && !host_.immovable(i)) line.v = (now.x - begun_[i]) / (now.t - slice_begin_);
+    if (elapsed > 0.25 * length_ && !host_.immovable(i)) line.v = (now.x - courses_[i].x) / (now.t - slice_begin_);
     set_tube(i, now, line);
     for (const std::uint32_t cell : features_.cells_of(i)) hierarchy_.enlarge(cell, box_of(cell));
     const std::size_t known = nears_.size();
@@ -388,12 +432,12 @@ class Cells {
   Features features_;
   Hierarchy<Dim> hierarchy_;
   double longest_, length_;
-  double slice_begin_ = 0, slice_end_ = 0;
+  double slice_begin_ = 0, slice_end_ = 0, length_before_ = 0;
   double slice_due_ = 0;  ///< when the next one begins: earlier than the end if too many have left their tubes
   double margin_ = 0;
   std::size_t retubed_ = 0;
-  std::vector<double> sizes_;       ///< radii of tubes
-  std::vector<Vector<Dim>> begun_;  ///< where vertices were when the slice began
+  std::vector<double> sizes_;  ///< radii of tubes
+  std::vector<Course> courses_;
   std::vector<Plan<Dim>> tubes_, guards_;
   std::vector<double> due_;  ///< of a vertex: time of its event, or never
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;

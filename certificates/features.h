@@ -7,9 +7,10 @@
 //   owner   of a vertex or edge: the first cell that has it. A pair of features belongs to the pair of their owners, a
 //           face being its own
 //
-// Pairs, in space: vertex and face, edge and edge, loose point and loose edge, two loose points (a vertex of an edge
-// against an edge is part of edge and edge). In the plane: vertex and edge, two loose points. Features with a common
-// vertex are no pair.
+// Pairs, in space: vertex and face, edge and edge, loose point and loose edge, two loose points, and the end of a loose
+// edge against a loose edge that the other end is on (any other vertex of an edge against an edge is part of edge and
+// edge, or of vertex and face). In the plane: vertex and edge, two loose points. Features with a common vertex are no
+// pair.
 //
 // What this does not do: it knows no positions.
 #pragma once
@@ -52,6 +53,7 @@ class Features {
     vertices_and_whole(cells_[a], b, each);
     vertices_and_whole(cells_[b], a, each);
     if (cells_[a].size == 1 && cells_[b].size == 1) points(a, b, each);
+    if (dimension_ == 3 && cells_[a].size == 2 && cells_[b].size == 2) loose_neighbours(cells_[a], cells_[b], each);
     if (dimension_ == 3) edges_and_edges(cells_[a], cells_[b], each);
   }
 
@@ -71,6 +73,15 @@ class Features {
     }
     if (dimension_ == 3 && !(whole.size == 2 && a.size == 1)) return;
     for_each_owned(a, [&](VertexId v) { vertex_and_edges(v, whole, each); });
+  }
+
+  /// Of two loose edges with one vertex in common, the other ends.
+  template <class Each>
+  void loose_neighbours(const Cell& a, const Cell& b, Each&& each) const {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!has(b, a.vertices[k]) && has(b, a.vertices[1 - k])) vertex_and_edges(a.vertices[k], b, each);
+      if (!has(a, b.vertices[k]) && has(a, b.vertices[1 - k])) vertex_and_edges(b.vertices[k], a, each);
+    }
   }
 
   template <class Each>

@@ -58,8 +58,8 @@ class Hierarchy {
  public:
   using Box = MovingBox<Dim>;
 
-  /// Over cells with these centres.
-  explicit Hierarchy(std::span<const Vector<Dim>> centres = {}) {
+  /// Over cells with these centres. Pairs of cells of which `fixed` says that they never move are left out.
+  explicit Hierarchy(std::span<const Vector<Dim>> centres = {}, const std::vector<bool>& fixed = {}) {
     if (centres.empty()) return;
     order_.resize(centres.size());
     std::iota(order_.begin(), order_.end(), 0U);
@@ -67,6 +67,10 @@ class Hierarchy {
     boxes_.resize(2 * centres.size() - 1);
     nodes_.resize(boxes_.size());
     build(0, 0, static_cast<std::uint32_t>(centres.size()), none, centres);
+    for (std::size_t n = nodes_.size(); n-- > 0;) {
+      nodes_[n].fixed =
+          is_leaf(n) ? fixed[order_[nodes_[n].begin]] : nodes_[left(n)].fixed && nodes_[nodes_[n].right].fixed;
+    }
   }
 
   /// Takes all boxes anew; box_of(cell) gives those of the leaves.
@@ -105,6 +109,7 @@ class Hierarchy {
   /// Cells order_[begin, end); a node's left child is the next node.
   struct Node {
     std::uint32_t begin, end, right, parent;
+    bool fixed;  ///< all its cells are
   };
 
   bool is_leaf(std::size_t n) const { return nodes_[n].end - nodes_[n].begin == 1; }
@@ -112,7 +117,7 @@ class Hierarchy {
 
   std::uint32_t build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::uint32_t parent,
                       std::span<const Vector<Dim>> centres) {
-    nodes_[node] = {begin, end, none, parent};
+    nodes_[node] = {begin, end, none, parent, false};
     if (end - begin == 1) {
       place_[order_[begin]] = node;
       return node + 1;
@@ -143,7 +148,7 @@ class Hierarchy {
 
   template <class Each>
   void within(std::size_t n, Each&& each) const {
-    if (is_leaf(n)) return;
+    if (is_leaf(n) || nodes_[n].fixed) return;
     within(left(n), each);
     within(nodes_[n].right, each);
     between(left(n), nodes_[n].right, each);
@@ -151,7 +156,7 @@ class Hierarchy {
 
   template <class Each>
   void between(std::size_t a, std::size_t b, Each&& each) const {
-    if (boxes_[a].apart(boxes_[b])) return;
+    if (boxes_[a].apart(boxes_[b]) || (nodes_[a].fixed && nodes_[b].fixed)) return;
     if (is_leaf(a) && is_leaf(b)) return each(order_[nodes_[a].begin], order_[nodes_[b].begin]);
     if (nodes_[a].end - nodes_[a].begin >= nodes_[b].end - nodes_[b].begin) {
       between(left(a), b, each);

@@ -75,13 +75,12 @@ void fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, Certific
   }
 }
 
-/// Whether layer l gives no impulse at this distance, is the deepest, and will not be needed soon: then it may go. Twice
-/// as far out as where it would be taken again.
-template <int Dim, class Host>
-bool is_clear(const Host& host, const NearPair<Dim>& pair, std::uint32_t l, double distance, double margin) {
-  if (pair.layers != l || l <= host.least_layers()) return false;
-  const double eta = host.thickness(pair.material, l);
-  return distance > eta + 0.5 * (eta - host.thickness(pair.material, l + 1)) + 128 * margin;
+/// Whether a pair is so far out that layer l, if it is the deepest, may go: twice as far as where it would be taken
+/// again.
+template <class Host>
+bool is_clear(const Host& host, std::uint16_t material, std::uint32_t l, double distance, double margin) {
+  const double eta = host.thickness(material, l);
+  return l > host.least_layers() && distance > eta + 0.5 * (eta - host.thickness(material, l + 1)) + 128 * margin;
 }
 
 }  // namespace noli::certificates

@@ -39,14 +39,14 @@ class Contact {
   /// `look_steps`: of each vertex, how often it fires at least; infinity for those that nothing does. The particles stay
   /// where they are.
   Contact(const ContactSettings& settings, const Mesh& mesh, Particles& particles, std::vector<double> look_steps,
-          double longest_slice)
+          double window_length)
       : settings_(settings),
         particles_(particles),
         look_steps_(std::move(look_steps)),
         layers_(settings.materials.size()),
         has_cells_(settings.certificates == Certificates::cells) {
     if (has_cells_) {
-      cells_.emplace(*this, mesh, positions(particles), longest_slice);
+      cells_.emplace(*this, mesh, positions(particles), longest_slice * window_length);
     } else {
       every_pair_.emplace(*this, mesh);
     }
@@ -166,6 +166,7 @@ class Contact {
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
+  static constexpr double longest_slice = 8;  ///< in windows
 
   struct Layer {
     Clock clock;
@@ -182,8 +183,8 @@ class Contact {
     }
   }
 
-  void drop_if_clear(certificates::PairKey key, std::uint32_t l, double distance, double t) {
-    ask([=](auto& certificates) { certificates.drop_if_clear(key, l, distance, t); });
+  void drop_if_clear(certificates::PairKey key, std::uint16_t material, std::uint32_t l, double distance, double t) {
+    ask([=](auto& certificates) { certificates.drop_if_clear(key, material, l, distance, t); });
   }
 
   static std::vector<Vec<double, Dim>> positions(const Particles& particles) {
@@ -213,7 +214,7 @@ class Contact {
     const Kicked<double, Dim, Recorder> now{particles_, record, t};
     for (const certificates::Stencil& pair : firing_) {
       const double d = fire_pair(now, account, pair, settings_.materials[material], layers_[material][l - 1], h);
-      if (d > layers_[material][l - 1].thickness) drop_if_clear(pair.key, l, d, t);
+      if (d > layers_[material][l - 1].thickness) drop_if_clear(pair.key, material, l, d, t);
     }
     account.events += firing_.size();
     return firing_.size();
