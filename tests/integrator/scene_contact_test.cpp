@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 
 #include "noli/integrator/scene/build_model.h"
@@ -78,7 +79,7 @@ TEST(SceneContact, DefaultsComeFromTheMeshTheMassesAndTheSpeeds) {
 
 TEST(SceneContact, InThePlaneTheLengthOfEdgesBounds) {
   const Json scene = changed(loop(), "/contact", Json::object());
-  EXPECT_NEAR(settings<2>(scene).materials[0].thickness, std::sin(M_PI / 8) / 4, 1e-15);
+  EXPECT_NEAR(settings<2>(scene).materials[0].thickness, std::sin(std::numbers::pi / 8) / 4, 1e-15);
 }
 
 TEST(SceneContact, TheRestShapeBoundsNotThatOfTheStart) {
@@ -261,7 +262,7 @@ TEST(ExplainContact, WhatItIsAndWhatIsLeftOut) {
             std::string::npos)
       << text;
   const Json json = to_json(e);
-  EXPECT_EQ(json["contact"][1]["pairs"], R"([["low", "floor"]])"_json);
+  EXPECT_EQ(json["contact"][1]["pairs"], Json::parse(R"([["low", "floor"]])"));
   EXPECT_EQ(json["contact"][1]["stiffness"], 200);
   EXPECT_EQ(json["layers"]["step_exponent"], 1.5);
 }
