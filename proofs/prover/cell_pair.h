@@ -35,8 +35,8 @@ class CellPairs {
  public:
   using Cell = StepCell<Dim>;
 
-  CellPairs(CellOptions options, Tally& tally, StepRecord& record)
-      : options_(options), tally_(tally), record_(record) {}
+  CellPairs(CellOptions options, const Leftovers& leftovers, Tally& tally, StepRecord& record)
+      : options_(options), leftovers_(leftovers), tally_(tally), record_(record) {}
 
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
@@ -49,7 +49,7 @@ class CellPairs {
     if (c.corners == 3) {
       for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
     } else if (options_.strict && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1] &&
-               !all_loose(c, corner_bit(0) | corner_bit(1))) {
+               !leftovers_.place_of(vertex_vertex_pair(c.vertices[0], c.vertices[1]))) {
       const MovingCell<Dim> at = gather(c);
       examine({FeaturePair::vertex_vertex, &at, corner_feature(0), &at, corner_feature(1)});
     }
@@ -243,7 +243,9 @@ class CellPairs {
       return;
     }
     progress.open = true;
-    for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) examine(first_of(todo, a, b));
+    for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) {
+      if (counted_here(todo, a, b, leftovers_)) examine(first_of(todo, a, b));
+    }
     progress.left &= ~within;
     if (options_.initial && !progress.meets_at_begin) {
       progress.meets_at_begin = !apart_at_begin && meet_at_begin(a, parts.a, b, parts.b);
@@ -292,10 +294,11 @@ class CellPairs {
   void settle_opposite(const Cell& c, unsigned corner) {
     const unsigned edge = (corner + 1) % 3;
     const FeatureMask mask = corner_bit(static_cast<int>(corner)) | edge_bit(static_cast<int>(edge));
-    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0 && !all_loose(c, mask);
+    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0;
     const bool wanted = options_.strict || (Dim == 2 && (c.shared & mask) != 0);
     const VertexId v = c.vertices[corner];
     if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;
+    if (Dim == 3 && leftovers_.place_of(vertex_edge_pair(v, shape_of(c).edge(edge)))) return;
     const MovingCell<Dim> at = gather(c);
     examine({FeaturePair::vertex_edge, &at, corner_feature(corner), &at, edge_feature(edge)});
   }
@@ -307,6 +310,7 @@ class CellPairs {
   }
 
   CellOptions options_;
+  const Leftovers& leftovers_;
   Tally& tally_;
   StepRecord& record_;
 };

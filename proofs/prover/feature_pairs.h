@@ -4,17 +4,18 @@
 //
 // Notation
 //   a, b       two different cells; a_i, b_j their corners; e_i the edge of a face from corner i to corner i + 1
-//   PairSet    bits, in 3D: i (0 to 2) a_i against the face b; 3 + j: b_j against the face a; 8 + 3 i + j: edge i of a
-//              against edge j of b;
-//              in 2D: 3 i + j: a_i against edge j of b; 9 + 3 j + i: b_j against edge i of a.
-//              In both: 20 the loose point a against the loose edge b (3D), 21 the reverse (3D), 22 two loose points
+//   PairSet    bits. In 3D: i (0 to 2) a_i against the face b; 3 + j: b_j against the face a; 8 + 3 i + j: edge i of a
+//              against edge j of b. In both: 20 + 3 i + j: a_i against edge j of b; 29 + 3 j + i: b_j against edge i of
+//              a; 40 + 3 i + j: a_i against b_j
 //
-// Which pairs of features there are is said in proofs/prover/verifier.h.
+// Which pairs of features there are is said in proofs/prover/verifier.h. The last, and in 3D the last two kinds, are
+// pairs that may be left over (proofs/prover/leftover.h).
 //
 // What this does not do: it does not know which features share vertices; the parts it is given do not
 // (proofs/prover/cell_pair.h).
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -24,13 +25,11 @@
 
 namespace noli {
 
-using PairSet = std::uint32_t;
+using PairSet = std::uint64_t;
 
 namespace detail {
 
-constexpr PairSet point_edge_bit = PairSet{1} << 20;
-constexpr PairSet edge_point_bit = PairSet{1} << 21;
-constexpr PairSet point_point_bit = PairSet{1} << 22;
+constexpr unsigned vertex_edge_shift = 20, edge_vertex_shift = 29, vertex_vertex_shift = 40;
 
 /// The edges whose two ends are in a part: bit i for edge i.
 constexpr unsigned edges_in(CornerMask part) {
@@ -39,26 +38,65 @@ constexpr unsigned edges_in(CornerMask part) {
 }
 
 /// Bit 3 i + j for each i in rows and j in columns.
-constexpr PairSet product(unsigned rows, unsigned columns) {
+constexpr PairSet product(PairSet rows, PairSet columns) {
   return ((rows & 1) != 0 ? columns : 0) | ((rows & 2) != 0 ? columns << 3 : 0) | ((rows & 4) != 0 ? columns << 6 : 0);
 }
 
-constexpr PairSet loose_pair(int dimension, int a_corners, int b_corners) {
-  if (a_corners == 1 && b_corners == 1) return point_point_bit;
-  if (dimension == 2) return 0;
-  if (a_corners == 1 && b_corners == 2) return point_edge_bit;
-  return a_corners == 2 && b_corners == 1 ? edge_point_bit : 0;
+constexpr PairSet vertex_edge_set(unsigned a_corners, unsigned a_edges, unsigned b_corners, unsigned b_edges) {
+  return product(a_corners, b_edges) << vertex_edge_shift | product(b_corners, a_edges) << edge_vertex_shift;
 }
 
-/// The pairs of the given corners and edges of a with those of b, and of the two cells as wholes if asked for. A face
+/// The pairs of the given corners and edges of a with those of b of which each is counted, whatever else is. A face
 /// counts as present if `a_face`, `b_face`.
 template <int Dim>
 PairSet pair_set(unsigned a_corners, unsigned a_edges, bool a_face, unsigned b_corners, unsigned b_edges, bool b_face) {
   if constexpr (Dim == 3) {
     return (b_face ? a_corners : 0) | (a_face ? b_corners << 3 : 0) | product(a_edges, b_edges) << 8;
   } else {
-    return product(a_corners, b_edges) | product(b_corners, a_edges) << 9;
+    return vertex_edge_set(a_corners, a_edges, b_corners, b_edges);
   }
+}
+
+/// A set of small pairs, each of them once.
+class SmallPairs {
+ public:
+  void add(const SmallPair& pair, unsigned bit) {
+    if (std::find(known_.begin(), known_.begin() + size_, pair) != known_.begin() + size_) return;
+    known_[static_cast<std::size_t>(size_++)] = pair;
+    set_ |= PairSet{1} << bit;
+  }
+  PairSet set() const { return set_; }
+
+ private:
+  std::array<SmallPair, 27> known_{};
+  int size_ = 0;
+  PairSet set_ = 0;
+};
+
+inline void add_vertex_edge(const CellShape& a, const CellShape& b, unsigned shift, SmallPairs& pairs) {
+  for (unsigned i = 0; i < a.corners; ++i) {
+    for (unsigned j = 0; j < b.edge_count(); ++j) {
+      if (!leaves_vertex_edge(a, a.vertices[i], b, b.edge(j))) continue;
+      pairs.add(vertex_edge_pair(a.vertices[i], b.edge(j)), shift + 3 * i + j);
+    }
+  }
+}
+
+/// Those that a and b leave over. Precondition: few_vertices(a, b).
+template <int Dim>
+[[gnu::noinline]] PairSet left_over(const CellShape& a, const CellShape& b) {
+  SmallPairs pairs;
+  if constexpr (Dim == 3) {
+    add_vertex_edge(a, b, vertex_edge_shift, pairs);
+    add_vertex_edge(b, a, edge_vertex_shift, pairs);
+  }
+  for (unsigned i = 0; i < a.corners; ++i) {
+    for (unsigned j = 0; j < b.corners; ++j) {
+      if (!leaves_vertex_vertex(a, a.vertices[i], b, b.vertices[j])) continue;
+      pairs.add(vertex_vertex_pair(a.vertices[i], b.vertices[j]), vertex_vertex_shift + 3 * i + j);
+    }
+  }
+  return pairs.set();
 }
 
 }  // namespace detail
@@ -67,9 +105,10 @@ PairSet pair_set(unsigned a_corners, unsigned a_edges, bool a_face, unsigned b_c
 template <int Dim>
 PairSet pairs_within(const CellNames& a, CornerMask a_part, const CellNames& b, CornerMask b_part) {
   const bool a_whole = a_part == all_corners(a.corners), b_whole = b_part == all_corners(b.corners);
-  const PairSet pairs = detail::pair_set<Dim>(a_part, detail::edges_in(a_part), a_whole && a.corners == 3, b_part,
-                                              detail::edges_in(b_part), b_whole && b.corners == 3);
-  return a_whole && b_whole ? pairs | detail::loose_pair(Dim, a.corners, b.corners) : pairs;
+  const unsigned a_edges = detail::edges_in(a_part), b_edges = detail::edges_in(b_part);
+  return detail::pair_set<Dim>(a_part, a_edges, a_whole && a.corners == 3, b_part, b_edges, b_whole && b.corners == 3) |
+         detail::vertex_edge_set(a_part, a_edges, b_part, b_edges) |
+         detail::product(a_part, b_part) << detail::vertex_vertex_shift;
 }
 
 template <int Dim>
@@ -77,13 +116,14 @@ PairSet pairs_within(const MovingCell<Dim>& a, CornerMask a_part, const MovingCe
   return pairs_within<Dim>(static_cast<const CellNames&>(a), a_part, static_cast<const CellNames&>(b), b_part);
 }
 
-/// The pairs of features that belong to this pair of cells.
+/// The pairs of features that belong to this pair of cells, or may: what the cells leave over, they may not be the only
+/// ones to leave over (Leftovers::counted_at).
 template <int Dim>
 PairSet pairs_owned(const CellNames& a, const CellNames& b) {
   const PairSet pairs = detail::pair_set<Dim>(a.owned & 7, a.owned >> 3 & 7, a.corners == 3, b.owned & 7,
                                               b.owned >> 3 & 7, b.corners == 3);
-  const bool listed = (a.owned & b.owned & cell_bit) != 0;
-  return listed ? pairs | detail::loose_pair(Dim, a.corners, b.corners) : pairs;
+  const CellShape a_shape = shape_of(a), b_shape = shape_of(b);
+  return few_vertices(a_shape, b_shape) ? pairs | detail::left_over<Dim>(a_shape, b_shape) : pairs;
 }
 
 template <int Dim>
@@ -125,17 +165,36 @@ template <int Dim>
 FeatureQuestion<Dim> first_of(PairSet set, const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
   using Question = FeatureQuestion<Dim>;
   const auto bit = static_cast<unsigned>(std::countr_zero(set));
-  if (bit == 22) return Question{FeaturePair::vertex_vertex, &a, corner_feature(0), &b, corner_feature(0)};
-  if (bit == 21) return Question{FeaturePair::vertex_edge, &b, corner_feature(0), &a, edge_feature(0)};
-  if (bit == 20) return Question{FeaturePair::vertex_edge, &a, corner_feature(0), &b, edge_feature(0)};
-  if constexpr (Dim == 3) {
-    if (bit < 3) return Question{FeaturePair::vertex_face, &a, corner_feature(bit), &b, face_feature};
-    if (bit < 6) return Question{FeaturePair::vertex_face, &b, corner_feature(bit - 3), &a, face_feature};
-    return Question{FeaturePair::edge_edge, &a, edge_feature((bit - 8) / 3), &b, edge_feature((bit - 8) % 3)};
-  } else {
-    if (bit < 9) return Question{FeaturePair::vertex_edge, &a, corner_feature(bit / 3), &b, edge_feature(bit % 3)};
-    return Question{FeaturePair::vertex_edge, &b, corner_feature((bit - 9) / 3), &a, edge_feature((bit - 9) % 3)};
+  if (bit < 3) return Question{FeaturePair::vertex_face, &a, corner_feature(bit), &b, face_feature};
+  if (bit < 6) return Question{FeaturePair::vertex_face, &b, corner_feature(bit - 3), &a, face_feature};
+  const auto row_and_column = [bit](unsigned shift) { return std::pair((bit - shift) / 3, (bit - shift) % 3); };
+  if (bit < detail::vertex_edge_shift) {
+    const auto [i, j] = row_and_column(8);
+    return Question{FeaturePair::edge_edge, &a, edge_feature(i), &b, edge_feature(j)};
   }
+  if (bit < detail::edge_vertex_shift) {
+    const auto [i, j] = row_and_column(detail::vertex_edge_shift);
+    return Question{FeaturePair::vertex_edge, &a, corner_feature(i), &b, edge_feature(j)};
+  }
+  if (bit < detail::vertex_vertex_shift) {
+    const auto [j, i] = row_and_column(detail::edge_vertex_shift);
+    return Question{FeaturePair::vertex_edge, &b, corner_feature(j), &a, edge_feature(i)};
+  }
+  const auto [i, j] = row_and_column(detail::vertex_vertex_shift);
+  return Question{FeaturePair::vertex_vertex, &a, corner_feature(i), &b, corner_feature(j)};
+}
+
+/// Whether the lowest bit of a set stands for a pair that is counted where these cells are. Precondition: the set is
+/// not empty, and part of pairs_owned(a, b).
+template <int Dim>
+bool counted_here(PairSet set, const MovingCell<Dim>& a, const MovingCell<Dim>& b, const Leftovers& leftovers) {
+  const auto question = first_of(set, a, b);
+  const auto v = question.vertices();
+  if (question.pair == FeaturePair::vertex_vertex) {
+    return leftovers.counted_at(vertex_vertex_pair(v[0], v[1]), a.cell, b.cell);
+  }
+  if (Dim == 2 || question.pair != FeaturePair::vertex_edge) return true;
+  return leftovers.counted_at(vertex_edge_pair(v[0], {v[1], v[2]}), a.cell, b.cell);
 }
 
 /// The kernel's query for a pair of features.

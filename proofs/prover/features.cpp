@@ -61,27 +61,22 @@ std::vector<Occurrence<N>> sorted_occurrences(std::size_t vertex_count, const Vi
   return sorted;
 }
 
-/// `run`: all occurrences of one set of vertices, in order. The first one owns it. `first_loose`: from there on a cell is
-/// nothing but this.
+/// `run`: all occurrences of one set of vertices, in order. The first one owns it.
 template <std::size_t N>
-void assign(std::span<const Occurrence<N>> run, std::size_t first_loose, CellFeatures& features) {
+void assign(std::span<const Occurrence<N>> run, CellFeatures& features) {
   features.owned[run.front().cell] |= run.front().bit;
   if (run.front().cell == run.back().cell) return;
-  const bool loose = run.back().cell >= first_loose;
-  for (const auto& o : run) {
-    features.shared[o.cell] |= o.bit;
-    if (loose && o.cell < first_loose) features.loose[o.cell] |= o.bit;
-  }
+  for (const auto& o : run) features.shared[o.cell] |= o.bit;
 }
 
 /// `visit` as in sorted_occurrences.
 template <std::size_t N, class Visit>
-void assign_all(std::size_t vertex_count, const Visit& visit, std::size_t first_loose, CellFeatures& features) {
+void assign_all(std::size_t vertex_count, const Visit& visit, CellFeatures& features) {
   const auto all = sorted_occurrences<N>(vertex_count, visit);
   const std::span<const Occurrence<N>> view(all);
   for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
     while (end < all.size() && same_vertices(all[end], all[begin])) ++end;
-    assign(view.subspan(begin, end - begin), first_loose, features);
+    assign(view.subspan(begin, end - begin), features);
   }
 }
 
@@ -108,19 +103,6 @@ void assign_corners(const Mesh& mesh, CellFeatures& features) {
   }
 }
 
-void find_loose_corners(const Mesh& mesh, CellFeatures& features) {
-  if (mesh.points.empty()) return;
-  std::vector<bool> loose(mesh.vertex_count, false);
-  for (const VertexId v : mesh.points) loose[v] = true;
-  const auto cells = static_cast<std::uint32_t>(mesh.faces.size() + mesh.edges.size());
-  for (std::uint32_t cell = 0; cell < cells; ++cell) {
-    const auto vertices = corners(mesh, cell);
-    for (int i = 0; i < corner_count(mesh, cell); ++i) {
-      if (loose[vertices[static_cast<std::size_t>(i)]]) features.loose[cell] |= corner_bit(i);
-    }
-  }
-}
-
 void assign_edges(const Mesh& mesh, CellFeatures& features) {
   const auto edge = [](VertexId a, VertexId b, std::size_t cell, int number) {
     return Occurrence<2>{{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(cell), edge_bit(number)};
@@ -136,7 +118,7 @@ void assign_edges(const Mesh& mesh, CellFeatures& features) {
       add(edge(mesh.edges[e][0], mesh.edges[e][1], mesh.faces.size() + e, 0));
     }
   };
-  assign_all<2>(mesh.vertex_count, visit, mesh.faces.size(), features);
+  assign_all<2>(mesh.vertex_count, visit, features);
 }
 
 /// The corners of a cell in ascending order; a loose edge or point repeats its last one.
@@ -157,23 +139,22 @@ void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFea
       add(Occurrence<3>{ascending(corners(mesh, cell), corner_count(mesh, cell)), cell, cell_bit});
     }
   };
-  assign_all<3>(mesh.vertex_count, visit, last, features);
+  assign_all<3>(mesh.vertex_count, visit, features);
 }
 
 }  // namespace
 
-CellFeatures find_owners(const Mesh& mesh, bool list_faces) {
+CellFeatures find_owners(const Mesh& mesh, bool list_cells) {
   const std::size_t faces = mesh.faces.size(), edges = mesh.edges.size();
   CellFeatures features;
   features.owned.assign(mesh.cell_count(), 0);
   features.shared.assign(mesh.cell_count(), 0);
-  features.loose.assign(mesh.cell_count(), 0);
   assign_corners(mesh, features);
-  find_loose_corners(mesh, features);
   assign_edges(mesh, features);
-  if (list_faces) assign_cells(mesh, 0, faces, features);
-  assign_cells(mesh, faces, faces + edges, features);
-  assign_cells(mesh, faces + edges, mesh.cell_count(), features);
+  if (list_cells) {
+    assign_cells(mesh, 0, faces, features);
+    assign_cells(mesh, faces, faces + edges, features);
+  }
   return features;
 }
 

@@ -6,7 +6,7 @@
 //   corner   a place in a cell's list of vertices; edge i of a face goes from corner i to corner i + 1, cyclically
 //   owner    of a vertex, or of an edge as a pair of vertex ids: the least cell that has it. A pair of features is
 //            examined where the obligations of its two owners are
-//   listed   a cell such that no cell of its kind (face, loose edge, loose point) before it has the same vertices
+//   listed   a face or loose edge such that no cell of its kind before it has the same vertices
 //
 // What this does not do: it looks at no coordinates.
 #pragma once
@@ -29,8 +29,6 @@ constexpr FeatureMask cell_bit = 64;
 struct CellFeatures {
   std::vector<FeatureMask> owned;   ///< the corners and edges it owns; cell_bit if it is listed
   std::vector<FeatureMask> shared;  ///< the corners and edges that another cell has as well
-  std::vector<FeatureMask> loose;   ///< the corners of a face or edge that are loose points too, the edges of a face
-                                    ///< that are loose edges too
 };
 
 /// Number of corners of a cell: 3 (a face), 2 (a loose edge) or 1 (a loose point).
@@ -49,9 +47,9 @@ inline std::array<VertexId, 3> corners(const Mesh& mesh, std::uint32_t cell) {
   return {v, v, v};
 }
 
-/// Finds the owners; which faces are listed only if that is asked for (for a strict verification in 3D; else none is).
+/// Finds the owners; which cells are listed only if that is asked for (for a strict verification; else none is).
 /// A vertex or edge that a cell has twice counts once, at its first place. Time and memory linear in the mesh (if no
 /// vertex has more than a few cells).
-CellFeatures find_owners(const Mesh& mesh, bool list_faces);
+CellFeatures find_owners(const Mesh& mesh, bool list_cells);
 
 }  // namespace noli

@@ -96,7 +96,6 @@ Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features,
           cell,
           features.owned[cell],
           features.shared[cell],
-          features.loose[cell],
           static_cast<std::uint8_t>(corner_count(mesh, cell)),
           scripted};
 }
@@ -149,7 +148,12 @@ std::vector<std::uint32_t> rest_of(const Mesh& mesh, const Sheets& parts) {
 }  // namespace
 
 Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options)
-    : part_of_(mesh.vertex_count, no_part), sizes_(sizes_of(mesh, x, options.dimension)) {
+    : leftovers_(mesh.cell_count(),
+                 [this](std::size_t i) {
+                   return Leftovers::NumberedShape{{leaves_[i].vertices, leaves_[i].corners}, leaves_[i].cell};
+                 }),
+      part_of_(mesh.vertex_count, no_part),
+      sizes_(sizes_of(mesh, x, options.dimension)) {
   CellFeatures features = find_owners(mesh, options.strict);
   const std::vector<std::uint8_t> scripted = scripted_cells(mesh, options.scripted);
   prefer_free_owners(mesh, scripted, features);

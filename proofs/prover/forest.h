@@ -20,6 +20,7 @@
 
 #include "noli/proofs/prover/charts.h"
 #include "noli/proofs/prover/features.h"
+#include "noli/proofs/prover/leftover.h"
 #include "noli/proofs/prover/monotone.h"
 
 namespace noli {
@@ -28,7 +29,7 @@ namespace noli {
 struct Leaf {
   std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/features.h
   std::uint32_t cell;
-  FeatureMask owned, shared, loose;
+  FeatureMask owned, shared;
   std::uint8_t corners;
   bool scripted;  ///< all its vertices are
 };
@@ -81,6 +82,7 @@ class Forest {
   float size(VertexId v) const { return sizes_[v]; }
 
   const Charts& charts() const { return *charts_; }
+  const Leftovers& leftovers() const { return leftovers_; }
 
   /// By leaf and by node, for those in sheets.
   const LaidFace& laid_face(std::size_t leaf) const { return laid_faces_[leaf]; }
@@ -97,6 +99,7 @@ class Forest {
   std::vector<std::uint8_t> scripted_;
   std::vector<Extent> extents_;
   std::optional<Charts> charts_;
+  Leftovers leftovers_;
   std::vector<std::uint32_t> part_of_;
   std::vector<float> sizes_;
 };

@@ -15,6 +15,7 @@
 #include "noli/kernel/both_ends.h"
 #include "noli/kernel/query.h"
 #include "noli/proofs/prover/features.h"
+#include "noli/proofs/prover/leftover.h"
 #include "noli/trajectory/mesh.h"
 
 namespace noli {
@@ -25,19 +26,16 @@ struct CellNames {
   std::uint32_t cell;
   FeatureMask owned;
   FeatureMask shared;
-  FeatureMask loose;
   std::uint8_t corners;  ///< 3, 2 or 1
 };
 
 /// `features` as from find_owners.
 inline CellNames names_of(const Mesh& mesh, const CellFeatures& features, std::uint32_t cell) {
-  return {corners(mesh, cell),  cell,
-          features.owned[cell], features.shared[cell],
-          features.loose[cell], static_cast<std::uint8_t>(corner_count(mesh, cell))};
+  return {corners(mesh, cell), cell, features.owned[cell], features.shared[cell],
+          static_cast<std::uint8_t>(corner_count(mesh, cell))};
 }
 
-/// Whether these features are loose cells as well: then the pair of them is counted where those cells are compared.
-inline bool all_loose(const CellNames& c, int mask) { return (c.loose & mask) == mask; }
+inline CellShape shape_of(const CellNames& cell) { return {cell.vertices, cell.corners}; }
 
 /// The places of a vertex at both ends of the step.
 template <int Dim>

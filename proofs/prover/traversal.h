@@ -40,6 +40,7 @@ template <int Dim>
 struct Scene {
   const Hierarchy& hierarchy;
   const StepCell<Dim>* cells;  ///< in the order of the leaves
+  const Leftovers& leftovers;
 };
 
 /// When to give up. One object for all threads.
@@ -68,7 +69,7 @@ class Traversal {
         tally_(tally),
         record_(record),
         recording_(record.on()),
-        cell_pairs_({options.initial, options.strict}, tally, record) {}
+        cell_pairs_({options.initial, options.strict}, scene.leftovers, tally, record) {}
 
   /// From now on puts obligations about at most `grain` cells on the list.
   void defer(std::uint32_t grain, std::vector<Deferred>& list) {

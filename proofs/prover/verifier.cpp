@@ -91,11 +91,14 @@ class Verification {
     for_each_in_pieces(order.size(), options_.threads, [&](std::size_t i) {
       cells_[i] = {names_of(mesh, features, order[i]), vertices_.get()};
     });
+    leftovers_.emplace(order.size(), [this](std::size_t i) {
+      return Leftovers::NumberedShape{shape_of(cells_[i]), cells_[i].cell};
+    });
   }
 
   /// Walks the top of the tree, where there is little to do, and lists what is below.
   void cut_into_tasks() {
-    const Scene<Dim> scene{*hierarchy_, cells_.get()};
+    const Scene<Dim> scene{*hierarchy_, cells_.get(), *leftovers_};
     Traversal<Dim> traversal(scene, options_, stop_, top_.tally, top_.record);
     const Group root = hierarchy_->root();
     traversal.defer(std::max(root.count / grain_share, least_grain), tasks_);
@@ -104,7 +107,7 @@ class Verification {
 
   void run_task(std::size_t i) {
     if (i > first_found_) return;
-    const Scene<Dim> scene{*hierarchy_, cells_.get()};
+    const Scene<Dim> scene{*hierarchy_, cells_.get(), *leftovers_};
     outcomes_[i] = std::make_unique<Outcome>(blank());
     Outcome& outcome = *outcomes_[i];
     Traversal<Dim> traversal(scene, options_, stop_, outcome.tally, outcome.record);
@@ -155,6 +158,7 @@ class Verification {
   std::optional<Hierarchy> hierarchy_;
   std::unique_ptr<MovingVertex<Dim>[]> vertices_;
   std::unique_ptr<StepCell<Dim>[]> cells_;  ///< in the order of the leaves
+  std::optional<Leftovers> leftovers_;
   std::vector<Deferred> tasks_;
   std::vector<std::unique_ptr<Outcome>> outcomes_;  ///< of the tasks that have begun
   std::optional<Reporter> reporter_;

@@ -11,15 +11,24 @@
 // The verifier walks a hierarchy of groups. An obligation is closed by one separating direction when there is one; else
 // the groups are split; a pair of cells that no direction separates is taken apart into its pairs of features, and
 // the exact kernel decides each. Which pairs of features are counted:
-//   3D  vertex_face   every vertex of a cell (loose points included) against every face
-//       edge_edge     every edge of a face and every loose edge, against every other
-//       vertex_edge   loose points against loose edges       vertex_vertex  loose points against loose points
-//   2D  vertex_edge   every vertex of a cell against every edge      vertex_vertex  loose points against loose points
-// each pair once, only pairs that share no vertex and belong to two different cells (with `strict` also: in 3D each
-// corner of a face against the edge opposite to it, as vertex_edge; in 2D the pairs of one cell; the two ends of a
-// loose edge, as vertex_vertex; not once more if they are a loose point and edge, or two loose points). An edge is a pair of vertex ids, whichever cells list it and how often; a face that is
-// listed twice is two faces. In 3D all other incidences of features are contained in these; a vertex on an edge of a
-// face is also on the face. Vertices are who they are by index.
+//   3D  vertex_face    every vertex of a cell (loose points included) against every face
+//       edge_edge      every edge of a face and every loose edge, against every other
+//       vertex_edge    a vertex of one cell against an edge of another, for which no vertex_face or edge_edge pair of
+//                      these two cells stands
+//   2D  vertex_edge    every vertex of a cell against every edge
+//   both vertex_vertex a vertex of one cell against one of another, for which no larger pair of these two cells stands
+// each pair once, only pairs that share no vertex and belong to two different cells. A pair stands for another if its
+// two features contain the two of the other: where those meet, it does. So in 3D vertex_edge is a loose point against a
+// loose edge; c against ab for loose edges ac and ab (whether or not the edge_edge pair (cd, ab) of other cells is
+// there as well), or where one of the two is a loose cell and the other the face abc or part of it, or the face abc is
+// listed twice. vertex_vertex is two loose points; p against q for the loose edge pq and a loose point p, or the edge
+// listed twice. A face that has a vertex twice is treated alike (proofs/prover/leftover.h). A closed or bordered mesh
+// of faces, each with three vertices and listed once, has only vertex_face and edge_edge.
+//
+// With `strict` also: in 3D each corner of a face against the edge opposite to it, as vertex_edge; in 2D the pairs of
+// one cell; the two ends of a loose edge, as vertex_vertex; not once more if they are counted above. An edge is a pair
+// of vertex ids, whichever cells list it and how often; a face that is listed twice is two faces. Of two cells that
+// meet, some pair meets, or they do so from the beginning. Vertices are who they are by index.
 //
 // What this does not do: it writes no proof file (it reports its steps to a StepSink, from which one can be written),
 // it knows no thickness, and it does not read files.

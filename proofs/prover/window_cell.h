@@ -42,7 +42,6 @@ void set_names(WindowCell<Dim>& cell, const Leaf& leaf) {
   cell.cell = leaf.cell;
   cell.owned = leaf.owned;
   cell.shared = leaf.shared;
-  cell.loose = leaf.loose;
   cell.corners = leaf.corners;
 }
 

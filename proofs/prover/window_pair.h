@@ -30,8 +30,10 @@ class WindowPairs {
  public:
   using Cell = WindowCell<Dim>;
 
-  WindowPairs(const WorldLines& lines, Span span, const WindowOptions& options, WindowTally& tally)
+  WindowPairs(const WorldLines& lines, const Leftovers& leftovers, Span span, const WindowOptions& options,
+              WindowTally& tally)
       : lines_(lines),
+        leftovers_(leftovers),
         span_(span),
         initial_(options.initial && span.begin == lines.first_time()),
         strict_(options.strict),
@@ -57,7 +59,7 @@ class WindowPairs {
     if (c.corners == 3) {
       for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
     } else if (strict_ && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1] &&
-               !all_loose(c, corner_bit(0) | corner_bit(1))) {
+               !leftovers_.place_of(vertex_vertex_pair(c.vertices[0], c.vertices[1]))) {
       examine({FeaturePair::vertex_vertex, &c, corner_feature(0), &c, corner_feature(1)}, span_.begin);
     }
   }
@@ -177,7 +179,9 @@ class WindowPairs {
   void open(Progress& progress, Parts parts, PairSet within, double begin) {
     const Cell &a = progress.a, &b = progress.b;
     progress.open = true;
-    for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) examine(first_of(todo, a, b), begin);
+    for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) {
+      if (counted_here(todo, a, b, leftovers_)) examine(first_of(todo, a, b), begin);
+    }
     if (initial_ && !progress.meets_at_begin && begin == span_.begin) {
       progress.meets_at_begin = meet_at_begin<Dim>(at_begin(a), parts.a, at_begin(b), parts.b);
     }
@@ -255,10 +259,11 @@ class WindowPairs {
   void settle_opposite(const Cell& c, unsigned corner) {
     const unsigned edge = (corner + 1) % 3;
     const FeatureMask mask = corner_bit(static_cast<int>(corner)) | edge_bit(static_cast<int>(edge));
-    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0 && !all_loose(c, mask);
+    const bool belongs = Dim == 2 ? (c.owned & mask) == mask : (c.owned & cell_bit) != 0;
     const bool wanted = strict_ || (Dim == 2 && (c.shared & mask) != 0);
     const VertexId v = c.vertices[corner];
     if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;
+    if (Dim == 3 && leftovers_.place_of(vertex_edge_pair(v, shape_of(c).edge(edge)))) return;
     const FeatureQuestion<Dim> question{FeaturePair::vertex_edge, &c, corner_feature(corner), &c, edge_feature(edge)};
     if (!apart(c, part_of(question.first), c, part_of(question.second))) examine(question, span_.begin);
   }
@@ -299,6 +304,7 @@ class WindowPairs {
   }
 
   const WorldLines& lines_;
+  const Leftovers& leftovers_;
   Span span_;
   bool initial_, strict_;
   WindowTally& tally_;

@@ -39,7 +39,7 @@ class WindowTraversal {
         first_only_(options.first_only),
         stop_(stop),
         tally_(tally),
-        cell_pairs_(scene.lines, scene.chords.span, options, tally) {}
+        cell_pairs_(scene.lines, scene.forest.leftovers(), scene.chords.span, options, tally) {}
 
   /// From now on puts obligations about at most `grain` cells on the list.
   void defer(std::uint32_t grain, std::vector<WindowObligation>& list) {

@@ -74,13 +74,6 @@ void add_pairs_3d(const Mesh& mesh, std::map<PairKey, int>& pairs) {
       }
     }
   }
-  std::set<Edge> loose;
-  for (const auto& e : mesh.edges) loose.insert(std::minmax(e[0], e[1]));
-  for (const VertexId p : std::set(mesh.points.begin(), mesh.points.end())) {
-    for (const Edge& e : loose) {
-      if (!has(e, p)) ++pairs[vertex_edge(p, e)];
-    }
-  }
 }
 
 void add_pairs_2d(const Mesh& mesh, bool strict, std::map<PairKey, int>& pairs) {
@@ -92,13 +85,64 @@ void add_pairs_2d(const Mesh& mesh, bool strict, std::map<PairKey, int>& pairs) 
   }
 }
 
-void add_loose_points(const Mesh& mesh, std::map<PairKey, int>& pairs) {
-  const std::set<VertexId> points(mesh.points.begin(), mesh.points.end());
-  for (const VertexId p : points) {
-    for (const VertexId q : points) {
-      if (p < q) ++pairs[vertex_vertex(p, q)];
+/// A vertex, edge or face of a cell: 1, 2 or 3 vertices, some of them perhaps the same.
+using Simplex = std::vector<VertexId>;
+
+std::vector<Simplex> features_of(const Cell& cell) {
+  std::vector<Simplex> features;
+  for (const VertexId v : std::set(cell.begin(), cell.end())) features.push_back({v});
+  for (const Edge& e : edges_of(cell)) features.push_back({e.first, e.second});
+  if (cell.size() == 3) features.push_back(cell);
+  return features;
+}
+
+bool within(const Simplex& part, const Simplex& whole) {
+  return std::all_of(part.begin(), part.end(),
+                     [&](VertexId v) { return std::find(whole.begin(), whole.end(), v) != whole.end(); });
+}
+
+bool disjoint(const Simplex& x, const Simplex& y) {
+  return std::none_of(x.begin(), x.end(), [&](VertexId v) { return within({v}, y); });
+}
+
+using SimplexPairs = std::vector<std::pair<Simplex, Simplex>>;
+
+/// All pairs of a feature of a and one of b without a common vertex.
+SimplexPairs disjoint_pairs(const Cell& a, const Cell& b) {
+  SimplexPairs pairs;
+  for (const Simplex& x : features_of(a)) {
+    for (const Simplex& y : features_of(b)) {
+      if (disjoint(x, y)) pairs.emplace_back(x, y);
     }
   }
+  return pairs;
+}
+
+/// Whether a pair of features of more points than x and y together has x in its first and y in its second.
+bool stood_for(const Simplex& x, const Simplex& y, const SimplexPairs& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const auto& p) {
+    return p.first.size() + p.second.size() > x.size() + y.size() && p.first.size() >= x.size() &&
+           p.second.size() >= y.size() && within(x, p.first) && within(y, p.second);
+  });
+}
+
+/// Those of a vertex and an edge (in 3D) or of two vertices for which no larger pair of the same cells stands.
+void add_small_pairs(const Cell& a, const Cell& b, int dimension, std::set<PairKey>& small) {
+  const SimplexPairs pairs = disjoint_pairs(a, b);
+  for (const auto& [x, y] : pairs) {
+    if (x.size() + y.size() > (dimension == 3 ? 3 : 2) || stood_for(x, y, pairs)) continue;
+    const Simplex &v = x.size() == 1 ? x : y, &other = x.size() == 1 ? y : x;
+    small.insert(other.size() == 1 ? vertex_vertex(v[0], other[0]) : vertex_edge(v[0], {other[0], other[1]}));
+  }
+}
+
+void add_small_pairs(const Mesh& mesh, int dimension, std::map<PairKey, int>& pairs) {
+  const auto cells = cells_of(mesh);
+  std::set<PairKey> small;
+  for (std::size_t b = 0; b < cells.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) add_small_pairs(cells[a], cells[b], dimension, small);
+  }
+  for (const PairKey& key : small) ++pairs[key];
 }
 
 /// The features of one cell.
@@ -152,6 +196,18 @@ bool cells_meet(const Step& step, int dimension, const Cell& a, const Cell& b) {
   return false;
 }
 
+/// The pair as the oracle for contact takes it; nothing for an edge or face against a face, and in 2D two edges: these
+/// meet at the beginning, or first where smaller features of theirs do.
+std::optional<PairKey> decidable_key(const Simplex& x, const Simplex& y, int dimension) {
+  if (x.size() > y.size()) return decidable_key(y, x, dimension);
+  if (x.size() == 1 && y.size() == 1) return vertex_vertex(x[0], y[0]);
+  if (x.size() == 1 && y.size() == 2) return vertex_edge(x[0], {y[0], y[1]});
+  if (dimension == 2) return std::nullopt;
+  if (x.size() == 1) return PairKey{FeaturePair::vertex_face, {x[0], y[0], y[1], y[2]}};
+  if (y.size() == 2) return canonical_key(FeaturePair::edge_edge, {x[0], x[1], y[0], y[1]});
+  return std::nullopt;
+}
+
 }  // namespace
 
 PairKey key_of(const FeatureContact& contact) { return {contact.pair, contact.vertices}; }
@@ -174,7 +230,7 @@ std::map<PairKey, int> all_pairs(const Mesh& mesh, int dimension, bool strict) {
   } else {
     add_pairs_2d(mesh, strict, pairs);
   }
-  add_loose_points(mesh, pairs);
+  add_small_pairs(mesh, dimension, pairs);
   if (strict) add_strict(mesh, dimension, pairs);
   return pairs;
 }
@@ -209,6 +265,20 @@ BruteForce brute_force(const Step& step, int dimension, bool strict) {
     }
   }
   return result;
+}
+
+bool ever_meet(const Step& step, int dimension) {
+  const auto cells = cells_of(step.mesh);
+  for (std::uint32_t b = 0; b < cells.size(); ++b) {
+    for (std::uint32_t a = 0; a < b; ++a) {
+      if (cells_meet_at_begin(step, dimension, a, b)) return true;
+      for (const auto& [x, y] : disjoint_pairs(cells[a], cells[b])) {
+        const auto key = decidable_key(x, y, dimension);
+        if (key && decide(*key, step, dimension).time) return true;
+      }
+    }
+  }
+  return false;
 }
 
 bool cells_meet_at_begin(const Step& step, int dimension, std::uint32_t a, std::uint32_t b) {

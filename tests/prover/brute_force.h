@@ -40,6 +40,9 @@ struct BruteForce {
 
 BruteForce brute_force(const Step& step, int dimension, bool strict = false);
 
+/// The claim itself: whether any two features of two different cells that share no vertex meet during the step.
+bool ever_meet(const Step& step, int dimension);
+
 /// Whether the vertex-disjoint parts of two cells meet at t = 0.
 bool cells_meet_at_begin(const Step& step, int dimension, std::uint32_t a, std::uint32_t b);
 

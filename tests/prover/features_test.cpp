@@ -17,7 +17,7 @@ TEST(Features, TheLeastCellOwns) {
   EXPECT_EQ(features.owned[1], corner_bit(2) | edge_bit(1) | edge_bit(2) | cell_bit);  // 3, (1, 3), (3, 2)
   EXPECT_EQ(features.owned[2], cell_bit);
   EXPECT_EQ(features.owned[3], corner_bit(1) | edge_bit(0) | cell_bit);
-  EXPECT_EQ(features.owned[4], cell_bit);
+  EXPECT_EQ(features.owned[4], 0);
 }
 
 TEST(Features, WhatSeveralCellsHaveIsShared) {
@@ -29,20 +29,6 @@ TEST(Features, WhatSeveralCellsHaveIsShared) {
   EXPECT_EQ(features.shared[0], corner_bit(1) | corner_bit(2) | edge_bit(1));
   EXPECT_EQ(features.shared[1], corner_bit(0) | corner_bit(1) | edge_bit(0));
   EXPECT_EQ(features.shared[2], 0);
-}
-
-TEST(Features, WhatIsACellOfItsOwnTooIsLoose) {
-  Mesh mesh;
-  mesh.vertex_count = 5;
-  mesh.faces = {{0, 1, 2}, {2, 1, 3}};
-  mesh.edges = {{3, 2}, {3, 4}};
-  mesh.points = {4, 0};
-  const CellFeatures features = find_owners(mesh, true);
-  EXPECT_EQ(features.loose[0], corner_bit(0));
-  EXPECT_EQ(features.loose[1], edge_bit(2));
-  EXPECT_EQ(features.loose[2], 0);
-  EXPECT_EQ(features.loose[3], corner_bit(1));
-  EXPECT_EQ(features.loose[4] | features.loose[5], 0);
 }
 
 TEST(Features, AVertexThatACellHasTwiceCountsOnce) {
@@ -59,19 +45,21 @@ TEST(Features, RepeatedCellsAreNotListedWhateverTheirOrder) {
   mesh.vertex_count = 4;
   mesh.faces = {{0, 1, 2}, {2, 0, 1}, {0, 1, 3}, {0, 0, 1}, {0, 1, 1}};
   mesh.edges = {{0, 1}, {1, 0}, {1, 1}, {2, 1}};
-  mesh.points = {3, 3, 2};
   const CellFeatures features = find_owners(mesh, true);
   const auto listed = [&](std::size_t cell) { return (features.owned[cell] & cell_bit) != 0; };
-  const std::vector<bool> expected = {true, false, true, true, true, true, false, true, true, true, false, true};
+  const std::vector<bool> expected = {true, false, true, true, true, true, false, true, true};
   for (std::size_t cell = 0; cell < expected.size(); ++cell) EXPECT_EQ(listed(cell), expected[cell]) << cell;
 }
 
-TEST(Features, FacesAreListedOnlyOnRequest) {
+TEST(Features, CellsAreListedOnlyOnRequest) {
   Mesh mesh;
   mesh.vertex_count = 3;
   mesh.faces = {{0, 1, 2}};
-  EXPECT_EQ(find_owners(mesh, false).owned[0] & cell_bit, 0);
-  EXPECT_EQ(find_owners(mesh, true).owned[0] & cell_bit, cell_bit);
+  mesh.edges = {{0, 1}};
+  for (const std::size_t cell : {0U, 1U}) {
+    EXPECT_EQ(find_owners(mesh, false).owned[cell] & cell_bit, 0);
+    EXPECT_EQ(find_owners(mesh, true).owned[cell] & cell_bit, cell_bit);
+  }
 }
 
 }  // namespace

@@ -22,10 +22,13 @@ struct Case {
 };
 
 constexpr Case cases[] = {
-    {"faces", {9, 4, 0, 0, 6}, 3, false, 6, 12},       {"faces_strict", {8, 4, 0, 0, 3}, 3, true, 3, 8},
-    {"everything", {9, 3, 3, 3, 2}, 3, false, 4, 12},  {"everything_strict", {6, 3, 4, 4, 2}, 3, true, 3, 12},
-    {"lines", {8, 0, 5, 5, 2}, 3, false, 6, 12},       {"plane", {9, 4, 3, 3, 4}, 2, false, 6, 25},
-    {"plane_strict", {7, 4, 3, 3, 2}, 2, true, 3, 25}, {"crowded_plane", {5, 4, 4, 4, 1}, 2, false, 5, 25},
+    {"faces", {9, 4, 0, 0, 6}, 3, false, 6, 12},        {"faces_strict", {8, 4, 0, 0, 3}, 3, true, 3, 8},
+    {"everything", {9, 3, 3, 3, 2}, 3, false, 4, 12},   {"everything_strict", {6, 3, 4, 4, 2}, 3, true, 3, 12},
+    {"lines", {8, 0, 5, 5, 2}, 3, false, 6, 12},        {"plane", {9, 4, 3, 3, 4}, 2, false, 6, 25},
+    {"plane_strict", {7, 4, 3, 3, 2}, 2, true, 3, 25},  {"crowded_plane", {5, 4, 4, 4, 1}, 2, false, 5, 25},
+    {"two_edges", {3, 0, 2, 0, 1}, 3, false, 4, 300},   {"few_edges", {4, 0, 3, 1, 2}, 3, false, 4, 40},
+    {"few_cells", {3, 2, 2, 1, 2}, 3, false, 4, 40},    {"few_cells_strict", {3, 2, 2, 1, 2}, 3, true, 3, 40},
+    {"few_in_plane", {3, 1, 2, 1, 2}, 2, false, 4, 40},
 };
 
 class WindowSoup : public ::testing::TestWithParam<Case> {};
