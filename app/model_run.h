@@ -3,6 +3,7 @@
 // Between what a run integrates and what it writes.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "noli/integrator/simulation.h"
@@ -36,12 +37,20 @@ integrator::Snapshot<double, Dim> snapshot_of(const RunWindow& window) {
   return {window.index + 1, vectors_of<Dim>(window.positions), vectors_of<Dim>(window.velocities)};
 }
 
-/// A simulation at a snapshot, or at the beginning when there is none.
+/// A simulation at a snapshot, or at the beginning when there is none; with contact, the steps of its layers are halved
+/// so many times.
 template <int Dim>
 integrator::Simulation<double, Dim> simulation_at(const integrator::Model<double, Dim>& model,
-                                                  const integrator::Snapshot<double, Dim>& snapshot) {
-  if (snapshot.windows == 0) return integrator::Simulation<double, Dim>(model);
-  return integrator::Simulation<double, Dim>(model, snapshot);
+                                                  const integrator::Snapshot<double, Dim>& snapshot,
+                                                  std::uint64_t halvings = 0, std::uint32_t least_layers = 0) {
+  integrator::Model<double, Dim> changed = model;
+  if (changed.contact) {
+    changed.contact->least_layers = least_layers;
+    for (auto& material : changed.contact->materials)
+      material.step = std::ldexp(material.step, -static_cast<int>(halvings));
+  }
+  if (snapshot.windows == 0) return integrator::Simulation<double, Dim>(std::move(changed));
+  return integrator::Simulation<double, Dim>(std::move(changed), snapshot);
 }
 
 }  // namespace noli::app

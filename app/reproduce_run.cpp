@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "noli/app/model_run.h"
+#include "noli/app/run_series.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/trajectory/error.h"
@@ -42,7 +43,7 @@ ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Sc
     throw InputError(request.run.string(), "",
                      "has another number of vertices than the scene; expected the run's scene");
   }
-  auto simulation = simulation_at<Dim>(built.model, found.before);
+  auto simulation = simulation_at<Dim>(built.model, found.before, row_of(found.window, request.run).halvings);
   integrator::Recording<double, Dim> recording;
   integrator::Books<double, Dim> books;
   simulation.run_window(recording, books);

@@ -4,11 +4,12 @@
 #include <stdexcept>
 
 #include "noli/trajectory/bytes.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
 
-constexpr std::size_t reals = 3 + 3 * integrator::force_kinds + 6, counts = 2;
+constexpr std::size_t reals = 3 + 3 * integrator::force_kinds + 6, counts = 3;
 
 /// Calls f on each real of a row, in order.
 template <class Row, class F>
@@ -31,6 +32,7 @@ std::string encode(const SeriesRow& row) {
   each_real(row, [&bytes](double x) { put(bytes, x); });
   put(bytes, row.events);
   put(bytes, row.breakpoints);
+  put(bytes, row.halvings);
   return bytes;
 }
 
@@ -45,7 +47,17 @@ SeriesRow decode_row(std::string_view bytes) {
   each_real(row, take);
   take(row.events);
   take(row.breakpoints);
+  take(row.halvings);
   return row;
+}
+
+SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run) {
+  try {
+    return decode_row(window.state);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(trajectory_path(run).string(), "",
+                     "the state of window " + std::to_string(window.index) + ": " + error.what());
+  }
 }
 
 }  // namespace noli::app

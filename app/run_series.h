@@ -3,15 +3,17 @@
 // What a run says about each of its windows: energies, momenta, works, counts. Stored with the window, as bytes that
 // trajectory/FORMAT.md calls its writer's own, so that a run that is resumed has the whole series.
 //
-// Bytes: for each field in the order of SeriesRow, little-endian, 8 each: doubles, then the two counts.
+// Bytes: for each field in the order of SeriesRow, little-endian, 8 each: doubles, then the three counts.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "noli/integrator/simulation.h"
+#include "noli/trajectory/run_file.h"
 
 namespace noli::app {
 
@@ -24,6 +26,7 @@ struct SeriesRow {
   std::array<double, 3> momentum{};                            ///< [N s]
   std::array<double, 3> angular_momentum{};                    ///< in the plane the third [N m s]
   std::uint64_t events = 0, breakpoints = 0;
+  std::uint64_t halvings = 0;  ///< of the steps of all contact layers, after windows that had to be run again
 
   friend bool operator==(const SeriesRow&, const SeriesRow&) = default;
 };
@@ -32,6 +35,9 @@ struct SeriesRow {
 std::string encode(const SeriesRow& row);
 /// Throws std::invalid_argument when the bytes are no row.
 SeriesRow decode_row(std::string_view bytes);
+
+/// Of a window that was read from a run. Throws InputError.
+SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run);
 
 template <int Dim>
 SeriesRow series_row(double time, const integrator::State<double, Dim>& state,

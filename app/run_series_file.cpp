@@ -45,16 +45,6 @@ std::optional<Extent> measure(const std::filesystem::path& run, double rate, con
   return extent;
 }
 
-/// The series of a window, from the bytes that the run keeps of its state.
-SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run) {
-  try {
-    return decode_row(window.state);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(trajectory_path(run).string(), "",
-                     "the state of window " + std::to_string(window.index) + ": " + error.what());
-  }
-}
-
 /// An array of the file that is filled from its beginning, many rows at a time.
 class Column {
  public:

@@ -40,6 +40,29 @@ Json not_finite_json(const SimulateOutcome& outcome) {
           {"vertex", found.vertex}};
 }
 
+Json too_near_json(const SimulateOutcome& outcome) {
+  if (!outcome.limit) return nullptr;
+  const certificates::Stencil& pair = outcome.limit->pair;
+  const std::vector<VertexId> vertices(pair.vertices.begin(),
+                                       pair.vertices.begin() + static_cast<std::ptrdiff_t>(pair.size()));
+  return {{"time", outcome.limit->time},
+          {"pair", noli::name(pair.kind)},
+          {"vertices", vertices},
+          {"names", outcome.first_names}};
+}
+
+/// All zero in scenes without contact.
+Json certificates_json(const certificates::CertificateCounts& counts) {
+  return {{"slices", counts.slices},
+          {"tubes", counts.tubes},
+          {"plans", counts.plans},
+          {"repairs", counts.repairs},
+          {"activations", counts.activations},
+          {"deactivations", counts.deactivations},
+          {"most_near", counts.most_near},
+          {"deepest", counts.deepest}};
+}
+
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return "Nothing touches from beginning to end.";
@@ -51,6 +74,12 @@ std::string end_text(const SimulateOutcome& outcome) {
           outcome.windows, contact_text(first.contact), on_one_line(outcome.first_names), noli::name(first.kind),
           digits17(first.lower()), outcome.contact->contact_count());
     }
+    case RunEnd::too_near:
+      return fmt::format(
+          "Too near in window {}: {} needs more layers of contact than \"most_layers\" allows, at {} s. The window is "
+          "not "
+          "part of the run.",
+          outcome.windows, on_one_line(outcome.first_names), digits17(outcome.limit->time));
     case RunEnd::not_finite: {
       const integrator::NotFinite& found = *outcome.not_finite;
       const std::string force =
@@ -84,6 +113,7 @@ ExitCode exit_code(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return ExitCode::holds;
     case RunEnd::contact:
+    case RunEnd::too_near:
     case RunEnd::not_finite: return ExitCode::refuted;
     case RunEnd::interrupted:
     case RunEnd::out_of_time: return ExitCode::undecided;
@@ -104,6 +134,9 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["first"] = first_json(outcome);
   json["contacts"] = counts_json(outcome.contact ? outcome.contact->contacts : ContactCounts{});
   json["not_finite"] = not_finite_json(outcome);
+  json["too_near"] = too_near_json(outcome);
+  json["roll_backs"] = outcome.roll_backs;
+  json["certificate_defects"] = outcome.certificate_defects;
   json["series"] = name(outcome.series);
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
@@ -114,6 +147,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
                     {"windows_before", outcome.windows_before},
                     {"events", outcome.events},
                     {"breakpoints", outcome.breakpoints},
+                    {"certificates", certificates_json(outcome.certificates)},
                     {"threads", request.threads > 0 ? request.threads : hardware_threads()},
                     {"peak_memory_bytes", peak_memory_bytes()}};
   return json;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <future>
 #include <memory>
-#include <span>
 #include <stdexcept>
 
 #include "noli/app/contact_report.h"
@@ -15,19 +14,19 @@
 #include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
+#include "noli/app/model_facts.h"
 #include "noli/app/model_run.h"
 #include "noli/app/progress.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_series.h"
 #include "noli/app/run_series_file.h"
+#include "noli/integrator/contact_limit.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/kernel/parallel.h"
-#include "noli/trajectory/bytes.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
-#include "noli/trajectory/sha256.h"
 
 namespace noli::app {
 
@@ -35,6 +34,7 @@ const char* name(RunEnd end) {
   switch (end) {
     case RunEnd::done: return "done";
     case RunEnd::contact: return "contact";
+    case RunEnd::too_near: return "too_near";
     case RunEnd::not_finite: return "not_finite";
     case RunEnd::interrupted: return "interrupted";
     case RunEnd::out_of_time: return "time_limit";
@@ -52,45 +52,11 @@ using integrator::Simulation;
 using integrator::Snapshot;
 using integrator::Vec;
 
-/// Which vertices nothing moves but the scene: no two cells of them alone are compared.
-template <int Dim>
-std::vector<std::uint8_t> labels_of(const Model<double, Dim>& model) {
-  std::vector<std::uint8_t> labels(model.x.size(), 0);
-  for (const VertexId v : model.pinned) labels[v] = scripted_vertex;
-  for (const auto& script : model.scripts) labels[script.vertex] = scripted_vertex;
-  return labels;
-}
-
-void hash_numbers(std::span<const double> numbers, Sha256& hash) {
-  std::string bytes;
-  put_all(bytes, numbers);
-  hash.update(bytes);
-}
-
-template <int Dim>
-void hash_vectors(const std::vector<Vec<double, Dim>>& vectors, Sha256& hash) {
-  for (const auto& v : vectors) hash_numbers(std::span<const double>(v.data(), Dim), hash);
-}
-
-/// Of what a model's motion follows from: initial state, masses, steps, paths. The scene is hashed apart; this tells
-/// whether the files that it names are the same.
-template <int Dim>
-Sha256Digest hash_of(const Model<double, Dim>& model) {
-  Sha256 hash;
-  hash_vectors<Dim>(model.x, hash);
-  hash_vectors<Dim>(model.v, hash);
-  hash_numbers(model.mass, hash);
-  std::apply([&](const auto&... list) { (hash_numbers(list.steps, hash), ...); }, model.forces.lists());
-  for (const auto& script : model.scripts) {
-    hash_numbers(script.times, hash);
-    hash_vectors<Dim>(script.positions, hash);
-  }
-  return hash.digest();
-}
-
 /// A window that has been integrated and waits for its verdict.
+template <int Dim>
 struct Candidate {
   std::uint64_t index = 0;
+  Snapshot<double, Dim> before;
   std::unique_ptr<const WorldLines> lines;
   std::vector<Position> velocities;
   SeriesRow row;
@@ -124,17 +90,16 @@ class Run {
   SimulateOutcome operator()() {
     const Stopwatch watch;
     Progress progress("simulate");
-    while (outcome_.end == RunEnd::done && simulation_->windows() < outcome_.windows_total) {
-      if (stopped()) break;
-      std::optional<Candidate> next = integrate();
-      settle();
-      if (outcome_.end != RunEnd::done) break;
-      if (!next) break;
+    while (!stopped()) {
+      std::optional<Candidate<Dim>> next;
+      if (simulation_->windows() < outcome_.windows_total) next = integrate();
+      if (settle() == Settled::rolled_back) continue;
+      if (outcome_.end != RunEnd::done || !next) break;
       verify(std::move(*next));
       progress.show(static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
     }
     settle();
-    find_not_finite();
+    find_end();
     conclude();
     outcome_.seconds = watch.seconds();
     return std::move(outcome_);
@@ -260,6 +225,7 @@ class Run {
     Snapshot<double, Dim> last;
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
+      halvings_ = row_of(*window, folder_.path()).halvings;
       require_whole(*window);
       if (stopped()) throw ReadInterrupted(folder_.path().string());
     }
@@ -270,7 +236,7 @@ class Run {
     }
     writer_.emplace(folder_.path(), reader);
     outcome_.windows_before = last.windows;
-    simulation_.emplace(simulation_at<Dim>(built_.model, last));
+    simulation_.emplace(simulation_at<Dim>(built_.model, last, halvings_));
   }
 
   /// Windows of a run that can be gone on with are those that a simulation writes.
@@ -284,28 +250,37 @@ class Run {
   // --- Windows -------------------------------------------------------------------------------------------------------
 
   /// The next window; nothing when the run ends within it.
-  std::optional<Candidate> integrate() {
+  std::optional<Candidate<Dim>> integrate() {
     const Stopwatch watch;
     before_ = simulation_->snapshot();
+    finite_ = true;
+    limit_.reset();
     const std::uint64_t events = simulation_->events();
     recording_.clear();
     Books<double, Dim> books;
-    if (!simulation_->run_window(recording_, books, [this] { return stopped(); })) return std::nullopt;
+    try {
+      if (!simulation_->run_window(recording_, books, [this] { return stopped(); })) return std::nullopt;
+    } catch (const integrator::ContactLimit& limit) {
+      limit_ = limit;
+      return std::nullopt;
+    }
     if (!simulation_->finite()) {
       finite_ = false;
       return std::nullopt;
     }
-    Candidate next;
+    Candidate<Dim> next;
     next.index = before_.windows;
+    next.before = before_;
     next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
     next.velocities = positions_of<Dim>(simulation_->snapshot().v);
     next.row = series_row<Dim>(simulation_->time(), simulation_->state(), books, simulation_->events() - events,
                                recording_.stream().size());
+    next.row.halvings = halvings_;
     outcome_.simulating_seconds += watch.seconds();
     return next;
   }
 
-  void verify(Candidate next) {
+  void verify(Candidate<Dim> next) {
     candidate_ = std::move(next);
     const auto look = [lines = candidate_->lines.get(), options = window_options(), this] {
       const Stopwatch watch;
@@ -317,33 +292,64 @@ class Run {
     candidate_->verdict = std::async(aside ? std::launch::async : std::launch::deferred, look);
   }
 
-  /// Waits for the verdict on the window that is being verified, and commits it or ends the run.
-  void settle() {
-    if (!candidate_) return;
-    WindowResult result = candidate_->verdict.get();
+  enum class Settled { yes, rolled_back };
+
+  /// Waits for the verdict on the window that is being verified, and commits it, goes back to before it, or ends the
+  /// run.
+  Settled settle() {
+    if (!candidate_) return Settled::yes;
+    Candidate<Dim> window = std::move(*candidate_);
+    candidate_.reset();
+    WindowResult result = window.verdict.get();
     if (!result.complete) {
       if (!stopped()) throw std::logic_error("a window was not verified to its end");
-    } else if (result.contact_count() > 0) {
-      outcome_.end = RunEnd::contact;
-      if (result.first) outcome_.first_names = named(result.first->contact);
-      outcome_.contact = std::move(result);
-    } else {
-      commit(*candidate_);
+      return Settled::yes;
     }
-    candidate_.reset();
+    if (result.contact_count() == 0) {
+      commit(window);
+      return Settled::yes;
+    }
+    if (roll_back(window, result)) return Settled::rolled_back;
+    outcome_.end = RunEnd::contact;
+    if (result.first) outcome_.first_names = named(result.first->contact);
+    outcome_.contact = std::move(result);
+    return Settled::yes;
   }
 
-  void commit(const Candidate& window) {
+  /// A window in which something touches is run once more: with more layers from the start, in case that certificates
+  /// have missed one, then with all layers' steps halved, from here on. False when all that has been tried.
+  bool roll_back(const Candidate<Dim>& window, const WindowResult& result) {
+    constexpr int most_tries = 8;
+    if (!built_.model.contact || tries_ == most_tries || outcome_.end != RunEnd::done) return false;
+    const std::uint32_t layers = ++tries_ == 1 ? simulation_->certificates().deepest + 8 : 0;
+    if (tries_ > 1) ++halvings_;
+    ++outcome_.roll_backs;
+    Json entry = {{"event", "roll_back"}, {"window", window.index}, {"try", tries_}};
+    entry["least_layers"] = layers;
+    entry["step_halvings"] = halvings_;
+    if (result.first) {
+      entry["first"] = contact_json(result.first->contact);
+      entry["first_time"] = result.first->lower();
+    }
+    folder_.log(entry);
+    outcome_.certificates += simulation_->certificates();
+    simulation_.emplace(simulation_at<Dim>(built_.model, window.before, halvings_, layers));
+    return true;
+  }
+
+  void commit(const Candidate<Dim>& window) {
     const std::vector<RunFrame> frames = frames_of(window);
     writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
     writer_->commit();
     outcome_.events += window.row.events;
     outcome_.breakpoints += window.row.breakpoints;
     folder_.log(window.index, window.row);
+    if (tries_ == 1) ++outcome_.certificate_defects;
+    tries_ = 0;
   }
 
   /// With "record": "frames", those within the window.
-  std::vector<RunFrame> frames_of(const Candidate& window) const {
+  std::vector<RunFrame> frames_of(const Candidate<Dim>& window) const {
     std::vector<RunFrame> frames;
     if (record_ == RecordMode::full) return frames;
     const WorldLines& lines = *window.lines;
@@ -354,15 +360,23 @@ class Run {
     return frames;
   }
 
-  /// Of the window in which numbers ran out, if the run came to it.
-  void find_not_finite() {
-    if (finite_ || outcome_.end != RunEnd::done) return;
-    outcome_.not_finite = simulation_at<Dim>(built_.model, before_).find_not_finite([this] { return stopped(); });
-    if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
+  /// Why the next window did not come to its end, if it did not by itself.
+  void find_end() {
+    if (outcome_.end != RunEnd::done) return;
+    if (limit_) {
+      outcome_.end = RunEnd::too_near;
+      outcome_.limit = limit_;
+      outcome_.first_names = named({limit_->pair.kind, limit_->pair.vertices, {}});
+    } else if (!finite_) {
+      outcome_.not_finite =
+          simulation_at<Dim>(built_.model, before_, halvings_).find_not_finite([this] { return stopped(); });
+      if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
+    }
   }
 
   void conclude() {
     outcome_.windows = writer_->windows();
+    outcome_.certificates += simulation_->certificates();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
     write_series();
     log_end();
@@ -385,6 +399,8 @@ class Run {
       entry["first"]["kind"] = noli::name(outcome_.contact->first->kind);
       entry["first_time"] = outcome_.contact->first->lower();
     }
+    if (outcome_.limit) entry["too_near"] = {{"time", outcome_.limit->time}, {"names", outcome_.first_names}};
+    if (built_.model.contact) entry["roll_backs"] = outcome_.roll_backs;
     folder_.log(entry);
   }
 
@@ -400,7 +416,10 @@ class Run {
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
   Recording<double, Dim> recording_;
-  std::optional<Candidate> candidate_;
+  std::optional<Candidate<Dim>> candidate_;
+  int tries_ = 0;               ///< of the window that is next to be committed, to go back before it
+  std::uint64_t halvings_ = 0;  ///< of the steps of all contact layers
+  std::optional<integrator::ContactLimit> limit_;
   bool finite_ = true;  ///< all numbers of the window that is being integrated
   SimulateOutcome outcome_;
 };

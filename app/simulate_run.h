@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "noli/app/run_series_file.h"
+#include "noli/integrator/contact_limit.h"
 #include "noli/integrator/simulation.h"
 #include "noli/proofs/prover/window_verifier.h"
 
@@ -40,6 +41,7 @@ struct SimulateRequest {
 enum class RunEnd {
   done,         ///< all windows are committed
   contact,      ///< something touches in the next one
+  too_near,     ///< in the next one a pair needs more layers of contact than the scene allows
   not_finite,   ///< a number of the next one is none
   interrupted,  ///< by the user
   out_of_time
@@ -59,8 +61,12 @@ struct SimulateOutcome {
   double time = 0;                               ///< of the last commit [s]
   std::uint64_t events = 0, breakpoints = 0;     ///< of this call
   std::optional<WindowResult> contact;           ///< of the window that was refused
-  std::string first_names;                       ///< the features of its first one, by body and number there
+  std::string first_names;                       ///< the features of its first one, or of `limit`, by body and number
+  std::optional<integrator::ContactLimit> limit;
   std::optional<integrator::NotFinite> not_finite;
+  std::uint64_t roll_backs = 0;           ///< of windows that were run again
+  std::uint64_t certificate_defects = 0;  ///< of them, such that more layers from the start were enough
+  certificates::CertificateCounts certificates;
   SeriesEnd series = SeriesEnd::stopped;
   double seconds = 0, simulating_seconds = 0, verifying_seconds = 0;
 };

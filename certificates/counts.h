@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace noli::certificates {
@@ -14,6 +15,18 @@ struct CertificateCounts {
   std::uint64_t activations = 0, deactivations = 0;  ///< of layers
   std::uint64_t most_near = 0;                       ///< near pairs at a time
   std::uint32_t deepest = 0;                         ///< layer
+
+  CertificateCounts& operator+=(const CertificateCounts& other) {
+    slices += other.slices;
+    tubes += other.tubes;
+    plans += other.plans;
+    repairs += other.repairs;
+    activations += other.activations;
+    deactivations += other.deactivations;
+    most_near = std::max(most_near, other.most_near);
+    deepest = std::max(deepest, other.deepest);
+    return *this;
+  }
 };
 
 }  // namespace noli::certificates

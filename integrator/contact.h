@@ -81,7 +81,7 @@ class Contact {
 
   double next_layer() const { return agenda_.empty() ? never : std::get<0>(*agenda_.begin()); }
 
-  /// Fires the next layer.
+  /// Fires the next layer; returns how many pairs it acted on. (How many it fired for is no property of the motion.)
   template <class Recorder>
   std::size_t fire_next(Recorder& record, Account<double, Dim>& account) {
     const auto [t, material, l] = *agenda_.begin();
@@ -122,7 +122,6 @@ class Contact {
   const certificates::CertificateCounts& counts() const {
     return has_cells_ ? cells_->counts() : every_pair_->counts();
   }
-  std::uint64_t impulses() const { return impulses_; }
 
   // --- For the certificates ------------------------------------------------------------------------------------------
 
@@ -212,12 +211,15 @@ class Contact {
     firing_ = layers_[material][l - 1].pairs;  // the list may change while they fire
     record.reserve(4 * firing_.size());
     const Kicked<double, Dim, Recorder> now{particles_, record, t};
+    std::size_t acted = 0;
     for (const certificates::Stencil& pair : firing_) {
       const double d = fire_pair(now, account, pair, settings_.materials[material], layers_[material][l - 1], h);
-      if (d > layers_[material][l - 1].thickness) drop_if_clear(pair.key, material, l, d, t);
+      const double eta = layers_[material][l - 1].thickness;
+      if (d < eta) ++acted;
+      if (d > eta) drop_if_clear(pair.key, material, l, d, t);
     }
-    account.events += firing_.size();
-    return firing_.size();
+    account.events += acted;
+    return acted;
   }
 
   /// Of one pair; returns the distance.
@@ -241,7 +243,6 @@ class Contact {
     const double share = opening_speed<Dim>(c, d, vs) > 0 ? material.restitution : 1;
     const double push = -share * h * layer.stiffness * g;
     if (push == 0) return d;
-    ++impulses_;
     add<true>(account, normal_impulses(c, d, push), x, v, inverse_mass, n);
     if (material.friction > 0) rub(account, material.friction * push, c, x, v, inverse_mass, n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -289,7 +290,6 @@ class Contact {
   std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
   std::vector<certificates::Stencil> firing_;
-  std::uint64_t impulses_ = 0;
   bool started_ = false;
   bool has_cells_;
   std::optional<certificates::Cells<Dim, Contact>> cells_;  ///< or:

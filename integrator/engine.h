@@ -304,7 +304,6 @@ class Engine {
       const double certificate = contact_->next_certificate(), layer = contact_->next_layer();
       if (certificate <= end && certificate <= force_time && certificate <= layer) {
         contact_->run_certificate();
-        ++events_;
         return true;
       }
       if (layer <= end && layer < force_time) {

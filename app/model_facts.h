@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a run has to know of its model beside how to integrate it.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "noli/integrator/model.h"
+#include "noli/trajectory/bytes.h"
+#include "noli/trajectory/run_file.h"
+#include "noli/trajectory/sha256.h"
+
+namespace noli::app {
+
+/// Which vertices nothing moves but the scene: no two cells of them alone are compared.
+template <int Dim>
+std::vector<std::uint8_t> labels_of(const integrator::Model<double, Dim>& model) {
+  std::vector<std::uint8_t> labels(model.x.size(), 0);
+  for (const VertexId v : model.pinned) labels[v] = scripted_vertex;
+  for (const auto& script : model.scripts) labels[script.vertex] = scripted_vertex;
+  return labels;
+}
+
+inline void hash_numbers(std::span<const double> numbers, Sha256& hash) {
+  std::string bytes;
+  put_all(bytes, numbers);
+  hash.update(bytes);
+}
+
+template <int Dim>
+void hash_vectors(const std::vector<integrator::Vec<double, Dim>>& vectors, Sha256& hash) {
+  for (const auto& v : vectors) hash_numbers(std::span<const double>(v.data(), Dim), hash);
+}
+
+/// Of what a model's motion follows from: initial state, masses, steps, paths. The scene is hashed apart; this tells
+/// whether the files that it names are the same.
+template <int Dim>
+Sha256Digest hash_of(const integrator::Model<double, Dim>& model) {
+  Sha256 hash;
+  hash_vectors<Dim>(model.x, hash);
+  hash_vectors<Dim>(model.v, hash);
+  hash_numbers(model.mass, hash);
+  std::apply([&](const auto&... list) { (hash_numbers(list.steps, hash), ...); }, model.forces.lists());
+  for (const auto& script : model.scripts) {
+    hash_numbers(script.times, hash);
+    hash_vectors<Dim>(script.positions, hash);
+  }
+  if (model.contact) {
+    for (const auto& m : model.contact->materials) {
+      hash_numbers(std::array{m.thickness, m.stiffness, m.step, m.restitution, m.friction}, hash);
+    }
+  }
+  return hash.digest();
+}
+
+}  // namespace noli::app
