@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes with forces of contact, by the command.
+#include <gtest/gtest.h>
+
+#include "noli/tests/app/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+/// A small cloth that falls onto a pinned one that lies aslant below it.
+Json two_cloths() {
+  const Json material = {{"young", 2e4}, {"density", 200}, {"thickness", 0.001}};
+  return {{"noli_scene", 1},
+          {"title", "Two cloths"},
+          {"duration", 0.2},
+          {"window", 0.01},
+          {"gravity", {0, 0, -9.81}},
+          {"bodies",
+           {{{"name", "falling"},
+             {"mesh", {{"grid", {{"size", {0.3, 0.3}}, {"cells", {4, 4}}}}}},
+             {"transform", {{"translate", {0.02, 0.01, 0.06}}}},
+             {"velocity", {0, 0, -1}},
+             {"material", material}},
+            {{"name", "lying"},
+             {"mesh", {{"grid", {{"size", {0.3, 0.3}}, {"cells", {3, 3}}}}}},
+             {"transform", {{"rotate", {{"axis", {1, 0, 0}}, {"degrees", 10}}}}},
+             {"material", material},
+             {"pin", {"all"}}}}},
+          {"contact", {{"thickness", 0.01}, {"stiffness", 200}, {"friction", 0.3}, {"restitution", 0.5}}}};
+}
+
+TEST_F(Simulate, ContactKeepsThingsApart) {
+  const Json json = json_of({"simulate", scene(two_cloths()), "-o", run_path("run")}, 0);
+  EXPECT_EQ(json["verdict"], "no_contact");
+  EXPECT_EQ(json["windows"], 20);
+  EXPECT_EQ(json["roll_backs"], 0);
+  EXPECT_EQ(json["too_near"], nullptr);
+  EXPECT_GE(json["timing"]["certificates"]["deepest"], 1);
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+  // Without forces of contact they do meet.
+  Json bare = two_cloths();
+  bare.erase("contact");
+  EXPECT_EQ(json_of({"simulate", scene(bare), "-o", run_path("bare")}, 1)["verdict"], "contact");
+}
+
+TEST_F(Simulate, ContactGivesTheSameBytesWhateverInterruptsIt) {
+  const std::string file = scene(two_cloths());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("one"), "--threads", "1"}).exit_code, 0);
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("parts"), "--until", "0.03"}).exit_code, 0);
+  for (const char* until : {"0.07", "0.12", "0.2"}) {
+    ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("parts"), "--resume", "--until", until}).exit_code, 0);
+  }
+  const std::string bytes = bytes_of(run_path("whole/trajectory.blocks"));
+  EXPECT_EQ(bytes, bytes_of(run_path("one/trajectory.blocks")));
+  EXPECT_EQ(bytes, bytes_of(run_path("parts/trajectory.blocks")));
+  const Process again =
+      run_noli({"simulate", file, "--reproduce", run_path("whole"), "--window", "9", "-o", run_path("window-9.block")});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+}
+
+/// What certificates do not look at is found by the verifier: the window is run again as often as that may help, and
+/// then the run ends.
+TEST_F(Simulate, WindowsInWhichSomethingTouchesAreRunAgain) {
+  Json json = two_cloths();
+  json["contact"]["exclude"] = Json::array({Json::array({"falling", "lying"})});
+  const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
+  EXPECT_EQ(result["verdict"], "contact");
+  EXPECT_EQ(result["roll_backs"], 8);
+  EXPECT_EQ(result["certificate_defects"], 0);
+  const std::string log = bytes_of(run_path("run/log.jsonl"));
+  EXPECT_NE(log.find("\"event\":\"roll_back\""), std::string::npos);
+  EXPECT_NE(log.find("\"step_halvings\":7"), std::string::npos);
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+}
+
+/// In the plane: a point between a floor and an edge that a script puts onto it.
+TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
+  const Json wall = {{"chain", {{"points", {{-1, 0}, {1, 0}}}, {"segments", 1}}}};
+  const Json stiff = {{"edge_stiffness", 0}, {"mass_per_length", 1}};
+  const Json json = {
+      {"noli_scene", 1},
+      {"title", "Pinched"},
+      {"dimension", 2},
+      {"duration", 2},
+      {"window", 0.01},
+      {"bodies",
+       {{{"name", "floor"}, {"mesh", wall}, {"material", stiff}, {"pin", {"all"}}},
+        {{"name", "press"}, {"mesh", wall}, {"transform", {{"translate", {0, 1}}}}, {"material", stiff}},
+        {{"name", "point"},
+         {"mesh", Json::parse(R"({"points": {"at": [[0.1, 0.5]]}})")},
+         {"material", {{"edge_stiffness", 0}, {"mass_per_vertex", 1}}}}}},
+      {"scripts", {{{"body", "press"}, {"path", {{{"t", 0}, {"move", {0, 0}}}, {{"t", 1}, {"move", {0, -1}}}}}}}},
+      {"contact", {{"thickness", 0.1}, {"stiffness", 100}, {"most_layers", 200}}}};
+  const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
+  EXPECT_EQ(result["verdict"], "undecided");
+  EXPECT_EQ(result["end"], "too_near");
+  EXPECT_EQ(result["too_near"]["pair"], "vertex_edge");
+  EXPECT_GT(result["too_near"]["time"], 0.9);
+  EXPECT_LT(result["too_near"]["time"], 1);
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+}
+
+}  // namespace
+}  // namespace noli::app_tests
