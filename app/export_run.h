@@ -37,8 +37,8 @@ struct ExportOutcome {
 
 /// Writes the frames, one in memory at a time. Of a run that recorded frames alone, those are written, and fps does not
 /// matter. In the end no file of that pattern is there but those just written. Throws InputError (no run, a damaged
-/// one), UsageError (pattern; a place that cannot be written to; without `force`, files of that pattern that are there),
-/// std::system_error (disk).
+/// one), UsageError (pattern; a place that cannot be written to; without `force`, files of that pattern that are
+/// there), std::system_error (disk).
 ExportOutcome run_export(const ExportRequest& request);
 
 }  // namespace noli::app

@@ -7,11 +7,11 @@
 //   eta(l)      thickness of layer l of a pair; L: the number of layers that are active for it
 //   certificate   of a pair: it is farther apart than eta(L + 1). Layers beyond L then give no impulse
 //   slice       a stretch of time for which the broad phase is done at once
-//   tube        a vertex's plan for the slice. Pairs that a direction keeps eta(1) apart for the whole slice, the tubes'
-//               radii included, are settled: they are not even remembered
+//   tube        a vertex's plan for the slice. Pairs that a direction keeps eta(1) apart for the whole slice, the
+//               tubes' radii included, are settled: they are not even remembered
 //   near pair   one that is not; it has a slab of thickness eta(L + 1), whose two sides are walls of its vertices
-//   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared with the guard
-//               alone, which takes a few operations; the walls are looked at when the guard is used up
+//   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared with the
+//               guard alone, which takes a few operations; the walls are looked at when the guard is used up
 //   look        a vertex is looked at whenever its velocity changes, and at least every look_step(i) if that is finite.
 //               It must hold its guard until the next look; else it is planned anew, and if its walls are too near for
 //               that, an event is due when the guard ends

@@ -6,9 +6,9 @@
 //   x_i   vertices of the pair, those of A first
 //   w_i   weights with sum w_i x_i = r, positive on A, negative on B, each feature's adding up to 1 or -1
 //   r     from the closest point of B to that of A; d = |r| is the distance and w_i r / d its gradient by x_i
-//   b_k   directions x_p - x_q in which the closest points can slide; none where corners hold them. With c_k = b_k . u +
-//         (db_k/dt) . r, where u = sum w_i v_i, the rates of the closest points' parameters solve (b_j . b_k) rate = c
-//         (differentiate b_k . r = 0). They are the same in every moving frame
+//   b_k   directions x_p - x_q in which the closest points can slide; none where corners hold them. With c_k = b_k . u
+//         + (db_k/dt) . r, where u = sum w_i v_i, the rates of the closest points' parameters solve (b_j . b_k) rate =
+//         c (differentiate b_k . r = 0). They are the same in every moving frame
 //
 // Any weights give a point of each feature, so |r| as computed is never less than the distance but for the rounding of
 // one short sum: what trusts it errs on the side of "farther" by a few units in the last place of the coordinates.

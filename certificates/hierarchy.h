@@ -4,8 +4,8 @@
 //
 // Notation
 //   stretch   [begin, end] of time
-//   box       low(t), high(t), linear in between what they are at begin and end; holds what is in it at every t between,
-//             since that moves linearly too
+//   box       low(t), high(t), linear in between what they are at begin and end; holds what is in it at every t
+//             between, since that moves linearly too
 // Two boxes are apart over the whole stretch if along one axis one is below the other at begin and at end.
 //
 // The tree is built once, by medians, over where cells are then; boxes are refitted. What moves together stays together

@@ -2,8 +2,8 @@
 //
 // A pair that is followed by itself: its slab, and how many layers it needs.
 //
-// Notation: that of certificates/cells.h. `margin` stands for all rounding between what is extrapolated here and what is
-// recorded.
+// Notation: that of certificates/cells.h. `margin` stands for all rounding between what is extrapolated here and what
+// is recorded.
 //
 // What this does not do: it says nothing about when a slab fails.
 #pragma once

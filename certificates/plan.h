@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A vertex's plan: a straight motion and a ball around it that it promises not to leave for a while. As long as it keeps
-// the promise, nothing that was concluded from the plan has to be looked at again.
+// A vertex's plan: a straight motion and a ball around it that it promises not to leave for a while. As long as it
+// keeps the promise, nothing that was concluded from the plan has to be looked at again.
 //
 // Notation
 //   deviation   x(t) - line(t), itself linear between changes of velocity: if it is within the ball at two times, it is

@@ -4,8 +4,8 @@
 //
 // Notation
 //   A, B     the two features; vertices of A come first
-//   key      64 bits that name a pair whatever happens in a run: kind, then the numbers of its features. Everything that
-//            happens to several pairs at one time happens in the order of their keys
+//   key      64 bits that name a pair whatever happens in a run: kind, then the numbers of its features. Everything
+//            that happens to several pairs at one time happens in the order of their keys
 #pragma once
 
 #include <array>

@@ -36,8 +36,8 @@ class Contact {
  public:
   using Particles = std::vector<Particle<double, Dim>>;
 
-  /// `look_steps`: of each vertex, how often it fires at least; infinity for those that nothing does. The particles stay
-  /// where they are.
+  /// `look_steps`: of each vertex, how often it fires at least; infinity for those that nothing does. The particles
+  /// stay where they are.
   Contact(const ContactSettings& settings, const Mesh& mesh, Particles& particles, std::vector<double> look_steps,
           double window_length)
       : settings_(settings),

@@ -7,8 +7,8 @@
 //   g         d - eta; the layer acts if g < 0
 //   J_n       s h r(l) |g|: the impulse between the closest points, pushing apart; s = 1 while they approach, e while
 //             they part, so e is the part of the energy that comes back
-//   friction  impulse of magnitude j = min(mu J_n, what stops the slip) against the slip of the closest points along the
-//             features. The slip is that of the points' parameters, which rigid motions do not change; so neither
+//   friction  impulse of magnitude j = min(mu J_n, what stops the slip) against the slip of the closest points along
+//             the features. The slip is that of the points' parameters, which rigid motions do not change; so neither
 //             impulse changes momentum or angular momentum (see friction_direction)
 //
 // What this does not do: it changes no velocity, and no one's clock.

@@ -21,8 +21,8 @@ struct CurveKind {
 };
 
 /// n + 1 points, the first and last of which are those of the curve; between them at k/n of its length. Of a closed
-/// curve n, without the last. Precondition: at least two points, n >= 1. Throws std::invalid_argument if the curve has no
-/// length.
+/// curve n, without the last. Precondition: at least two points, n >= 1. Throws std::invalid_argument if the curve has
+/// no length.
 std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t n, CurveKind kind);
 
 }  // namespace noli::integrator

@@ -19,8 +19,8 @@ struct Pinch {
   double time = 0;  ///< about [s]
 };
 
-/// Pairs of bodies, no vertex of which is free, that are apart at the start and meet before `duration`; the first time of
-/// each pair.
+/// Pairs of bodies, no vertex of which is free, that are apart at the start and meet before `duration`; the first time
+/// of each pair.
 template <int Dim>
 std::vector<Pinch> find_pinches(const BuiltScene<Dim>& scene, double duration);
 

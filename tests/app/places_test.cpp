@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where commands write: a place that cannot be written to is known before the work begins; what is there is not mixed up.
+// Where commands write: a place that cannot be written to is known before the work begins; what is there is not mixed
+// up.
 #include <gtest/gtest.h>
 
 #include <algorithm>

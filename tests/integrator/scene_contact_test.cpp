@@ -115,7 +115,8 @@ TEST(SceneContact, WhatIsSaidIsTaken) {
 TEST(SceneContact, PairsHaveWhatIsSaidOfThemAndTheRestOfAll) {
   const ContactSettings s = settings(sheets(R"({"stiffness": 100, "step": 0.001, "restitution": 0.5, "pairs": [
       {"bodies": ["high", "low"], "friction": 0.5, "stability": 0.02},
-      {"bodies": ["floor", "low"], "thickness": 0.01, "newton_restitution": 0.1}], "exclude": [["high", "high"]]})"_json));
+      {"bodies": ["floor", "low"], "thickness": 0.01, "newton_restitution": 0.1}],
+      "exclude": [["high", "high"]]})"_json));
   ASSERT_EQ(s.group_count, 3);
   EXPECT_EQ(s.materials.size(), 3u);
   EXPECT_EQ(s.groups[8], 0);
