@@ -22,11 +22,11 @@
 //   features       pair(x, y)        -> nothing: see below
 //   cell           self(x)           -> nothing: x is a leaf
 // What no direction settled is taken apart into pairs of features, and each of these belongs to one pair of cells: that
-// of the least cells that have the two features, or the one in proofs/prover/leftover.h. `features` says that each pair of features of the two parts is apart
-// from what `direction` settled (here for other parts, or in the obligation of the cells it belongs to), or was told by
-// `decided`, here or in the obligation it belongs to; never twice. `at_begin` says whether the two parts on top meet at
-// the beginning of the step; it comes before `features`, but not again for a pair of cells of which some parts are
-// known to meet.
+// of the least cells that have the two features, or the one in proofs/prover/leftover.h. `features` says that each pair
+// of features of the two parts is apart from what `direction` settled (here for other parts, or in the obligation of
+// the cells it belongs to), or was told by `decided`, here or in the obligation it belongs to; never twice. `at_begin`
+// says whether the two parts on top meet at the beginning of the step; it comes before `features`, but not again for a
+// pair of cells of which some parts are known to meet.
 //
 // What this does not do: it writes no file and checks nothing.
 #pragma once
