@@ -18,7 +18,7 @@ constexpr const char* footer =
     "Each query is decided exactly. Where a file has labels (the truth, a last column of 0 or 1), they are compared: "
     "exit 1 when one\n"
     "disagrees. A row is a point: x numerator, x denominator, y .., z .. [, label]; a query is its points at t = 0, "
-    "then at t = 1.\n"
+    "then at t = 1. Lines that begin with # are skipped.\n"
     "Examples:\n"
     "  noli ccd unit-tests-edge-edge-0.csv unit-tests-vertex-face-0.csv\n"
     "  noli ccd queries.csv --kind vertex-face --json result.json\n"

@@ -17,19 +17,25 @@
 #include "noli/audit/fuzz_queries.h"
 #include "noli/kernel/parallel.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/query_csv.h"
+#include "noli/trajectory/text.h"
 
 namespace noli::app {
 namespace {
 
 constexpr const char* queries_footer =
     "Adversarial queries made backwards from a known contact, each decided by the kernel and by a slow independent "
-    "oracle. A difference is\n"
-    "shrunk and saved as a file that `noli ccd` reads, labelled with the truth. Exit 0: no difference; 1: findings; 2: "
-    "interrupted.\n"
+    "oracle: contact, distance\n"
+    "(within a bound or not, and when first), and the failure time of a certificate for two of its points. A "
+    "difference "
+    "is shrunk and saved as a\n"
+    "file that `noli ccd` reads, labelled with the truth about contact; --replay asks it again. Exit 0: no difference; "
+    "1: findings; 2: interrupted.\n"
     "With --count the result depends on the seed alone.\n"
     "Examples:\n"
     "  noli fuzz queries --for 60s --seed 1\n"
-    "  noli fuzz queries --count 1000000 --threads 2 --out findings --json result.json";
+    "  noli fuzz queries --count 1000000 --threads 2 --out findings --json result.json\n"
+    "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv";
 
 /// Decimal digits only: what CLI11 makes of signs, leading zeros and numbers that do not fit is not what a reader would
 /// expect.
@@ -48,6 +54,7 @@ struct FuzzArguments {
   audit::FuzzOptions options;
   std::string duration = "60s";
   std::string out = "fuzz-findings";
+  std::optional<std::string> replay;
   std::optional<std::string> json;
 };
 
@@ -82,12 +89,19 @@ Json generator_json(const audit::GeneratorTally& generator) {
           {"answers", answers_json(generator.answers)}};
 }
 
+Json probes_json(const audit::ProbeTally& probes) {
+  return {{"distance", {{"apart", probes.apart}, {"within", probes.within}}},
+          {"failure_time",
+           {{"failed", probes.failed}, {"failing", probes.failing}, {"never_failing", probes.never_failing}}}};
+}
+
 Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
   Json json = {{"verdict", verdict(report)},
                {"seed", options.seed},
                {"queries", report.queries},
                {"findings", report.findings_total},
                {"answers", answers_json(report.answers)}};
+  json["probes"] = probes_json(report.probes);
   json["reports"] = Json::array();
   for (const auto& finding : report.findings) json["reports"].push_back(finding_json(finding));
   json["generators"] = Json::array();
@@ -116,6 +130,9 @@ std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport
   }
   text += "Answers of the oracle:\n";
   for (const auto& generator : report.generators) append_generator(generator, text);
+  const audit::ProbeTally& probes = report.probes;
+  fmt::format_to(out, "Distances: apart {} within {}. Certificates: failed {} failing {} never_failing {}.\n",
+                 probes.apart, probes.within, probes.failed, probes.failing, probes.never_failing);
   text += "Stages:";
   for (const Stage stage : all_stages) fmt::format_to(out, " {} {}", name(stage), report.stages[stage]);
   fmt::format_to(out, "\nTime: {:.1f} s.\n", seconds);
@@ -128,7 +145,49 @@ double share(const audit::FuzzOptions& options, const audit::FuzzProgress& progr
   return progress.seconds / options.time_limit->count();
 }
 
+/// The line of a saved finding that says what it was asked beside contact, if the file has one.
+std::optional<audit::SavedProbe> saved_probe(const std::string& text) {
+  Lines lines(text);
+  std::string_view line;
+  while (lines.next(line)) {
+    if (const auto saved = audit::parse_probe_line(line)) return saved;
+  }
+  return std::nullopt;
+}
+
+/// Decides the queries of a file again. Throws InputError.
+ExitCode replay(const FuzzArguments& arguments) {
+  const std::filesystem::path file = *arguments.replay;
+  const auto kind = kind_from_file_name(file);
+  if (!kind) throw InputError(file.string(), "", "its name tells no kind of query, such as edge-edge");
+  const Output output(arguments.json, {file});
+  const std::string text = read_whole_file(file);
+  const auto saved = saved_probe(text);
+  audit::AnyQuery query{static_cast<FeaturePair>(*kind), saved ? saved->dimension : 3, {}, {}};
+  if (saved && !audit::fits(query, saved->probe)) {
+    throw InputError(file.string(), "", "the line noli-fuzz asks for what a query of this kind has not");
+  }
+  std::vector<std::string> differences;
+  const auto records = parse_query_csv(text, file.string(), *kind);
+  for (const QueryRecord& record : records) {
+    query.x_t0 = record.x_t0;
+    query.x_t1 = record.x_t1;
+    const auto found = audit::replay(query, saved ? std::optional(saved->probe) : std::nullopt);
+    differences.insert(differences.end(), found.begin(), found.end());
+  }
+  const char* const word = differences.empty() ? "no_difference" : "finding";
+  std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, records.size(), differences.size());
+  for (const std::string& difference : differences) lines += difference + '\n';
+  output.write(lines, {{"verdict", word},
+                       {"queries", records.size()},
+                       {"findings", differences.size()},
+                       {"probe", saved.has_value()},
+                       {"differences", differences}});
+  return differences.empty() ? ExitCode::holds : ExitCode::refuted;
+}
+
 ExitCode run(FuzzArguments& arguments, bool for_given) {
+  if (arguments.replay) return replay(arguments);
   audit::FuzzOptions& options = arguments.options;
   if (for_given || !options.count) options.time_limit = parse_duration(arguments.duration, "--for");
   const Output output(arguments.json, {});
@@ -152,7 +211,8 @@ Command add_fuzz_queries(CLI::App& app) {
   CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
   fuzz->require_subcommand(1);
   fuzz->footer("Examples:\n  noli fuzz queries --for 60s --seed 1\n`noli fuzz queries --help` says more.");
-  CLI::App* const command = fuzz->add_subcommand("queries", "Contact of two features: kernel against oracle");
+  CLI::App* const command =
+      fuzz->add_subcommand("queries", "Contact, distance, failure times of two features: kernel against oracle");
   command->footer(queries_footer);
   const auto arguments = std::make_shared<FuzzArguments>();
   audit::FuzzOptions& options = arguments->options;
@@ -171,6 +231,12 @@ Command add_fuzz_queries(CLI::App& app) {
   command->add_option("--out", arguments->out, "Folder for findings, made when there is one")
       ->capture_default_str()
       ->type_name("DIR");
+  CLI::Option* const again =
+      command->add_option("--replay", arguments->replay, "Decide the queries of this file again instead")
+          ->type_name("FILE");
+  for (CLI::Option* const other : command->get_options()) {
+    if (other != again && other->get_name() != "--help" && other->get_name() != "--threads") again->excludes(other);
+  }
   add_json_option(*command, arguments->json);
   return {command, [arguments, duration] { return run(*arguments, duration->count() > 0); }};
 }

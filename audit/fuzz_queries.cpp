@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "noli/audit/judge.h"
@@ -19,15 +22,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A finding before it is shrunk. Only what the subject did wrong can be shrunk: what a generator promises holds for
-/// its own queries.
+/// What went wrong. What a generator promises holds for its own queries: that cannot be shrunk.
+enum class Fault { contact, probe, promise };
+
+/// A finding before it is shrunk.
 struct RawFinding {
   Finding finding;
-  bool by_subject = true;
+  Fault fault;
 };
+
+/// Probes are made from the streams from here on, which no block is numbered by.
+constexpr std::uint64_t probe_stream = std::uint64_t{1} << 63;
 
 struct BlockResult {
   std::array<std::uint64_t, 4> answers{};
+  ProbeTally probes;
   StageCounters stages;
   std::vector<RawFinding> findings;
 };
@@ -44,25 +53,32 @@ std::optional<std::string> broken_promise(const QueryGenerator& generator, const
   return std::nullopt;
 }
 
-BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size_t count) {
+void count(const Probe& probe, const ProbeTruth& truth, ProbeTally& tally) {
+  if (probe.eta) ++(truth.within_t ? tally.within : tally.apart);
+  ++(truth.failure == probe.from ? tally.failed : std::isfinite(truth.failure) ? tally.failing : tally.never_failing);
+}
+
+BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size_t queries) {
   const auto generators = query_generators();
   const QueryGenerator& generator = generators[block % generators.size()];
-  Random random(options.seed, block);
+  Random random(options.seed, block), probe_random(options.seed, probe_stream + block);
   BlockResult result;
-  const auto report = [&](std::size_t index, const AnyQuery& query, ContactKind truth, std::string what,
-                          bool by_subject) {
-    result.findings.push_back({{generator.name(), block, index, std::move(what), query, query, truth, {}}, by_subject});
-  };
-  for (std::size_t index = 0; index < count; ++index) {
+  for (std::size_t index = 0; index < queries; ++index) {
     const Generated generated = generator(random);
-    const Truth truth = truth_of(generated.query);
+    const AnyQuery& query = generated.query;
+    const Probe probe = make_probe(query, index % queries_per_distance == 0, probe_random);
+    const Truth truth = truth_of(query);
+    const ProbeTruth probe_truth = truth_of(query, probe);
+    const auto report = [&](std::optional<std::string> what, Fault fault) {
+      if (!what) return;
+      result.findings.push_back(
+          {{generator.name(), block, index, std::move(*what), query, query, probe, truth.kind, {}}, fault});
+    };
     ++result.answers[static_cast<std::size_t>(truth.kind)];
-    if (auto what = difference(generated.query, truth, options.decide, result.stages)) {
-      report(index, generated.query, truth.kind, std::move(*what), true);
-    }
-    if (auto what = broken_promise(generator, generated, truth.kind)) {
-      report(index, generated.query, truth.kind, std::move(*what), false);
-    }
+    count(probe, probe_truth, result.probes);
+    report(difference(query, truth, options.decide, result.stages), Fault::contact);
+    report(difference(query, probe, probe_truth, options.decide_probe), Fault::probe);
+    report(broken_promise(generator, generated, truth.kind), Fault::promise);
   }
   return result;
 }
@@ -78,6 +94,33 @@ void shrink(Finding& finding, const Decide& decide) {
   finding.difference = difference(finding.shrunk, truth, decide, ignored).value();
 }
 
+/// Probes that may do as well, the simplest first.
+std::vector<Probe> simpler(const Probe& probe) {
+  std::vector<Probe> candidates(8, probe);
+  if (probe.eta) candidates[0].eta = 0;
+  if (probe.eta) candidates[1].eta = 1;
+  candidates[2].from = 0;
+  candidates[3].gap = 0;
+  candidates[4].rays = {false, false};
+  candidates[5].normal = {1, 0, 0};
+  candidates[6].normal = {0, 1, 0};
+  candidates[7].normal = {0, 0, 1};
+  return candidates;
+}
+
+void shrink_probe(Finding& finding, const DecideProbe& decide) {
+  const auto fault = [&](const AnyQuery& query, const Probe& probe) {
+    return difference(query, probe, truth_of(query, probe), decide);
+  };
+  for (const Probe& candidate : simpler(finding.probe)) {
+    if (fault(finding.query, candidate)) finding.probe = candidate;
+  }
+  finding.shrunk =
+      minimise(finding.query, [&](const AnyQuery& query) { return fault(query, finding.probe).has_value(); });
+  finding.truth = truth_of(finding.shrunk).kind;
+  finding.difference = fault(finding.shrunk, finding.probe).value();
+}
+
 /// The last part names the kind of query, as `noli ccd` reads it.
 std::string file_name(const FuzzOptions& options, const Finding& finding) {
   std::string pair(name(finding.query.pair));
@@ -91,6 +134,10 @@ void save(Finding& finding, const FuzzOptions& options) {
   finding.file = options.out / file_name(options, finding);
   const QueryRecord record{finding.shrunk.x_t0, finding.shrunk.x_t1, finding.truth != ContactKind::apart};
   write_query_csv(finding.file, file_kind(finding.shrunk.pair), std::span(&record, 1));
+  std::ofstream comment(finding.file, std::ios::app | std::ios::binary);
+  comment << probe_line(finding.shrunk, finding.probe) << '\n';
+  comment.flush();
+  if (!comment) throw std::system_error(std::make_error_code(std::errc::io_error), finding.file.string());
 }
 
 class Fuzzing {
@@ -144,6 +191,7 @@ class Fuzzing {
       report_.answers[kind] += result.answers[kind];
       report_.queries += result.answers[kind];
     }
+    report_.probes += result.probes;
     report_.stages += result.stages;
     report_.findings_total += result.findings.size();
     for (RawFinding& raw : result.findings) keep(std::move(raw));
@@ -151,7 +199,8 @@ class Fuzzing {
 
   void keep(RawFinding raw) {
     if (report_.findings.size() >= options_.max_findings) return;
-    if (raw.by_subject) shrink(raw.finding, options_.decide);
+    if (raw.fault == Fault::contact) shrink(raw.finding, options_.decide);
+    if (raw.fault == Fault::probe) shrink_probe(raw.finding, options_.decide_probe);
     if (!options_.out.empty()) save(raw.finding, options_);
     report_.findings.push_back(std::move(raw.finding));
   }
@@ -166,6 +215,29 @@ class Fuzzing {
 
 std::uint64_t GeneratorTally::total() const {
   return std::accumulate(answers.begin(), answers.end(), std::uint64_t{0});
+}
+
+ProbeTally& ProbeTally::operator+=(const ProbeTally& other) {
+  apart += other.apart;
+  within += other.within;
+  failed += other.failed;
+  failing += other.failing;
+  never_failing += other.never_failing;
+  return *this;
+}
+
+std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe>& probe, const Decide& decide,
+                                const DecideProbe& decide_probe) {
+  StageCounters ignored;
+  std::vector<std::string> differences;
+  if (auto what = difference(query, truth_of(query), decide, ignored)) {
+    differences.push_back(std::move(*what));
+  }
+  if (!probe) return differences;
+  if (auto what = difference(query, *probe, truth_of(query, *probe), decide_probe)) {
+    differences.push_back(std::move(*what));
+  }
+  return differences;
 }
 
 FuzzReport fuzz_queries(const FuzzOptions& options) {

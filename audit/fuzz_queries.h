@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of the contact predicates: adversarial queries (audit/query_generators.h), each decided by the kernel and by
-// the slow oracle (tests/oracle). A difference is shrunk and saved as a file that `noli ccd` reads.
+// Fuzzing of the predicates: adversarial queries (audit/query_generators.h), each decided by the kernel and by the slow
+// oracle (tests/oracle): contact, nearness, and the failure time of a certificate (audit/probe.h). A difference is
+// shrunk and saved as a file that `noli ccd` reads and `noli fuzz queries --replay` asks again.
 //
 // Notation
 //   block    queries_per_block queries of one generator. Block b is of generator b mod (number of generators), and its
 //            queries depend on the seed and b alone, so that a run gives the same queries whatever the number of
-//            threads.
+//            threads. What else each of them is asked comes from another stream of the same seed and block
 //   answer   apart, touching, crossing or persistent: the oracle's
 //   finding  a query on which the subject's answer is wrong: it is in contact or not, the kind, the least time rounded
-//            down to double, the enclosure of that time; or an answer of the oracle that the generator does not declare
+//            down to double, the enclosure of that time; within eta or not, and the least such time rounded down; the
+//            failure time, rounded down; or an answer of the oracle that the generator does not declare
 //
 // What this does not do: it does not look for crashes of the subject (libFuzzer targets do), nor time it.
 #pragma once
@@ -26,6 +28,7 @@
 #include <vector>
 
 #include "noli/audit/any_query.h"
+#include "noli/audit/probe.h"
 #include "noli/kernel/contact.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/stages.h"
@@ -33,6 +36,8 @@
 namespace noli::audit {
 
 constexpr std::size_t queries_per_block = 256;
+/// One query of so many in a block is asked for a distance too: the oracle takes a millisecond for that.
+constexpr std::size_t queries_per_distance = 32;
 
 /// What the code under test says of a query.
 struct Decision {
@@ -46,6 +51,19 @@ using Decide = std::function<Decision(const AnyQuery&, StageCounters& stages)>;
 
 /// noli::contact and noli::first_contact.
 Decision decide_with_kernel(const AnyQuery& query, StageCounters& stages);
+
+/// What it says of a probe.
+struct ProbeDecision {
+  bool within = false;             ///< as noli::within_distance
+  std::optional<double> within_t;  ///< as noli::first_within, rounded down to double
+  double failure = 0;              ///< as noli::failure_time
+};
+
+/// The same for probes.
+using DecideProbe = std::function<ProbeDecision(const AnyQuery&, const Probe&)>;
+
+/// noli::within_distance, noli::first_within and noli::failure_time.
+ProbeDecision probe_with_kernel(const AnyQuery& query, const Probe& probe);
 
 struct FuzzProgress {
   std::uint64_t queries = 0;
@@ -63,6 +81,7 @@ struct FuzzOptions {
   const std::atomic<bool>* stop = nullptr;            ///< polled after every few blocks
   std::function<void(const FuzzProgress&)> progress;  ///< called from the caller's thread now and then
   Decide decide = decide_with_kernel;
+  DecideProbe decide_probe = probe_with_kernel;
 };
 
 /// One query on which the subject is wrong.
@@ -73,6 +92,7 @@ struct Finding {
   std::string difference;                  ///< in words: "contact: subject says apart, the oracle touching", ...
   AnyQuery query;                          ///< as generated
   AnyQuery shrunk;                         ///< simpler, and still a finding
+  Probe probe;                             ///< what else it was asked; shrunk along if that is what went wrong
   ContactKind truth = ContactKind::apart;  ///< the oracle's answer to `shrunk`
   std::filesystem::path file;              ///< where `shrunk` was saved, labelled with the truth; empty when it was not
 };
@@ -87,9 +107,19 @@ struct GeneratorTally {
   std::uint64_t total() const;
 };
 
+/// Answers of the oracle to probes.
+struct ProbeTally {
+  std::uint64_t apart = 0, within = 0;                       ///< of queries: eta
+  std::uint64_t failed = 0, failing = 0, never_failing = 0;  ///< of certificates: at `from`, later, never
+
+  ProbeTally& operator+=(const ProbeTally& other);
+  friend bool operator==(const ProbeTally&, const ProbeTally&) = default;
+};
+
 struct FuzzReport {
   std::uint64_t queries = 0;
   std::array<std::uint64_t, 4> answers{};  ///< of the oracle, indexed by ContactKind
+  ProbeTally probes;                       ///< one certificate per query, some distances
   std::vector<GeneratorTally> generators;  ///< in the order of query_generators()
   StageCounters stages;                    ///< of noli::contact, as counted by options.decide
   std::uint64_t findings_total = 0;
@@ -101,5 +131,10 @@ struct FuzzReport {
 /// With `count` the report is the same for any number of threads. Throws std::system_error when a finding cannot be
 /// saved.
 FuzzReport fuzz_queries(const FuzzOptions& options);
+
+/// What is wrong with the subject's answers to a saved query, one line each; nothing if they are the oracle's.
+std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe>& probe,
+                                const Decide& decide = decide_with_kernel,
+                                const DecideProbe& decide_probe = probe_with_kernel);
 
 }  // namespace noli::audit

@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "noli/audit/oracle_bridge.h"
+#include "noli/kernel/failure_time.h"
+#include "noli/kernel/thickness.h"
+#include "noli/tests/oracle/certificate.h"
 
 namespace noli::audit {
 
@@ -31,7 +34,78 @@ std::optional<std::string> compare(const Decision& decision, const Truth& truth)
   return std::nullopt;
 }
 
+std::string when(const std::optional<double>& t) { return t ? fmt::format("from {:.17g}", *t) : "never"; }
+
+std::optional<std::string> compare(const ProbeDecision& decision, const Probe& probe, const ProbeTruth& truth) {
+  if (probe.eta && (decision.within != truth.within_t.has_value() || decision.within_t != truth.within_t)) {
+    return fmt::format("distance: found within {} {} (as yes or no: {}), the oracle says {}", *probe.eta,
+                       when(decision.within_t), decision.within ? "yes" : "no", when(truth.within_t));
+  }
+  if (decision.failure != truth.failure) {
+    return fmt::format("failure time: found {:.17g}, the oracle says {:.17g}", decision.failure, truth.failure);
+  }
+  return std::nullopt;
+}
+
+oracle::Line oracle_line(const AnyQuery& query, const Probe& probe, std::size_t which) {
+  const std::size_t i = probe.points[which];
+  return {query.x_t0[i], query.x_t1[i], probe.rays[which]};
+}
+
+template <int Dim>
+Point<Dim> cut(const Point3& x) {
+  Point<Dim> result;
+  for (std::size_t k = 0; k < Dim; ++k) result[k] = x[k];
+  return result;
+}
+
+/// Calls ask(line) for the line of a or b, a Ray or a Chord.
+template <int Dim, class Ask>
+double with_line(const AnyQuery& query, const Probe& probe, std::size_t which, const Ask& ask) {
+  const std::size_t i = probe.points[which];
+  const Point<Dim> x = cut<Dim>(query.x_t0[i]), y = cut<Dim>(query.x_t1[i]);
+  return probe.rays[which] ? ask(Ray<Dim>{0, x, y}) : ask(Chord<Dim>{0, x, 1, y});
+}
+
+template <int Dim>
+double kernel_failure_time(const AnyQuery& query, const Probe& probe) {
+  return with_line<Dim>(query, probe, 0, [&](const auto& a) {
+    return with_line<Dim>(query, probe, 1, [&](const auto& b) {
+      return failure_time(a, b, cut<Dim>(probe.normal), probe.gap, probe.from);
+    });
+  });
+}
+
 }  // namespace
+
+ProbeTruth truth_of(const AnyQuery& query, const Probe& probe) {
+  std::optional<oracle::Time> within;
+  if (probe.eta) within = oracle::first_within(oracle_motion(query), *probe.eta);
+  const oracle::Certificate certificate{query.dimension, oracle_line(query, probe, 0), oracle_line(query, probe, 1),
+                                        probe.normal, probe.gap};
+  return {within ? std::optional(within->lower()) : std::nullopt, oracle::failure_time(certificate, probe.from)};
+}
+
+std::optional<std::string> difference(const AnyQuery& query, const Probe& probe, const ProbeTruth& truth,
+                                      const DecideProbe& decide) {
+  try {
+    return compare(decide(query, probe), probe, truth);
+  } catch (const std::exception& error) {
+    return fmt::format("threw, asked for a distance or failure time: {}", error.what());
+  }
+}
+
+ProbeDecision probe_with_kernel(const AnyQuery& query, const Probe& probe) {
+  ProbeDecision decision;
+  if (probe.eta) {
+    visit(query, [&](const auto& typed) {
+      decision.within = within_distance(typed, *probe.eta);
+      if (const auto first = first_within(typed, *probe.eta)) decision.within_t = first->lower();
+    });
+  }
+  decision.failure = query.dimension == 2 ? kernel_failure_time<2>(query, probe) : kernel_failure_time<3>(query, probe);
+  return decision;
+}
 
 Truth truth_of(const AnyQuery& query) {
   oracle::Answer answer = oracle::first_contact(oracle_motion(query));

@@ -24,4 +24,16 @@ Truth truth_of(const AnyQuery& query);
 std::optional<std::string> difference(const AnyQuery& query, const Truth& truth, const Decide& decide,
                                       StageCounters& stages);
 
+/// What the oracle says of a probe.
+struct ProbeTruth {
+  std::optional<double> within_t;  ///< the first time within eta, rounded down
+  double failure = 0;              ///< the failure time, rounded down
+};
+
+ProbeTruth truth_of(const AnyQuery& query, const Probe& probe);
+
+/// The first difference in words, or nothing: within eta, when first, failure time; or that `decide` threw.
+std::optional<std::string> difference(const AnyQuery& query, const Probe& probe, const ProbeTruth& truth,
+                                      const DecideProbe& decide);
+
 }  // namespace noli::audit

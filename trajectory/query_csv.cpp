@@ -44,7 +44,7 @@ class CsvParser {
   std::vector<QueryRecord> parse() {
     std::string_view line;
     while (lines_.next(line)) {
-      if (!trimmed(line).empty()) parse_row(line);
+      if (const auto text = trimmed(line); !text.empty() && text.front() != '#') parse_row(line);
     }
     if (rows_ == 0) throw InputError(file_, "", "holds no queries");
     if (row_of_query() != 0) {
@@ -109,7 +109,7 @@ class CsvParser {
   const std::string& file_;
   std::size_t points_;
   std::vector<std::string_view> columns_;  ///< of the current row
-  std::size_t rows_ = 0;                   ///< read so far, without blank ones
+  std::size_t rows_ = 0;                   ///< read so far
   bool labelled_ = false;
   std::vector<QueryRecord> records_;
 };

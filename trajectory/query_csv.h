@@ -7,7 +7,7 @@
 //   x num, x den, y num, y den, z num, z den [, label]
 // with decimal integers of any length whose quotient is exactly a double, and a label 0 (apart) or 1 (they meet) that
 // all rows of a query share; either every row of a file has it or none. A numerator -0 is the double -0.0. Blank lines
-// are skipped.
+// are skipped, and comments: lines that begin with #.
 //
 // What this does not do: it never rounds; a quotient that is no double is an error.
 #pragma once

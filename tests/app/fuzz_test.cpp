@@ -36,5 +36,30 @@ TEST(FuzzQueries, StopsWhenItsTimeIsOver) {
   EXPECT_EQ(process.verdict_line().rfind("verdict no_difference queries ", 0), 0u) << process.out;
 }
 
+const char* const falling_point = "0,1,0,1,1,1\n0,1,0,1,0,1\n0,1,0,1,-1,1\n0,1,0,1,0,1\n";
+
+TEST(FuzzQueries, ReplaysAFile) {
+  const Folder folder;
+  folder.write(
+      "vertex-vertex.csv",
+      std::string(falling_point) + "# noli-fuzz dimension 3 eta 0.5 normal 0 0 1 gap 0.5 from 0 points 0 1 rays 0 1\n");
+  const Process process = run_noli({"fuzz", "queries", "--replay", folder.path("vertex-vertex.csv")});
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(process.verdict_line(), "verdict no_difference queries 1 findings 0");
+  EXPECT_EQ(run_noli({"ccd", folder.path("vertex-vertex.csv")}).exit_code, 0) << "the line is a comment";
+}
+
+TEST(FuzzQueries, RefusesWhatItCannotReplay) {
+  const Folder folder;
+  folder.write(
+      "vertex-vertex.csv",
+      std::string(falling_point) + "# noli-fuzz dimension 3 eta 0.5 normal 0 0 1 gap 0.5 from 0 points 0 3 rays 0 1\n");
+  folder.write("some.csv", falling_point);
+  for (const char* const name : {"vertex-vertex.csv", "some.csv", "absent-edge-edge.csv"}) {
+    EXPECT_EQ(run_noli({"fuzz", "queries", "--replay", folder.path(name)}).exit_code, 3) << name;
+  }
+  EXPECT_EQ(run_noli({"fuzz", "queries", "--replay", folder.path("some.csv"), "--seed", "2"}).exit_code, 3);
+}
+
 }  // namespace
 }  // namespace noli::app_tests

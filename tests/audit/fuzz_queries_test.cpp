@@ -29,6 +29,12 @@ Decision decide_with_oracle(const AnyQuery& query, StageCounters& stages) {
   return {TimeEnclosure{lower, 1}, truth.kind, lower};
 }
 
+/// The oracle as the code under test for probes.
+ProbeDecision probe_with_oracle(const AnyQuery& query, const Probe& probe) {
+  const ProbeTruth truth = truth_of(query, probe);
+  return {truth.within_t.has_value(), truth.within_t, truth.failure};
+}
+
 /// Takes a contact at the end of the step for none: what a half-open interval would do.
 Decision forgets_the_end(const AnyQuery& query, StageCounters& stages) {
   const Decision decision = decide_with_oracle(query, stages);
@@ -44,6 +50,7 @@ class FuzzQueries : public testing::Test {
     options.threads = 1;
     options.count = 6000;  // two dozen blocks, the last one not whole
     options.decide = decide_with_oracle;
+    options.decide_probe = probe_with_oracle;
   }
   ~FuzzQueries() override { std::filesystem::remove_all(options.out); }
 
@@ -57,6 +64,12 @@ TEST_F(FuzzQueries, FindsNothingWhereNothingIsWrong) {
   EXPECT_FALSE(report.interrupted);
   EXPECT_FALSE(std::filesystem::exists(options.out)) << "nothing to save, and yet a folder";
   EXPECT_EQ(report.stages[Stage::gmp], report.queries);
+  const ProbeTally& probes = report.probes;
+  const std::uint64_t distances = probes.apart + probes.within;
+  EXPECT_GE(distances, report.queries / queries_per_distance);
+  EXPECT_EQ(probes.failed + probes.failing + probes.never_failing, report.queries);
+  for (const auto count : {probes.apart, probes.within}) EXPECT_GT(count, distances / 20);
+  for (const auto count : {probes.failed, probes.failing, probes.never_failing}) EXPECT_GT(count, report.queries / 20);
 }
 
 TEST_F(FuzzQueries, FindsShrinksAndSavesAPlantedBug) {
@@ -69,6 +82,7 @@ TEST_F(FuzzQueries, FindsShrinksAndSavesAPlantedBug) {
     StageCounters stages;
     EXPECT_EQ(finding.truth, ContactKind::touching);
     EXPECT_TRUE(difference(finding.shrunk, truth_of(finding.shrunk), forgets_the_end, stages)) << "no longer fails";
+    EXPECT_EQ(replay(finding.shrunk, std::nullopt, forgets_the_end), std::vector<std::string>{finding.difference});
     EXPECT_LT(complexity(finding.shrunk), complexity(finding.query) / 2);
     EXPECT_NE(finding.difference.find("contact: found none"), std::string::npos) << finding.difference;
   }
@@ -116,6 +130,96 @@ TEST_F(FuzzQueries, FindsWrongKindsTimesAndEnclosures) {
   }
 }
 
+TEST_F(FuzzQueries, FindsWrongDistancesAndFailureTimes) {
+  const auto spoilt = [](auto spoil) {
+    return [spoil](const AnyQuery& query, const Probe& probe) {
+      ProbeDecision decision = probe_with_oracle(query, probe);
+      spoil(decision, probe);
+      return decision;
+    };
+  };
+  const std::array<std::pair<std::string, DecideProbe>, 5> subjects = {{
+      {"distance", spoilt([](ProbeDecision& d, const Probe&) { d.within = false; })},
+      {"distance", spoilt([](ProbeDecision& d, const Probe& p) {
+         if (p.eta.value_or(0) > 0) d = {true, 0.0, d.failure};
+       })},
+      {"distance", spoilt([](ProbeDecision& d, const Probe&) {
+         if (d.within_t) d.within_t = std::nextafter(*d.within_t, 2);
+       })},
+      {"failure time", spoilt([](ProbeDecision& d, const Probe&) { d.failure = std::nextafter(d.failure, 1e300); })},
+      {"threw", [](const AnyQuery&, const Probe&) -> ProbeDecision { throw std::runtime_error("planted"); }},
+  }};
+  options.max_findings = 2;
+  options.count = 6000;
+  for (const auto& [word, decide] : subjects) {
+    options.decide_probe = decide;
+    const FuzzReport report = fuzz_queries(options);
+    ASSERT_EQ(report.findings.size(), 2U) << word;
+    for (const Finding& finding : report.findings) {
+      EXPECT_EQ(finding.difference.substr(0, word.size()), word);
+      EXPECT_TRUE(difference(finding.shrunk, finding.probe, truth_of(finding.shrunk, finding.probe), decide));
+      EXPECT_LT(complexity(finding.shrunk), complexity(finding.query));
+      EXPECT_TRUE(replay(finding.shrunk, finding.probe).empty()) << "the kernel does not have the planted fault";
+      EXPECT_EQ(replay(finding.shrunk, finding.probe, decide_with_oracle, decide),
+                std::vector<std::string>{finding.difference});
+    }
+  }
+}
+
+TEST_F(FuzzQueries, ProbesLeaveTheStreamsOfQueriesAsTheyAre) {
+  options.decide = forgets_the_end;
+  options.max_findings = 2;
+  const FuzzReport report = fuzz_queries(options);
+  ASSERT_FALSE(report.findings.empty());
+  const Finding& finding = report.findings[0];
+  const auto generators = query_generators();
+  Random random(options.seed, finding.block);
+  AnyQuery query;
+  for (std::size_t i = 0; i <= finding.index; ++i) query = generators[finding.block % generators.size()](random).query;
+  EXPECT_EQ(query, finding.query);
+}
+
+TEST_F(FuzzQueries, SavedProbesComeBack) {
+  options.decide_probe = [](const AnyQuery&, const Probe&) { return ProbeDecision{true, 0.25, 7}; };
+  options.max_findings = 4;
+  const FuzzReport report = fuzz_queries(options);
+  ASSERT_EQ(report.findings.size(), 4U);
+  for (const Finding& finding : report.findings) {
+    std::ifstream file(finding.file);
+    std::string line, last;
+    while (std::getline(file, line)) last = line;
+    const auto saved = parse_probe_line(last);
+    ASSERT_TRUE(saved) << last;
+    EXPECT_EQ(saved->probe, finding.probe);
+    EXPECT_EQ(saved->dimension, finding.shrunk.dimension);
+    EXPECT_TRUE(fits(finding.shrunk, saved->probe));
+    EXPECT_EQ(read_query_csv(finding.file, file_kind(finding.query.pair)).size(), 1U) << "the line is a comment";
+  }
+}
+
+TEST(Probe, LinesThatAreNoneAreRefused) {
+  const std::string good = "# noli-fuzz dimension 2 eta 0.5 normal 1 -2 0 gap -1e-300 from 0 points 0 1 rays 1 0";
+  EXPECT_EQ(parse_probe_line(good).value().probe.eta, 0.5);
+  EXPECT_FALSE(parse_probe_line("# noli-fuzz dimension 3 eta none normal 1 -2 0 gap 0 from 0 points 0 1 rays 1 0")
+                   .value()
+                   .probe.eta);
+  for (const char* const bad :
+       {"", "# a comment", "# noli-fuzz dimension 1 eta 0.5 normal 1 -2 0 gap 0 from 0 points 0 1 rays 1 0",
+        "# noli-fuzz dimension 2 eta -1 normal 1 -2 0 gap 0 from 0 points 0 1 rays 1 0",
+        "# noli-fuzz dimension 2 eta 0.5 normal 1 inf 0 gap 0 from 0 points 0 1 rays 1 0",
+        "# noli-fuzz dimension 2 eta 0.5 normal 1 -2 0 gap 0 from 0 points 0 4 rays 1 0",
+        "# noli-fuzz dimension 2 eta 0.5 normal 1 -2 0 gap 0 from 0 points 0 1 rays 1"}) {
+    EXPECT_FALSE(parse_probe_line(bad)) << bad;
+  }
+  EXPECT_FALSE(parse_probe_line(good + " 0"));
+  const AnyQuery edges{FeaturePair::edge_edge, 3, {}, {}};
+  Probe probe;
+  probe.points = {1, 2};
+  EXPECT_TRUE(fits(edges, probe));
+  probe.points = {2, 3};
+  EXPECT_FALSE(fits(edges, probe));
+}
+
 TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
   options.decide = forgets_the_end;
   options.max_findings = 4;
@@ -126,6 +230,7 @@ TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
     EXPECT_EQ(many.queries, one.queries);
     EXPECT_EQ(many.answers, one.answers);
     EXPECT_EQ(many.stages, one.stages);
+    EXPECT_EQ(many.probes, one.probes);
     EXPECT_EQ(many.findings_total, one.findings_total);
     for (std::size_t i = 0; i < one.generators.size(); ++i) {
       EXPECT_EQ(many.generators[i].answers, one.generators[i].answers) << one.generators[i].name;
@@ -180,6 +285,7 @@ TEST_F(FuzzQueries, SaysWhereItCannotSave) {
 
 TEST_F(FuzzQueries, TheKernelPassesABlockOfEachGenerator) {
   options.decide = decide_with_kernel;
+  options.decide_probe = probe_with_kernel;
   options.count = query_generators().size() * queries_per_block;
   const FuzzReport report = fuzz_queries(options);
   EXPECT_EQ(report.findings_total, 0U) << report.findings.at(0).generator << ": " << report.findings.at(0).difference;
@@ -187,6 +293,7 @@ TEST_F(FuzzQueries, TheKernelPassesABlockOfEachGenerator) {
 
 TEST_F(FuzzQueries, SlowTheKernelPassesHalfAMillion) {
   options.decide = decide_with_kernel;
+  options.decide_probe = probe_with_kernel;
   options.seed = 2;
   options.threads = 0;
   options.count = 500000;

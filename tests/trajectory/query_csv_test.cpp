@@ -35,6 +35,17 @@ TEST(QueryCsv, PointsInOrder) {
   EXPECT_FALSE(queries[0].label.has_value());
 }
 
+TEST(QueryCsv, CommentsAreSkippedButCounted) {
+  const std::string text = "# a comment, with a comma\n1,1,2,1,3,1\n  #\n";
+  EXPECT_EQ(parse_query_csv(text + repeat("1,1,2,1,3,1\n", 3) + "#", "t", QueryKind::vertex_vertex).size(), 1u);
+  try {
+    parse_query_csv(text + "1,1,2,1,3,#\n", "t", QueryKind::vertex_vertex);
+    ADD_FAILURE() << "a comment within a line";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("line 4"), std::string::npos) << error.what();
+  }
+}
+
 TEST(QueryCsv, EveryKindAndBothLabels) {
   for (const QueryKind kind : all_kinds) {
     const std::size_t rows = 2 * point_count(kind);
