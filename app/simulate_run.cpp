@@ -261,7 +261,8 @@ class Run {
     try {
       if (!simulation_->run_window(recording_, books, [this] { return stopped(); })) return std::nullopt;
     } catch (const integrator::ContactLimit& limit) {
-      limit_ = limit;
+      finite_ = simulation_->finite();
+      if (finite_) limit_ = limit;
       return std::nullopt;
     }
     if (!simulation_->finite()) {
