@@ -24,6 +24,30 @@ std::vector<std::uint8_t> labels_of(const integrator::Model<double, Dim>& model)
   return labels;
 }
 
+/// Which groups the scene lets pass through each other. Groups of which nothing moves by itself are not named: their
+/// cells are not compared anyway.
+template <int Dim>
+Exclusions exclusions_of(const integrator::Model<double, Dim>& model) {
+  Exclusions result;
+  if (!model.contact) return result;
+  const integrator::ContactSettings& contact = *model.contact;
+  const std::vector<std::uint8_t> labels = labels_of<Dim>(model);
+  std::vector<bool> moves(contact.group_count, false);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != scripted_vertex) moves[contact.groups[i]] = true;
+  }
+  for (std::uint16_t a = 0; a < contact.group_count; ++a) {
+    for (std::uint16_t b = a; b < contact.group_count; ++b) {
+      const std::size_t place = static_cast<std::size_t>(a) * contact.group_count + b;
+      if (contact.material_of[place] == integrator::ContactSettings::excluded && (moves[a] || moves[b])) {
+        result.pairs.push_back({a, b});
+      }
+    }
+  }
+  if (!result.empty()) result.groups = contact.groups;
+  return result;
+}
+
 inline void hash_numbers(std::span<const double> numbers, Sha256& hash) {
   std::string bytes;
   put_all(bytes, numbers);

@@ -98,11 +98,15 @@ std::string end_text(const SimulateOutcome& outcome) {
 
 /// What has been verified.
 std::string statement(const SimulateOutcome& outcome) {
-  return fmt::format(
+  std::string text = fmt::format(
       "no two features that share no vertex meet at any time from 0 to {} s. Not compared: two cells whose vertices "
       "are "
-      "all scripted or pinned.",
+      "all scripted or pinned",
       outcome.time);
+  for (const auto& [a, b] : outcome.excluded) {
+    text += fmt::format("; two cells of {}", a == b ? on_one_line(a) : on_one_line(a) + " and " + on_one_line(b));
+  }
+  return text + ".";
 }
 
 double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
@@ -125,6 +129,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   Json json = {{"verdict", verdict(outcome)}, {"end", name(outcome.end)}};
   json["title"] = outcome.title;
   json["statement"] = statement(outcome);
+  json["excluded"] = outcome.excluded;
   json["windows"] = outcome.windows;
   json["windows_total"] = outcome.windows_total;
   json["window_length"] = outcome.window_length;

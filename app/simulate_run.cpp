@@ -70,6 +70,7 @@ class Run {
       : request_(request),
         built_(integrator::build_model<Dim>(scene)),
         labels_(labels_of<Dim>(built_.model)),
+        exclusions_(exclusions_of<Dim>(built_.model)),
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
         record_(scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames),
@@ -79,6 +80,9 @@ class Run {
     outcome_.vertices = built_.model.x.size();
     outcome_.cells = built_.model.mesh.cell_count();
     outcome_.window_length = scene.window;
+    for (const auto& [a, b] : exclusions_.pairs) {
+      outcome_.excluded.push_back({built_.bodies[a].name, built_.bodies[b].name});
+    }
     outcome_.windows_total = windows_up_to(request.until.value_or(scene.duration));
     require_cells();
     require_countable_frames(scene);
@@ -151,6 +155,7 @@ class Run {
     options.threads = request_.threads;
     options.initial = false;
     options.scripted = labels_;
+    options.exclusions = &exclusions_;
     options.stop = &interrupted();
     options.deadline = deadline_;
     return options;
@@ -205,6 +210,7 @@ class Run {
     result.header.window_length = scene.window;
     result.mesh = built_.model.mesh;
     result.labels = labels_;
+    result.exclusions = exclusions_;
     return result;
   }
 
@@ -408,6 +414,7 @@ class Run {
   const SimulateRequest& request_;
   integrator::BuiltScene<Dim> built_;
   std::vector<std::uint8_t> labels_;
+  Exclusions exclusions_;
   WindowVerifier verifier_;
   RunFolder folder_;
   RecordMode record_;

@@ -13,6 +13,7 @@
 // What this does not do: it prints nothing (simulate_report.h).
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -56,12 +57,13 @@ struct SimulateOutcome {
   int dimension = 3;
   std::size_t vertices = 0, cells = 0;
   double window_length = 0;
-  std::uint64_t windows = 0, windows_total = 0;  ///< committed, and those of the whole run
-  std::uint64_t windows_before = 0;              ///< of those committed, by earlier calls (--resume)
-  double time = 0;                               ///< of the last commit [s]
-  std::uint64_t events = 0, breakpoints = 0;     ///< of this call
-  std::optional<WindowResult> contact;           ///< of the window that was refused
-  std::string first_names;                       ///< the features of its first one, or of `limit`, by body and number
+  std::uint64_t windows = 0, windows_total = 0;      ///< committed, and those of the whole run
+  std::uint64_t windows_before = 0;                  ///< of those committed, by earlier calls (--resume)
+  double time = 0;                                   ///< of the last commit [s]
+  std::uint64_t events = 0, breakpoints = 0;         ///< of this call
+  std::optional<WindowResult> contact;               ///< of the window that was refused
+  std::vector<std::array<std::string, 2>> excluded;  ///< bodies that the scene lets pass through each other
+  std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
   std::optional<integrator::ContactLimit> limit;
   std::optional<integrator::NotFinite> not_finite;
   std::uint64_t roll_backs = 0;           ///< of windows that were run again

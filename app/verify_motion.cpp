@@ -25,6 +25,7 @@ class MotionRun {
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
+    outcome_.excluded = reader_.scene().exclusions.pairs;
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
@@ -78,6 +79,7 @@ class MotionRun {
     options.strict = request_.strict;
     options.max_reports = request_.max_reports;
     options.scripted = scripted_;
+    options.exclusions = &reader_.scene().exclusions;
     options.stop = &interrupted();
     options.deadline = deadline_;
     return options;

@@ -18,6 +18,15 @@ const char* motion(const VerifyRequest& request) {
                                  : "every vertex moves linearly from each frame to the next";
 }
 
+Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
+  Json list = Json::array();
+  if (request.run) list.push_back("pairs of cells all of whose vertices are scripted");
+  for (const auto& [a, b] : outcome.excluded) {
+    list.push_back(fmt::format("pairs of cells of groups {} and {}, which the run's scene excludes", a, b));
+  }
+  return list;
+}
+
 Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return {
       {"claim", "no two features of two different cells that share no vertex meet at any time of a step"},
@@ -32,7 +41,7 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
       {"contact", "closed simplices have a point in common; degenerate ones are what their hull is; touching counts"},
       {"neighbours", "features that share a vertex are not compared; vertices are who they are by index"},
       {"initial_intersections", "pairs of cells whose vertex-disjoint parts meet at the first time of all"},
-      {"excluded", request.run ? Json::array({"pairs of cells all of whose vertices are scripted"}) : Json::array()},
+      {"excluded", excluded_json(request, outcome)},
       {"strict", request.strict},
       {"points", request.points},
       {"static", request.constant_motion},

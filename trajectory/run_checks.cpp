@@ -27,6 +27,14 @@ bool same_bits(const Position& a, const Position& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
+bool cells_of_one_group(const Mesh& mesh, std::span<const std::uint16_t> groups) {
+  const auto alike = [&](const auto& cell) {
+    return std::all_of(cell.begin(), cell.end(), [&](VertexId v) { return groups[v] == groups[cell[0]]; });
+  };
+  return std::all_of(mesh.faces.begin(), mesh.faces.end(), alike) &&
+         std::all_of(mesh.edges.begin(), mesh.edges.end(), alike);
+}
+
 std::vector<Position> positions_at_begin(const WorldLines& lines) {
   std::vector<Position> all(lines.vertex_count());
   for (VertexId v = 0; v < all.size(); ++v) all[v] = lines.positions(v).front();

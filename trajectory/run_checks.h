@@ -18,6 +18,9 @@ namespace noli {
 bool same_bits(double a, double b);
 bool same_bits(const Position& a, const Position& b);
 
+/// Whether the vertices of each cell are of one group. Precondition: a group for each vertex.
+bool cells_of_one_group(const Mesh& mesh, std::span<const std::uint16_t> groups);
+
 std::vector<Position> positions_at_begin(const WorldLines& lines);
 std::vector<Position> positions_at_end(const WorldLines& lines);
 std::uint64_t count_breakpoints(const WorldLines& lines);

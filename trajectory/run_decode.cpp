@@ -6,6 +6,7 @@
 
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/run_checks.h"
 #include "noli/trajectory/run_payload.h"
 #include "noli/trajectory/text.h"
 
@@ -154,6 +155,24 @@ std::vector<std::uint8_t> decode_labels(const Source& source, std::size_t vertex
     if (label > scripted_vertex) payload.fail(fmt::format("the label {} is not known; expected 0 or 1", label));
   }
   return labels;
+}
+
+Exclusions decode_exclusions(const Source& source, const Mesh& mesh) {
+  Payload payload(source);
+  Exclusions exclusions;
+  const auto count = payload.number<std::uint32_t>();
+  if (count == 0) payload.fail("no pairs of groups; expected one at least");
+  payload.require(2 * std::uint64_t{count} + mesh.vertex_count, 2, "pairs of groups and the groups of all vertices");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto a = payload.number<std::uint16_t>(), b = payload.number<std::uint16_t>();
+    if (a > b || (i > 0 && Exclusions::Pair{a, b} <= exclusions.pairs.back())) {
+      payload.fail(fmt::format("the pair of groups {} and {}; expected ascending pairs", a, b));
+    }
+    exclusions.pairs.push_back({a, b});
+  }
+  for (std::size_t i = 0; i < mesh.vertex_count; ++i) exclusions.groups.push_back(payload.number<std::uint16_t>());
+  if (!cells_of_one_group(mesh, exclusions.groups)) payload.fail("a cell of two groups; expected cells of one");
+  return exclusions;
 }
 
 WindowTimes decode_window(const Source& source) {

@@ -59,6 +59,17 @@ std::string encode_mesh(const Mesh& mesh) {
 
 std::string encode_labels(std::span<const std::uint8_t> labels) { return {labels.begin(), labels.end()}; }
 
+std::string encode_exclusions(const Exclusions& exclusions) {
+  std::string out;
+  put(out, static_cast<std::uint32_t>(exclusions.pairs.size()));
+  for (const auto& [a, b] : exclusions.pairs) {
+    put(out, a);
+    put(out, b);
+  }
+  for (const std::uint16_t group : exclusions.groups) put(out, group);
+  return out;
+}
+
 std::string encode_window(const WindowTimes& times) {
   std::string out;
   put(out, times.index);

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "noli/trajectory/block_file.h"
+#include "noli/trajectory/exclusions.h"
 #include "noli/trajectory/mesh.h"
 #include "noli/trajectory/world_lines.h"
 
@@ -45,6 +46,7 @@ struct RunScene {
   RunHeader header;
   Mesh mesh;
   std::vector<std::uint8_t> labels;  ///< one per vertex
+  Exclusions exclusions;
 
   friend bool operator==(const RunScene&, const RunScene&) = default;
 };
@@ -172,7 +174,7 @@ class RunReader {
  private:
   friend class RunWriter;
   void read_scene();
-  Block scene_block(FourLetters kind);
+  Block scene_block(FourLetters kind, std::optional<FourLetters> or_kind = {});
   std::optional<std::vector<Block>> window_blocks();
   void decode_full(const std::vector<Block>& blocks, RunWindow& window) const;
   void decode_frames(const std::vector<Block>& blocks, RunWindow& window) const;

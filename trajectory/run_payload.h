@@ -20,6 +20,7 @@ inline constexpr FourLetters content = four_letters("TRAJ");
 inline constexpr FourLetters head = four_letters("HEAD");
 inline constexpr FourLetters mesh = four_letters("MESH");
 inline constexpr FourLetters labels = four_letters("LABL");
+inline constexpr FourLetters exclusions = four_letters("EXCL");
 inline constexpr FourLetters window = four_letters("WIND");
 inline constexpr FourLetters lines = four_letters("LINE");
 inline constexpr FourLetters lines_hash = four_letters("HASH");
@@ -44,6 +45,7 @@ struct LinesHash {
 std::string encode_head(const RunHeader& header);
 std::string encode_mesh(const Mesh& mesh);
 std::string encode_labels(std::span<const std::uint8_t> labels);
+std::string encode_exclusions(const Exclusions& exclusions);
 std::string encode_window(const WindowTimes& times);
 /// World lines can be too many to be in memory twice.
 std::uint64_t encoded_lines_size(std::uint32_t dimension, const WorldLines& lines);
@@ -61,6 +63,8 @@ struct Source {
 RunHeader decode_head(const Source& source);
 Mesh decode_mesh(const Source& source);
 std::vector<std::uint8_t> decode_labels(const Source& source, std::size_t vertex_count);
+/// `mesh`: whose vertices and cells they are about.
+Exclusions decode_exclusions(const Source& source, const Mesh& mesh);
 WindowTimes decode_window(const Source& source);
 WorldLines decode_lines(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
 std::vector<Position> decode_vectors(const Source& source, std::uint32_t dimension, std::size_t vertex_count);

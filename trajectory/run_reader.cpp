@@ -56,11 +56,12 @@ void RunReader::fail(const Block& block, const std::string& problem) const {
   throw InputError(blocks_.name(), byte_place(block.offset), problem);
 }
 
-Block RunReader::scene_block(FourLetters kind) {
+Block RunReader::scene_block(FourLetters kind, std::optional<FourLetters> or_kind) {
   auto block = blocks_.next();
   if (!block) throw InputError(blocks_.name(), "", "ends before its first commit; expected header, mesh and labels");
-  if (block->kind != kind) {
-    fail(*block, fmt::format("expected block {}, found {}", letters_of(kind), letters_of(block->kind)));
+  if (block->kind != kind && block->kind != or_kind) {
+    fail(*block,
+         fmt::format("expected block {}, found {}", letters_of(or_kind.value_or(kind)), letters_of(block->kind)));
   }
   return std::move(*block);
 }
@@ -72,6 +73,9 @@ void RunReader::read_scene() {
   scene_.mesh = run_block::decode_mesh({blocks_.name(), mesh});
   const Block labels = scene_block(run_kind::labels);
   scene_.labels = run_block::decode_labels({blocks_.name(), labels}, scene_.mesh.vertex_count);
+  Block next = scene_block(run_kind::exclusions, block_format::commit);
+  if (next.kind == block_format::commit) return;
+  scene_.exclusions = run_block::decode_exclusions({blocks_.name(), next}, scene_.mesh);
   scene_block(block_format::commit);
 }
 

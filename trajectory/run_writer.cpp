@@ -48,6 +48,10 @@ void check_scene(const RunScene& scene) {
   require(std::all_of(scene.labels.begin(), scene.labels.end(), [](auto label) { return label <= scripted_vertex; }),
           "a label that is not known");
   check_cells(scene.mesh);
+  const Exclusions& exclusions = scene.exclusions;
+  require(exclusions.groups.size() == (exclusions.empty() ? 0 : scene.mesh.vertex_count),
+          "not one group for each vertex");
+  require(exclusions.empty() || cells_of_one_group(scene.mesh, exclusions.groups), "a cell of two groups");
 }
 
 }  // namespace
@@ -75,6 +79,9 @@ RunWriter::RunWriter(std::unique_ptr<Sink> sink, const RunScene& scene)
   blocks_.append(run_kind::head, run_block::encode_head(scene.header));
   blocks_.append(run_kind::mesh, run_block::encode_mesh(scene.mesh));
   blocks_.append(run_kind::labels, run_block::encode_labels(scene.labels));
+  if (!scene.exclusions.empty()) {
+    blocks_.append(run_kind::exclusions, run_block::encode_exclusions(scene.exclusions));
+  }
   blocks_.commit();
 }
 

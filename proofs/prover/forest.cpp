@@ -91,13 +91,15 @@ Extent extent_of(const std::array<VertexId, 3>& v, std::span<const Point2> r) {
           above(std::max({r[v[0]][0], r[v[1]][0], r[v[2]][0]})), above(std::max({r[v[0]][1], r[v[1]][1], r[v[2]][1]}))};
 }
 
-Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features, bool scripted) {
+Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features, bool scripted,
+             const Exclusions& exclusions) {
   return {corners(mesh, cell),
           cell,
           features.owned[cell],
           features.shared[cell],
           static_cast<std::uint8_t>(corner_count(mesh, cell)),
-          scripted};
+          scripted,
+          exclusions.empty() ? std::uint16_t{0} : exclusions.groups[corners(mesh, cell)[0]]};
 }
 
 /// For each vertex the length of the shortest edge of a cell that it is an end of; infinite if there is none.
@@ -148,7 +150,8 @@ std::vector<std::uint32_t> rest_of(const Mesh& mesh, const Sheets& parts) {
 }  // namespace
 
 Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options)
-    : leftovers_(mesh.cell_count(),
+    : exclusions_(options.exclusions != nullptr ? *options.exclusions : Exclusions{}),
+      leftovers_(mesh.cell_count(),
                  [this](std::size_t i) {
                    return Leftovers::NumberedShape{{leaves_[i].vertices, leaves_[i].corners}, leaves_[i].cell};
                  }),
@@ -172,7 +175,7 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOption
     sort_leaves(Entries(entries).subspan(begin));
     for (std::size_t i = begin; i < entries.size(); ++i) {
       const std::uint32_t cell = entries[i].cell;
-      leaves_.push_back(leaf_of(mesh, cell, features, scripted[cell] != 0));
+      leaves_.push_back(leaf_of(mesh, cell, features, scripted[cell] != 0, exclusions_));
     }
     add_tree(sheet, part, begin, entries.size());
   };

@@ -22,6 +22,7 @@
 #include "noli/proofs/prover/features.h"
 #include "noli/proofs/prover/leftover.h"
 #include "noli/proofs/prover/monotone.h"
+#include "noli/trajectory/exclusions.h"
 
 namespace noli {
 
@@ -31,7 +32,8 @@ struct Leaf {
   std::uint32_t cell;
   FeatureMask owned, shared;
   std::uint8_t corners;
-  bool scripted;  ///< all its vertices are
+  bool scripted;        ///< all its vertices are
+  std::uint16_t group;  ///< as in Exclusions
 };
 
 /// A closed rectangle.
@@ -59,6 +61,7 @@ struct ForestOptions {
   int dimension = 3;
   bool strict = false;                     ///< as in VerifyOptions
   std::span<const std::uint8_t> scripted;  ///< as in WindowOptions
+  const Exclusions* exclusions = nullptr;  ///< as in WindowOptions
 };
 
 /// Preconditions: as verify_window; `x` has a position for each vertex; at least one cell.
@@ -73,6 +76,10 @@ class Forest {
   const Leaf& leaf(Group g) const { return leaves_[g.begin]; }
   /// Whether all cells of a group are scripted.
   bool scripted(Group g) const { return scripted_[g.node] != 0; }
+  /// Whether two cells, or a cell and itself, are not to be compared.
+  bool excluded(const Leaf& a, const Leaf& b) const {
+    return !exclusions_.empty() && exclusions_.excluded(a.group, b.group);
+  }
 
   /// The tree of the part that a vertex is in.
   static constexpr std::uint32_t no_part = ~std::uint32_t{0};
@@ -96,6 +103,7 @@ class Forest {
   std::vector<Tree> trees_;
   std::vector<Leaf> leaves_;
   std::vector<LaidFace> laid_faces_;
+  Exclusions exclusions_;
   std::vector<std::uint8_t> scripted_;
   std::vector<Extent> extents_;
   std::optional<Charts> charts_;

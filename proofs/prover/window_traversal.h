@@ -80,7 +80,7 @@ class WindowTraversal {
     }
     if (put_off({g, g, true})) return;
     if (g.is_leaf()) {
-      cell_pairs_.settle_self(cell(g));
+      if (!scene_.forest.excluded(scene_.forest.leaf(g), scene_.forest.leaf(g))) cell_pairs_.settle_self(cell(g));
       return look_around();
     }
     settle_self(g.left());
@@ -105,7 +105,7 @@ class WindowTraversal {
     }
     if (put_off({a, b, false})) return;
     if (a.is_leaf() && b.is_leaf()) {
-      cell_pairs_.settle(cell(a), cell(b));
+      if (!scene_.forest.excluded(scene_.forest.leaf(a), scene_.forest.leaf(b))) cell_pairs_.settle(cell(a), cell(b));
       look_around();
     } else if (a.count >= b.count) {
       settle(a.left(), b);

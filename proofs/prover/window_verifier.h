@@ -8,7 +8,7 @@
 //   span     a part of the window. Where many vertices stray far from straight lines the window is cut in spans, unless
 //            something meets: then it is walked through once more in one, so that each pair counts once
 //   chord    a straight line near a world line over a while, with the radius by which it strays (proofs/prover/chord.h)
-//   scripted pairs   pairs of cells all of whose vertices are scripted: not looked at
+//   scripted pairs   pairs of cells all of whose vertices are scripted: not looked at; nor are excluded ones
 //
 // Which pairs of features are counted: as in proofs/prover/verifier.h, each once if it meets anywhere in the closed
 // window. In order of cost: sheets that are monotone as a whole (proofs/prover/monotone.h); the walk over pairs of
@@ -29,6 +29,7 @@
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/moment.h"
 #include "noli/proofs/prover/verifier.h"
+#include "noli/trajectory/exclusions.h"
 #include "noli/trajectory/mesh.h"
 #include "noli/trajectory/world_lines.h"
 
@@ -45,6 +46,7 @@ struct WindowOptions {
   bool strict = false;
   std::size_t max_reports = 100;
   std::span<const std::uint8_t> scripted;  ///< one per vertex, not 0 if scripted; empty: none is
+  const Exclusions* exclusions = nullptr;  ///< or none; for the mesh's vertices
   const std::atomic<bool>* stop = nullptr;
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<void(double)> progress;
@@ -80,7 +82,7 @@ class WindowVerifier {
  public:
   /// Takes what does not change from window to window: `x`, a position for each vertex, decides how cells are grouped
   /// and laid out, not what is answered; best is where the run begins, or a rest shape. Of the options it takes
-  /// dimension, strict and scripted, which hold from now on. Preconditions: there are x.size() = mesh.vertex_count
+  /// dimension, strict, scripted and exclusions, which hold from now on. Preconditions: there are x.size() = mesh.vertex_count
   /// vertices, every index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is empty or has an
   /// entry for each vertex.
   /// O(n log n).

@@ -60,19 +60,22 @@ TEST_F(Simulate, ContactGivesTheSameBytesWhateverInterruptsIt) {
   EXPECT_EQ(again.exit_code, 0) << again.err;
 }
 
-/// What certificates do not look at is found by the verifier: the window is run again as often as that may help, and
-/// then the run ends.
-TEST_F(Simulate, WindowsInWhichSomethingTouchesAreRunAgain) {
+TEST_F(Simulate, WhatASceneExcludesPassesThroughAndIsPartOfTheStatement) {
   Json json = two_cloths();
   json["contact"]["exclude"] = Json::array({Json::array({"falling", "lying"})});
-  const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
-  EXPECT_EQ(result["verdict"], "contact");
-  EXPECT_EQ(result["roll_backs"], 8);
-  EXPECT_EQ(result["certificate_defects"], 0);
-  const std::string log = bytes_of(run_path("run/log.jsonl"));
-  EXPECT_NE(log.find("\"event\":\"roll_back\""), std::string::npos);
-  EXPECT_NE(log.find("\"step_halvings\":7"), std::string::npos);
-  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+  const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 0);
+  EXPECT_EQ(result["verdict"], "no_contact");
+  EXPECT_EQ(result["excluded"], Json::parse(R"([["falling", "lying"]])"));
+  EXPECT_NE(result["statement"].get<std::string>().find("two cells of falling and lying"), std::string::npos);
+  EXPECT_EQ(result["timing"]["certificates"]["deepest"], 0);
+  const Json verified = json_of({"verify", run_path("run")}, 0);
+  EXPECT_NE(verified["statement"]["excluded"].dump().find("groups 0 and 1"), std::string::npos);
+  // A third cloth is not excluded.
+  json["bodies"].push_back(json["bodies"][1]);
+  json["bodies"][2]["name"] = "third";
+  json["bodies"][2]["transform"]["translate"] = {0, 0, -0.1};
+  const Json third = json_of({"simulate", scene(json), "-o", run_path("third")}, 0);
+  EXPECT_GE(third["timing"]["certificates"]["deepest"], 1);
 }
 
 /// In the plane: a point between a floor and an edge that a script puts onto it.

@@ -190,6 +190,20 @@ TEST(Window, PairsOfScriptedCellsAreNotLookedAt) {
   EXPECT_EQ(count({}), 1u);
 }
 
+TEST(Window, ExcludedPairsOfGroupsAreNotLookedAt) {
+  LineScene scene = point_over_face({{0, 1}, {1, -1}, {3, -1}});  // vertex 0 is the point
+  const auto count = [&](const Exclusions& exclusions) {
+    WindowOptions options;
+    options.exclusions = &exclusions;
+    return verify(scene, options).contact_count();
+  };
+  EXPECT_EQ(count({{1, 0, 0, 0}, {{0, 1}}}), 0u);
+  EXPECT_EQ(count({{1, 0, 0, 0}, {{0, 0}, {1, 1}}}), 1u);
+  EXPECT_EQ(count({{4, 4, 4, 4}, {{4, 4}}}), 0u);
+  EXPECT_EQ(count({{4, 4, 4, 4}, {{3, 4}}}), 1u);
+  EXPECT_EQ(count({}), 1u);
+}
+
 TEST(Window, AScriptedVertexOfAFreeCellIsLookedAt) {
   // Vertex 0 belongs to a scripted face, which comes first, and to a free one: its contact counts because of the
   // latter.

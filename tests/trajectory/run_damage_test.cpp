@@ -222,5 +222,35 @@ TEST_P(SpoiledRun, SaysWhatAndWhere) {
   EXPECT_EQ(input_error([&] { read_run(spoiled); }), "run: " + GetParam().message);
 }
 
+struct SpoiledExclusions {
+  const char* name;
+  void (*change)(std::string& payload);
+  std::string message;
+  friend void PrintTo(const SpoiledExclusions& spoiled, std::ostream* out) { *out << spoiled.name; }
+};
+
+class SpoiledExclusion : public ::testing::TestWithParam<SpoiledExclusions> {};
+INSTANTIATE_TEST_SUITE_P(
+    All, SpoiledExclusion,
+    ::testing::Values(
+        SpoiledExclusions{"none", [](std::string& p) { p[0] = 0; }, "no pairs of groups; expected one at least"},
+        SpoiledExclusions{"many", [](std::string& p) { p[3] = '\x7f'; }, "expected pairs of groups and the groups"},
+        SpoiledExclusions{"backwards", [](std::string& p) { p[4] = 9; },
+                          "the pair of groups 9 and 7; expected ascending"},
+        SpoiledExclusions{"twice", [](std::string& p) { p[8] = 0; }, "the pair of groups 0 and 7; expected ascending"},
+        SpoiledExclusions{"vertex", [](std::string& p) { p.resize(p.size() - 2); }, "expected pairs of groups and the"},
+        SpoiledExclusions{"cell", [](std::string& p) { p[12] = 3; }, "a cell of two groups; expected cells of one"}),
+    [](const auto& spoiled) { return spoiled.param.name; });
+
+TEST_P(SpoiledExclusion, SaysWhatAndWhere) {
+  SampleRun run = sample_run(3, RecordMode::full, 1);
+  run.scene.exclusions = sample_exclusions();
+  const std::string bytes = write_run(run).bytes;
+  const std::string spoiled = changed(bytes, [](Blocks& blocks) { GetParam().change(blocks[3].payload); });
+  const std::string error = input_error([&] { read_run(spoiled); });
+  EXPECT_NE(error.find("run: byte "), std::string::npos) << error;
+  EXPECT_NE(error.find(GetParam().message), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace noli

@@ -64,6 +64,16 @@ TEST_P(RunFile, IsReadBackBitForBit) {
   for (std::size_t k = 0; k < 4; ++k) expect_same(written.windows[k], read.windows[k], written.scene.header);
 }
 
+TEST_P(RunFile, KeepsWhatIsExcluded) {
+  SampleRun written = run(1);
+  written.scene.exclusions = sample_exclusions();
+  const ReadRun read = read_run(write_run(written).bytes);
+  EXPECT_EQ(read.scene, written.scene);
+  EXPECT_TRUE(read.scene.exclusions.excluded(7, 0));
+  EXPECT_FALSE(read.scene.exclusions.excluded(2, 7));
+  EXPECT_EQ(read.windows.size(), 1u);
+}
+
 TEST_P(RunFile, MayHaveNoWindows) {
   const ReadRun read = read_run(write_run(run(0)).bytes);
   EXPECT_TRUE(read.windows.empty());
@@ -186,6 +196,16 @@ const Refused refused[] = {
     {"window_length", [](Attempt& a) { a.scene.header.window_length = 0; }, "the window length is not positive"},
     {"labels", [](Attempt& a) { a.scene.labels.pop_back(); }, "not one label for each vertex"},
     {"label", [](Attempt& a) { a.scene.labels[1] = 2; }, "a label that is not known"},
+    {"groups",
+     [](Attempt& a) {
+       a.scene.exclusions = {{0, 0, 0, 1, 1}, {{0, 1}}};
+     },
+     "not one group for each vertex"},
+    {"cell_of_two_groups",
+     [](Attempt& a) {
+       a.scene.exclusions = {{0, 0, 1, 1, 1, 1}, {{0, 1}}};
+     },
+     "a cell of two groups"},
     {"face", [](Attempt& a) { a.scene.mesh.faces[0][2] = 6; }, "a face beyond the mesh"},
     {"edge", [](Attempt& a) { a.scene.mesh.edges[0][0] = 6; }, "an edge beyond the mesh"},
     {"point", [](Attempt& a) { a.scene.mesh.points[0] = 6; }, "a point beyond the mesh"},

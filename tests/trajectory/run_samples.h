@@ -91,13 +91,17 @@ inline std::vector<Position> ends_of(const WorldLines& lines) {
   return all;
 }
 
+/// For the sample: its edge is not compared with its face, nor with itself.
+inline Exclusions sample_exclusions() { return {{0, 0, 0, 7, 7, 2}, {{0, 7}, {7, 7}}}; }
+
 /// A run of a face, a loose edge and a loose point, with windows of a quarter second.
 inline SampleRun sample_run(std::uint32_t dimension, RecordMode record, std::size_t windows, std::uint64_t seed = 1) {
   std::mt19937_64 random(seed);
   SampleRun run;
   run.scene = {.header = {.dimension = dimension, .record = record, .window_length = 0.25},
                .mesh = {.vertex_count = 6, .faces = {{0, 1, 2}}, .edges = {{3, 4}}, .points = {5}},
-               .labels = {0, 0, 0, 1, 1, 0}};
+               .labels = {0, 0, 0, 1, 1, 0},
+               .exclusions = {}};
   std::vector<Position> x = random_positions(random, 6, dimension);
   for (std::size_t k = 0; k < windows; ++k) {
     const double begin = 0.25 * static_cast<double>(k), end = 0.25 * static_cast<double>(k + 1);
