@@ -17,6 +17,7 @@
 #include "noli/app/model_facts.h"
 #include "noli/app/model_run.h"
 #include "noli/app/progress.h"
+#include "noli/app/retries.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_series.h"
 #include "noli/app/run_series_file.h"
@@ -45,7 +46,6 @@ const char* name(RunEnd end) {
 namespace {
 
 using integrator::Books;
-using integrator::Model;
 using integrator::Recording;
 using integrator::Scene;
 using integrator::Simulation;
@@ -231,7 +231,7 @@ class Run {
     Snapshot<double, Dim> last;
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
-      halvings_ = row_of(*window, folder_.path()).halvings;
+      retries_ = Retries(row_of(*window, folder_.path()).halvings);
       require_whole(*window);
       if (stopped()) throw ReadInterrupted(folder_.path().string());
     }
@@ -242,7 +242,7 @@ class Run {
     }
     writer_.emplace(folder_.path(), reader);
     outcome_.windows_before = last.windows;
-    simulation_.emplace(simulation_at<Dim>(built_.model, last, halvings_));
+    simulation_.emplace(simulation_at<Dim>(built_.model, last, retries_.halvings()));
   }
 
   /// Windows of a run that can be gone on with are those that a simulation writes.
@@ -282,7 +282,7 @@ class Run {
     next.velocities = positions_of<Dim>(simulation_->snapshot().v);
     next.row = series_row<Dim>(simulation_->time(), simulation_->state(), books, simulation_->events() - events,
                                recording_.stream().size());
-    next.row.halvings = halvings_;
+    next.row.halvings = retries_.halvings();
     outcome_.simulating_seconds += watch.seconds();
     return next;
   }
@@ -326,21 +326,20 @@ class Run {
   /// A window in which something touches is run once more: with more layers from the start, in case that certificates
   /// have missed one, then with all layers' steps halved, from here on. False when all that has been tried.
   bool roll_back(const Candidate<Dim>& window, const WindowResult& result) {
-    constexpr int most_tries = 8;
-    if (!built_.model.contact || tries_ == most_tries || outcome_.end != RunEnd::done) return false;
-    const std::uint32_t layers = ++tries_ == 1 ? simulation_->certificates().deepest + 8 : 0;
-    if (tries_ > 1) ++halvings_;
+    if (!built_.model.contact || outcome_.end != RunEnd::done) return false;
+    const std::optional<Retry> retry = retries_.next(simulation_->certificates().deepest);
+    if (!retry) return false;
     ++outcome_.roll_backs;
-    Json entry = {{"event", "roll_back"}, {"window", window.index}, {"try", tries_}};
-    entry["least_layers"] = layers;
-    entry["step_halvings"] = halvings_;
+    Json entry = {{"event", "roll_back"}, {"window", window.index}, {"try", retries_.tries()}};
+    entry["least_layers"] = retry->least_layers;
+    entry["step_halvings"] = retry->halvings;
     if (result.first) {
       entry["first"] = contact_json(result.first->contact);
       entry["first_time"] = result.first->lower();
     }
     folder_.log(entry);
     outcome_.certificates += simulation_->certificates();
-    simulation_.emplace(simulation_at<Dim>(built_.model, window.before, halvings_, layers));
+    simulation_.emplace(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
     return true;
   }
 
@@ -351,8 +350,7 @@ class Run {
     outcome_.events += window.row.events;
     outcome_.breakpoints += window.row.breakpoints;
     folder_.log(window.index, window.row);
-    if (tries_ == 1) ++outcome_.certificate_defects;
-    tries_ = 0;
+    if (retries_.committed()) ++outcome_.certificate_defects;
   }
 
   /// With "record": "frames", those within the window.
@@ -376,7 +374,7 @@ class Run {
       outcome_.first_names = named({limit_->pair.kind, limit_->pair.vertices, {}});
     } else if (!finite_) {
       outcome_.not_finite =
-          simulation_at<Dim>(built_.model, before_, halvings_).find_not_finite([this] { return stopped(); });
+          simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] { return stopped(); });
       if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
     }
   }
@@ -425,8 +423,7 @@ class Run {
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
   Recording<double, Dim> recording_;
   std::optional<Candidate<Dim>> candidate_;
-  int tries_ = 0;               ///< of the window that is next to be committed, to go back before it
-  std::uint64_t halvings_ = 0;  ///< of the steps of all contact layers
+  Retries retries_;  ///< of the window that is next to be committed
   std::optional<integrator::ContactLimit> limit_;
   bool finite_ = true;  ///< all numbers of the window that is being integrated
   SimulateOutcome outcome_;

@@ -61,7 +61,7 @@ std::string pairs_text(const PredictedContact& c) {
   std::string text;
   for (std::size_t i = 0; i < std::min(most, c.pairs.size()); ++i) {
     const auto& [a, b] = c.pairs[i];
-    text += (i == 0 ? "" : ", ") + (a == b ? a + " with itself" : a + " with " + b);
+    text += fmt::format("{}{} with {}", i == 0 ? "" : ", ", a, a == b ? "itself" : b);
   }
   if (c.pairs.size() > most) text += fmt::format(", and {} more pairs", c.pairs.size() - most);
   return text;
