@@ -95,9 +95,10 @@ class Contact {
   /// The half kicks with which a run begins.
   template <class Recorder>
   void fire_halves(Recorder& record, Account<double, Dim>& account) {
-    for (std::uint16_t m = 0; m < layers_.size(); ++m) {
-      for (std::uint32_t l = 1; l <= layers_[m].size(); ++l) {
-        fire(record, account, m, l, 0, 0.5 * layers_[m][l - 1].clock.step);
+    for (std::size_t m = 0; m < layers_.size(); ++m) {
+      for (std::size_t l = 1; l <= layers_[m].size(); ++l) {
+        fire(record, account, static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l), 0,
+             0.5 * layers_[m][l - 1].clock.step);
       }
     }
   }

@@ -14,7 +14,7 @@ void require_few(const Field& mesh, double vertices) {
 LoosePoints read_points(const Field& f) { return {f["at"].vectors()}; }
 
 Chain read_chain(const Field& f) {
-  const Chain chain{f["points"].vectors(), f["segments"].count(), f["smooth"].flag(), f["closed"].flag()};
+  Chain chain{f["points"].vectors(), f["segments"].count(), f["smooth"].flag(), f["closed"].flag()};
   if (chain.closed && chain.segments < 3) {
     f["segments"].fail(fmt::format("expected at least 3, as the chain is closed, found {}", chain.segments));
   }
