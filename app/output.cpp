@@ -185,8 +185,13 @@ void require_writable_folder(const std::string& folder, const std::string& optio
   std::error_code error;
   const bool exists = std::filesystem::exists(path, error);
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
-  const std::string probed = (exists ? path : parent) / "probe";
-  if (TemporaryFile(probed).is_open()) return;
+  // Asked, not tried: what is written to a run's folder and left there by a kill would make it none.
+  const std::string asked = exists ? path.string() : parent.string();
+  errno = ENOTDIR;
+  if (std::filesystem::is_directory(asked, error) &&
+      ::faccessat(AT_FDCWD, asked.c_str(), W_OK | X_OK, AT_EACCESS) == 0) {
+    return;
+  }
   throw UsageError(option + " " + folder + ": cannot be written: " + reason() +
                    "; expected a folder that may be written to, or a place for one");
 }
