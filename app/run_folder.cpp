@@ -26,12 +26,14 @@ bool is_run(const fs::path& folder) {
   std::error_code error;
   fs::directory_iterator entries(folder, error);
   if (error) return false;
-  if (entries != fs::directory_iterator() && !fs::exists(folder / "trajectory.blocks", error)) return false;
+  bool begun = false, other = false;
   for (const auto& entry : entries) {
     const fs::path name = entry.path().filename();
+    if (name.string().starts_with(".noli-")) continue;  // left by a kill while it was tried whether one may write
     if (names.count((name.extension() == ".part" ? name.stem() : name).string()) == 0) return false;
+    (name == "trajectory.blocks" ? begun : other) = true;
   }
-  return true;
+  return begun || !other;
 }
 
 /// A scene without what a run's bytes do not depend on.
@@ -51,11 +53,16 @@ void require_idle(const fs::path& folder) {
   }
 }
 
-/// What is in a folder, but not the folder: it may be the current one.
+/// What is in a folder, but not the folder: it may be the current one. What tells that it is a run goes last, so that it
+/// is one still if this is cut short.
 void clear(const fs::path& folder) {
+  const fs::path last = trajectory_path(folder);
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
-  for (const fs::path& entry : entries) fs::remove_all(entry);
+  for (const fs::path& entry : entries) {
+    if (entry != last) fs::remove_all(entry);
+  }
+  fs::remove_all(last);
 }
 
 }  // namespace
