@@ -142,7 +142,6 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["too_near"] = too_near_json(outcome);
   json["roll_backs"] = outcome.roll_backs;
   json["certificate_defects"] = outcome.certificate_defects;
-  json["series"] = name(outcome.series);
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
   json["cells"] = outcome.cells;
@@ -152,6 +151,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
                     {"windows_before", outcome.windows_before},
                     {"events", outcome.events},
                     {"breakpoints", outcome.breakpoints},
+                    {"series", name(outcome.series)},
                     {"certificates", certificates_json(outcome.certificates)},
                     {"threads", request.threads > 0 ? request.threads : hardware_threads()},
                     {"peak_memory_bytes", peak_memory_bytes()}};
