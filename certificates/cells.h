@@ -29,7 +29,7 @@
 //   double thickness(material, l)     eta(l), decreasing to 0
 //   double look_step(v)
 //   std::uint32_t least_layers()      so many are always active for a pair that is near
-//   std::uint16_t thickest()          the material with the largest eta(1)
+//   double greatest_thickness()       the largest eta(1) of all materials
 //   void activate(stencil, material, l, t), deactivate(stencil, material, l)
 //
 // What this does not do: it moves nothing, and it proves nothing: what is recorded is verified exactly elsewhere.
@@ -56,6 +56,7 @@ class Cells {
   Cells(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> x, double longest_slice)
       : host_(host),
         features_(mesh, Dim),
+        widest_(host.greatest_thickness()),
         longest_(longest_slice),
         length_(longest_slice / 8),
         courses_(x.size()),
@@ -76,10 +77,7 @@ class Cells {
   }
 
   /// Certifies the present state, whatever layers that takes.
-  void start(double t) {
-    for (std::size_t i = 0; i < tubes_.size(); ++i) tubes_[i].line = line_at(static_cast<VertexId>(i), t);
-    begin_slice(t);
-  }
+  void start(double t) { begin_slice(t); }
 
   /// To be called of a vertex at time t after its velocity may have changed, and as often as look_step says.
   void look(VertexId i, double t) {
@@ -149,7 +147,7 @@ class Cells {
       sizes_[b] = std::min(sizes_[b], length);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (sizes_[i] == never) sizes_[i] = 2 * host_.thickness(host_.thickest(), 1);
+      if (sizes_[i] == never) sizes_[i] = 2 * widest_;
     }
   }
 
@@ -205,20 +203,14 @@ class Cells {
     raise_margin(now);
   }
 
-  /// Of a coordinate some hundred units in the last place, of a time some four.
-  void raise_margin(const Line<Dim>& line) {
-    const double speed = line.v.cwiseAbs().maxCoeff();
-    const double reach_out = line.x.cwiseAbs().maxCoeff() + speed * (slice_end_ - line.t);
-    margin_ = std::max(margin_, 0x1p-44 * reach_out + 0x1p-50 * speed * slice_end_);
-  }
+  void raise_margin(const Line<Dim>& line) { margin_ = std::max(margin_, margin_of(line, slice_end_)); }
 
   MovingBox<Dim> box_of(std::uint32_t cell) const {
     MovingBox<Dim> box = MovingBox<Dim>::empty();
     const auto& c = features_.cells()[cell];
     for (std::uint8_t k = 0; k < c.size; ++k) {
       const Plan<Dim>& tube = tubes_[c.vertices[k]];
-      const Vector<Dim> room =
-          Vector<Dim>::Constant(tube.radius + 0.5 * host_.thickness(host_.thickest(), 1) + 4 * margin_);
+      const Vector<Dim> room = Vector<Dim>::Constant(tube.radius + 0.5 * widest_ + 4 * margin_);
       const Vector<Dim> begin = tube.line.at(slice_begin_), end = tube.line.at(slice_end_);
       box.add({{begin - room, end - room}, {begin + room, end + room}});
     }
@@ -289,7 +281,7 @@ class Cells {
     const std::span<const VertexId> of_p(p.vertices.data(), p.size), of_q(q.vertices.data(), q.size);
     Vector<Dim> n = centre(of_p, t) - centre(of_q, t);
     const double length = std::sqrt(n.squaredNorm());
-    return length > 0 && keeps_apart(of_p, of_q, n / length, host_.thickness(host_.thickest(), 1) + 8 * margin_, t);
+    return length > 0 && keeps_apart(of_p, of_q, n / length, widest_ + 8 * margin_, t);
   }
 
   Vector<Dim> centre(std::span<const VertexId> vertices, double t) const {
@@ -439,6 +431,7 @@ class Cells {
 
   Host& host_;
   Features features_;
+  double widest_;  ///< the largest eta(1)
   Hierarchy<Dim> hierarchy_;
   double longest_, length_;
   double slice_begin_ = 0, slice_end_ = 0, length_before_ = 0;

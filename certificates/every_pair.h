@@ -13,7 +13,6 @@
 
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -39,12 +38,12 @@ class EveryPair {
   }
 
   void start(double t) {
-    measure(t);
+    for (std::size_t i = 0; i < contingent_.size(); ++i) raise_margin(static_cast<VertexId>(i), t);
     for (std::uint32_t p = 0; p < pairs_.size(); ++p) repair(p, t);
   }
 
   void look(VertexId i, double t) {
-    measure_one(i, t);
+    raise_margin(i, t);
     for (const std::uint32_t p : contingent_[i]) reschedule(p, t);
   }
 
@@ -78,12 +77,7 @@ class EveryPair {
     counts_.most_near = pairs_.size();
   }
 
-  void measure(double t) {
-    for (std::size_t i = 0; i < contingent_.size(); ++i) measure_one(static_cast<VertexId>(i), t);
-  }
-  void measure_one(VertexId i, double t) {
-    margin_ = std::max(margin_, 0x1p-44 * host_.line(i).at(t).cwiseAbs().maxCoeff());
-  }
+  void raise_margin(VertexId i, double t) { margin_ = std::max(margin_, margin_of(host_.line(i), t)); }
 
   void repair(std::uint32_t p, double t) {
     fit_slab(host_, pairs_[p], t, margin_, counts_);

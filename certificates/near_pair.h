@@ -28,6 +28,15 @@ struct NearPair {
   bool in_a(VertexId i) const { return stencil.vertices[0] == i || (stencil.first() == 2 && stencil.vertices[1] == i); }
 };
 
+/// For all rounding of where a vertex is until `end`: of a coordinate some hundred units in the last place, of a time
+/// some four.
+template <int Dim>
+double margin_of(const Line<Dim>& line, double end) {
+  const double speed = line.v.cwiseAbs().maxCoeff();
+  const double reach_out = line.x.cwiseAbs().maxCoeff() + speed * (end - line.t);
+  return 0x1p-44 * reach_out + 0x1p-50 * speed * end;
+}
+
 /// Of a pair, or no_material if it is none to contact.
 template <class Host>
 std::uint16_t material_of(const Host& host, const Stencil& s) {

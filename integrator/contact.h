@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -43,9 +42,8 @@ class Contact {
       : settings_(settings),
         particles_(particles),
         look_steps_(std::move(look_steps)),
-        layers_(settings.materials.size()),
-        has_cells_(settings.certificates == Certificates::cells) {
-    if (has_cells_) {
+        layers_(settings.materials.size()) {
+    if (settings.certificates == Certificates::cells) {
       cells_.emplace(*this, mesh, positions(particles), longest_slice * window_length);
     } else {
       every_pair_.emplace(*this, mesh);
@@ -67,14 +65,14 @@ class Contact {
 
   /// A vertex has been looked at by an event at time t.
   void look(VertexId i, double t) {
-    if (has_cells_) {
+    if (cells_) {
       cells_->look(i, t);
     } else {
       every_pair_->look(i, t);
     }
   }
 
-  double next_certificate() { return has_cells_ ? cells_->next_time() : every_pair_->next_time(); }
+  double next_certificate() { return cells_ ? cells_->next_time() : every_pair_->next_time(); }
   void run_certificate() {
     ask([](auto& certificates) { certificates.run_next(); });
   }
@@ -120,9 +118,7 @@ class Contact {
     }
   }
 
-  const certificates::CertificateCounts& counts() const {
-    return has_cells_ ? cells_->counts() : every_pair_->counts();
-  }
+  const certificates::CertificateCounts& counts() const { return cells_ ? cells_->counts() : every_pair_->counts(); }
 
   // --- For the certificates ------------------------------------------------------------------------------------------
 
@@ -137,10 +133,10 @@ class Contact {
   }
   double look_step(VertexId i) const { return look_steps_[i]; }
   std::uint32_t least_layers() const { return settings_.least_layers; }
-  std::uint16_t thickest() const {
-    const auto& all = settings_.materials;
-    const auto less = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };
-    return static_cast<std::uint16_t>(std::max_element(all.begin(), all.end(), less) - all.begin());
+  double greatest_thickness() const {
+    double greatest = 0;
+    for (const ContactMaterial& m : settings_.materials) greatest = std::max(greatest, m.thickness);
+    return greatest;
   }
 
   void activate(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double t) {
@@ -167,6 +163,7 @@ class Contact {
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
   static constexpr double longest_slice = 8;  ///< in windows
+  static_assert(ContactSettings::excluded == certificates::no_material);
 
   struct Layer {
     Clock clock;
@@ -176,7 +173,7 @@ class Contact {
 
   template <class Question>
   void ask(const Question& question) {
-    if (has_cells_) {
+    if (cells_) {
       question(*cells_);
     } else {
       question(*every_pair_);
@@ -292,7 +289,6 @@ class Contact {
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
   std::vector<certificates::Stencil> firing_;
   bool started_ = false;
-  bool has_cells_;
   std::optional<certificates::Cells<Dim, Contact>> cells_;  ///< or:
   std::optional<certificates::EveryPair<Dim, Contact>> every_pair_;
 };

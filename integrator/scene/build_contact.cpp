@@ -24,8 +24,7 @@ double least_height(const std::vector<Position>& rest, const std::array<VertexId
 /// Of a triangle: twice its area over its longest edge.
 double least_height(const std::vector<Position>& rest, const std::array<VertexId, 3>& face) {
   const Vec3 a = to_vec(rest[face[1]]) - to_vec(rest[face[0]]), b = to_vec(rest[face[2]]) - to_vec(rest[face[0]]);
-  const Vec3 n(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-  return length(n) / std::max({length(a), length(b), length(b - a)});
+  return length(cross(a, b)) / std::max({length(a), length(b), length(b - a)});
 }
 
 /// What of a body counts for contact.

@@ -24,10 +24,6 @@ Vec<double, Dim> cut(const Vec3& x) {
   return x.head<Dim>();
 }
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Vec3 centre_of_mass(const std::vector<Position>& x, const std::vector<double>& mass) {
   Vec3 sum = Vec3::Zero();
   double total = 0;

@@ -14,6 +14,9 @@ using Vec3 = Vec<double, 3>;
 
 inline Vec3 to_vec(const Position& x) { return {x[0], x[1], x[2]}; }
 inline Position to_position(const Vec3& x) { return {x[0], x[1], x[2]}; }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 struct CurveKind {
   bool smooth = false;  ///< the Catmull-Rom curve instead of straight lines

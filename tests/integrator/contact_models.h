@@ -35,6 +35,13 @@ inline Model<double, 3> both(Model<double, 3> a, const Model<double, 3>& b) {
   return a;
 }
 
+/// Where the vertices begin.
+inline std::vector<Position> positions(const Model<double, 3>& model) {
+  std::vector<Position> result;
+  for (const auto& x : model.x) result.push_back({x[0], x[1], x[2]});
+  return result;
+}
+
 struct ContactOptions {
   double thickness = 0.01, stiffness = 100, c = 0.05, restitution = 1, friction = 0;
 };

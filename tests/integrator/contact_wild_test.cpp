@@ -79,11 +79,9 @@ struct Ending {
 
 /// Up to so many windows, or the first that is not to be committed.
 Ending run_verified(const Model<double, 3>& model, int windows) {
-  std::vector<Position> x;
-  for (const auto& p : model.x) x.push_back({p[0], p[1], p[2]});
   WindowOptions options;
   options.threads = 1;
-  const WindowVerifier verifier(model.mesh, x, options);
+  const WindowVerifier verifier(model.mesh, test::positions(model), options);
   Simulation<double, 3> simulation(model);
   Recording<double, 3> recording;
   Ending ending;

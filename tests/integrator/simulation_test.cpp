@@ -9,29 +9,17 @@
 #include "models.h"
 #include "noli/integrator/clocks.h"
 #include "noli/integrator/particle.h"
+#include "running.h"
 
 namespace noli::integrator {
 namespace {
 
 using test::choose_steps;
+using test::expect_same;
+using test::run;
 using test::sheet;
 using test::SheetOptions;
 using test::spring_pair;
-
-template <int Dim>
-void run(Simulation<double, Dim>& simulation, std::uint64_t windows) {
-  Books<double, Dim> books;
-  for (std::uint64_t i = 0; i < windows; ++i) simulation.run_window(books);
-}
-
-template <int Dim>
-void expect_same(const Snapshot<double, Dim>& a, const Snapshot<double, Dim>& b) {
-  ASSERT_EQ(a.x.size(), b.x.size());
-  for (std::size_t i = 0; i < a.x.size(); ++i) {
-    EXPECT_EQ(a.x[i], b.x[i]) << i;
-    EXPECT_EQ(a.v[i], b.v[i]) << i;
-  }
-}
 
 TEST(Simulation, SpringPairIsVerletsSolution) {
   constexpr double m0 = 2, m1 = 0.5, k = 30, h = 0x1p-6, stretch = 0.25;
