@@ -118,6 +118,16 @@ class Contact {
     }
   }
 
+  /// Calls each(pair) once for each of its active layers.
+  template <class Each>
+  void for_each_active(Each&& each) const {
+    for (const auto& of_material : layers_) {
+      for (const Layer& layer : of_material) {
+        for (const certificates::Stencil& pair : layer.pairs) each(pair);
+      }
+    }
+  }
+
   const certificates::CertificateCounts& counts() const { return cells_ ? cells_->counts() : every_pair_->counts(); }
 
   // --- For the certificates ------------------------------------------------------------------------------------------

@@ -90,6 +90,14 @@ certificates::CertificateCounts Simulation<S, Dim>::certificates() const {
 }
 
 template <class S, int Dim>
+std::map<certificates::PairKey, std::uint32_t> Simulation<S, Dim>::active_layers() const {
+  std::map<certificates::PairKey, std::uint32_t> layers;
+  if (engine_->contact() == nullptr) return layers;
+  engine_->contact()->for_each_active([&](const certificates::Stencil& pair) { ++layers[pair.key]; });
+  return layers;
+}
+
+template <class S, int Dim>
 bool Simulation<S, Dim>::finite() const {
   for (const auto& p : engine_->particles()) {
     if (!p.x.allFinite() || !p.v.allFinite()) return false;

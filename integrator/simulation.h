@@ -18,11 +18,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "noli/certificates/counts.h"
+#include "noli/certificates/stencil.h"
 #include "noli/integrator/books.h"
 #include "noli/integrator/model.h"
 #include "noli/integrator/recording.h"
@@ -110,6 +112,8 @@ class Simulation {
   std::vector<StepGroup> groups() const;
   /// What certificates have cost since time 0 of this object; nothing without contact.
   certificates::CertificateCounts certificates() const;
+  /// Of each pair that has any, by key: how many layers are active; nothing without contact.
+  std::map<certificates::PairKey, std::uint32_t> active_layers() const;
 
   /// Whether all positions and velocities are finite numbers.
   bool finite() const;
