@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Random pairs of features that are near each other, and what impulses do to them.
+//
+// Notation: that of integrator/contact_impulse.h.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "models.h"
+#include "noli/integrator/books.h"
+#include "noli/integrator/contact_impulse.h"
+
+namespace noli::integrator::test {
+
+/// A stream of numbers that depends on the seed alone.
+class Stream {
+ public:
+  explicit Stream(std::uint64_t seed) : state_(seed * 1000003) {}
+  double between(double low, double high) { return low + (high - low) * (0.5 + 0.5 * noise(state_++)); }
+  double decades(double low, double high) { return low * std::pow(high / low, between(0, 1)); }
+  bool chance(double probability) { return between(0, 1) < probability; }
+  template <int Dim>
+  Vec<double, Dim> vector(double size) {
+    Vec<double, Dim> v;
+    for (int k = 0; k < Dim; ++k) v[k] = between(-size, size);
+    return v;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+template <int Dim>
+struct NearFeatures {
+  FeaturePair kind;
+  std::array<Vec<double, Dim>, 4> x, v;
+  std::array<double, 4> inverse_mass{};
+  double eta = 0;  ///< they are nearer than this
+
+  std::size_t size() const { return point_count(kind); }
+  std::span<const Vec<double, Dim>> xs() const { return {x.data(), size()}; }
+  std::span<const Vec<double, Dim>> vs() const { return {v.data(), size()}; }
+  std::span<const double> inverse_masses() const { return {inverse_mass.data(), size()}; }
+  certificates::Closest<Dim> closest() const { return certificates::closest<Dim>(kind, xs()); }
+
+  /// What impulses do to the energy of the pair and of what holds or drives those that nothing moves: sum of
+  /// J . (v + v') / 2. If these are at rest it is the change of kinetic energy.
+  double work(const Impulses<Dim>& impulses) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += impulses[i].dot(v[i] + (0.5 * inverse_mass[i]) * impulses[i]);
+    return sum;
+  }
+  /// A bound on the terms of that, to measure rounding against.
+  double work_scale(const Impulses<Dim>& impulses) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      sum += impulses[i].norm() * (v[i].norm() + inverse_mass[i] * impulses[i].norm());
+    }
+    return sum;
+  }
+
+  void give(const Impulses<Dim>& impulses) {
+    for (std::size_t i = 0; i < size(); ++i) v[i] += inverse_mass[i] * impulses[i];
+  }
+
+  Vec<double, Dim> momentum_of(const Impulses<Dim>& impulses) const {
+    Vec<double, Dim> sum = Vec<double, Dim>::Zero();
+    for (std::size_t i = 0; i < size(); ++i) sum += impulses[i];
+    return sum;
+  }
+  Moment<double, Dim> angular_momentum_of(const Impulses<Dim>& impulses) const {
+    Moment<double, Dim> sum = Moment<double, Dim>::Zero();
+    for (std::size_t i = 0; i < size(); ++i) sum += moment<double, Dim>(x[i], impulses[i]);
+    return sum;
+  }
+  double impulse_scale(const Impulses<Dim>& impulses) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += impulses[i].norm();
+    return sum;
+  }
+  double moment_scale(const Impulses<Dim>& impulses) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += impulses[i].norm() * x[i].norm();
+    return sum;
+  }
+};
+
+/// Edges as long as 1 or so, all regions of closest points, at distances of eta down to eta / 10^4; a few with coincident
+/// vertices, slivers of faces, edges that are parallel or nearly so; vertices that no
+/// impulse moves, at rest or driven, but not all.
+template <int Dim>
+NearFeatures<Dim> near_features(FeaturePair kind, std::uint64_t seed) {
+  Stream random(seed);
+  NearFeatures<Dim> f;
+  f.kind = kind;
+  const std::size_t n = f.size();
+  const double speed = random.decades(1e-3, 1e3);
+  const Vec<double, Dim> drift = random.vector<Dim>(10 * speed);
+  for (std::size_t i = 0; i < n; ++i) {
+    f.x[i] = random.vector<Dim>(1);
+    f.v[i] = random.vector<Dim>(speed);
+    if (random.chance(0.5)) f.v[i] += drift;
+    f.inverse_mass[i] = random.chance(0.2) ? 0 : random.decades(1e-3, 1e3);
+    if (f.inverse_mass[i] == 0 && random.chance(0.5)) f.v[i].setZero();
+  }
+  f.inverse_mass[seed % n] = 1;
+  if (n == 4) {
+    const double sort = random.between(0, 1), away = random.decades(1e-14, 1);
+    if (sort < 0.1) f.x[3] = f.x[2];
+    if (sort > 0.9) f.x[3] = f.x[2] + random.between(-2, 2) * (f.x[1] - f.x[0]);
+    if (sort > 0.95) f.x[3] += random.vector<Dim>(away);
+    if (sort > 0.1 && sort < 0.2) f.x[3] = 0.5 * (f.x[1] + f.x[2]) + random.vector<Dim>(away);
+  }
+  f.eta = random.decades(1e-4, 0.3);
+  const auto c = f.closest();  // it stays so while A goes along r
+  if (c.distance() > 0) {
+    const double d = f.eta * random.decades(1e-4, 1);
+    for (std::size_t i = 0; i < first_size(kind); ++i) f.x[i] -= (1 - d / c.distance()) * c.r;
+  }
+  return f;
+}
+
+}  // namespace noli::integrator::test
