@@ -9,36 +9,128 @@
 
 namespace noli::integrator::test {
 
-/// Puts b beside a: vertices of b follow those of a.
-inline Model<double, 3> both(Model<double, 3> a, const Model<double, 3>& b) {
+namespace detail {
+
+/// Vertices of what is appended follow `first` others.
+template <class F>
+void append_forces(ForceList<F>& to, const ForceList<F>& from, VertexId first) {
+  for (std::size_t k = 0; k < from.forces.size(); ++k) {
+    F force = from.forces[k];
+    for (VertexId& i : force.vertices) i += first;
+    to.add(force, from.steps[k]);
+  }
+}
+
+template <class Cells>
+void append_cells(Cells& to, Cells from, VertexId first) {
+  for (auto& cell : from) {
+    for (VertexId& i : cell) i += first;
+    to.push_back(cell);
+  }
+}
+
+}  // namespace detail
+
+/// Puts b beside a: vertices of b follow those of a. Gravity, window and clocks are those of a.
+template <int Dim>
+Model<double, Dim> both(Model<double, Dim> a, const Model<double, Dim>& b) {
   const auto first = static_cast<VertexId>(a.x.size());
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(a.x, b.x);
   append(a.v, b.v);
   append(a.mass, b.mass);
-  for (auto face : b.mesh.faces) {
-    for (VertexId& i : face) i += first;
-    a.mesh.faces.push_back(face);
-  }
+  detail::append_cells(a.mesh.faces, b.mesh.faces, first);
+  detail::append_cells(a.mesh.edges, b.mesh.edges, first);
+  for (const VertexId i : b.mesh.points) a.mesh.points.push_back(first + i);
   for (const VertexId i : b.pinned) a.pinned.push_back(first + i);
-  const auto add_forces = [first](auto& to, const auto& from) {
-    for (std::size_t k = 0; k < from.forces.size(); ++k) {
-      auto force = from.forces[k];
-      for (VertexId& i : force.vertices) i += first;
-      to.add(force, from.steps[k]);
-    }
-  };
-  add_forces(a.forces.edge_springs, b.forces.edge_springs);
-  add_forces(a.forces.membranes, b.forces.membranes);
-  add_forces(a.forces.hinges, b.forces.hinges);
+  for (auto script : b.scripts) {
+    script.vertex += first;
+    a.scripts.push_back(script);
+  }
+  detail::append_forces(a.forces.edge_springs, b.forces.edge_springs, first);
+  if constexpr (Dim == 3) {
+    detail::append_forces(a.forces.membranes, b.forces.membranes, first);
+    detail::append_forces(a.forces.hinges, b.forces.hinges, first);
+  } else {
+    detail::append_forces(a.forces.turnings, b.forces.turnings, first);
+  }
   a.mesh.vertex_count = a.x.size();
   return a;
 }
 
+/// Masses of `mass` each on springs from one to the next, and from the last to the first if closed; in the plane their
+/// turns are stiff too. As it is it is at rest.
+template <int Dim>
+Model<double, Dim> chain(std::vector<Vec<double, Dim>> x, bool closed, double stiffness, double mass,
+                         double bending = 0.01) {
+  Model<double, Dim> model;
+  const std::size_t n = x.size();
+  model.x = std::move(x);
+  model.v.assign(n, Vec<double, Dim>::Zero());
+  model.mass.assign(n, mass);
+  model.mesh.vertex_count = n;
+  model.window_length = 0.01;
+  for (std::size_t k = 0; k + (closed ? 0 : 1) < n; ++k) {
+    const auto a = static_cast<VertexId>(k), b = static_cast<VertexId>((k + 1) % n);
+    const auto c = static_cast<VertexId>((k + 2) % n);
+    model.mesh.edges.push_back({a, b});
+    model.forces.edge_springs.add({{a, b}, stiffness, (model.x[b] - model.x[a]).norm(), 0}, 1);
+    if constexpr (Dim == 2) {
+      if (!closed && k + 2 >= n) continue;
+      model.forces.turnings.add(
+          Turning<double>::from_rest({a, b, c}, {model.x[a], model.x[b], model.x[c]}, bending, 0.0), 1);
+    }
+  }
+  return model;
+}
+
+/// Loose points.
+template <int Dim>
+Model<double, Dim> points(std::vector<Vec<double, Dim>> x, double mass) {
+  Model<double, Dim> model;
+  for (std::size_t k = 0; k < x.size(); ++k) model.mesh.points.push_back(static_cast<VertexId>(k));
+  model.v.assign(x.size(), Vec<double, Dim>::Zero());
+  model.mass.assign(x.size(), mass);
+  model.x = std::move(x);
+  model.mesh.vertex_count = model.x.size();
+  model.window_length = 0.01;
+  return model;
+}
+
+/// Each vertex shifted by `by` and faster by `v`.
+template <int Dim>
+Model<double, Dim> moved(Model<double, Dim> model, const Vec<double, Dim>& by, const Vec<double, Dim>& v) {
+  for (auto& x : model.x) x += by;
+  for (auto& w : model.v) w += v;
+  return model;
+}
+
+/// All its vertices go where `path` says, moves from where they are; nothing moves them else.
+template <int Dim>
+Model<double, Dim> scripted(Model<double, Dim> model, const std::vector<double>& times,
+                            const std::vector<Vec<double, Dim>>& path) {
+  for (std::size_t i = 0; i < model.x.size(); ++i) {
+    Script<double, Dim> script{static_cast<VertexId>(i), times, {}};
+    for (const auto& move : path) script.positions.push_back(model.x[i] + move);
+    model.scripts.push_back(std::move(script));
+  }
+  model.forces = {};
+  return model;
+}
+
+/// Pins all its vertices.
+template <int Dim>
+Model<double, Dim> held(Model<double, Dim> model) {
+  for (std::size_t i = 0; i < model.x.size(); ++i) model.pinned.push_back(static_cast<VertexId>(i));
+  model.forces = {};
+  return model;
+}
+
 /// Where the vertices begin.
-inline std::vector<Position> positions(const Model<double, 3>& model) {
+template <int Dim>
+std::vector<Position> positions(const Model<double, Dim>& model) {
   std::vector<Position> result;
-  for (const auto& x : model.x) result.push_back({x[0], x[1], x[2]});
+  for (const auto& x : model.x) result.push_back({x[0], x[1], Dim == 3 ? x[Dim - 1] : 0.0});
   return result;
 }
 
