@@ -38,8 +38,8 @@ Exclusions exclusions_of(const integrator::Model<double, Dim>& model) {
   }
   for (std::uint16_t a = 0; a < contact.group_count; ++a) {
     for (std::uint16_t b = a; b < contact.group_count; ++b) {
-      const std::size_t place = static_cast<std::size_t>(a) * contact.group_count + b;
-      if (contact.material_of[place] == integrator::ContactSettings::excluded && (moves[a] || moves[b])) {
+      const std::uint16_t material = contact.material_of[contact.place(a, b, 0, 0)];
+      if (material == integrator::ContactSettings::excluded && (moves[a] || moves[b])) {
         result.pairs.push_back({a, b});
       }
     }

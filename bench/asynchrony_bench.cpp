@@ -15,10 +15,10 @@
 #include <random>
 
 #include "noli/bench/bench.h"
+#include "noli/bench/one_step.h"
 #include "noli/bench/plain_loop.h"
 #include "noli/bench/report.h"
 #include "noli/bench/timing.h"
-#include "noli/integrator/groups.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/integrator/simulation.h"
@@ -31,19 +31,6 @@ using integrator::Model;
 using integrator::Simulation;
 
 constexpr int windows = 5;
-
-template <class Each>
-void for_each_list(Model<double, 3>& model, const Each& each) {
-  std::apply([&](auto&... list) { (each(list), ...); }, model.forces.lists());
-}
-
-double least_step(Model<double, 3>& model) {
-  double least = std::numeric_limits<double>::infinity();
-  for_each_list(model, [&](auto& list) {
-    for (const double h : list.steps) least = std::min(least, h);
-  });
-  return std::ldexp(model.window_length, -integrator::step_exponent(least, model.window_length));
-}
 
 /// Gives the vertices of the forces with short steps velocities that depend on nothing but their order.
 void strike_inset(Model<double, 3>& model, double short_step) {
@@ -114,7 +101,7 @@ void add_row(Table& table, const char* name, const Measured& measured, double le
 bool run() {
   Model<double, 3> own = plate(), equal = own;
   const double least = least_step(own);
-  for_each_list(equal, [&](auto& list) { std::fill(list.steps.begin(), list.steps.end(), least); });
+  set_steps(equal, least);
   std::vector<double> asynchronous, synchronous;
   Measured a, s = simulate(equal);
   for (int i = 0; i < passes; ++i) {

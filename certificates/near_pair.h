@@ -42,7 +42,7 @@ template <class Host>
 std::uint16_t material_of(const Host& host, const Stencil& s) {
   bool moves = false;
   for (std::size_t k = 0; k < s.size(); ++k) moves |= !host.immovable(s.vertices[k]);
-  return moves ? host.material(s.vertices[0], s.vertices[s.first()]) : no_material;
+  return moves ? host.material(s) : no_material;
 }
 
 /// One layer more.

@@ -17,9 +17,10 @@
 // What this does not do: it holds no state of a run.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
+#include <span>
 #include <vector>
 
 #include "noli/trajectory/mesh.h"
@@ -61,7 +62,9 @@ struct ContactMaterial {
 /// What keeps certificates: certificates/cells.h, or certificates/every_pair.h.
 enum class Certificates : std::uint8_t { cells, every_pair };
 
-/// Contact in a scene: which material two vertices' groups have, if they are not excluded from contact.
+/// Contact in a scene: which material two features have, if they are not excluded from contact. It follows from their
+/// groups, which are bodies, and from their classes, which tell within a body what is light and small and needs short
+/// steps from what does not.
 struct ContactSettings {
   static constexpr std::uint16_t excluded = 0xffff;
 
@@ -72,10 +75,27 @@ struct ContactSettings {
   std::vector<ContactMaterial> materials;
   std::vector<std::uint16_t> groups;  ///< of each vertex: its group, 0, 1, ..., group_count - 1
   std::uint16_t group_count = 1;
-  std::vector<std::uint16_t> material_of;  ///< [g * group_count + h]: of groups g and h, symmetric; or `excluded`
+  std::vector<std::uint8_t> classes;  ///< of each vertex: its class, 0, 1, ..., class_count - 1; empty: all are of one
+  std::uint16_t class_count = 1;
+  /// [((g * group_count + h) * class_count + a) * class_count + b]: of groups g and h, classes a and b, symmetric; or
+  /// `excluded`, then for all classes.
+  std::vector<std::uint16_t> material_of;
 
-  std::uint16_t material(VertexId i, VertexId j) const {
-    return material_of[static_cast<std::size_t>(groups[i]) * group_count + groups[j]];
+  std::size_t place(std::uint16_t g, std::uint16_t h, std::uint8_t a, std::uint8_t b) const {
+    return ((static_cast<std::size_t>(g) * group_count + h) * class_count + a) * class_count + b;
+  }
+  /// Of two features. The vertices of one are of one group; its class is the greatest of theirs.
+  std::uint16_t material(std::span<const VertexId> first, std::span<const VertexId> second) const {
+    return material_of[place(groups[first.front()], groups[second.front()], feature_class(first),
+                             feature_class(second))];
+  }
+
+ private:
+  std::uint8_t feature_class(std::span<const VertexId> vertices) const {
+    std::uint8_t greatest = 0;
+    if (classes.empty()) return greatest;
+    for (const VertexId v : vertices) greatest = std::max(greatest, classes[v]);
+    return greatest;
   }
 };
 

@@ -13,6 +13,7 @@ namespace noli::integrator {
 namespace {
 
 constexpr std::size_t most_bodies = 4096;  ///< there is a table of their pairs
+constexpr std::size_t most_classes = 16;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
@@ -39,21 +40,85 @@ struct Free {
   }
 };
 
-Free free_part(const BodyMesh& body, const BuiltBody& built, const std::vector<double>& inverse_mass) {
-  Free part;
+/// A body's classes: which vertex is of which, what of each counts, and what of all.
+struct Parts {
+  std::vector<std::uint8_t> classes;
+  std::vector<Free> of_class;
+  Free all;
+  double greatest_height = 0;
+
+  /// Heights of the class are at most this; infinity if there is one class only.
+  double bound_of(std::size_t c) const {
+    return of_class.size() == 1 ? infinity : std::ldexp(greatest_height, -static_cast<int>(c));
+  }
+};
+
+/// Of each vertex, the least height at rest of its cells; infinity of those that have none.
+std::vector<double> heights_of(const BodyMesh& body) {
+  std::vector<double> heights(body.mass.size(), infinity);
+  const auto look = [&](const auto& cells) {
+    for (const auto& cell : cells) {
+      for (const VertexId i : cell) heights[i] = std::min(heights[i], least_height(body.rest, cell));
+    }
+  };
+  look(body.shape.mesh.faces);
+  look(body.shape.mesh.edges);
+  return heights;
+}
+
+std::uint8_t class_of(double height, double greatest_height) {
+  std::uint8_t result = 0;
+  while (result + 1U < most_classes && height <= std::ldexp(greatest_height, -result - 1)) ++result;
+  return result;
+}
+
+Parts classify(const BodyMesh& body) {
+  Parts parts;
+  const std::vector<double> heights = heights_of(body);
+  for (const double height : heights) {
+    if (std::isfinite(height)) parts.greatest_height = std::max(parts.greatest_height, height);
+  }
+  std::uint8_t last = 0;
+  for (const double height : heights) {
+    parts.classes.push_back(class_of(height, parts.greatest_height));
+    last = std::max(last, parts.classes.back());
+  }
+  parts.of_class.resize(last + std::size_t{1});
+  return parts;
+}
+
+/// What does not move meets others as one.
+Parts in_one_class(const BodyMesh& body) { return {std::vector<std::uint8_t>(body.mass.size(), 0), {{}}, {}, 0}; }
+
+/// What a cell with a free vertex says, is said of the classes of all its vertices: features of these are parts of it.
+/// A feature of a class may have vertices of all before it.
+Parts parts_of(const BodyMesh& body, const BuiltBody& built, const std::vector<double>& inverse_mass) {
   const auto is_free = [&](VertexId i) { return inverse_mass[built.first + i] != 0; };
+  bool any_free = false;
+  for (VertexId i = 0; i < body.mass.size(); ++i) any_free |= is_free(i);
+  Parts parts = any_free ? classify(body) : in_one_class(body);
+  const auto add = [&](VertexId of, const Free& part) {
+    Free& all = parts.of_class[parts.classes[of]];
+    all = all | part;
+    parts.all = parts.all | part;
+  };
   const auto look = [&](const auto& cells) {
     for (const auto& cell : cells) {
       if (std::none_of(cell.begin(), cell.end(), is_free)) continue;
-      part.height = std::min(part.height, least_height(body.rest, cell));
+      for (const VertexId i : cell) add(i, Free{least_height(body.rest, cell), infinity, 0});
     }
   };
   look(body.shape.mesh.faces);
   look(body.shape.mesh.edges);
   for (VertexId i = 0; i < body.mass.size(); ++i) {
-    if (is_free(i)) part = part | Free{infinity, body.mass[i], body.mass[i]};
+    if (is_free(i)) add(i, Free{infinity, body.mass[i], body.mass[i]});
   }
-  return part;
+  for (std::size_t c = 0; c < parts.of_class.size(); ++c) {
+    Free& part = parts.of_class[c];
+    if (!part.any()) part = parts.all;
+    if (c > 0) part.height = std::min(part.height, parts.of_class[c - 1].height);
+  }
+  return parts;
 }
 
 template <int Dim>
@@ -189,25 +254,47 @@ class Materials {
  public:
   Materials(const Scene& scene, BuiltScene<Dim>& built)
       : scene_(scene), built_(built), speed_(meeting_speed(built.model)) {
-    const std::size_t n = built.bodies.size();
-    settings().group_count = static_cast<std::uint16_t>(n);
-    settings().material_of.assign(n * n, ContactSettings::excluded);
+    const std::size_t pairs = built.bodies.size() * built.bodies.size(), classes = settings().class_count;
+    settings().group_count = static_cast<std::uint16_t>(built.bodies.size());
+    settings().material_of.assign(pairs * classes * classes, ContactSettings::excluded);
   }
 
-  void add(const BodyPair& pair, const Free& part) {
+  void add(const BodyPair& pair, const Parts& first, const Parts& second) {
     const std::vector<BodyPair>& excluded = scene_.contact->excluded;
-    if (!part.any() || std::find(excluded.begin(), excluded.end(), pair) != excluded.end()) return;
+    if (!(first.all | second.all).any()) return;
+    if (std::find(excluded.begin(), excluded.end(), pair) != excluded.end()) return;
+    for (std::size_t a = 0; a < first.of_class.size(); ++a) {
+      const std::size_t begin = pair[0] == pair[1] ? a : 0;
+      for (std::size_t b = begin; b < second.of_class.size(); ++b) add(pair, {a, b}, first, second);
+    }
+  }
+
+ private:
+  void add(const BodyPair& pair, const std::array<std::size_t, 2>& classes, const Parts& first, const Parts& second) {
+    const Free part = together(first.of_class[classes[0]], second.of_class[classes[1]], classes);
     const PairContact contact(scene_, pair, part, speed_);
     const std::uint16_t id = find(contact.material());
     BuiltContact& use = built_.contact[id];
     use.least_mass = std::min(use.least_mass, part.least_mass);
     use.bound = std::min(use.bound, contact.bound());
-    use.pairs.push_back(pair);
-    const std::size_t n = built_.bodies.size();
-    settings().material_of[pair[0] * n + pair[1]] = settings().material_of[pair[1] * n + pair[0]] = id;
+    use.pairs.push_back({pair, {first.bound_of(classes[0]), second.bound_of(classes[1])}});
+    const auto g = static_cast<std::uint16_t>(pair[0]), h = static_cast<std::uint16_t>(pair[1]);
+    const auto a = static_cast<std::uint8_t>(classes[0]), b = static_cast<std::uint8_t>(classes[1]);
+    for (const std::size_t place : {settings().place(g, h, a, b), settings().place(h, g, b, a)}) {
+      settings().material_of[place] = id;
+    }
+    if (g != h) return;
+    settings().material_of[settings().place(g, g, b, a)] = id;
   }
 
- private:
+  /// Of two classes, not both the first, the lighter one is what is stopped.
+  static Free together(const Free& a, const Free& b, const std::array<std::size_t, 2>& classes) {
+    Free part = a | b;
+    if (classes[0] > 0 && a.any()) part.greatest_mass = std::min(part.greatest_mass, a.greatest_mass);
+    if (classes[1] > 0 && b.any()) part.greatest_mass = std::min(part.greatest_mass, b.greatest_mass);
+    return part;
+  }
+
   ContactSettings& settings() { return *built_.model.contact; }
 
   std::uint16_t find(const ContactMaterial& material) {
@@ -235,6 +322,14 @@ std::vector<std::uint16_t> groups_of(const std::vector<BuiltBody>& bodies) {
   return groups;
 }
 
+void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
+  for (const Parts& p : parts) {
+    settings.class_count = std::max(settings.class_count, static_cast<std::uint16_t>(p.of_class.size()));
+  }
+  if (settings.class_count == 1) return;
+  for (const Parts& p : parts) settings.classes.insert(settings.classes.end(), p.classes.begin(), p.classes.end());
+}
+
 }  // namespace
 
 template <int Dim>
@@ -249,13 +344,12 @@ void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const 
   built.model.contact->schedule = scene.contact->layers;
   built.model.contact->most_layers = scene.contact->most_layers;
   built.model.contact->groups = groups_of(built.bodies);
-  std::vector<Free> parts;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    parts.push_back(free_part(bodies[b], built.bodies[b], inverse_mass));
-  }
+  std::vector<Parts> parts;
+  for (std::size_t b = 0; b < bodies.size(); ++b) parts.push_back(parts_of(bodies[b], built.bodies[b], inverse_mass));
+  add_classes(parts, *built.model.contact);
   Materials<Dim> materials(scene, built);
   for (std::size_t a = 0; a < bodies.size(); ++a) {
-    for (std::size_t b = a; b < bodies.size(); ++b) materials.add({a, b}, parts[a] | parts[b]);
+    for (std::size_t b = a; b < bodies.size(); ++b) materials.add({a, b}, parts[a], parts[b]);
   }
 }
 

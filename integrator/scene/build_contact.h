@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the bodies of a scene meet: Model::contact. Each body is a group.
+// How the bodies of a scene meet: Model::contact. Each body is a group. A body that moves has a class for each power of
+// two by which the heights of its cells differ: a vertex is of the class of its lowest cell. So a mesh that is fine in
+// one place has thin layers with short steps there, and thicker ones with longer steps elsewhere.
 //
-// Notation, for a pair of bodies
+// Notation, for a pair of bodies, or of classes of them
 //   H        least height of a triangle at rest, or length of an edge that has no face, over the cells of the two
-//            bodies that have a free vertex
+//            bodies that have a free vertex; of a class, over those cells with a vertex of it or of one before it
 //   eta(1)   thickness, below H / 2: two features of one body that share no vertex are then farther apart at rest than
 //            a layer is thick, but for meshes that fold onto themselves
-//   m, M     least and greatest mass of the two bodies' free vertices
+//   m, M     least and greatest mass of the two bodies' free vertices; M of a class beside a lighter one: that one's
 //   v        a speed at which things may meet: the greatest at the start, the greatest of a script, and
 //            sqrt(2 g . (lowest - highest)), added; at least eta(1) / window
 //

@@ -42,11 +42,17 @@ struct BuiltBody {
                             ///< than two loose edges: nothing bends there
 };
 
+/// Two bodies, or of each the vertices whose cells are of one class (integrator/scene/build_contact.h).
+struct BuiltPair {
+  std::array<std::size_t, 2> bodies;
+  std::array<double, 2> heights_up_to;  ///< of cells [m]; infinite: all of the body
+};
+
 /// What became of how bodies meet: one of the model's materials.
 struct BuiltContact {
-  double least_mass = 0;                          ///< of the free vertices of the bodies that have it [kg]
-  double bound = 0;                               ///< its thickness is below this [m]; infinite if nothing bounds it
-  std::vector<std::array<std::size_t, 2>> pairs;  ///< of bodies; those of which nothing is free are not there
+  double least_mass = 0;         ///< of the free vertices of the bodies that have it [kg]
+  double bound = 0;              ///< its thickness is below this [m]; infinite if nothing bounds it
+  std::vector<BuiltPair> pairs;  ///< those of which nothing is free are not there
 };
 
 template <int Dim>

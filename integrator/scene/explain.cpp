@@ -98,6 +98,13 @@ void survey_forces(const Forces<double, 2>& forces, Survey& survey) {
   survey.forces(forces.turnings.forces.size(), "turning angles", "no curve with a bending stiffness can move");
 }
 
+template <int Dim>
+std::string part_name(const BuiltScene<Dim>& built, const BuiltPair& pair, std::size_t side) {
+  const std::string& name = built.bodies[pair.bodies[side]].name;
+  const double heights = pair.heights_up_to[side];
+  return std::isfinite(heights) ? fmt::format("{} (cells up to {:.3g} m)", name, heights) : name;
+}
+
 /// What bodies do to each other.
 template <int Dim>
 void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
@@ -108,7 +115,8 @@ void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
     const BuiltContact& use = built.contact[i];
     const ContactMaterial& m = built.model.contact->materials[i];
     PredictedContact predicted{{}, m, m.step / std::sqrt(use.least_mass / (2 * m.stiffness)), use.bound};
-    for (const auto& [a, b] : use.pairs) predicted.pairs.push_back({built.bodies[a].name, built.bodies[b].name});
+    for (const BuiltPair& pair : use.pairs)
+      predicted.pairs.push_back({part_name(built, pair, 0), part_name(built, pair, 1)});
     e.contact.push_back(std::move(predicted));
   }
 }

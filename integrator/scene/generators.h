@@ -10,7 +10,7 @@
 //            vertices, as many as edges
 //   ring     n vertices, the first on the x axis, counterclockwise
 //   grid     rows from bottom to top; in each cell the diagonal from left bottom to right top, or, alternating, in
-//            every second cell the other one. Faces look to +z
+//            every second cell the other one; finer in one place as refine.h says. Faces look to +z
 //   ribbon   rows across the band, from first to last; a row's direction is that of the one before, made perpendicular
 //            to the curve. Faces as those of a grid with the curve as its x
 //   disc     the centre, then rings of 6, 12, 18, ... vertices. Faces look to +z

@@ -4,6 +4,7 @@
 
 #include "noli/integrator/scene/curve.h"
 #include "noli/integrator/scene/generators.h"
+#include "noli/integrator/scene/refine.h"
 #include "noli/integrator/scene/turn.h"
 
 namespace noli::integrator {
@@ -24,6 +25,16 @@ void add_lattice_faces(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, Di
 /// Coordinate i of n + 1 equally spaced ones from -size/2 to size/2: symmetric bit for bit.
 double centred(std::uint32_t i, std::uint32_t n, double size) {
   return (static_cast<double>(2 * std::int64_t{i} - n) / n) * (size / 2);
+}
+
+/// Vertices of which this holds.
+template <class Holds>
+std::vector<VertexId> vertices_where(const Shape& shape, const Holds& holds) {
+  std::vector<VertexId> ids;
+  for (VertexId i = 0; i < shape.positions.size(); ++i) {
+    if (holds(shape.positions[i])) ids.push_back(i);
+  }
+  return ids;
 }
 
 std::vector<VertexId> stride(VertexId first, VertexId step, std::uint32_t count) {
@@ -67,11 +78,16 @@ Shape make_shape(const Grid& grid) {
     for (std::uint32_t i = 0; i <= nx; ++i) shape.add({centred(i, nx, grid.size[0]), centred(j, ny, grid.size[1]), 0});
   }
   add_lattice_faces(shape.mesh, nx, ny, grid.diagonals);
-  const VertexId row = nx + 1, top = ny * row;
-  shape.sets = {{"left", stride(0, row, ny + 1)},
-                {"right", stride(nx, row, ny + 1)},
-                {"bottom", stride(0, 1, row)},
-                {"top", stride(top, 1, row)},
+  if (grid.refine) {
+    const double x = grid.size[0] / nx, y = grid.size[1] / ny;
+    refine(shape, grid.refine->at, grid.refine->radius, std::sqrt(x * x + y * y) / grid.refine->factor);
+  }
+  const double x = grid.size[0] / 2, y = grid.size[1] / 2;
+  const VertexId top = ny * (nx + 1);
+  shape.sets = {{"left", vertices_where(shape, [x](const Position& p) { return p[0] == -x; })},
+                {"right", vertices_where(shape, [x](const Position& p) { return p[0] == x; })},
+                {"bottom", vertices_where(shape, [y](const Position& p) { return p[1] == -y; })},
+                {"top", vertices_where(shape, [y](const Position& p) { return p[1] == y; })},
                 {"left_bottom", {0}},
                 {"right_bottom", {nx}},
                 {"left_top", {top}},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "noli/integrator/scene/read_body.h"
 
 namespace noli::integrator {
@@ -23,10 +25,27 @@ Chain read_chain(const Field& f) {
 
 Ring read_ring(const Field& f) { return {f["radius"].number(), f["segments"].count()}; }
 
+/// About eight triangles of the least size for each square of the fine edge within the radius.
+void require_few_fine(const Field& f, const Grid& grid) {
+  const double x = grid.size[0] / grid.cells[0], y = grid.size[1] / grid.cells[1];
+  const double across = 2 * grid.refine->radius * grid.refine->factor / std::sqrt(x * x + y * y);
+  require_few(f, 8 * across * across);
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (std::abs(grid.refine->at[k]) <= grid.size[k] / 2) continue;
+    f["at"][k].fail(fmt::format("expected a place in the grid, from {} to {} [m], found {}", -grid.size[k] / 2,
+                                grid.size[k] / 2, grid.refine->at[k]));
+  }
+}
+
 Grid read_grid(const Field& f) {
-  Grid grid{f["size"].numbers<2>(), f["cells"].counts<2>(), Diagonals::alternating};
+  Grid grid{f["size"].numbers<2>(), f["cells"].counts<2>(), Diagonals::alternating, {}};
   if (f["diagonals"].text() == "parallel") grid.diagonals = Diagonals::parallel;
   require_few(f["cells"], (grid.cells[0] + 1.0) * (grid.cells[1] + 1.0));
+  if (f.has("refine")) {
+    const Field fine = f["refine"];
+    grid.refine = FinePlace{fine["at"].numbers<2>(), fine["factor"].number(), fine["radius"].number()};
+    require_few_fine(fine, grid);
+  }
   return grid;
 }
 

@@ -47,10 +47,18 @@ struct Ring {
 
 enum class Diagonals : std::uint8_t { alternating, parallel };
 
+/// Where a grid's triangles are smaller, so many times.
+struct FinePlace {
+  std::array<double, 2> at{};
+  double factor = 2, radius = 0;
+  friend bool operator==(const FinePlace&, const FinePlace&) = default;
+};
+
 struct Grid {
   std::array<double, 2> size{1, 1};
   std::array<std::uint32_t, 2> cells{1, 1};
   Diagonals diagonals = Diagonals::alternating;
+  std::optional<FinePlace> refine;
   friend bool operator==(const Grid&, const Grid&) = default;
 };
 

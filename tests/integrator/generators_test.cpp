@@ -243,7 +243,7 @@ TEST(Generators, Ring) {
 
 TEST(Generators, Grid) {
   for (const Diagonals diagonals : {Diagonals::alternating, Diagonals::parallel}) {
-    const Shape shape = make_shape(Grid{{0.3, 0.7}, {6, 4}, diagonals});
+    const Shape shape = make_shape(Grid{{0.3, 0.7}, {6, 4}, diagonals, {}});
     expect_sound(shape);
     EXPECT_EQ(shape.mesh.vertex_count, 35u);
     EXPECT_EQ(shape.mesh.faces.size(), 48u);
@@ -258,8 +258,54 @@ TEST(Generators, Grid) {
   }
 }
 
+double longest_edge(const Shape& shape, const std::array<VertexId, 3>& f) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    longest = std::max(longest, std::sqrt((at(shape, f[k]) - at(shape, f[(k + 1) % 3])).squaredNorm()));
+  }
+  return longest;
+}
+
+class FineGrid : public testing::TestWithParam<FinePlace> {};
+
+INSTANTIATE_TEST_SUITE_P(Generators, FineGrid,
+                         testing::Values(FinePlace{{0.11, -0.07}, 50, 0}, FinePlace{{0, 0}, 8, 0},
+                                         FinePlace{{0.5, 0.5}, 20, 0}, FinePlace{{-0.5, 0.2}, 10, 0.05}));
+
+TEST_P(FineGrid, IsFineThereAndSoundEverywhere) {
+  const FinePlace place = GetParam();
+  const double diagonal = std::sqrt(2.0) / 10, fine = diagonal / place.factor;
+  for (const Diagonals diagonals : {Diagonals::alternating, Diagonals::parallel}) {
+    const Shape shape = make_shape(Grid{{1, 1}, {10, 10}, diagonals, place});
+    expect_sound(shape);
+    EXPECT_TRUE(oriented(shape.mesh));
+    EXPECT_EQ(euler_characteristic(shape.mesh), 1) << "no vertex inside an edge";
+    EXPECT_NEAR(area(shape), 1, 1e-14);
+    double longest = 0, shortest = 1;
+    for (const auto& f : shape.mesh.faces) {
+      EXPECT_NEAR(normal(shape, f)[2] / (longest_edge(shape, f) * longest_edge(shape, f)), 0.5, 1e-9) << "its shape";
+      longest = std::max(longest, longest_edge(shape, f));
+      shortest = std::min(shortest, longest_edge(shape, f));
+    }
+    EXPECT_NEAR(longest, diagonal, 1e-15);
+    EXPECT_LE(shortest, fine * (1 + 1e-12));
+    EXPECT_GT(shortest, 0.49 * fine);
+    EXPECT_LT(shape.mesh.faces.size(), 200 + 400u + (place.radius > 0 ? 1000 : 0));
+  }
+}
+
+TEST(Generators, AFineGridsSetsHaveTheVerticesOfItsRim) {
+  const Shape shape = make_shape(Grid{{2, 1}, {4, 2}, Diagonals::alternating, FinePlace{{1, 0.1}, 10, 0}});
+  EXPECT_GT(shape.sets.at("right").size(), 6u);
+  for (const VertexId i : shape.sets.at("right")) EXPECT_EQ(shape.positions[i][0], 1);
+  const auto right = static_cast<std::size_t>(
+      std::count_if(shape.positions.begin(), shape.positions.end(), [](const Position& x) { return x[0] == 1; }));
+  EXPECT_EQ(shape.sets.at("right").size(), right);
+  EXPECT_EQ(shape.sets.at("left").size(), 3u);
+}
+
 TEST(Generators, SetsOfAGridAreWhereTheirNamesSay) {
-  const Shape shape = make_shape(Grid{{2, 1}, {4, 2}, Diagonals::alternating});
+  const Shape shape = make_shape(Grid{{2, 1}, {4, 2}, Diagonals::alternating, {}});
   const auto all = [&shape](const char* set, std::size_t count, auto holds) {
     const auto& ids = shape.sets.at(set);
     EXPECT_EQ(ids.size(), count) << set;

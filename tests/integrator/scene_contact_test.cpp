@@ -95,6 +95,59 @@ TEST(SceneContact, CellsThatCannotMoveDoNotBound) {
   EXPECT_NEAR(settings(scene).materials[0].thickness, sheet_bound / 2, 1e-15);
 }
 
+/// A sheet of 8 x 8 cells that is 16 times finer at one place.
+Json graded(const Json& contact) {
+  Json scene = sheets(contact);
+  scene["bodies"][0]["mesh"]["grid"]["cells"] = {8, 8};
+  scene["bodies"][0]["mesh"]["grid"]["refine"] = {{"at", {0.1, 0.2}}, {"factor", 16}};
+  return scene;
+}
+
+TEST(SceneContact, WhatIsFineInOnePlaceIsOfClassesThere) {
+  const Json scene = graded({{"stiffness", 100}});
+  const BuiltScene<3> whole = built(scene);
+  const ContactSettings& s = *whole.model.contact;
+  ASSERT_EQ(s.class_count, 5) << "2^0 to 2^-4 of the height";
+  ASSERT_EQ(s.classes.size(), whole.model.x.size());
+  const VertexId corner = 0, high = whole.bodies[1].first;
+  const auto fine = static_cast<VertexId>(std::max_element(s.classes.begin(), s.classes.end()) - s.classes.begin());
+  EXPECT_EQ(s.classes[corner], 0);
+  EXPECT_EQ(s.classes[high], 0);
+  EXPECT_EQ(s.classes[fine], 4);
+  const auto of = [&](const std::vector<VertexId>& a, const std::vector<VertexId>& b) {
+    return s.materials.at(s.material(a, b));
+  };
+  EXPECT_EQ(of({corner}, {fine, corner}), of({fine}, {corner})) << "a feature is of its finest vertex's class";
+  EXPECT_EQ(of({fine}, {corner}), of({corner}, {fine}));
+  EXPECT_GT(of({corner}, {corner}).thickness, 8 * of({corner}, {fine}).thickness);
+  EXPECT_GT(of({corner}, {corner}).step, 8 * of({fine}, {fine}).step);
+  EXPECT_GT(of({corner}, {high}).thickness, 8 * of({fine}, {high}).thickness);
+  for (const BuiltContact& c : whole.contact) {
+    const ContactMaterial& m = s.materials[static_cast<std::size_t>(&c - whole.contact.data())];
+    EXPECT_LT(m.thickness, c.bound);
+    EXPECT_NEAR(m.step, 0.05 * std::sqrt(c.least_mass / (2 * m.stiffness)), 1e-15);
+  }
+}
+
+TEST(SceneContact, AThicknessForAllIsBelowWhatTheFinestClassAllows) {
+  EXPECT_NO_THROW(built(graded({{"thickness", 1e-4}})));
+  const ContactSettings s = settings(graded({{"thickness", 1e-4}, {"stiffness", 10}}));
+  EXPECT_TRUE(std::all_of(s.materials.begin(), s.materials.end(), [](auto& m) { return m.thickness == 1e-4; }));
+  EXPECT_GT(s.materials.size(), 1u) << "steps differ still";
+  EXPECT_THROW(built(graded({{"thickness", 0.02}})), InputError);
+  EXPECT_NO_THROW(built(sheets({{"thickness", 0.02}})));
+}
+
+TEST(SceneContact, ClassesOfWhatIsExcludedAreAllExcluded) {
+  const ContactSettings s = settings(graded(R"({"exclude": [["low", "high"]]})"_json));
+  for (std::uint8_t a = 0; a < s.class_count; ++a) {
+    for (std::uint8_t b = 0; b < s.class_count; ++b) {
+      EXPECT_EQ(s.material_of[s.place(0, 1, a, b)], ContactSettings::excluded);
+      EXPECT_EQ(s.material_of[s.place(1, 0, a, b)], ContactSettings::excluded);
+    }
+  }
+}
+
 TEST(SceneContact, WhatIsSaidIsTaken) {
   const Json contact = R"({"thickness": 0.05, "stiffness": 200, "stability": 0.1, "newton_restitution": 0.5,
       "friction": 0.25, "most_layers": 7,
@@ -122,7 +175,7 @@ TEST(SceneContact, PairsHaveWhatIsSaidOfThemAndTheRestOfAll) {
   EXPECT_EQ(s.groups[8], 0);
   EXPECT_EQ(s.groups[9], 1);
   EXPECT_EQ(s.groups[26], 2);
-  const auto of = [&](VertexId i, VertexId j) { return s.materials.at(s.material(i, j)); };
+  const auto of = [&](VertexId i, VertexId j) { return s.materials.at(s.material(std::array{i}, std::array{j})); };
   EXPECT_EQ(of(0, 9), of(9, 0));
   EXPECT_EQ(of(0, 9).friction, 0.5);
   EXPECT_NEAR(of(0, 9).step, 0.02 * std::sqrt(light / 200), 1e-16) << "its stability, not the step of all";
@@ -131,8 +184,9 @@ TEST(SceneContact, PairsHaveWhatIsSaidOfThemAndTheRestOfAll) {
   EXPECT_NEAR(of(0, 18).restitution, 0.01, 1e-17);
   EXPECT_EQ(of(0, 18).step, 0.001);
   EXPECT_EQ(of(0, 0), of(9, 18)) << "that of all";
-  EXPECT_EQ(s.material(9, 10), ContactSettings::excluded);
-  EXPECT_EQ(s.material(18, 19), ContactSettings::excluded) << "nothing there can move";
+  EXPECT_EQ(s.material(std::array{VertexId{9}}, std::array{VertexId{10}}), ContactSettings::excluded);
+  EXPECT_EQ(s.material(std::array{VertexId{18}}, std::array{VertexId{19}}), ContactSettings::excluded)
+      << "nothing there can move";
 }
 
 struct Bad {

@@ -36,7 +36,7 @@ TEST(ReadScene, TheLeastSceneTakesDefaults) {
   ASSERT_EQ(scene.bodies.size(), 1u);
   const Body& body = scene.bodies[0];
   EXPECT_EQ(body.name, "body0");
-  EXPECT_EQ(std::get<Grid>(body.mesh), (Grid{{1, 1}, {2, 2}, Diagonals::alternating}));
+  EXPECT_EQ(std::get<Grid>(body.mesh), (Grid{{1, 1}, {2, 2}, Diagonals::alternating, {}}));
   EXPECT_EQ(body.deform, Deform{});
   EXPECT_EQ(body.transform, Transform{});
   EXPECT_EQ(std::get<ElasticMaterial>(body.material.kind), (ElasticMaterial{1e5, 0.3, 1000, 0.01, 0.01, 1}));
@@ -340,6 +340,21 @@ class Fields {
  private:
   const Json root_ = Json::parse(scene_schema_text());
 };
+
+TEST(ReadScene, AFinePlaceIsInTheGridAndOfAFewVertices) {
+  const auto with = [](const char* refine) {
+    return changed(sheet(), "/bodies/0/mesh/grid/refine", Json::parse(refine));
+  };
+  const Scene scene = parse_scene(with(R"({"at": [0.25, -0.5], "factor": 7})").dump(), "s.json");
+  EXPECT_EQ(std::get<Grid>(scene.bodies[0].mesh).refine, (FinePlace{{0.25, -0.5}, 7, 0}));
+  const auto expect_refused = [&](const char* refine, const char* where) {
+    EXPECT_NE(problem_of(with(refine)).find(where), std::string::npos) << problem_of(with(refine));
+  };
+  expect_refused(R"({"at": [0.25, -0.6], "factor": 7})", "/bodies/0/mesh/grid/refine/at/1");
+  expect_refused(R"({"at": [0, 0], "factor": 1})", "/bodies/0/mesh/grid/refine/factor");
+  expect_refused(R"({"at": [0, 0], "factor": 1e6, "radius": 1})", "/bodies/0/mesh/grid/refine");
+  expect_refused(R"({"at": [0, 0]})", "/bodies/0/mesh/grid/refine");
+}
 
 TEST(ReadScene, TheScenesWithEveryFieldHaveEveryField) {
   const Json schema = Json::parse(scene_schema_text());

@@ -66,7 +66,8 @@ std::vector<Json> scenes_with_every_field() {
     "record": "frames", "frame_rate": 24.5, "steps": "own", "step_factor": 0.25, "allow_unstable": true,
     "gravity": [0.5, 0.25, -9.81], "gravity_step": 0.125,
     "bodies": [
-      {"mesh": {"grid": {"size": [1.5, 2.5], "cells": [4, 5], "diagonals": "parallel"}},
+      {"mesh": {"grid": {"size": [1.5, 2.5], "cells": [4, 5], "diagonals": "parallel",
+                         "refine": {"at": [0.5, -0.75], "factor": 3, "radius": 0.125}}},
        "deform": {"stretch": [1.5, 1.25, 1.75], "twist": 10.5},
        "transform": {"scale": 2.5, "rotate": {"axis": [0.5, 1.5, 2.5], "degrees": 30.5}, "translate": [1.5, 2.5, 3.5]},
        "perturb": 0.5,

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What steps of their own save where a mesh is fine in one place and in contact (scenes/graded_sheet.json): a cloth
+// whose triangles are fifty times smaller in one place, between a ball and another cloth. Beside it the same with one
+// step for all forces, the shortest of them, and one for all first layers, the shortest of theirs: same potentials, same
+// integrator, same certificates.
+//
+// Energy error: the largest difference from the beginning at the ends of windows, in parts of the beginning.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "noli/bench/bench.h"
+#include "noli/bench/one_step.h"
+#include "noli/bench/report.h"
+#include "noli/bench/timing.h"
+#include "noli/integrator/scene/build_model.h"
+#include "noli/integrator/scene/read_scene.h"
+#include "noli/integrator/simulation.h"
+#include "noli/trajectory/text.h"
+
+namespace noli::bench {
+namespace {
+
+using integrator::ForceKind;
+using Model = integrator::Model<double, 3>;
+using Simulation = integrator::Simulation<double, 3>;
+
+constexpr int windows = 6;  ///< 12 ms: the cloths meet each other and the ball
+
+Model graded() {
+  const auto file = std::filesystem::path(NOLI_SOURCE_DIR) / "scenes/graded_sheet.json";
+  return integrator::build_model<3>(integrator::parse_scene(read_whole_file(file), file.string())).model;
+}
+
+Model with_one_step(Model model) {
+  set_steps(model, least_step(model));
+  double least = model.contact->materials.front().step;
+  for (const auto& m : model.contact->materials) least = std::min(least, m.step);
+  for (auto& m : model.contact->materials) m.step = least;
+  return model;
+}
+
+struct Measured {
+  std::uint64_t events = 0, impulses = 0;
+  double seconds = 0, energy_error = 0;
+};
+
+double energy(const Simulation& simulation) {
+  const auto state = simulation.state();
+  return state.kinetic_mean + state.potential_sum();
+}
+
+Measured simulate(const Model& model) {
+  Simulation simulation(model);
+  integrator::Books<double, 3> books;
+  const double start = energy(simulation);
+  Measured result;
+  for (int i = 0; i < windows; ++i) {
+    const double begin = seconds();
+    simulation.run_window(books);
+    result.seconds += seconds() - begin;
+    result.energy_error = std::max(result.energy_error, std::abs(energy(simulation) - start) / start);
+  }
+  result.events = simulation.events();
+  result.impulses = books.of(ForceKind::contact).events;
+  return result;
+}
+
+void add_row(Table& table, const char* name, const Measured& measured) {
+  table.row({name, fmt::format("{}", measured.events), fmt::format("{}", measured.impulses),
+             fmt::format("{:.2f}", measured.seconds), fmt::format("{:.1e}", measured.energy_error)});
+}
+
+}  // namespace
+
+/// The run with one step takes minutes: it is made once, the other one several times.
+bool run() {
+  const Model model = graded();
+  const Measured one = simulate(with_one_step(model));
+  std::vector<double> times;
+  Measured own;
+  for (int i = 0; i < passes; ++i) {
+    own = simulate(model);
+    times.push_back(own.seconds);
+  }
+  own.seconds = median(times);
+  Table table({"graded sheet in contact", "events", "impulses of layers", "s", "energy error"});
+  add_row(table, "steps by groups and classes", own);
+  add_row(table, "one step for all", one);
+  std::fputs(fmt::format("\n{}\n{:.1f} times less time, {:.2f} of the energy error\n", table.text(),
+                         one.seconds / own.seconds, own.energy_error / one.energy_error)
+                 .c_str(),
+             stdout);
+  return true;
+}
+
+}  // namespace noli::bench
