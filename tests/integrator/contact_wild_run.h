@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs a small scene and has each window verified before it counts, as `noli simulate` does.
+#pragma once
+
+#include <optional>
+
+#include "contact_models.h"
+#include "noli/integrator/contact_limit.h"
+#include "noli/proofs/prover/window_verifier.h"
+
+namespace noli::integrator::test {
+
+struct Ending {
+  int windows = 0;             ///< verified; nothing touches in them
+  std::uint64_t impulses = 0;  ///< of contact, in those and in the one that was broken off
+  std::uint32_t deepest = 0;   ///< layer
+  // Why the window after those is not committed, if it is not:
+  bool touched = false;  ///< exact arithmetic found a contact
+  bool not_finite = false;
+  bool long_winded = false;           ///< more turns than allowed
+  std::optional<ContactLimit> limit;  ///< a pair needed too many layers
+
+  bool stopped() const { return touched || not_finite || long_winded || limit.has_value(); }
+};
+
+/// Up to so many windows, or the first that is not to be committed. `most_turns`: of the loop over events (layers that
+/// fire for nothing count too); it is asked for every 2^14 of them.
+template <int Dim>
+Ending run_verified(const Model<double, Dim>& model, int windows, std::uint64_t most_turns) {
+  WindowOptions options;
+  options.threads = 1;
+  options.dimension = Dim;
+  const WindowVerifier verifier(model.mesh, positions(model), options);
+  Simulation<double, Dim> simulation(model);
+  Recording<double, Dim> recording;
+  Ending ending;
+  std::uint64_t turns = 0;
+  while (ending.windows < windows && !ending.stopped()) {
+    recording.clear();
+    Books<double, Dim> books;
+    try {
+      ending.long_winded = !simulation.run_window(recording, books, [&] { return (turns += 1 << 14) > most_turns; });
+    } catch (const ContactLimit& limit) {
+      ending.limit = limit;
+    }
+    ending.impulses += books.of(ForceKind::contact).events;
+    ending.deepest = simulation.certificates().deepest;
+    ending.not_finite = !simulation.finite();
+    if (ending.stopped()) return ending;
+    const WindowResult result = verifier.verify(world_lines<Dim>(recording, model.x.size()), options);
+    ending.touched = !result.complete || result.contact_count() + result.initial_intersections > 0;
+    if (ending.touched) return ending;
+    ++ending.windows;
+  }
+  return ending;
+}
+
+}  // namespace noli::integrator::test
