@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bodies that are kicked at random times and never meet: something for certificates to follow that is no physics, has
+// no forces to cost time, and comes near and parts as often as one likes.
+//
+// Notation: that of certificates_troupe.h, and
+//   drift     all boxes move with it
+//   due       of a vertex: by then it is kicked again, at the latest; until then it does not get past where it heads
+//   window    all vertices are advanced to its end, as in integrator/engine.h. What is recorded is what the engine
+//             would record: fl(x + (t - t_i) v) at each change of velocity
+//   fault     what the certificates are told wrongly, for tests of the test
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <queue>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "certificates_replay.h"
+#include "certificates_troupe.h"
+#include "noli/certificates/features.h"
+#include "noli/certificates/near_pair.h"
+#include "noli/tests/kernel/random_numbers.h"
+
+namespace noli::certificates::test {
+
+enum class Fault {
+  none,
+  late,       ///< a layer is active a little later than it was asked for
+  thin,       ///< layers are two in a hundred thinner than said
+  forgetful,  ///< one look in eight is left out
+};
+
+/// eta(l) = eta(1) l^(-1/4).
+inline double layer(double eta, std::uint32_t l) { return eta / std::sqrt(std::sqrt(static_cast<double>(l))); }
+
+/// What is random about a dance. Lengths in units of eta(1), times in units of the mean time between kicks of a vertex.
+struct DanceOptions {
+  std::uint64_t seed = 0;
+  double eta = 0.01, beat = 0.001;  ///< the units [m], [s]
+  double offset = 0;                ///< of the origin
+  double drift = 0;                 ///< speed
+  double start = 0;                 ///< time
+  int bodies = 6;
+  double slice = 10;  ///< the longest
+  Fault fault = Fault::none;
+};
+
+/// A pair that certificates follow or not: how many layers it has since when in this window.
+template <int Dim>
+struct Followed {
+  struct Change {
+    double t;
+    std::uint32_t layers;
+  };
+
+  Stencil stencil;
+  std::uint16_t material;
+  std::vector<Change> changes;  ///< the first at the window's beginning
+  Vector<Dim> n = Vector<Dim>::Zero();
+};
+
+template <int Dim, template <int, class> class Certificates>
+class Dance {
+ public:
+  explicit Dance(const DanceOptions& o) : options_(o), random_(o.seed) {
+    const Troupe<Dim> troupe = TroupeMaker<Dim>(random_, o.eta).make(o.bodies);
+    mesh_ = troupe.mesh;
+    group_ = troupe.group;
+    immovable_ = troupe.immovable;
+    reach_ = troupe.reach;
+    t_ = o.start * o.beat;
+    choose_frame();
+    const Vector<Dim> origin = Vector<Dim>::Constant(0.7 * o.offset * o.eta);
+    for (const Vector<Dim>& home : troupe.home) home_.push_back(origin + frame_ * home);
+    for (std::size_t i = 0; i < home_.size(); ++i) bodies_.push_back({home_[i], t_, drift_});
+    excluded_ = random_.below(4) == 0;
+    follow_all();
+    set_clocks();
+    make_certificates();
+    begin_window();
+    certificates_->start(t_);
+  }
+  Dance(const Dance&) = delete;
+  Dance& operator=(const Dance&) = delete;
+
+  /// Some sixty kicks of each vertex.
+  void run_window() {
+    const double end = t_ + 64 * options_.beat;
+    while (due_.top().first <= end) {
+      const auto [t, i] = due_.top();
+      due_.pop();
+      run_certificates(t);
+      t_ = t;
+      figure(i);
+    }
+    run_certificates(end);
+    t_ = end;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) advance(static_cast<VertexId>(i), end);
+  }
+
+  /// The pair that was nearer than its next layer in this window, or none. Then the next window may begin.
+  std::optional<Stencil> replay() {
+    Replay<Dim> replay(tracks_);
+    std::optional<Stencil> late;
+    for (Followed<Dim>& pair : followed_) {
+      for (std::size_t k = 0; k < pair.changes.size() && !late; ++k) {
+        const double begin = pair.changes[k].t;
+        const double end = k + 1 < pair.changes.size() ? std::min(pair.changes[k + 1].t, t_) : t_;
+        const double eta = layer(eta_of(pair.material), pair.changes[k].layers + 1);
+        if (begin < end && !replay.stays_farther(pair.stencil, begin, end, eta, pair.n)) late = pair.stencil;
+      }
+    }
+    counts_ += replay.counts();
+    begin_window();
+    return late;
+  }
+
+  std::uint64_t kicks() const { return kicks_; }
+  const ReplayCounts& replayed() const { return counts_; }
+  const CertificateCounts& certificates() const { return certificates_->counts(); }
+
+  // --- Host of the certificates --------------------------------------------------------------------------------------
+
+  Line<Dim> line(VertexId i) const { return bodies_[i]; }
+  bool immovable(VertexId i) const { return immovable_[i]; }
+  std::uint16_t material(const Stencil& s) const {
+    const std::uint16_t g = group_[s.vertices[0]], h = group_[s.vertices[s.first()]];
+    if (excluded_ && g + h == 3) return no_material;
+    return g < 2 && h < 2 ? 0 : 1;
+  }
+  double thickness(std::uint16_t material, std::uint32_t l) const {
+    return (options_.fault == Fault::thin ? 0.98 : 1) * layer(eta_of(material), l);
+  }
+  double look_step(VertexId i) const { return steps_[i]; }
+  std::uint32_t least_layers() const { return 0; }
+  double greatest_thickness(VertexId) const { return eta_of(0); }
+  int in_broad_phase() const { return 0; }
+
+  void activate(const Stencil& s, std::uint16_t, std::uint32_t l, double t) {
+    if (l > 1000) throw std::logic_error("dance: a pair came too near");
+    change(s, l, options_.fault == Fault::late ? t + 0.02 * options_.beat : t);
+  }
+  void deactivate(const Stencil& s, std::uint16_t, std::uint32_t l) { change(s, l - 1, t_); }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  double eta_of(std::uint16_t material) const { return material == 0 ? options_.eta : 0.7 * options_.eta; }
+
+  double signed_unit() { return 2 * random_.unit() - 1; }
+
+  // --- Before --------------------------------------------------------------------------------------------------------
+
+  /// Orthonormal but for rounding; the drift has a direction too.
+  void choose_frame() {
+    for (int d = 0; d < Dim; ++d) {
+      Vector<Dim> e;
+      do {
+        for (int k = 0; k < Dim; ++k) e[k] = signed_unit();
+        for (int k = 0; k < d; ++k) e -= frame_.col(k).dot(e) * Vector<Dim>(frame_.col(k));
+      } while (e.squaredNorm() < 0.01);
+      frame_.col(d) = e / std::sqrt(e.squaredNorm());
+    }
+    for (int k = 0; k < Dim; ++k) drift_[k] = options_.drift * options_.eta / options_.beat * signed_unit();
+  }
+
+  /// All pairs that are any.
+  void follow_all() {
+    const Features features(mesh_, Dim);
+    const auto cells = static_cast<std::uint32_t>(features.cells().size());
+    for (std::uint32_t a = 0; a < cells; ++a) {
+      for (std::uint32_t b = a + 1; b < cells; ++b) {
+        features.for_each_pair(a, b, [this](const Stencil& s) {
+          const std::uint16_t m = material_of(*this, s);
+          if (m == no_material) return;
+          index_.emplace(s.key, followed_.size());
+          followed_.push_back({s, m, {{t_, 0}}, Vector<Dim>::Zero()});
+        });
+      }
+    }
+  }
+
+  /// Some vertices are kicked at multiples of a step, others whenever.
+  void set_clocks() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const bool regular = !immovable_[i] && random_.below(2) == 0;
+      steps_.push_back(regular ? options_.beat * (0.3 + random_.unit()) : never);
+      next_.push_back(0);
+      choose_due(static_cast<VertexId>(i));
+    }
+  }
+
+  void make_certificates() {
+    if constexpr (std::is_constructible_v<Certificates<Dim, Dance>, Dance&, const Mesh&>) {
+      certificates_.emplace(*this, mesh_);
+    } else {
+      certificates_.emplace(*this, mesh_, std::span<const Vector<Dim>>(home_), options_.slice * options_.beat);
+    }
+  }
+
+  // --- Kicks ---------------------------------------------------------------------------------------------------------
+
+  void choose_due(VertexId i) {
+    const double h = steps_[i], u = random_.unit();
+    double t = t_ + options_.beat * (0.05 + 2 * u * u);
+    if (h != never) {
+      auto k = static_cast<std::uint64_t>(t_ / h);
+      while (static_cast<double>(k) * h <= t_) ++k;
+      t = static_cast<double>(k) * h;
+    }
+    next_[i] = t;
+    due_.push({t, i});
+  }
+
+  void run_certificates(double until) {
+    while (certificates_->next_time() <= until) {
+      t_ = certificates_->next_time();
+      certificates_->run_next();
+    }
+  }
+
+  /// The vertex is due; others may be kicked with it, as by a layer.
+  void figure(VertexId i) {
+    choose_due(i);
+    std::vector<VertexId> struck{i};
+    if (random_.below(4) == 0) {
+      const Stencil& s = followed_[static_cast<std::size_t>(random_.below(static_cast<int>(followed_.size())))].stencil;
+      struck.insert(struck.end(), s.vertices.begin(), s.vertices.begin() + static_cast<std::ptrdiff_t>(s.size()));
+    }
+    for (const VertexId v : struck) {
+      if (v == i || random_.below(8) > 0) kick(v);
+    }
+    for (const VertexId v : struck) look(v);
+    drop_some();
+  }
+
+  void look(VertexId v) {
+    if (options_.fault == Fault::forgetful && random_.below(8) == 0) return;
+    certificates_->look(v, t_);
+  }
+
+  /// Heads for some place of its box; or rests, or creeps.
+  void kick(VertexId i) {
+    const int mood = random_.below(16);
+    if (!(next_[i] > t_)) return;
+    advance(i, t_);
+    ++kicks_;
+    Line<Dim>& body = bodies_[i];
+    Vector<Dim> place;
+    for (int d = 0; d < Dim; ++d) place[d] = reach_[i][d] * signed_unit();
+    const Vector<Dim> target = home_[i] + (t_ - options_.start * options_.beat) * drift_ + frame_ * place;
+    Vector<Dim> v = (target - body.x) / (next_[i] - t_);
+    const double most = 20 * options_.eta / options_.beat, speed = v.cwiseAbs().maxCoeff();
+    if (speed > most) v *= most / speed;
+    if (mood == 1) v *= 1e-3;
+    if (mood == 2) v.setZero();
+    body.v = drift_ + v;
+  }
+
+  /// As when an event writes a vertex: integrator/kick.h.
+  void advance(VertexId i, double t) {
+    Line<Dim>& body = bodies_[i];
+    if (body.t == t) return;
+    body.x = body.at(t);
+    body.t = t;
+    tracks_[i].push_back({t, body.x});
+  }
+
+  /// As when a layer fires: those of its pairs that are outside may lose it.
+  void drop_some() {
+    for (int k = 0; k < 4 && !active_.empty(); ++k) {
+      auto at = active_.lower_bound(static_cast<std::size_t>(random_.below(static_cast<int>(followed_.size()))));
+      if (at == active_.end()) at = active_.begin();
+      const Followed<Dim>& pair = followed_[*at];
+      const std::uint32_t layers = pair.changes.back().layers;
+      const std::uint32_t l = layers - (random_.below(4) == 0 && layers > 1 ? 1 : 0);
+      std::array<Vector<Dim>, 4> x;
+      for (std::size_t j = 0; j < pair.stencil.size(); ++j) x[j] = bodies_[pair.stencil.vertices[j]].at(t_);
+      const double d =
+          closest<Dim>(pair.stencil.kind, std::span<const Vector<Dim>>(x.data(), pair.stencil.size())).distance();
+      if (d > layer(eta_of(pair.material), l)) certificates_->drop_if_clear(pair.stencil.key, pair.material, l, d, t_);
+    }
+  }
+
+  // --- What is recorded ----------------------------------------------------------------------------------------------
+
+  void begin_window() {
+    tracks_.assign(bodies_.size(), {});
+    for (std::size_t i = 0; i < bodies_.size(); ++i) tracks_[i].push_back({t_, bodies_[i].at(t_)});
+    for (Followed<Dim>& pair : followed_) pair.changes = {{t_, pair.changes.back().layers}};
+  }
+
+  /// Of several changes at one time the last counts; each adds or takes one layer.
+  void change(const Stencil& s, std::uint32_t layers, double t) {
+    const std::size_t p = index_.at(s.key);
+    Followed<Dim>& pair = followed_[p];
+    const std::uint32_t before = pair.changes.back().layers;
+    if (layers != before + 1 && layers + 1 != before) throw std::logic_error("dance: not one layer more or less");
+    if (pair.changes.back().t >= t) {
+      pair.changes.back().layers = layers;
+    } else {
+      pair.changes.push_back({t, layers});
+    }
+    layers > 0 ? void(active_.insert(p)) : void(active_.erase(p));
+  }
+
+  DanceOptions options_;
+  noli::test::Random random_;
+  Mesh mesh_;
+  std::vector<Vector<Dim>> home_, reach_;
+  std::vector<std::uint16_t> group_;
+  std::vector<bool> immovable_;
+  bool excluded_ = false;
+  Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign> frame_;
+  Vector<Dim> drift_;
+  double t_ = 0;  ///< now
+  std::vector<Line<Dim>> bodies_;
+  std::vector<double> steps_, next_;  ///< of a vertex: the step of its kicks, or never; when it is due
+  std::priority_queue<std::pair<double, VertexId>, std::vector<std::pair<double, VertexId>>, std::greater<>> due_;
+  std::vector<Followed<Dim>> followed_;
+  std::map<PairKey, std::size_t> index_;
+  std::set<std::size_t> active_;  ///< pairs with layers
+  std::vector<Track<Dim>> tracks_;
+  std::optional<Certificates<Dim, Dance>> certificates_;
+  std::uint64_t kicks_ = 0;
+  ReplayCounts counts_;
+};
+
+}  // namespace noli::certificates::test
