@@ -62,6 +62,8 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
   for (std::size_t i = 0; i < model.x.size(); ++i) particles.push_back({model.x[i], 0, model.v[i], 1 / model.mass[i]});
   const std::vector<double> look_steps(particles.size(), std::numeric_limits<double>::infinity());
   Contact<3> contact(*model.contact, model.mesh, particles, look_steps, model.window_length);
+  Activity activity;
+  contact.show(activity);
   NoRecording nothing;
   Account<double, 3> account;
   contact.start(0);
