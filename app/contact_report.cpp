@@ -40,6 +40,32 @@ Json counts_json(const ContactCounts& counts) {
   return json;
 }
 
+Json certificates_json(const certificates::CertificateCounts& counts) {
+  return {{"slices", counts.slices},
+          {"tubes", counts.tubes},
+          {"plans", counts.plans},
+          {"repairs", counts.repairs},
+          {"activations", counts.activations},
+          {"deactivations", counts.deactivations},
+          {"most_near", counts.most_near},
+          {"deepest", counts.deepest}};
+}
+
+Json contact_json(const integrator::ContactSettings& settings) {
+  const integrator::LayerSchedule& s = settings.schedule;
+  Json materials = Json::array();
+  for (const auto& m : settings.materials) {
+    materials.push_back({{"thickness", m.thickness},
+                         {"stiffness", m.stiffness},
+                         {"step", m.step},
+                         {"restitution", m.restitution},
+                         {"friction", m.friction}});
+  }
+  return {{"most_layers", settings.most_layers},
+          {"layers", {s.thickness_quarters, s.stiffness_quarters, s.step_quarters}},
+          {"materials", materials}};
+}
+
 std::string contact_text(const FeatureContact& contact) {
   const auto [first, second] = features(contact);
   return fmt::format("{} meets {}", feature_text(first), feature_text(second));

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "noli/app/json.h"
+#include "noli/certificates/counts.h"
+#include "noli/integrator/contact_settings.h"
 #include "noli/proofs/prover/verifier.h"
 
 namespace noli::app {
@@ -16,6 +18,12 @@ using ContactCounts = std::array<std::uint64_t, all_feature_pairs.size()>;
 
 /// {"pair": "edge_edge", "features": [[a, b], [c, d]]}
 Json contact_json(const FeatureContact& contact);
+
+/// What the layers of a model are: {"most_layers": n, "layers": [4 a, 4 b, 4 c], "materials": [...]}
+Json contact_json(const integrator::ContactSettings& settings);
+
+/// All zero in scenes without contact.
+Json certificates_json(const certificates::CertificateCounts& counts);
 
 /// {"vertex_face": n, ...}
 Json counts_json(const ContactCounts& counts);

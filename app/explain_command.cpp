@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -6,6 +7,8 @@
 #include "noli/app/commands.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/run_explanation.h"
+#include "noli/app/run_folder.h"
 #include "noli/integrator/scene/explain.h"
 #include "noli/integrator/scene/read_scene.h"
 
@@ -13,11 +16,16 @@ namespace noli::app {
 namespace {
 
 constexpr const char* footer =
-    "Prints the defaults that were taken, what will be active and what is left out and why, steps, events a second, "
+    "Of a scene: prints the defaults that were taken, what will be active and what is left out and why, steps, events "
+    "a second, "
     "bytes and warnings. Nothing is simulated.\n"
+    "Of a run, from its files: how deep layers of contact went and how near things came (exactly, where world lines "
+    "were\n"
+    "recorded), events, certificates, where time went, windows that were rolled back, energy.\n"
     "Examples:\n"
     "  noli explain scenes/swinging_cloth.json\n"
-    "  noli explain scenes/stiff_inset.json --short --json -";
+    "  noli explain scenes/stiff_inset.json --short --json -\n"
+    "  noli explain runs/curtains";
 
 struct ExplainArguments {
   std::filesystem::path scene;
@@ -25,7 +33,16 @@ struct ExplainArguments {
   std::optional<std::string> json;
 };
 
+ExitCode explain_folder(const ExplainArguments& arguments) {
+  if (arguments.brief) throw UsageError("--short: is for scenes; expected none with a run");
+  const Output output(arguments.json, with_files_of_runs({arguments.scene}));
+  const RunExplanation explanation = explain_run(arguments.scene);
+  output.write(to_text(explanation), to_json(explanation));
+  return ExitCode::holds;
+}
+
 ExitCode run(const ExplainArguments& arguments) {
+  if (std::filesystem::is_directory(arguments.scene)) return explain_folder(arguments);
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const Output output(arguments.json, {arguments.scene});
   const integrator::Explanation explanation = integrator::explain(integrator::read_scene(arguments.scene, form));
@@ -36,10 +53,13 @@ ExitCode run(const ExplainArguments& arguments) {
 }  // namespace
 
 Command add_explain(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("explain", "What a scene will do, and what it will not");
+  CLI::App* const command =
+      app.add_subcommand("explain", "What a scene will do, and what it will not; or how a run went");
   command->footer(footer);
   const auto arguments = std::make_shared<ExplainArguments>();
-  command->add_option("scene", arguments->scene, "A scene")->required()->type_name("SCENE.json");
+  command->add_option("scene", arguments->scene, "A scene, or the folder of a run")
+      ->required()
+      ->type_name("SCENE.json|RUN");
   command->add_flag("--short", arguments->brief, "The scene's short form");
   add_json_option(*command, arguments->json);
   return {command, [arguments] { return run(*arguments); }};

@@ -2,23 +2,45 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "noli/app/commands.h"
 #include "noli/app/export_run.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/run_figure.h"
 
 namespace noli::app {
 namespace {
 
 constexpr const char* footer =
     "Frames are samples: straight lines between them are not the certified motion, the world lines of the run are.\n"
+    "Figures: step-histogram (how long the steps of vertices are over time), energy, momentum; a picture or, as CSV, "
+    "the\n"
+    "numbers.\n"
     "Examples:\n"
     "  noli export runs/cloth --fps 60 -o frames/%05d.ply\n"
-    "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens";
+    "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens\n"
+    "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv";
 
-ExitCode run(const ExportRequest& request) {
+struct ExportArguments {
+  ExportRequest frames;
+  std::optional<std::string> figure;
+};
+
+ExitCode draw(const FigureRequest& request) {
+  const FigureOutcome outcome = run_figure(request);
+  std::string text =
+      fmt::format("figure {} windows {} end {}\n", request.figure, outcome.windows, digits17(outcome.end));
+  if (outcome.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
+  write_standard_output(text);
+  return ExitCode::holds;
+}
+
+ExitCode run(const ExportArguments& arguments) {
+  const ExportRequest& request = arguments.frames;
+  if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern, request.force});
   const ExportOutcome outcome = run_export(request);
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
                                  digits17(outcome.end), !outcome.interrupted);
@@ -35,20 +57,25 @@ ExitCode run(const ExportRequest& request) {
 }  // namespace
 
 Command add_export(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("export", "Frames of a run, for other programs");
+  CLI::App* const command = app.add_subcommand("export", "Frames of a run, for other programs, and figures of it");
   command->footer(footer);
-  const auto request = std::make_shared<ExportRequest>();
+  const auto arguments = std::make_shared<ExportArguments>();
+  ExportRequest* const request = &arguments->frames;
   command->add_option("run", request->run, "The folder of a run")->required()->type_name("RUN");
-  command->add_option("--fps", request->fps, "Frames a second of simulated time")
-      ->check(is_positive())
-      ->capture_default_str();
-  command->add_option("-o,--output", request->pattern, "Names of the files, e.g. frames/%05d.ply (.obj, .vtu)")
+  auto* const fps = command->add_option("--fps", request->fps, "Frames a second of simulated time");
+  fps->check(is_positive())->capture_default_str();
+  command
+      ->add_option("-o,--output", request->pattern,
+                   "Names of the files, e.g. frames/%05d.ply (.obj, .vtu); of a figure, its file (.svg, .csv)")
       ->required()
       ->type_name("PATTERN");
   command->add_flag("--force", request->force,
                     "Replace files of that pattern that are there, and remove those that this export does not have; "
                     "without it they are an error");
-  return {command, [request] { return run(*request); }};
+  command->add_option("--figure", arguments->figure, "Draw this instead: step-histogram, energy, momentum")
+      ->excludes(fps)
+      ->type_name("NAME");
+  return {command, [arguments] { return run(*arguments); }};
 }
 
 }  // namespace noli::app

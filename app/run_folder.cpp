@@ -88,10 +88,12 @@ void RunFolder::make(bool force) {
   make_writable_folder(path_, "-o");
 }
 
-void RunFolder::begin(const Json& scene, const Sha256Digest& model) {
+void RunFolder::begin(const Json& scene, const Sha256Digest& model, const Json& facts) {
   write_manifest(path_, text_of(scene), {{"noli", version_number()}}, model);
   log_.emplace(path_);
-  log({{"event", "begin"}});
+  Json entry = {{"event", "begin"}};
+  entry.update(facts);
+  log(entry);
 }
 
 bool RunFolder::has_begun() const {
@@ -124,6 +126,12 @@ void RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
   log({{"event", "resume"}});
 }
 
+std::string title_of(const fs::path& run) {
+  const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
+  return scene.is_object() && scene.contains("title") && scene["title"].is_string() ? scene["title"].get<std::string>()
+                                                                                    : "";
+}
+
 std::vector<fs::path> with_files_of_runs(std::vector<fs::path> paths) {
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
@@ -134,13 +142,14 @@ std::vector<fs::path> with_files_of_runs(std::vector<fs::path> paths) {
   return paths;
 }
 
-void RunFolder::log(std::uint64_t window, const SeriesRow& row) {
+void RunFolder::log(std::uint64_t window, const SeriesRow& row, std::uint32_t deepest) {
   log({{"event", "window"},
        {"window", window},
        {"time", row.time},
        {"verdict", "no_contact"},
-       {"events", row.events},
-       {"breakpoints", row.breakpoints}});
+       {"events", row.events_in_all()},
+       {"breakpoints", row.breakpoints},
+       {"timing", {{"deepest", deepest}}}});
 }
 
 void RunFolder::log(const Json& entry) { log_->append(entry); }

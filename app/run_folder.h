@@ -27,8 +27,9 @@ class RunFolder {
   void make(bool force);
 
   /// Writes the manifest, with the scene as it was read: overrides applied, defaults filled in. From now on the run has
-  /// begun: without a manifest there is none to go on with. `model`: hash of what the scene came to.
-  void begin(const Json& scene, const Sha256Digest& model);
+  /// begun: without a manifest there is none to go on with. `model`: hash of what the scene came to;
+  /// `facts`: members of the log's first line.
+  void begin(const Json& scene, const Sha256Digest& model, const Json& facts);
 
   /// Whether there is a run to go on with, and not just what is left of one that ended before it began. Throws
   /// UsageError when the folder is no run at all, or one that has lost its manifest.
@@ -38,8 +39,9 @@ class RunFolder {
   /// The duration, the title and what is only looked at may differ.
   void go_on(const Json& scene, const Sha256Digest& model);
 
-  /// A line of the log for a window that has been committed.
-  void log(std::uint64_t window, const SeriesRow& row);
+  /// A line of the log for a window that has been committed. `deepest`: the deepest layer of contact that was active up
+  /// to its end.
+  void log(std::uint64_t window, const SeriesRow& row, std::uint32_t deepest);
   /// Any other line. Precondition: `entry` has a member "event".
   void log(const Json& entry);
 
@@ -47,6 +49,9 @@ class RunFolder {
   std::filesystem::path path_;
   std::optional<RunLog> log_;
 };
+
+/// Of the scene of a run. Throws InputError when its manifest or its scene is not there or damaged.
+std::string title_of(const std::filesystem::path& run);
 
 /// The same paths, and what is in those that are folders of runs.
 std::vector<std::filesystem::path> with_files_of_runs(std::vector<std::filesystem::path> paths);

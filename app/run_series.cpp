@@ -9,11 +9,23 @@
 namespace noli::app {
 namespace {
 
-constexpr std::size_t reals = 3 + 3 * integrator::force_kinds + 6, counts = 3;
+constexpr std::string_view letters = "noli row";
+constexpr std::uint64_t version = 2;
 
-/// Calls f on each real of a row, in order.
+/// Calls f on each number of a layer, in order.
+template <class Layer, class F>
+void each_number(Layer& layer, F&& f) {
+  f(layer.layer);
+  f(layer.material);
+  f(layer.pair);
+  for (auto& v : layer.vertices) f(v);
+  f(layer.time);
+  f(layer.distance);
+}
+
+/// Calls f on each number of a row, in order, up to its histogram.
 template <class Row, class F>
-void each_real(Row& row, F&& f) {
+void each_number_of_row(Row& row, F&& f) {
   f(row.time);
   f(row.kinetic);
   f(row.kinetic_mean);
@@ -23,31 +35,97 @@ void each_real(Row& row, F&& f) {
   for (auto* list : {&row.momentum, &row.angular_momentum}) {
     for (auto& x : *list) f(x);
   }
+  for (auto& n : row.events) f(n);
+  f(row.breakpoints);
+  f(row.halvings);
+  each_number(row.deepest, f);
+  each_number(row.nearest, f);
+  f(row.steps.smallest);
+}
+
+/// Takes numbers from the front of bytes.
+class Numbers {
+ public:
+  explicit Numbers(std::string_view bytes) : bytes_(bytes) {}
+
+  void operator()(double& x) { x = take<double>(); }
+  void operator()(std::uint64_t& n) { n = take<std::uint64_t>(); }
+  void operator()(std::int64_t& n) { n = static_cast<std::int64_t>(take<std::uint64_t>()); }
+  void operator()(VertexId& v) { v = static_cast<VertexId>(below(std::uint64_t{1} << 32)); }
+  void operator()(FeaturePair& pair) { pair = static_cast<FeaturePair>(below(all_feature_pairs.size())); }
+
+  std::size_t left() const { return bytes_.size(); }
+
+ private:
+  template <class T>
+  T take() {
+    if (bytes_.size() < sizeof(T)) throw std::invalid_argument("a window's series ends too soon");
+    const T value = get<T>(bytes_.data());
+    bytes_.remove_prefix(sizeof(T));
+    return value;
+  }
+
+  std::uint64_t below(std::uint64_t end) {
+    const auto n = take<std::uint64_t>();
+    if (n >= end) throw std::invalid_argument("a window's series names a pair of features that is none");
+    return n;
+  }
+
+  std::string_view bytes_;
+};
+
+StepHistogram take_steps(Numbers& take, double smallest) {
+  StepHistogram steps{smallest, {}};
+  std::uint64_t count = 0;
+  take(count);
+  if (count != take.left() / 16 || take.left() % 16 != 0) {
+    throw std::invalid_argument("a window's series has another size");
+  }
+  steps.bins.resize(count);
+  for (auto& bin : steps.bins) {
+    take(bin.number);
+    take(bin.ticks);
+  }
+  for (std::size_t i = 1; i < count; ++i) {
+    if (steps.bins[i].number <= steps.bins[i - 1].number) throw std::invalid_argument("bins of steps do not ascend");
+  }
+  return steps;
 }
 
 }  // namespace
 
 std::string encode(const SeriesRow& row) {
-  std::string bytes;
-  each_real(row, [&bytes](double x) { put(bytes, x); });
-  put(bytes, row.events);
-  put(bytes, row.breakpoints);
-  put(bytes, row.halvings);
+  std::string bytes(letters);
+  put(bytes, version);
+  each_number_of_row(row, [&bytes]<class T>(const T& x) {
+    if constexpr (std::is_same_v<T, double>) {
+      put(bytes, x);
+    } else {
+      put(bytes, static_cast<std::uint64_t>(x));
+    }
+  });
+  put(bytes, static_cast<std::uint64_t>(row.steps.bins.size()));
+  for (const auto& bin : row.steps.bins) {
+    put(bytes, static_cast<std::uint64_t>(bin.number));
+    put(bytes, bin.ticks);
+  }
   return bytes;
 }
 
 SeriesRow decode_row(std::string_view bytes) {
-  if (bytes.size() != 8 * (reals + counts)) throw std::invalid_argument("a window's series has another size");
+  if (!bytes.starts_with(letters)) {
+    throw std::invalid_argument(
+        "its series is no row of version 2, as a run of an earlier Noli has it; expected a run of this version");
+  }
+  Numbers take(bytes.substr(letters.size()));
+  std::uint64_t found = 0;
+  take(found);
+  if (found != version) {
+    throw std::invalid_argument("its series is of version " + std::to_string(found) + "; expected version 2");
+  }
   SeriesRow row;
-  const char* at = bytes.data();
-  const auto take = [&at]<class T>(T& value) {
-    value = get<T>(at);
-    at += sizeof(T);
-  };
-  each_real(row, take);
-  take(row.events);
-  take(row.breakpoints);
-  take(row.halvings);
+  each_number_of_row(row, take);
+  row.steps = take_steps(take, row.steps.smallest);
   return row;
 }
 
@@ -58,6 +136,11 @@ SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run) {
     throw InputError(trajectory_path(run).string(), "",
                      "the state of window " + std::to_string(window.index) + ": " + error.what());
   }
+}
+
+ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action) {
+  if (!action) return {};
+  return {action->layer, action->material, action->pair.kind, action->pair.vertices, action->time, action->distance};
 }
 
 }  // namespace noli::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/run_series_file.h"
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -24,6 +26,16 @@ using Stop = std::function<bool()>;
 /// How long the series are.
 struct Extent {
   std::uint64_t windows = 0, frames = 0;
+  std::int64_t first_bin = 0;  ///< of steps
+  std::uint64_t bins = 0;
+
+  void add(const StepHistogram& steps) {
+    if (steps.bins.empty()) return;
+    const std::int64_t first = steps.bins.front().number, last = steps.bins.back().number;
+    const std::int64_t end = bins == 0 ? last + 1 : std::max(last + 1, first_bin + static_cast<std::int64_t>(bins));
+    first_bin = bins == 0 ? first : std::min(first, first_bin);
+    bins = static_cast<std::uint64_t>(end - first_bin);
+  }
 };
 
 std::uint64_t frames_in(const RunWindow& window, double rate, const Stop& stop) {
@@ -39,6 +51,7 @@ std::optional<Extent> measure(const std::filesystem::path& run, double rate, con
   Extent extent;
   while (const auto window = reader.next_window()) {
     ++extent.windows;
+    extent.add(row_of(*window, run).steps);
     extent.frames += frames_in(*window, rate, stop);
     if (stop()) return std::nullopt;
   }
@@ -80,8 +93,8 @@ class Column {
 class Series {
  public:
   Series(const std::filesystem::path& run, double rate, const Extent& extent, const Stop& stop)
-      : run_(run), rate_(rate), stop_(stop), reader_(run), file_(run / "series.h5") {
-    declare(extent);
+      : run_(run), rate_(rate), stop_(stop), extent_(extent), reader_(run), file_(run / "series.h5") {
+    declare();
   }
 
   /// Whether it was not stopped.
@@ -104,8 +117,8 @@ class Series {
     columns_.try_emplace(name, file_, name, unit, shape);
   }
 
-  void declare(const Extent& extent) {
-    const std::uint64_t n = extent.windows;
+  void declare() {
+    const std::uint64_t n = extent_.windows;
     declare("time", "s", {n});
     declare("energy/kinetic", "J", {n});
     declare("energy/kinetic_mean", "J", {n});
@@ -117,9 +130,19 @@ class Series {
     declare("momentum", "N s", {n, 3});
     declare("angular_momentum", "N m s", {n, 3});
     declare("events", "1", {n});
+    for (std::size_t k = 0; k < integrator::force_kinds; ++k) declare(of("events_of", k), "1", {n});
     declare("breakpoints", "1", {n});
-    declare("frames/time", "s", {extent.frames});
-    declare("frames/positions", "m", {extent.frames, reader_.mesh().vertex_count, 3});
+    declare("contact/deepest_layer", "1", {n});
+    declare("contact/least_distance", "m", {n});
+    declare("histograms/smallest_step", "s", {n});
+    declare("histograms/step_share", "1", {n, extent_.bins});
+    std::vector<double> ends;
+    for (std::uint64_t i = 0; i <= extent_.bins; ++i) {
+      ends.push_back(bin_begin(extent_.first_bin + static_cast<std::int64_t>(i)));
+    }
+    file_.add("histograms/step_ends", "s", ends);
+    declare("frames/time", "s", {extent_.frames});
+    declare("frames/positions", "m", {extent_.frames, reader_.mesh().vertex_count, 3});
   }
 
   Column& column(const std::string& name) { return columns_.at(name); }
@@ -135,8 +158,26 @@ class Series {
     }
     column("momentum").append(row.momentum);
     column("angular_momentum").append(row.angular_momentum);
-    column("events").append(static_cast<double>(row.events));
+    column("events").append(static_cast<double>(row.events_in_all()));
+    for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
+      column(of("events_of", k)).append(static_cast<double>(row.events[k]));
+    }
     column("breakpoints").append(static_cast<double>(row.breakpoints));
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    column("contact/deepest_layer").append(static_cast<double>(row.deepest.layer));
+    column("contact/least_distance").append(row.nearest.layer > 0 ? row.nearest.distance : none);
+    column("histograms/smallest_step").append(row.steps.smallest);
+    column("histograms/step_share").append(shares(row.steps));
+  }
+
+  /// Of each bin that the run has.
+  std::vector<double> shares(const StepHistogram& steps) const {
+    std::vector<double> row(extent_.bins, 0);
+    const double all = static_cast<double>(steps.ticks());
+    for (const auto& bin : steps.bins) {
+      row[static_cast<std::size_t>(bin.number - extent_.first_bin)] = static_cast<double>(bin.ticks) / all;
+    }
+    return row;
   }
 
   bool write_frames(const RunWindow& window) {
@@ -161,6 +202,7 @@ class Series {
   const std::filesystem::path& run_;
   double rate_;
   const Stop& stop_;
+  Extent extent_;
   RunReader reader_;
   SeriesFile file_;
   std::map<std::string, Column> columns_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `series.h5` of a run, made from its windows: energies, momenta, works and counts at the ends of windows, and frames.
+// `series.h5` of a run, made from its windows: energies, momenta, works, counts and how long steps are
+// (app/step_histogram.h) at the ends of windows, and frames.
 #pragma once
 
 #include <cstdint>

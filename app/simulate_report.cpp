@@ -51,18 +51,6 @@ Json too_near_json(const SimulateOutcome& outcome) {
           {"names", outcome.first_names}};
 }
 
-/// All zero in scenes without contact.
-Json certificates_json(const certificates::CertificateCounts& counts) {
-  return {{"slices", counts.slices},
-          {"tubes", counts.tubes},
-          {"plans", counts.plans},
-          {"repairs", counts.repairs},
-          {"activations", counts.activations},
-          {"deactivations", counts.deactivations},
-          {"most_near", counts.most_near},
-          {"deepest", counts.deepest}};
-}
-
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return "Nothing touches from beginning to end.";
@@ -113,6 +101,18 @@ double per(double count, double seconds) { return seconds > 0 ? count / seconds 
 
 }  // namespace
 
+const char* name(RunEnd end) {
+  switch (end) {
+    case RunEnd::done: return "done";
+    case RunEnd::contact: return "contact";
+    case RunEnd::too_near: return "too_near";
+    case RunEnd::not_finite: return "not_finite";
+    case RunEnd::interrupted: return "interrupted";
+    case RunEnd::out_of_time: return "time_limit";
+  }
+  return "";
+}
+
 ExitCode exit_code(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return ExitCode::holds;
@@ -151,6 +151,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
                     {"windows_before", outcome.windows_before},
                     {"events", outcome.events},
                     {"breakpoints", outcome.breakpoints},
+                    {"phases", phases_json(outcome.phases)},
                     {"series", name(outcome.series)},
                     {"certificates", certificates_json(outcome.certificates)},
                     {"threads", request.threads > 0 ? request.threads : hardware_threads()},
@@ -174,6 +175,7 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
       "beside it; {:.0f} MB.\n",
       outcome.seconds, outcome.simulating_seconds, per(static_cast<double>(outcome.events), outcome.simulating_seconds),
       outcome.breakpoints, outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
+  text += fmt::format("Busy with: {}.\n", phases_text(outcome.phases));
   return text;
 }
 

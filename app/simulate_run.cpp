@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <memory>
 #include <stdexcept>
 
+#include "noli/app/body_names.h"
 #include "noli/app/contact_report.h"
 #include "noli/app/exit_code.h"
 #include "noli/app/frame_times.h"
@@ -18,9 +18,11 @@
 #include "noli/app/model_run.h"
 #include "noli/app/progress.h"
 #include "noli/app/retries.h"
+#include "noli/app/run_extent.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_series.h"
 #include "noli/app/run_series_file.h"
+#include "noli/app/start_check.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
@@ -31,21 +33,11 @@
 
 namespace noli::app {
 
-const char* name(RunEnd end) {
-  switch (end) {
-    case RunEnd::done: return "done";
-    case RunEnd::contact: return "contact";
-    case RunEnd::too_near: return "too_near";
-    case RunEnd::not_finite: return "not_finite";
-    case RunEnd::interrupted: return "interrupted";
-    case RunEnd::out_of_time: return "time_limit";
-  }
-  return "";
-}
-
 namespace {
 
 using integrator::Books;
+using integrator::Doing;
+using integrator::Phase;
 using integrator::Recording;
 using integrator::Scene;
 using integrator::Simulation;
@@ -60,6 +52,7 @@ struct Candidate {
   std::unique_ptr<const WorldLines> lines;
   std::vector<Position> velocities;
   SeriesRow row;
+  std::uint32_t deepest = 0;  ///< layer that was active, so far
   std::future<WindowResult> verdict;
 };
 
@@ -69,6 +62,7 @@ class Run {
   Run(const SimulateRequest& request, const Scene& scene)
       : request_(request),
         built_(integrator::build_model<Dim>(scene)),
+        names_(names_of(built_.bodies)),
         labels_(labels_of<Dim>(built_.model)),
         exclusions_(exclusions_of<Dim>(built_.model)),
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
@@ -83,9 +77,9 @@ class Run {
     for (const auto& [a, b] : exclusions_.pairs) {
       outcome_.excluded.push_back({built_.bodies[a].name, built_.bodies[b].name});
     }
-    outcome_.windows_total = windows_up_to(request.until.value_or(scene.duration));
+    outcome_.windows_total = windows_of(request, scene);
     require_cells();
-    require_countable_frames(scene);
+    require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     refuse_contact_at_start();
     open(scene);
@@ -93,6 +87,7 @@ class Run {
 
   SimulateOutcome operator()() {
     const Stopwatch watch;
+    PhaseClock clock(activity_);
     Progress progress("simulate");
     while (!stopped()) {
       std::optional<Candidate<Dim>> next;
@@ -104,41 +99,16 @@ class Run {
     }
     settle();
     find_end();
-    conclude();
+    conclude(clock);
     outcome_.seconds = watch.seconds();
     return std::move(outcome_);
   }
 
  private:
-  std::uint64_t windows_up_to(double time) const {
-    constexpr double most = 0x1p53;
-    const double windows = std::ceil(time / outcome_.window_length * (1 - 0x1p-50));
-    if (windows < most) return static_cast<std::uint64_t>(windows);
-    const std::string problem = fmt::format("expected fewer than 2^53 windows of {} s", outcome_.window_length);
-    if (request_.until) throw UsageError("--until: " + problem);
-    throw InputError(request_.scene.string(), "/duration", problem);
-  }
-
   void require_cells() const {
     if (outcome_.cells > 0) return;
     throw InputError(request_.scene.string(), "/bodies",
                      "expected a mesh with faces, edges or points; what has none of them touches nothing");
-  }
-
-  /// Frames are told apart by their times, and those that are recorded are in memory for as long as their window is.
-  void require_countable_frames(const Scene& scene) const {
-    const double time = static_cast<double>(outcome_.windows_total) * scene.window;
-    const auto refuse = [&](const std::string& problem) {
-      throw InputError(request_.scene.string(), "/frame_rate", problem);
-    };
-    if (!(time * frame_rate_ < 0x1p53)) refuse(fmt::format("expected fewer than 2^53 frames in {} s", time));
-    if (record_ == RecordMode::full) return;
-    constexpr double most = 0x1p32;
-    const double bytes = 24.0 * static_cast<double>(outcome_.vertices) * scene.window * frame_rate_;
-    if (bytes <= most) return;
-    refuse(fmt::format(
-        "the frames of a window take about {:.2g} bytes; expected at most {:.2g}, as with frame_rate {:.2g}", bytes,
-        most, frame_rate_ * most / bytes));
   }
 
   bool stopped() {
@@ -161,46 +131,10 @@ class Run {
     return options;
   }
 
-  /// At rest where it begins: what meets then meets at the start. A run to be gone on with may have no window yet.
+  /// A run to be gone on with may have no window yet.
   void refuse_contact_at_start() const {
-    const auto x = positions_of<Dim>(built_.model.x);
-    WindowOptions options = window_options();
-    options.initial = true;
-    options.stop = nullptr;
-    options.deadline.reset();
-    options.max_reports = 3;
-    const WindowResult result = verifier_.verify(WorldLines::from_frames(x, x), options);
-    if (result.contact_count() + result.initial_intersections == 0) return;
-    std::string pairs;
-    for (const auto& contact : result.reports) pairs += fmt::format("{}{}", pairs.empty() ? "" : ", ", named(contact));
-    for (const auto& cells : result.initial_reports) {
-      pairs += fmt::format("{}cells {} and {}", pairs.empty() ? "" : ", ", cells.first_cell, cells.second_cell);
-    }
-    throw InputError(request_.scene.string(), "/bodies",
-                     fmt::format("the scene begins in contact: {}; {} pair(s) of features meet, {} pair(s) of cells "
-                                 "intersect; expected none",
-                                 pairs, result.contact_count(), result.initial_intersections));
-  }
-
-  std::string named(const FeatureContact& contact) const {
-    static constexpr const char* names[] = {"vertex", "edge", "face"};
-    std::string text;
-    std::size_t at = 0;
-    for (const std::size_t size : {first_size(contact.pair), point_count(contact.pair) - first_size(contact.pair)}) {
-      text += fmt::format("{}{} ", at == 0 ? "" : " meets ", names[size - 1]);
-      for (std::size_t i = 0; i < size; ++i, ++at) {
-        text += fmt::format("{}{}", i == 0 ? "" : "-", vertex_name(contact.vertices[at]));
-      }
-    }
-    return text;
-  }
-
-  /// A vertex by its body and its number there.
-  std::string vertex_name(VertexId v) const {
-    for (const auto& body : built_.bodies) {
-      if (v >= body.first && v < body.first + body.vertices) return fmt::format("{}[{}]", body.name, v - body.first);
-    }
-    return fmt::format("{}", v);
+    const std::string found = contact_at_start(verifier_, positions_of<Dim>(built_.model.x), window_options(), names_);
+    if (!found.empty()) throw InputError(request_.scene.string(), "/bodies", "the scene begins in contact: " + found);
   }
 
   RunScene run_scene(const Scene& scene) const {
@@ -214,13 +148,25 @@ class Run {
     return result;
   }
 
+  /// What the log says of the scene, for those who read the run without it.
+  Json facts() const {
+    Json json = {{"bodies", names_.to_json()}};
+    if (built_.model.contact) json["contact"] = contact_json(*built_.model.contact);
+    return json;
+  }
+
+  void go_on_with(Simulation<double, Dim> simulation) {
+    simulation_.emplace(std::move(simulation));
+    simulation_->show(activity_);
+  }
+
   void open(const Scene& scene) {
     const bool go_on = request_.resume && folder_.has_begun();
     if (!go_on) {
       folder_.make(request_.force || request_.resume);
       writer_.emplace(folder_.path(), run_scene(scene));
-      folder_.begin(scene.document, hash_of<Dim>(built_.model));
-      simulation_.emplace(built_.model);
+      folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
+      go_on_with(Simulation<double, Dim>(built_.model));
       return;
     }
     folder_.go_on(scene.document, hash_of<Dim>(built_.model));
@@ -242,7 +188,7 @@ class Run {
     }
     writer_.emplace(folder_.path(), reader);
     outcome_.windows_before = last.windows;
-    simulation_.emplace(simulation_at<Dim>(built_.model, last, retries_.halvings()));
+    go_on_with(simulation_at<Dim>(built_.model, last, retries_.halvings()));
   }
 
   /// Windows of a run that can be gone on with are those that a simulation writes.
@@ -261,7 +207,6 @@ class Run {
     before_ = simulation_->snapshot();
     finite_ = true;
     limit_.reset();
-    const std::uint64_t events = simulation_->events();
     recording_.clear();
     Books<double, Dim> books;
     try {
@@ -278,10 +223,11 @@ class Run {
     Candidate<Dim> next;
     next.index = before_.windows;
     next.before = before_;
+    next.deepest = simulation_->certificates().deepest;
+    const Doing recording(activity_, Phase::recording);
     next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
     next.velocities = positions_of<Dim>(simulation_->snapshot().v);
-    next.row = series_row<Dim>(simulation_->time(), simulation_->state(), books, simulation_->events() - events,
-                               recording_.stream().size());
+    next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, labels_);
     next.row.halvings = retries_.halvings();
     outcome_.simulating_seconds += watch.seconds();
     return next;
@@ -307,7 +253,7 @@ class Run {
     if (!candidate_) return Settled::yes;
     Candidate<Dim> window = std::move(*candidate_);
     candidate_.reset();
-    WindowResult result = window.verdict.get();
+    WindowResult result = verdict_of(window);
     if (!result.complete) {
       if (!stopped()) throw std::logic_error("a window was not verified to its end");
       return Settled::yes;
@@ -318,7 +264,8 @@ class Run {
     }
     if (roll_back(window, result)) return Settled::rolled_back;
     outcome_.end = RunEnd::contact;
-    if (result.first) outcome_.first_names = named(result.first->contact);
+    if (result.first)
+      outcome_.first_names = names_.pair(result.first->contact.pair, result.first->contact.vertices, "meets");
     outcome_.contact = std::move(result);
     return Settled::yes;
   }
@@ -339,17 +286,23 @@ class Run {
     }
     folder_.log(entry);
     outcome_.certificates += simulation_->certificates();
-    simulation_.emplace(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
+    go_on_with(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
     return true;
   }
 
+  WindowResult verdict_of(Candidate<Dim>& window) {
+    const Doing proving(activity_, Phase::proof);
+    return window.verdict.get();
+  }
+
   void commit(const Candidate<Dim>& window) {
+    const Doing writing(activity_, Phase::writing);
     const std::vector<RunFrame> frames = frames_of(window);
     writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
     writer_->commit();
-    outcome_.events += window.row.events;
+    outcome_.events += window.row.events_in_all();
     outcome_.breakpoints += window.row.breakpoints;
-    folder_.log(window.index, window.row);
+    folder_.log(window.index, window.row, window.deepest);
     if (retries_.committed()) ++outcome_.certificate_defects;
   }
 
@@ -371,7 +324,7 @@ class Run {
     if (limit_) {
       outcome_.end = RunEnd::too_near;
       outcome_.limit = limit_;
-      outcome_.first_names = named({limit_->pair.kind, limit_->pair.vertices, {}});
+      outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "meets");
     } else if (!finite_) {
       outcome_.not_finite =
           simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] { return stopped(); });
@@ -379,16 +332,18 @@ class Run {
     }
   }
 
-  void conclude() {
+  void conclude(PhaseClock& clock) {
     outcome_.windows = writer_->windows();
     outcome_.certificates += simulation_->certificates();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
     write_series();
+    outcome_.phases = clock.seconds();
     log_end();
   }
 
   /// Whoever has asked the run to stop has not asked for less than a whole folder; who asks again has.
   void write_series() {
+    const Doing writing(activity_, Phase::writing);
     const int before = interruptions();
     Progress progress("series.h5");
     progress.show(0);
@@ -406,11 +361,15 @@ class Run {
     }
     if (outcome_.limit) entry["too_near"] = {{"time", outcome_.limit->time}, {"names", outcome_.first_names}};
     if (built_.model.contact) entry["roll_backs"] = outcome_.roll_backs;
+    entry["timing"] = {{"verifying_seconds", outcome_.verifying_seconds},
+                       {"phases", phases_json(outcome_.phases)},
+                       {"certificates", certificates_json(outcome_.certificates)}};
     folder_.log(entry);
   }
 
   const SimulateRequest& request_;
   integrator::BuiltScene<Dim> built_;
+  BodyNames names_;
   std::vector<std::uint8_t> labels_;
   Exclusions exclusions_;
   WindowVerifier verifier_;
@@ -418,6 +377,7 @@ class Run {
   RecordMode record_;
   double frame_rate_;
   std::optional<RunWriter> writer_;
+  integrator::Activity activity_;
   std::optional<Simulation<double, Dim>> simulation_;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/phase_clock.h"
 #include "noli/app/run_series_file.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/simulation.h"
@@ -71,6 +72,7 @@ struct SimulateOutcome {
   certificates::CertificateCounts certificates;
   SeriesEnd series = SeriesEnd::stopped;
   double seconds = 0, simulating_seconds = 0, verifying_seconds = 0;
+  PhaseSeconds phases{};  ///< of the thread that integrates and writes
 };
 
 /// Runs it. Ends at the last committed window when app::interrupted() or at the time limit: the one that is being

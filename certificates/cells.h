@@ -30,6 +30,7 @@
 //   double look_step(v)
 //   std::uint32_t least_layers()      so many are always active for a pair that is near
 //   double greatest_thickness()       the largest eta(1) of all materials
+//   in_broad_phase()                  something that is kept while this looks for who is near whom
 //   void activate(stencil, material, l, t), deactivate(stencil, material, l)
 //
 // What this does not do: it moves nothing, and it proves nothing: what is recorded is verified exactly elsewhere.
@@ -164,7 +165,6 @@ class Cells {
     length_before_ = next_before;
     std::fill(due_.begin(), due_.end(), never);
     events_ = {};
-    hierarchy_.refit([this](std::uint32_t cell) { return box_of(cell); });
     find_near(t);
     for (std::size_t i = 0; i < tubes_.size(); ++i) plan_soon(static_cast<VertexId>(i));
     settle(t);
@@ -224,10 +224,7 @@ class Cells {
     std::unordered_map<PairKey, std::uint32_t> old_index;
     old_index.swap(index_);
     for (auto& list : nears_of_) list.clear();
-    hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
-      if (cells_settled(a, b, t)) return;
-      features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
-    });
+    find_pairs(t);
     for (NearPair<Dim>& pair : old) {
       const auto found = index_.find(pair.stencil.key);
       if (found != index_.end()) {
@@ -237,6 +234,15 @@ class Cells {
       }
     }
     for (std::uint32_t n = 0; n < nears_.size(); ++n) put_up_slab(n, t);
+  }
+
+  void find_pairs(double t) {
+    [[maybe_unused]] const auto searching = host_.in_broad_phase();
+    hierarchy_.refit([this](std::uint32_t cell) { return box_of(cell); });
+    hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+      if (cells_settled(a, b, t)) return;
+      features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
+    });
   }
 
   // --- Pairs ---------------------------------------------------------------------------------------------------------
@@ -370,11 +376,17 @@ class Cells {
     const double elapsed = now.t - tubes_[i].line.t;
     if (elapsed > 0.25 * length_ && !host_.immovable(i)) line.v = (now.x - courses_[i].x) / (now.t - slice_begin_);
     set_tube(i, now, line);
-    for (const std::uint32_t cell : features_.cells_of(i)) hierarchy_.enlarge(cell, box_of(cell));
     const std::size_t known = nears_.size();
-    for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell, now.t);
+    find_near_cells(i, now.t);
     for (std::size_t n = known; n < nears_.size(); ++n) put_up_slab(static_cast<std::uint32_t>(n), now.t);
     if (retubed_ * 8 > tubes_.size() + 64) slice_due_ = now.t;
+  }
+
+  /// Pairs that the vertex is part of, its tube being new.
+  void find_near_cells(VertexId i, double t) {
+    [[maybe_unused]] const auto searching = host_.in_broad_phase();
+    for (const std::uint32_t cell : features_.cells_of(i)) hierarchy_.enlarge(cell, box_of(cell));
+    for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell, t);
   }
 
   /// Pairs of this cell that the vertex is part of.

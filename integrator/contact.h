@@ -23,10 +23,12 @@
 #include "noli/certificates/every_pair.h"
 #include "noli/integrator/books.h"
 #include "noli/integrator/clocks.h"
+#include "noli/integrator/contact_extremes.h"
 #include "noli/integrator/contact_impulse.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/contact_settings.h"
 #include "noli/integrator/kick.h"
+#include "noli/integrator/phase.h"
 
 namespace noli::integrator {
 
@@ -57,9 +59,17 @@ class Contact {
 
   bool started() const { return started_; }
 
+  /// Where it says what it does. Precondition of all that follows.
+  void show(Activity& activity) { activity_ = &activity; }
+
+  /// Since they were forgotten last.
+  const ContactExtremes& extremes() const { return extremes_; }
+  void forget_extremes() { extremes_ = {}; }
+
   /// Certifies where things are.
   void start(double t) {
     started_ = true;
+    const Doing certifying(*activity_, Phase::certificate);
     ask([t](auto& certificates) { certificates.start(t); });
   }
 
@@ -74,6 +84,7 @@ class Contact {
 
   double next_certificate() { return cells_ ? cells_->next_time() : every_pair_->next_time(); }
   void run_certificate() {
+    const Doing certifying(*activity_, Phase::certificate);
     ask([](auto& certificates) { certificates.run_next(); });
   }
 
@@ -141,6 +152,8 @@ class Contact {
   double thickness(std::uint16_t material, std::uint32_t l) const {
     return layer_thickness(settings_.materials[material], settings_.schedule, l);
   }
+  /// For as long as what it returns is there.
+  Doing in_broad_phase() const { return {*activity_, Phase::broad_phase}; }
   double look_step(VertexId i) const { return look_steps_[i]; }
   std::uint32_t least_layers() const { return settings_.least_layers; }
   double greatest_thickness() const {
@@ -191,6 +204,7 @@ class Contact {
   }
 
   void drop_if_clear(certificates::PairKey key, std::uint16_t material, std::uint32_t l, double distance, double t) {
+    const Doing certifying(*activity_, Phase::certificate);
     ask([=](auto& certificates) { certificates.drop_if_clear(key, material, l, distance, t); });
   }
 
@@ -216,6 +230,7 @@ class Contact {
   template <class Recorder>
   std::size_t fire(Recorder& record, Account<double, Dim>& account, std::uint16_t material, std::uint32_t l, double t,
                    double h) {
+    const Doing firing(*activity_, Phase::layer);
     firing_ = layers_[material][l - 1].pairs;  // the list may change while they fire
     record.reserve(4 * firing_.size());
     const Kicked<double, Dim, Recorder> now{particles_, record, t};
@@ -223,7 +238,10 @@ class Contact {
     for (const certificates::Stencil& pair : firing_) {
       const double d = fire_pair(now, account, pair, settings_.materials[material], layers_[material][l - 1], h);
       const double eta = layers_[material][l - 1].thickness;
-      if (d < eta) ++acted;
+      if (d < eta) {
+        ++acted;
+        extremes_.add({pair, t, d, material, l});
+      }
       if (d > eta) drop_if_clear(pair.key, material, l, d, t);
     }
     account.events += acted;
@@ -257,6 +275,7 @@ class Contact {
       if (inverse_mass[i] == 0 || !differ<double, Dim>(v[i], particles_[pair.vertices[i]].v)) continue;
       set_velocity(now, pair.vertices[i], x[i], v[i]);
     }
+    const Doing certifying(*activity_, Phase::certificate);
     for (std::size_t i = 0; i < n; ++i) {
       if (inverse_mass[i] != 0) look(pair.vertices[i], now.t);
     }
@@ -298,6 +317,8 @@ class Contact {
   std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
   std::vector<certificates::Stencil> firing_;
+  ContactExtremes extremes_;
+  Activity* activity_ = nullptr;
   bool started_ = false;
   std::optional<certificates::Cells<Dim, Contact>> cells_;  ///< or:
   std::optional<certificates::EveryPair<Dim, Contact>> every_pair_;

@@ -18,6 +18,7 @@
 #include "noli/integrator/groups.h"
 #include "noli/integrator/kick.h"
 #include "noli/integrator/own_clocks.h"
+#include "noli/integrator/phase.h"
 #include "noli/integrator/scripts.h"
 #include "noli/integrator/simulation.h"
 
@@ -77,15 +78,17 @@ class Engine {
   const Divisions& divisions() const { return divisions_; }
   const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
   const Contact<Dim>* contact() const { return contact_.get(); }
+  void show(Activity& activity) {
+    activity_ = &activity;
+    if (contact_) contact_->show(activity);
+  }
 
   /// False when `stop`, which is asked now and then, said so: then the state is one between two events of the window.
   template <class Recorder, class Stop>
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
-    record.reserve(particles_.size());
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      record.put(static_cast<VertexId>(i), particles_[i].t, particles_[i].x, true);
-    }
+    open(record);
+    const Doing queueing(*activity_, Phase::queue);
     if (windows_ == 0) start(record, books);
     start_contact(record, books);
     std::uint64_t turns = 0, last = events_;
@@ -211,6 +214,7 @@ class Engine {
     if (!model.contact) return;
     if constexpr (has_contact) {
       contact_ = std::make_unique<Contact<Dim>>(*model.contact, model.mesh, particles_, look_steps(), window_length_);
+      contact_->show(*activity_);
     } else {
       throw std::invalid_argument("model: contact is computed in double precision only");
     }
@@ -317,6 +321,7 @@ class Engine {
   template <class Recorder, class Vertices>
   void look(const Now<Recorder>& now, const Vertices& vertices) const {
     if (!contact_) return;
+    const Doing certifying(*activity_, Phase::certificate);
     for (const VertexId v : vertices) {
       if (particles_[v].inverse_mass != S(0)) contact_->look(v, now.t);
     }
@@ -376,6 +381,7 @@ class Engine {
   template <class Recorder, class F>
   void fire_group(const Now<Recorder>& now, const Division<F>& division, const Group& group, const S& h,
                   Books<S, Dim>& books) {
+    const Doing firing(*activity_, Phase::force);
     events_ += group.end - group.begin;
     now.record.reserve(group.vertices.size());
     if (division.damped) {
@@ -393,7 +399,7 @@ class Engine {
                                       const S& h, Account<S, Dim>& account) {
     const std::span<const F> forces(division.list.forces.data() + group.begin, group.end - group.begin);
     Account<S, Dim> sum;
-    kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, sum);
+    kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, sum, *activity_);
     account += sum;
     if constexpr (std::is_same_v<Recorder, detail::Watch>) {
       for (const F& force : forces) watch(now, force);
@@ -403,6 +409,7 @@ class Engine {
   template <class Recorder, class F>
   void fire_lone(Recorder& record, const Division<F>& division, std::span<const Lone> firing, Books<S, Dim>& books) {
     if (firing.empty()) return;
+    const Doing striking(*activity_, Phase::force);
     events_ += firing.size();
     record.reserve(F::size * firing.size());
     const LoneBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record};
@@ -419,7 +426,7 @@ class Engine {
 
   template <bool Damped, class Recorder, class F>
   [[gnu::flatten]] void fire_lone_as(const LoneBlows<F, S, Dim, Recorder>& blows, Account<S, Dim>& account) {
-    strike<Damped, F, S, Dim>(blows, account);
+    strike<Damped, F, S, Dim>(blows, account, *activity_);
     if constexpr (std::is_same_v<Recorder, detail::Watch>) {
       for (const Lone& lone : blows.firing) {
         watch(Now<Recorder>{particles_, blows.record, lone.t}, blows.forces[lone.force]);
@@ -429,6 +436,7 @@ class Engine {
 
   template <class Recorder>
   void fall(const Now<Recorder>& now, const S& h, Books<S, Dim>& books) {
+    const Doing falling(*activity_, Phase::kick);
     Account<S, Dim> sum;
     const Vec<S, Dim> dv = h * gravity_->acceleration;
     now.record.reserve(particles_.size());
@@ -446,13 +454,25 @@ class Engine {
     events_ += sum.events;
     books.of(ForceKind::gravity) += sum;
     if (!contact_ || !contact_->started()) return;
+    activity_->set(Phase::certificate);
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       if (particles_[i].inverse_mass != S(0)) contact_->look(static_cast<VertexId>(i), now.t);
     }
   }
 
   template <class Recorder>
+  void open(Recorder& record) {
+    const Doing recording(*activity_, Phase::recording);
+    record.reserve(particles_.size());
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      record.put(static_cast<VertexId>(i), particles_[i].t, particles_[i].x, true);
+    }
+    if (contact_) contact_->forget_extremes();
+  }
+
+  template <class Recorder>
   void close(double end, Recorder& record) {
+    const Doing recording(*activity_, Phase::recording);
     record.reserve(particles_.size());
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       Particle<S, Dim>& p = particles_[i];
@@ -485,6 +505,8 @@ class Engine {
   std::unique_ptr<Contact<Dim>> contact_;  ///< of the particles above; nothing in scenes without contact
   std::uint64_t windows_ = 0;
   std::uint64_t events_ = 0;
+  Activity unseen_;
+  Activity* activity_ = &unseen_;
 };
 
 }  // namespace noli::integrator

@@ -22,6 +22,7 @@
 #include "noli/integrator/damping.h"
 #include "noli/integrator/force.h"
 #include "noli/integrator/particle.h"
+#include "noli/integrator/phase.h"
 
 namespace noli::integrator {
 
@@ -157,14 +158,16 @@ void apply(const Blows& blows, std::size_t k, const Stencil<S, Dim, N>& impulses
   for (std::size_t i = 0; i < N; ++i) blows.settle(k, force.vertices[i], v[i]);
 }
 
-/// Fires all.
+/// Fires all. Leaves the activity at what it does last.
 template <bool Damped, class F, class S, int Dim, class Blows>
-void strike(const Blows& blows, Account<S, Dim>& account) {
+void strike(const Blows& blows, Account<S, Dim>& account, Activity& activity) {
   constexpr std::size_t row = 64;
   std::array<Stencil<S, Dim, F::size>, row> impulses;
   for (std::size_t begin = 0; begin < blows.size(); begin += row) {
     const std::size_t end = std::min(blows.size(), begin + row);
+    activity.set(Phase::force);
     for (std::size_t k = begin; k < end; ++k) find_impulses<F, S, Dim>(blows, k, impulses[k - begin]);
+    activity.set(Phase::kick);
     for (std::size_t k = begin; k < end; ++k) apply<Damped>(blows, k, impulses[k - begin], account);
   }
   account.events += blows.size();
@@ -174,9 +177,10 @@ void strike(const Blows& blows, Account<S, Dim>& account) {
 /// particle.
 template <bool Damped, class F, class S, int Dim, class Recorder>
 void kick_all(const Kicked<S, Dim, Recorder>& now, std::span<const F> forces, std::span<const VertexId> vertices,
-              std::span<Here<S, Dim>> here, const S& h, Account<S, Dim>& account) {
+              std::span<Here<S, Dim>> here, const S& h, Account<S, Dim>& account, Activity& activity) {
+  activity.set(Phase::force);
   for (const VertexId i : vertices) here[i] = {now.particles[i].at(now.t), now.particles[i].inverse_mass, false};
-  strike<Damped, F, S, Dim>(GroupBlows<F, S, Dim, Recorder>{forces, h, now, here}, account);
+  strike<Damped, F, S, Dim>(GroupBlows<F, S, Dim, Recorder>{forces, h, now, here}, account, activity);
   for (const VertexId i : vertices) {
     if (here[i].changed) set_velocity(now, i, here[i].x, Vec<S, Dim>(now.particles[i].v));
   }

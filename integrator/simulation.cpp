@@ -98,6 +98,16 @@ std::map<certificates::PairKey, std::uint32_t> Simulation<S, Dim>::active_layers
 }
 
 template <class S, int Dim>
+ContactExtremes Simulation<S, Dim>::extremes() const {
+  return engine_->contact() != nullptr ? engine_->contact()->extremes() : ContactExtremes{};
+}
+
+template <class S, int Dim>
+void Simulation<S, Dim>::show(Activity& activity) {
+  engine_->show(activity);
+}
+
+template <class S, int Dim>
 bool Simulation<S, Dim>::finite() const {
   for (const auto& p : engine_->particles()) {
     if (!p.x.allFinite() || !p.v.allFinite()) return false;

@@ -26,7 +26,9 @@
 #include "noli/certificates/counts.h"
 #include "noli/certificates/stencil.h"
 #include "noli/integrator/books.h"
+#include "noli/integrator/contact_extremes.h"
 #include "noli/integrator/model.h"
+#include "noli/integrator/phase.h"
 #include "noli/integrator/recording.h"
 
 namespace noli::integrator {
@@ -112,6 +114,11 @@ class Simulation {
   std::vector<StepGroup> groups() const;
   /// What certificates have cost since time 0 of this object; nothing without contact.
   certificates::CertificateCounts certificates() const;
+  /// How near layers of contact that acted in the last window have seen things; nothing without contact.
+  ContactExtremes extremes() const;
+
+  /// From now on, what it does is shown there, for as long as this object is used.
+  void show(Activity& activity);
   /// Of each pair that has any, by key: how many layers are active; nothing without contact.
   std::map<certificates::PairKey, std::uint32_t> active_layers() const;
 

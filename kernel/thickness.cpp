@@ -15,6 +15,7 @@
 #include "noli/kernel/distance_parts.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/integer_coordinates.h"
+#include "noli/kernel/motion_points.h"
 #include "noli/kernel/rounding.h"
 
 namespace noli {
@@ -118,17 +119,27 @@ std::vector<AlgebraicNumber> candidate_times(const std::vector<distance::Part>& 
   return times;
 }
 
-template <FeaturePair Pair, int Dim>
-std::vector<distance::Part> exact_parts(const Query<Pair, Dim>& query, double eta) {
-  exact::ExponentRange range = exact::exponent_range(query);
-  range.add(eta);
-  const auto points = integer_points(query, range);
+/// `points`: formula::Moving in integers, `eta` in their unit.
+template <FeaturePair Pair, int Dim, class Points>
+std::vector<distance::Part> exact_parts_of(const Points& points, const Integer& eta) {
   std::array<distance::Vector<Dim>, point_count(Pair)> x;
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (std::size_t k = 0; k < Dim; ++k) x[i][k] = from_form(std::array{points[i].at_t0[k], points[i].at_t1[k]});
   }
-  const Integer scaled_eta = integer_coordinate(eta, range);
-  return distance::parts_of<Pair, Dim>(x, scaled_eta * scaled_eta);
+  return distance::parts_of<Pair, Dim>(x, eta * eta);
+}
+
+template <FeaturePair Pair, int Dim>
+std::vector<distance::Part> exact_parts(const Query<Pair, Dim>& query, double eta) {
+  exact::ExponentRange range = exact::exponent_range(query);
+  range.add(eta);
+  return exact_parts_of<Pair, Dim>(integer_points(query, range), integer_coordinate(eta, range));
+}
+
+template <FeaturePair Pair, int Dim>
+std::vector<distance::Part> exact_parts(const MotionQuery<Pair, Dim>& query, double eta) {
+  const auto motion = motion::integer_points(query, eta);
+  return exact_parts_of<Pair, Dim>(motion.points, motion.length);
 }
 
 std::optional<TimeOfImpact> first_within(const std::vector<distance::Part>& parts) {
@@ -154,6 +165,13 @@ bool within_distance(const Query<Pair, Dim>& query, double eta) {
   return first_within(query, eta).has_value();
 }
 
+template <FeaturePair Pair, int Dim>
+std::optional<TimeOfImpact> first_within(const MotionQuery<Pair, Dim>& query, double eta) {
+  if (eta > 0) return first_within(exact_parts(query, eta));
+  auto contact = first_contact(query);
+  return contact ? std::optional(std::move(contact->time)) : std::nullopt;
+}
+
 template std::optional<TimeOfImpact> first_within(const VertexFace3&, double);
 template std::optional<TimeOfImpact> first_within(const EdgeEdge3&, double);
 template std::optional<TimeOfImpact> first_within(const VertexEdge3&, double);
@@ -166,5 +184,11 @@ template bool within_distance(const VertexEdge3&, double);
 template bool within_distance(const VertexVertex3&, double);
 template bool within_distance(const VertexEdge2&, double);
 template bool within_distance(const VertexVertex2&, double);
+template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_face, 3>&, double);
+template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::edge_edge, 3>&, double);
+template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_edge, 3>&, double);
+template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_vertex, 3>&, double);
+template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_edge, 2>&, double);
+template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_vertex, 2>&, double);
 
 }  // namespace noli

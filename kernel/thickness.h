@@ -11,6 +11,7 @@
 
 #include <optional>
 
+#include "noli/kernel/motion.h"
 #include "noli/kernel/query.h"
 #include "noli/kernel/time_of_impact.h"
 
@@ -24,5 +25,9 @@ std::optional<TimeOfImpact> first_within(const Query<Pair, Dim>& query, double e
 /// Whether there is such a time.
 template <FeaturePair Pair, int Dim>
 bool within_distance(const Query<Pair, Dim>& query, double eta);
+
+/// The same for a piece of a motion; the time is its s (kernel/motion.h).
+template <FeaturePair Pair, int Dim>
+std::optional<TimeOfImpact> first_within(const MotionQuery<Pair, Dim>& query, double eta);
 
 }  // namespace noli

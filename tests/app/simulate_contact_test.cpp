@@ -8,28 +8,6 @@
 namespace noli::app_tests {
 namespace {
 
-/// A small cloth that falls onto a pinned one that lies aslant below it.
-Json two_cloths() {
-  const Json material = {{"young", 2e4}, {"density", 200}, {"thickness", 0.001}};
-  return {{"noli_scene", 1},
-          {"title", "Two cloths"},
-          {"duration", 0.2},
-          {"window", 0.01},
-          {"gravity", {0, 0, -9.81}},
-          {"bodies",
-           {{{"name", "falling"},
-             {"mesh", {{"grid", {{"size", {0.3, 0.3}}, {"cells", {4, 4}}}}}},
-             {"transform", {{"translate", {0.02, 0.01, 0.06}}}},
-             {"velocity", {0, 0, -1}},
-             {"material", material}},
-            {{"name", "lying"},
-             {"mesh", {{"grid", {{"size", {0.3, 0.3}}, {"cells", {3, 3}}}}}},
-             {"transform", {{"rotate", {{"axis", {1, 0, 0}}, {"degrees", 10}}}}},
-             {"material", material},
-             {"pin", {"all"}}}}},
-          {"contact", {{"thickness", 0.01}, {"stiffness", 200}, {"friction", 0.3}, {"restitution", 0.5}}}};
-}
-
 TEST_F(Simulate, ContactKeepsThingsApart) {
   const Json json = json_of({"simulate", scene(two_cloths()), "-o", run_path("run")}, 0);
   EXPECT_EQ(json["verdict"], "no_contact");

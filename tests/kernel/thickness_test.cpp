@@ -6,6 +6,7 @@
 
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/thickness.h"
+#include "noli/tests/kernel/motions.h"
 #include "noli/tests/kernel/oracle_motion.h"
 #include "noli/tests/kernel/random_queries.h"
 
@@ -52,6 +53,35 @@ TEST(Thickness, VertexEdgeAsOracle) { compare_with_oracle<VertexEdge3>(3, 1000);
 TEST(Thickness, VertexVertexAsOracle) { compare_with_oracle<VertexVertex3>(4, 1000); }
 TEST(Thickness, VertexEdgeInThePlaneAsOracle) { compare_with_oracle<VertexEdge2>(5, 1000); }
 TEST(Thickness, VertexVertexInThePlaneAsOracle) { compare_with_oracle<VertexVertex2>(6, 1000); }
+
+/// A piece of longer paths is decided as the query that has only the piece; both answers often enough.
+template <class Query>
+void compare_pieces(std::uint64_t seed, int count) {
+  Random random(seed);
+  std::array<int, 2> answers{};
+  for (int i = 0; i < count; ++i) {
+    const Query query =
+        test::random_query<Query>(random, i % 2 == 0 ? test::Spread::small_integers : test::Spread::integers);
+    const double eta = random_eta(random);
+    const auto expected = first_within(query, eta), answer = first_within(test::prolonged(query, random, 3), eta);
+    ++answers[answer.has_value()];
+    ASSERT_EQ(answer.has_value(), expected.has_value()) << "query " << i << " eta " << eta;
+    if (answer) {
+      ASSERT_EQ(*answer, *expected) << "query " << i << " eta " << eta;
+    }
+  }
+  EXPECT_GT(answers[0], count / 20);
+  EXPECT_GT(answers[1], count / 20);
+}
+
+TEST(Thickness, PiecesOfPathsAsQueries) {
+  compare_pieces<VertexFace3>(11, 300);
+  compare_pieces<EdgeEdge3>(12, 300);
+  compare_pieces<VertexEdge3>(13, 300);
+  compare_pieces<VertexVertex3>(14, 300);
+  compare_pieces<VertexEdge2>(15, 300);
+  compare_pieces<VertexVertex2>(16, 300);
+}
 
 TEST(Thickness, WithinZeroIsContact) {
   Random random(7);

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/run_explanation.h"
+
+#include <algorithm>
+
+#include "noli/app/run_folder.h"
+
+namespace noli::app {
+namespace {
+
+constexpr std::size_t most_worst = 5;
+
+class Explaining {
+ public:
+  explicit Explaining(const std::filesystem::path& run) : run_(run), reader_(run) {
+    result_.title = title_of(run);
+    result_.dimension = reader_.header().dimension;
+    result_.full = reader_.header().record == RecordMode::full;
+    result_.log = read_log(run);
+  }
+
+  RunExplanation operator()() {
+    while (auto window = reader_.next_window()) add(std::move(*window));
+    result_.open_window = reader_.open_window().has_value();
+    if (nearest_lines_) {
+      const ActingLayer& nearest = result_.nearest->action;
+      result_.gap = exact_gap(*nearest_lines_, static_cast<int>(result_.dimension), nearest.pair, nearest.vertices);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void add(RunWindow window) {
+    const SeriesRow row = row_of(window, run_);
+    ++result_.windows;
+    result_.time = row.time;
+    result_.breakpoints += row.breakpoints;
+    result_.halvings = row.halvings;
+    for (std::size_t k = 0; k < row.events.size(); ++k) result_.events[k] += row.events[k];
+    if (row.steps.smallest > 0 && (result_.smallest_step == 0 || row.steps.smallest < result_.smallest_step)) {
+      result_.smallest_step = row.steps.smallest;
+    }
+    add_energy(row);
+    if (row.deepest.layer > 0) add_layers(window.index, row);
+    if (result_.nearest && result_.nearest->window == window.index && window.lines) {
+      nearest_lines_ = std::move(*window.lines);
+    }
+  }
+
+  void add_energy(const SeriesRow& row) {
+    const double total = row.kinetic_mean + row.potential_in_all();
+    if (!result_.energy) {
+      result_.energy = EnergySummary{total, total, total, total, 0};
+      return;
+    }
+    EnergySummary& energy = *result_.energy;
+    energy.last = total;
+    energy.least = std::min(energy.least, total);
+    energy.greatest = std::max(energy.greatest, total);
+    for (const double w : row.damping_work) energy.damping_work += w;
+  }
+
+  void add_layers(std::uint64_t window, const SeriesRow& row) {
+    const ActingMoment deepest{window, row.deepest}, nearest{window, row.nearest};
+    if (!result_.deepest || deepest.action.layer > result_.deepest->action.layer) result_.deepest = deepest;
+    if (!result_.nearest || nearest.action.distance < result_.nearest->action.distance) result_.nearest = nearest;
+    auto& worst = result_.worst;
+    const auto place =
+        std::upper_bound(worst.begin(), worst.end(), deepest,
+                         [](const ActingMoment& a, const ActingMoment& b) { return a.action.layer > b.action.layer; });
+    worst.insert(place, deepest);
+    if (worst.size() > most_worst) worst.pop_back();
+  }
+
+  const std::filesystem::path& run_;
+  RunReader reader_;
+  std::optional<WorldLines> nearest_lines_;  ///< of the window in which things came nearest
+  RunExplanation result_;
+};
+
+}  // namespace
+
+std::optional<double> RunExplanation::bound() const {
+  if (!log.has_contact || log.thicknesses.empty() || log.windows < windows) return std::nullopt;
+  const double thickness = *std::min_element(log.thicknesses.begin(), log.thicknesses.end());
+  integrator::ContactMaterial material;
+  material.thickness = thickness;
+  return layer_thickness(material, log.layers, log.deepest + 1);
+}
+
+RunExplanation explain_run(const std::filesystem::path& run) { return Explaining(run)(); }
+
+}  // namespace noli::app

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/run_extent.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "noli/app/exit_code.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+
+std::uint64_t windows_of(const SimulateRequest& request, const integrator::Scene& scene) {
+  constexpr double most = 0x1p53;
+  const double windows = std::ceil(request.until.value_or(scene.duration) / scene.window * (1 - 0x1p-50));
+  if (windows < most) return static_cast<std::uint64_t>(windows);
+  const std::string problem = fmt::format("expected fewer than 2^53 windows of {} s", scene.window);
+  if (request.until) throw UsageError("--until: " + problem);
+  throw InputError(request.scene.string(), "/duration", problem);
+}
+
+void require_countable_frames(const SimulateRequest& request, const integrator::Scene& scene, std::size_t vertices,
+                              std::uint64_t windows) {
+  const double time = static_cast<double>(windows) * scene.window;
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(request.scene.string(), "/frame_rate", problem);
+  };
+  if (!(time * scene.frame_rate < 0x1p53)) refuse(fmt::format("expected fewer than 2^53 frames in {} s", time));
+  if (scene.record == integrator::Record::full) return;
+  constexpr double most = 0x1p32;
+  const double bytes = 24.0 * static_cast<double>(vertices) * scene.window * scene.frame_rate;
+  if (bytes <= most) return;
+  refuse(
+      fmt::format("the frames of a window take about {:.2g} bytes; expected at most {:.2g}, as with frame_rate {:.2g}",
+                  bytes, most, scene.frame_rate * most / bytes));
+}
+
+}  // namespace noli::app

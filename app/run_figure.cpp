@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/run_figure.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "noli/app/exit_code.h"
+#include "noli/app/output.h"
+#include "noli/app/run_folder.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+FigureKind kind_of(const std::string& name) {
+  const auto found = std::find(figure_names.begin(), figure_names.end(), name);
+  if (found == figure_names.end()) {
+    throw UsageError(fmt::format("--figure {}: expected one of {}", name, fmt::join(figure_names, ", ")));
+  }
+  return static_cast<FigureKind>(found - figure_names.begin());
+}
+
+/// Whether a picture is wanted, not numbers.
+bool is_picture(const std::string& output) {
+  const std::string ending = std::filesystem::path(output).extension().string();
+  if (ending == ".svg") return true;
+  if (ending == ".csv") return false;
+  throw UsageError("-o " + output + ": expected a name that ends in .svg or .csv");
+}
+
+void require_place(const FigureRequest& request) {
+  require_other_file(request.output, with_files_of_runs({request.run}), "-o");
+  require_writable_file(request.output, "-o");
+  std::error_code error;
+  if (request.force || !std::filesystem::exists(request.output, error)) return;
+  throw UsageError("-o " + request.output + ": is there already; expected no such file, or --force");
+}
+
+FigureData read(const std::filesystem::path& run, RunReader& reader) {
+  FigureData data{title_of(run), reader.header().dimension, {}};
+  while (const auto window = reader.next_window()) data.windows.push_back({window->begin, row_of(*window, run)});
+  if (data.windows.empty()) {
+    throw InputError(run.string(), "", "the run has no windows; expected at least one to draw");
+  }
+  return data;
+}
+
+}  // namespace
+
+FigureOutcome run_figure(const FigureRequest& request) {
+  const FigureKind kind = kind_of(request.figure);
+  const bool picture = is_picture(request.output);
+  RunReader reader(request.run);
+  require_place(request);
+  const FigureData data = read(request.run, reader);
+  replace_file(request.output, picture ? figure_svg(kind, data) : figure_csv(kind, data));
+  return {data.windows.size(), data.windows.back().row.time, reader.open_window().has_value()};
+}
+
+}  // namespace noli::app

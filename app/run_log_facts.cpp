@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/run_log_facts.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <set>
+#include <string>
+#include <system_error>
+
+namespace noli::app {
+namespace {
+
+/// A member that is a number, or else 0.
+template <class T>
+T number(const Json& json, const char* key) {
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return json.is_object() && found != json.end() && found->is_number() ? found->template get<T>() : T{};
+}
+
+const Json& member(const Json& json, const char* key) {
+  static const Json nothing;
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return json.is_object() && found != json.end() ? *found : nothing;
+}
+
+class Reader {
+ public:
+  void take(const std::string& line) {
+    const Json entry = Json::parse(line, nullptr, false);
+    const Json& event = member(entry, "event");
+    if (!event.is_string()) {
+      ++facts_.bad_lines;
+      return;
+    }
+    const auto is = [&](const char* name) { return event.get_ref<const std::string&>() == name; };
+    if (is("begin")) begin(entry);
+    if (is("begin") || is("resume")) ++facts_.parts;
+    if (is("window")) window(entry);
+    if (is("roll_back")) facts_.roll_backs.push_back(entry);
+    if (is("end")) end(entry);
+  }
+
+  LogFacts finish() {
+    facts_.windows = seen_.size();
+    return std::move(facts_);
+  }
+
+ private:
+  void begin(const Json& entry) {
+    facts_.names = BodyNames::from_json(member(entry, "bodies"));
+    const Json& contact = member(entry, "contact");
+    if (!contact.is_object()) return;
+    facts_.has_contact = true;
+    facts_.most_layers = number<std::uint32_t>(contact, "most_layers");
+    const Json& quarters = member(contact, "layers");
+    if (quarters.is_array() && quarters.size() == 3 &&
+        std::all_of(quarters.begin(), quarters.end(), [](const Json& q) { return q.is_number_integer(); })) {
+      facts_.layers = {quarters[0], quarters[1], quarters[2]};
+    }
+    for (const Json& material : member(contact, "materials")) {
+      facts_.thicknesses.push_back(number<double>(material, "thickness"));
+    }
+  }
+
+  void window(const Json& entry) {
+    seen_.insert(number<std::uint64_t>(entry, "window"));
+    facts_.deepest = std::max(facts_.deepest, number<std::uint32_t>(member(entry, "timing"), "deepest"));
+  }
+
+  void end(const Json& entry) {
+    ++facts_.parts_ended;
+    const Json& why = member(entry, "end");
+    facts_.last_end = why.is_string() ? why.get<std::string>() : "";
+    const Json& timing = member(entry, "timing");
+    facts_.verifying_seconds += number<double>(timing, "verifying_seconds");
+    for (std::size_t i = 0; i < integrator::phases; ++i) {
+      const std::string phase(name(static_cast<integrator::Phase>(i)));
+      facts_.phases[i] += number<double>(member(timing, "phases"), phase.c_str());
+    }
+    const Json& counts = member(timing, "certificates");
+    certificates::CertificateCounts more;
+    more.slices = number<std::uint64_t>(counts, "slices");
+    more.tubes = number<std::uint64_t>(counts, "tubes");
+    more.plans = number<std::uint64_t>(counts, "plans");
+    more.repairs = number<std::uint64_t>(counts, "repairs");
+    more.activations = number<std::uint64_t>(counts, "activations");
+    more.deactivations = number<std::uint64_t>(counts, "deactivations");
+    more.most_near = number<std::uint64_t>(counts, "most_near");
+    more.deepest = number<std::uint32_t>(counts, "deepest");
+    facts_.certificates += more;
+  }
+
+  LogFacts facts_;
+  std::set<std::uint64_t> seen_;  ///< a window may be logged twice, by a part that was killed and by the next
+};
+
+}  // namespace
+
+LogFacts read_log(const std::filesystem::path& run) {
+  const std::filesystem::path path = run / "log.jsonl";
+  Reader reader;
+  if (!std::filesystem::exists(path)) return reader.finish();
+  std::ifstream in(path, std::ios::binary);
+  for (std::string line; std::getline(in, line);) {
+    if (!in.eof()) reader.take(line);  // a last line without an end was cut off
+  }
+  if (in.bad() || !in.eof()) throw std::system_error(errno, std::generic_category(), path.string());
+  return reader.finish();
+}
+
+}  // namespace noli::app

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "noli/app/body_names.h"
+#include "noli/proofs/prover/window_verifier.h"
+
+namespace noli::app {
+
+/// What meets where a scene begins, everything being at rest there, decided exactly; "" if nothing does. `options`: as
+/// for a window.
+std::string contact_at_start(const WindowVerifier& verifier, const std::vector<Position>& x, WindowOptions options,
+                             const BodyNames& names);
+
+}  // namespace noli::app

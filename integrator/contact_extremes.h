@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How near things came in a window, as far as layers of contact that acted have seen it.
+//
+// A layer acts at its own times only, so a pair may have been nearer between them: app/exact_gap.h says how near. What
+// is kept is a property of the motion: certificates, which decide how many layers are looked at, do not change it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "noli/certificates/stencil.h"
+
+namespace noli::integrator {
+
+/// A layer that acts on a pair.
+struct LayerAction {
+  certificates::Stencil pair;
+  double time = 0;             ///< [s]
+  double distance = 0;         ///< as it was computed [m]
+  std::uint16_t material = 0;  ///< of ContactSettings::materials
+  std::uint32_t layer = 0;
+};
+
+/// Of the actions of a window; of several, the first.
+struct ContactExtremes {
+  std::optional<LayerAction> deepest, nearest;
+
+  void add(const LayerAction& action) {
+    if (!deepest || action.layer > deepest->layer) deepest = action;
+    if (!nearest || action.distance < nearest->distance) nearest = action;
+  }
+};
+
+}  // namespace noli::integrator
