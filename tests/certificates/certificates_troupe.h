@@ -7,6 +7,7 @@
 //            its body's band, so that bands keep apart as long as vertices keep to their boxes
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -72,8 +73,10 @@ class TroupeMaker {
     switch (random_.below(6)) {
       case 0: mesh.faces.push_back({vertex(a, b, 0), vertex(a + l, b, 0), vertex(a, b + l, 0)}); return 0;
       case 1: {  // a strip of four
-        std::vector<VertexId> v;
-        for (int i = 0; i < 6; ++i) v.push_back(vertex(a + 0.5 * l * i - l, b + (i % 2 == 0 ? 0 : l), 0));
+        std::array<VertexId, 6> v;
+        for (int i = 0; i < 6; ++i) {
+          v[static_cast<std::size_t>(i)] = vertex(a + 0.5 * l * i - l, b + (i % 2 == 0 ? 0 : l), 0);
+        }
         for (std::size_t i = 0; i < 4; ++i) mesh.faces.push_back({v[i], v[i + 1], v[i + 2]});
         return 0;
       }

@@ -22,25 +22,11 @@ using test::Instants;
 
 const std::filesystem::path folder = std::filesystem::path(NOLI_SOURCE_DIR) / "scenes";
 
-const std::vector<std::string> with_contact = {"billiard",
-                                               "bounce",
-                                               "bowline",
-                                               "compactor",
-                                               "curtains",
-                                               "drape_mesh",
-                                               "drape_sphere",
-                                               "incline",
-                                               "nails",
-                                               "plane_compactor",
-                                               "plane_compactor_elastic",
-                                               "plane_curtain",
-                                               "plane_nails",
-                                               "reef_knot",
-                                               "restitution",
-                                               "ring_in_box",
-                                               "sphere_plate",
-                                               "stack",
-                                               "through_ring"};
+const std::vector<std::string> with_contact = {
+    "billiard",      "bounce",       "bowline",   "compactor",   "curtains",        "drape_mesh",
+    "drape_sphere",  "graded_sheet", "incline",   "nails",       "plane_compactor", "plane_compactor_elastic",
+    "plane_curtain", "plane_nails",  "reef_knot", "restitution", "ring_in_box",     "sphere_plate",
+    "stack",         "through_ring"};
 
 TEST(Instants, AreLookedAtOfEachSceneWithContact) {
   std::set<std::string> names;

@@ -116,7 +116,7 @@ inline Model<double, 2> stack_of_chains() {
   Model<double, 2> m = held(straight_chain(3, 2, 0, 1));
   std::vector<std::size_t> sizes{m.x.size()};
   for (int k = 1; k <= 4; ++k) {
-    const auto next = straight_chain(4 + k, 1.2, 0.01, static_cast<std::uint64_t>(100 * k));
+    const auto next = straight_chain(4 + k, 1.2, 0.01, 100 * static_cast<std::uint64_t>(k));
     m = both(std::move(m), moved<2>(next, {0.02 * k, 0.05 * k}, {0, -1.0 - k}));
     sizes.push_back(next.x.size());
   }

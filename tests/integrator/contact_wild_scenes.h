@@ -11,7 +11,8 @@
 
 namespace noli::integrator::test {
 
-/// A stream of numbers that depends on the seed alone.
+/// A stream of numbers that depends on the seed alone. (At most one of them in a list of arguments, unless in braces:
+/// compilers differ in the order.)
 class Numbers {
  public:
   explicit Numbers(std::uint64_t seed) : state_(seed * 1000003) {}
@@ -99,12 +100,12 @@ inline Model<double, 3> flying_tips(Numbers& random, double speed) {
   if (random.chance(0.4)) below = held(std::move(below));
   const int tips = random.whole(1, 3);
   for (int k = 0; k < tips; ++k) {
-    const V3 place(0.1 + 0.4 * k + random.between(-0.02, 0.02), 0.4 + random.between(-0.1, 0.1), 0.1);
+    const V3 place{0.1 + 0.4 * k + random.between(-0.02, 0.02), 0.4 + random.between(-0.1, 0.1), 0.1};
     const bool opposed = random.chance(0.5);
     if (opposed) {
       below = both(std::move(below), moved<3>(tip(random, -1), place + V3(0, 0, 1.05), V3(0, 0, -0.2 * speed)));
     }
-    const V3 aside(random.between(-0.01, 0.01), random.between(-0.01, 0.01), opposed ? 1.15 : 0.05);
+    const V3 aside{random.between(-0.01, 0.01), random.between(-0.01, 0.01), opposed ? 1.15 : 0.05};
     below = both(std::move(below), moved<3>(tip(random, 1), place + aside, V3(0, 0, -speed)));
   }
   return below;
@@ -177,10 +178,12 @@ inline Model<double, 2> rough_loop(Numbers& random, const V2& at, double radius)
 }
 
 inline Model<double, 2> rough_points(Numbers& random, double height) {
-  std::vector<V2> x;
   const int count = random.whole(1, 5);
-  for (int i = 0; i < count; ++i)
-    x.emplace_back(-0.5 + 0.2 * i + random.between(0, 0.1), height + random.between(0, 0.1));
+  std::vector<V2> x(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double place = -0.5 + 0.2 * i + random.between(0, 0.1);
+    x[static_cast<std::size_t>(i)] = V2(place, height + random.between(0, 0.1));
+  }
   return points<2>(std::move(x), random.decades(0.005, 0.5));
 }
 
@@ -201,8 +204,8 @@ inline Wild<2> wild_scene_2d(std::uint64_t seed) {
       case 2: next = rough_loop(random, {place, height}, 0.12); break;
       case 3: next = rough_points(random, height - 0.05); break;
       default:  // two tips
-        next = both(rough_spike(random, {place, height - 0.04}, -0.08),
-                    rough_spike(random, {place + random.between(-1e-3, 1e-3), height + 0.01}, 0.09));
+        next = rough_spike(random, {place, height - 0.04}, -0.08);
+        next = both(std::move(next), rough_spike(random, {place + random.between(-1e-3, 1e-3), height + 0.01}, 0.09));
         break;
     }
     model = both(std::move(model), moved<2>(std::move(next), V2::Zero(), v));
