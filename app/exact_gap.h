@@ -4,8 +4,8 @@
 //
 // Notation
 //   piece   between two successive breakpoints of the features' vertices: all of them move linearly in it
-//   gap     the least distance over all pieces; with the kernel's exact predicate "within eta at some time of the piece"
-//           (kernel/thickness.h) it is found by bisection over the doubles
+//   gap     the least distance over all pieces; with the kernel's exact predicate "within eta at some time of the
+//           piece" (kernel/thickness.h) it is found by bisection over the doubles
 //
 // A direction n with n . (a - b) >= g |n| for all points a, b at both ends of a piece shows, with a bound of its
 // rounding, that the piece is farther than g; so most pieces are never decided exactly.

@@ -28,8 +28,8 @@ struct Tick {
 /// finite, most >= 2.
 std::vector<Tick> linear_ticks(double low, double high, int most);
 
-/// The same for a logarithmic scale: powers of ten; if fewer than three, 2 and 5 times those too. Precondition: 0 < low <
-/// high, both finite.
+/// The same for a logarithmic scale: powers of ten; if fewer than three, 2 and 5 times those too. Precondition: 0 < low
+/// < high, both finite.
 std::vector<Tick> logarithmic_ticks(double low, double high);
 
 /// A rectangle with ticks on its left and below.

@@ -7,8 +7,8 @@
 //                      layer sees its pairs at its own times only
 //   gap                how near the pair of `nearest` came in that window, between those times too: decided exactly
 //                      (exact_gap.h), if the run recorded its world lines
-//   bound              what certificates say of all pairs: none was nearer than eta(L + 1), L the deepest layer that was
-//                      ever active
+//   bound              what certificates say of all pairs: none was nearer than eta(L + 1), L the deepest layer that
+//                      was ever active
 //   part               from the run's begin or a resumption to its end, if it came to one: a part that was killed has
 //                      none, and what it would have said of clocks and certificates is lost
 //

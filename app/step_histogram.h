@@ -46,8 +46,8 @@ struct StepHistogram {
   /// Adds what is in another one.
   void add(const StepHistogram& other);
   /// The step below which a free vertex is for this share of its time [s], steps being spread over their bin evenly in
-  /// their logarithm; 0.5 is the median. Precondition: something is free, 0 <= share <= 1. Not for results that have to be
-  /// the same everywhere.
+  /// their logarithm; 0.5 is the median. Precondition: something is free, 0 <= share <= 1. Not for results that have to
+  /// be the same everywhere.
   double quantile(double share) const;
 };
 

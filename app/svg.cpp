@@ -45,7 +45,8 @@ std::string box(Svg::Point corner, Svg::Point size) {
 Svg::Svg(double width, double height, const std::string& title) {
   out_ = fmt::format(
       R"(<?xml version="1.0" encoding="UTF-8"?>
-<svg xmlns="http://www.w3.org/2000/svg" version="1.1" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="Helvetica, Arial, sans-serif" font-size="13" fill="#222222">
+<svg xmlns="http://www.w3.org/2000/svg" version="1.1" width="{0}" height="{1}" viewBox="0 0 {0} {1}"
+ font-family="Helvetica, Arial, sans-serif" font-size="13" fill="#222222">
 <title>{2}</title>
 )",
       number(width), number(height), escaped(title));

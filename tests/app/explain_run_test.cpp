@@ -22,7 +22,8 @@ double sum(const Json& numbers) {
 /// In the plane: a point falls onto a floor and bounces.
 Json bouncing_point() {
   return Json::parse(R"({
-      "noli_scene": 1, "title": "bouncing point", "dimension": 2, "duration": 1, "window": 0.0625, "gravity": [0, -9.81],
+      "noli_scene": 1, "title": "bouncing point", "dimension": 2, "duration": 1, "window": 0.0625,
+      "gravity": [0, -9.81],
       "bodies": [
         {"name": "floor", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}},
          "material": {"edge_stiffness": 0, "mass_per_length": 1}, "pin": ["all"]},
