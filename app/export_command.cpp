@@ -10,6 +10,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/run_figure.h"
+#include "noli/app/run_picture.h"
 
 namespace noli::app {
 namespace {
@@ -22,11 +23,14 @@ constexpr const char* footer =
     "Examples:\n"
     "  noli export runs/cloth --fps 60 -o frames/%05d.ply\n"
     "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens\n"
-    "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv";
+    "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv\n"
+    "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5";
 
 struct ExportArguments {
   ExportRequest frames;
   std::optional<std::string> figure;
+  std::optional<double> at;
+  std::optional<Position> from;
 };
 
 ExitCode draw(const FigureRequest& request) {
@@ -38,8 +42,16 @@ ExitCode draw(const FigureRequest& request) {
   return ExitCode::holds;
 }
 
+ExitCode paint(const PictureRequest& request) {
+  const PictureOutcome outcome = run_picture(request);
+  write_standard_output(
+      fmt::format("picture width {} height {} time {}\n", outcome.width, outcome.height, digits17(outcome.time)));
+  return ExitCode::holds;
+}
+
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
+  if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern, request.force});
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern, request.force});
   const ExportOutcome outcome = run_export(request);
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
@@ -65,16 +77,20 @@ Command add_export(CLI::App& app) {
   auto* const fps = command->add_option("--fps", request->fps, "Frames a second of simulated time");
   fps->check(is_positive())->capture_default_str();
   command
-      ->add_option("-o,--output", request->pattern,
-                   "Names of the files, e.g. frames/%05d.ply (.obj, .vtu); of a figure, its file (.svg, .csv)")
+      ->add_option(
+          "-o,--output", request->pattern,
+          "Names of the files, e.g. frames/%05d.ply (.obj, .vtu); of a figure or picture, its file (.svg, .csv; .png)")
       ->required()
       ->type_name("PATTERN");
   command->add_flag("--force", request->force,
                     "Replace files of that pattern that are there, and remove those that this export does not have; "
                     "without it they are an error");
-  command->add_option("--figure", arguments->figure, "Draw this instead: step-histogram, energy, momentum")
-      ->excludes(fps)
-      ->type_name("NAME");
+  auto* const figure =
+      command->add_option("--figure", arguments->figure, "Draw this instead: step-histogram, energy, momentum");
+  figure->excludes(fps)->type_name("NAME");
+  auto* const at = command->add_option("--at", arguments->at, "A picture of this time, in seconds (.png)");
+  at->excludes(fps)->excludes(figure);
+  command->add_option("--from", arguments->from, "Direction in which the eye is, for --at: x y z")->needs(at);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What contact costs: certificates where nothing is near and where sheets hang side by side, against the same run
-// without them; Algorithm 1 read literally (certificates/every_pair.h) against cells; and an impulse of a layer, with
-// all that follows from it.
+// without them; Algorithm 1 read literally (certificates/every_pair.h) against cells; an impulse of a layer, with all
+// that follows from it; and stacks of ten sheets that fall onto each other and onto a pinned one, larger and larger.
 //
 // Each pair of runs is of the same scene over the same windows, in turn, median of the passes.
 #include <fmt/format.h>
@@ -113,6 +113,15 @@ void add_layers(Table& table, int cells, int count) {
              fmt::format("{:.2f}", 1e6 * (cost.seconds - bare.seconds) / static_cast<double>(cost.impulses))});
 }
 
+/// The first two windows, in which the sheets meet.
+void add_stack(Table& table, int cells) {
+  const Model model = sheets(cells, 10, 0.2, true);
+  const Cost cost = run_windows(model, 0, 2);
+  const auto vertices = static_cast<double>(model.x.size());
+  table.row({fmt::format("{:.0f}", vertices), fmt::format("{:.1f}", static_cast<double>(cost.impulses) / vertices),
+             fmt::format("{:.1f}", 1e6 * cost.seconds / vertices)});
+}
+
 }  // namespace
 
 bool run() {
@@ -125,10 +134,12 @@ bool run() {
   const double literal = per_kick(small);
   Table layers({"falling onto a pinned one", "impulses of layers", "us each, all included"});
   for (const int n : {15, 31}) add_layers(layers, n, 3);
+  Table stacks({"stack of ten sheets on a pinned one, vertices", "impulses a vertex", "us a vertex"});
+  for (const int n : {9, 31, 94}) add_stack(stacks, n);
   std::fputs(
-      fmt::format(
-          "\n{}\nAlgorithm 1 read literally, 72 vertices: {:.0f} ns a kick for certificates, cells {:.0f} ns\n\n{}\n",
-          certificates.text(), 1e9 * literal, 1e9 * cells, layers.text())
+      fmt::format("\n{}\nAlgorithm 1 read literally, 72 vertices: {:.0f} ns a kick for certificates, cells {:.0f} "
+                  "ns\n\n{}\n{}\n",
+                  certificates.text(), 1e9 * literal, 1e9 * cells, layers.text(), stacks.text())
           .c_str(),
       stdout);
   return true;

@@ -25,11 +25,11 @@
 // Host, the dynamics:
 //   Line<Dim> line(v)                 how a vertex moves now
 //   bool immovable(v)                 pinned or scripted: two such features are no pair
-//   std::uint16_t material(v, w)      of contact between them, or no_material
+//   std::uint16_t material(stencil)   of contact of this pair, or no_material
 //   double thickness(material, l)     eta(l), decreasing to 0
 //   double look_step(v)
 //   std::uint32_t least_layers()      so many are always active for a pair that is near
-//   double greatest_thickness()       the largest eta(1) of all materials
+//   double greatest_thickness(v)      the largest eta(1) of any pair of a feature that v is part of
 //   in_broad_phase()                  something that is kept while this looks for who is near whom
 //   void activate(stencil, material, l, t), deactivate(stencil, material, l)
 //
@@ -57,7 +57,6 @@ class Cells {
   Cells(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> x, double longest_slice)
       : host_(host),
         features_(mesh, Dim),
-        widest_(host.greatest_thickness()),
         longest_(longest_slice),
         length_(longest_slice / 8),
         courses_(x.size()),
@@ -138,7 +137,8 @@ class Cells {
 
   // --- Slices --------------------------------------------------------------------------------------------------------
 
-  /// Radii of tubes: a part of the shortest edge at a vertex.
+  /// Radii of tubes: a part of the shortest edge at a vertex. And what cells have to keep clear around them: of a pair of
+  /// features each cell has at least half of the thickness.
   void measure(std::span<const Vector<Dim>> x) {
     constexpr double part = 0.12;
     sizes_.assign(x.size(), never);
@@ -148,7 +148,14 @@ class Cells {
       sizes_[b] = std::min(sizes_[b], length);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (sizes_[i] == never) sizes_[i] = 2 * widest_;
+      if (sizes_[i] == never) sizes_[i] = 2 * host_.greatest_thickness(static_cast<VertexId>(i));
+    }
+    for (const auto& cell : features_.cells()) {
+      double widest = 0;
+      for (std::uint8_t k = 0; k < cell.size; ++k) {
+        widest = std::max(widest, host_.greatest_thickness(cell.vertices[k]));
+      }
+      halves_.push_back(0.5 * widest);
     }
   }
 
@@ -210,7 +217,7 @@ class Cells {
     const auto& c = features_.cells()[cell];
     for (std::uint8_t k = 0; k < c.size; ++k) {
       const Plan<Dim>& tube = tubes_[c.vertices[k]];
-      const Vector<Dim> room = Vector<Dim>::Constant(tube.radius + 0.5 * widest_ + 4 * margin_);
+      const Vector<Dim> room = Vector<Dim>::Constant(tube.radius + halves_[cell] + 4 * margin_);
       const Vector<Dim> begin = tube.line.at(slice_begin_), end = tube.line.at(slice_end_);
       box.add({{begin - room, end - room}, {begin + room, end + room}});
     }
@@ -287,7 +294,7 @@ class Cells {
     const std::span<const VertexId> of_p(p.vertices.data(), p.size), of_q(q.vertices.data(), q.size);
     Vector<Dim> n = centre(of_p, t) - centre(of_q, t);
     const double length = std::sqrt(n.squaredNorm());
-    return length > 0 && keeps_apart(of_p, of_q, n / length, widest_ + 8 * margin_, t);
+    return length > 0 && keeps_apart(of_p, of_q, n / length, halves_[a] + halves_[b] + 8 * margin_, t);
   }
 
   Vector<Dim> centre(std::span<const VertexId> vertices, double t) const {
@@ -443,14 +450,14 @@ class Cells {
 
   Host& host_;
   Features features_;
-  double widest_;  ///< the largest eta(1)
   Hierarchy<Dim> hierarchy_;
   double longest_, length_;
   double slice_begin_ = 0, slice_end_ = 0, length_before_ = 0;
   double slice_due_ = 0;  ///< when the next one begins: earlier than the end if too many have left their tubes
   double margin_ = 0;
   std::size_t retubed_ = 0;
-  std::vector<double> sizes_;  ///< radii of tubes
+  std::vector<double> sizes_;   ///< radii of tubes
+  std::vector<double> halves_;  ///< of a cell: half of the largest eta(1) of its features
   std::vector<Course> courses_;
   std::vector<Plan<Dim>> tubes_, guards_;
   std::vector<double> due_;  ///< of a vertex: time of its event, or never

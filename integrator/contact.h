@@ -44,7 +44,8 @@ class Contact {
       : settings_(settings),
         particles_(particles),
         look_steps_(std::move(look_steps)),
-        layers_(settings.materials.size()) {
+        layers_(settings.materials.size()),
+        greatest_thicknesses_(greatest_thicknesses(settings)) {
     if (settings.certificates == Certificates::cells) {
       cells_.emplace(*this, mesh, positions(particles), longest_slice * window_length);
     } else {
@@ -59,7 +60,7 @@ class Contact {
 
   bool started() const { return started_; }
 
-  /// Where it says what it does. Precondition of all that follows.
+  /// Where it says what it does; nowhere, until this is called.
   void show(Activity& activity) { activity_ = &activity; }
 
   /// Since they were forgotten last.
@@ -148,7 +149,10 @@ class Contact {
     return {p.x, p.t, p.v};
   }
   bool immovable(VertexId i) const { return particles_[i].inverse_mass == 0; }
-  std::uint16_t material(VertexId i, VertexId j) const { return settings_.material(i, j); }
+  std::uint16_t material(const certificates::Stencil& pair) const {
+    const std::span<const VertexId> vertices(pair.vertices.data(), pair.size());
+    return settings_.material(vertices.first(pair.first()), vertices.subspan(pair.first()));
+  }
   double thickness(std::uint16_t material, std::uint32_t l) const {
     return layer_thickness(settings_.materials[material], settings_.schedule, l);
   }
@@ -156,10 +160,8 @@ class Contact {
   Doing in_broad_phase() const { return {*activity_, Phase::broad_phase}; }
   double look_step(VertexId i) const { return look_steps_[i]; }
   std::uint32_t least_layers() const { return settings_.least_layers; }
-  double greatest_thickness() const {
-    double greatest = 0;
-    for (const ContactMaterial& m : settings_.materials) greatest = std::max(greatest, m.thickness);
-    return greatest;
+  double greatest_thickness(VertexId i) const {
+    return greatest_thicknesses_[settings_.groups[i] * settings_.class_count + settings_.class_of(i)];
   }
 
   void activate(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double t) {
@@ -315,10 +317,12 @@ class Contact {
   Particles& particles_;
   std::vector<double> look_steps_;
   std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
+  std::vector<double> greatest_thicknesses_;                           ///< [group * class_count + class]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
   std::vector<certificates::Stencil> firing_;
   ContactExtremes extremes_;
-  Activity* activity_ = nullptr;
+  Activity unseen_;
+  Activity* activity_ = &unseen_;
   bool started_ = false;
   std::optional<certificates::Cells<Dim, Contact>> cells_;  ///< or:
   std::optional<certificates::EveryPair<Dim, Contact>> every_pair_;

@@ -81,6 +81,7 @@ struct ContactSettings {
   /// `excluded`, then for all classes.
   std::vector<std::uint16_t> material_of;
 
+  std::uint8_t class_of(VertexId v) const { return classes.empty() ? 0 : classes[v]; }
   std::size_t place(std::uint16_t g, std::uint16_t h, std::uint8_t a, std::uint8_t b) const {
     return ((static_cast<std::size_t>(g) * group_count + h) * class_count + a) * class_count + b;
   }
@@ -93,11 +94,30 @@ struct ContactSettings {
  private:
   std::uint8_t feature_class(std::span<const VertexId> vertices) const {
     std::uint8_t greatest = 0;
-    if (classes.empty()) return greatest;
-    for (const VertexId v : vertices) greatest = std::max(greatest, classes[v]);
+    for (const VertexId v : vertices) greatest = std::max(greatest, class_of(v));
     return greatest;
   }
 };
+
+/// Of groups and classes, [g * class_count + a]: the largest eta(1) of pairs of a feature of group g and of class a or
+/// above, which are the features that a vertex of class a may be part of.
+inline std::vector<double> greatest_thicknesses(const ContactSettings& s) {
+  std::vector<double> greatest(static_cast<std::size_t>(s.group_count) * s.class_count, 0);
+  const std::size_t others = static_cast<std::size_t>(s.group_count) * s.class_count;
+  for (std::uint16_t g = 0; g < s.group_count; ++g) {
+    for (std::size_t a = s.class_count; a-- > 0;) {
+      double& widest = greatest[g * s.class_count + a];
+      if (a + 1U < s.class_count) widest = greatest[g * s.class_count + a + 1];
+      for (std::size_t other = 0; other < others; ++other) {
+        const auto h = static_cast<std::uint16_t>(other / s.class_count);
+        const std::uint16_t m = s.material_of[s.place(g, h, static_cast<std::uint8_t>(a),
+                                                      static_cast<std::uint8_t>(other % s.class_count))];
+        if (m != ContactSettings::excluded) widest = std::max(widest, s.materials[m].thickness);
+      }
+    }
+  }
+  return greatest;
+}
 
 inline double layer_thickness(const ContactMaterial& m, const LayerSchedule& s, std::uint32_t l) {
   return m.thickness / quarter_power(l, s.thickness_quarters);

@@ -67,7 +67,7 @@ class Start {
 
   template <FeaturePair Pair>
   bool near(const Feature<Dim>& a, const Feature<Dim>& b) const {
-    const std::uint16_t material = model_.contact->material(a.ids[0], b.ids[0]);
+    const std::uint16_t material = model_.contact->material(a.ids, b.ids);
     if (material == ContactSettings::excluded) return false;
     for (const VertexId i : a.ids) {
       if (std::find(b.ids.begin(), b.ids.end(), i) != b.ids.end()) return false;
