@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -16,6 +17,7 @@ constexpr std::size_t samples = 3;  ///< across a pixel
 constexpr double margin = 0.03;     ///< around what is seen, in parts of the width
 constexpr double line_width = 1.2;  ///< of the edges of faces [samples]
 constexpr double thick_width = 5;   ///< of loose edges [samples]
+constexpr double wall_width = 4;    ///< of the borders of walls [samples]
 constexpr double dot_width = 12;    ///< of loose points [samples]
 constexpr double least_aspect = 0.3, greatest_aspect = 1.5;
 constexpr Colour paper{1, 1, 1}, grey{0.72, 0.72, 0.70};
@@ -57,28 +59,34 @@ std::vector<VertexId> parts_of(const Mesh& mesh) {
   return of;
 }
 
-std::vector<Colour> colours_of(const Mesh& mesh, const std::vector<bool>& fixed) {
+/// How each vertex is drawn.
+struct Looks {
+  std::vector<Colour> colours;
+  std::vector<bool> is_wall;  ///< part of something fixed of no more than four vertices, a floor or a wall
+};
+
+Looks looks_of(const Mesh& mesh, const std::vector<bool>& fixed) {
   const std::vector<VertexId> part = parts_of(mesh);
-  std::vector<bool> moves(mesh.vertex_count, false);
+  std::vector<bool> moves(part.size(), false);
+  std::vector<std::size_t> sizes(part.size(), 0);
   for (VertexId v = 0; v < part.size(); ++v) {
+    ++sizes[part[v]];
     if (!fixed[v]) moves[part[v]] = true;
   }
-  std::vector<Colour> colours(mesh.vertex_count, grey);
+  Looks looks{std::vector<Colour>(part.size(), grey), std::vector<bool>(part.size(), false)};
   std::size_t next = 0;
   for (VertexId v = 0; v < part.size(); ++v) {
-    if (part[v] != v) {
-      colours[v] = colours[part[v]];
-    } else if (moves[v]) {
-      colours[v] = palette[next++ % palette.size()];
-    }
+    if (part[v] == v && moves[v]) looks.colours[v] = palette[next++ % palette.size()];
+    looks.colours[v] = looks.colours[part[v]];
+    looks.is_wall[v] = !moves[part[v]] && sizes[part[v]] <= 4;
   }
-  return colours;
+  return looks;
 }
 
 class Canvas {
  public:
   Canvas(const Frame& frame, const std::vector<bool>& fixed, const View& view)
-      : frame_(frame), colours_(colours_of(frame.mesh, fixed)), eye_(unit(view.from)) {
+      : frame_(frame), looks_(looks_of(frame.mesh, fixed)), eye_(unit(view.from)) {
     right_ = unit(cross(view.up, eye_));
     up_ = cross(eye_, right_);
     project(view.width);
@@ -87,9 +95,12 @@ class Canvas {
   }
 
   Picture paint() {
-    for (const auto& face : frame_.mesh.faces) paint_face(face);
-    for (const auto& [a, b] : frame_.mesh.edges) paint_line(at_[a], at_[b], thick_width, colours_[a]);
-    for (const VertexId v : frame_.mesh.points) paint_line(at_[v], at_[v], dot_width, colours_[v]);
+    for (const auto& face : frame_.mesh.faces) {
+      if (!looks_.is_wall[face[0]]) paint_face(face);
+    }
+    paint_walls();
+    for (const auto& [a, b] : frame_.mesh.edges) paint_line(at_[a], at_[b], thick_width, looks_.colours[a]);
+    for (const VertexId v : frame_.mesh.points) paint_line(at_[v], at_[v], dot_width, looks_.colours[v]);
     return picture();
   }
 
@@ -99,8 +110,11 @@ class Canvas {
     Position low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
-    for (const Position& x : frame_.positions) {
+    const bool only_walls = std::find(looks_.is_wall.begin(), looks_.is_wall.end(), false) == looks_.is_wall.end();
+    for (std::size_t v = 0; v < frame_.positions.size(); ++v) {
+      const Position& x = frame_.positions[v];
       at_.push_back({dot(x, right_), -dot(x, up_), dot(x, eye_)});
+      if (looks_.is_wall[v] && !only_walls && !frame_.mesh.faces.empty()) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], at_.back()[k]);
         high[k] = std::max(high[k], at_.back()[k]);
@@ -123,7 +137,7 @@ class Canvas {
   /// Calls each(column, row) for the samples in a box that are on the canvas.
   template <class Each>
   void for_each_sample(double left, double top, double right, double bottom, const Each& each) {
-    const auto first = [](double x) { return static_cast<std::size_t>(std::max(0.0, std::floor(x))); };
+    const auto first = [](double x) { return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, 1e9)); };
     const auto end = [](double x, std::size_t n) {
       return static_cast<std::size_t>(std::clamp(std::ceil(x) + 1, 0.0, static_cast<double>(n)));
     };
@@ -154,9 +168,22 @@ class Canvas {
                       const double u = 1 - v - w;
                       if (u < 0 || v < 0 || w < 0) return;
                       const bool on_line = std::min({u * heights[0], v * heights[1], w * heights[2]}) < line_width;
-                      put(i, j, u * a[2] + v * b[2] + w * c[2], colours_[face[0]],
+                      put(i, j, u * a[2] + v * b[2] + w * c[2], looks_.colours[face[0]],
                           lines && on_line ? 0.72 * light : light);
                     });
+  }
+
+  /// Their borders alone.
+  void paint_walls() {
+    std::map<std::array<VertexId, 2>, int> faces_on;
+    for (const auto& face : frame_.mesh.faces) {
+      if (!looks_.is_wall[face[0]]) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        ++faces_on[{std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])}];
+    }
+    for (const auto& [edge, faces] : faces_on) {
+      if (faces == 1) paint_line(at_[edge[0]], at_[edge[1]], wall_width, grey);
+    }
   }
 
   /// Of the corners over the opposite edges, as they are seen.
@@ -206,7 +233,7 @@ class Canvas {
   }
 
   const Frame& frame_;
-  std::vector<Colour> colours_;
+  Looks looks_;
   Position eye_, right_{}, up_{};
   std::vector<Position> at_;
   std::size_t width_ = 0, height_ = 0;  ///< in samples

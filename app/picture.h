@@ -7,6 +7,7 @@
 //   sample   a pixel is the mean of 3 x 3 samples, each the nearest thing there
 // Parts of the mesh that hang together have a colour each; parts of which nothing is free are grey. Faces are lit from
 // the eye's upper left, alike on both sides, and their edges are darker where there is room for them.
+// Fixed parts of four vertices or fewer are floors and walls: only their borders are drawn, and they need not be seen.
 //
 // What this does not do: no perspective, no shadows, and nothing is decided by it.
 #pragma once
