@@ -153,14 +153,26 @@ double longest_step(const Forces<double, Dim>& forces) {
   return longest;
 }
 
+/// At most this, as it can be.
+double gravity_step(const Scene& scene, double step) {
+  return scene.steps == Clocks::grouped ? std::ldexp(scene.window, -step_exponent(step, scene.window)) : step;
+}
+
 template <int Dim>
 void add_gravity(const Scene& scene, Model<double, Dim>& model) {
   if (scene.gravity == Position{}) return;
   double step = scene.window / 16;
   if (const double longest = longest_step(model.forces); longest > 0) step = std::min(step, longest);
-  step = scene.gravity_step.value_or(step);
-  if (scene.steps == Clocks::grouped) step = std::ldexp(scene.window, -step_exponent(step, scene.window));
-  model.gravity = {cut<Dim>(to_vec(scene.gravity)), step};
+  model.gravity = {cut<Dim>(to_vec(scene.gravity)), gravity_step(scene, scene.gravity_step.value_or(step))};
+}
+
+/// A coarse clock of gravity would add to, or take from, the energy of each impact.
+template <int Dim>
+void limit_gravity_step(const Scene& scene, Model<double, Dim>& model) {
+  if (!model.gravity || scene.gravity_step || !model.contact) return;
+  double step = model.gravity->step;
+  for (const ContactMaterial& m : model.contact->materials) step = std::min(step, m.step);
+  model.gravity->step = gravity_step(scene, step);
 }
 
 }  // namespace
@@ -192,6 +204,7 @@ BuiltScene<Dim> build_model(const Scene& scene) {
   (std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
   add_gravity(scene, model);
   add_contact(scene, meshes, inverse_mass, result);
+  limit_gravity_step(scene, model);
   return result;
 }
 
