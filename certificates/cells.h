@@ -260,8 +260,8 @@ class Cells {
     if (material == no_material || index_.contains(s.key) || settled(s, material, t)) return;
     const auto n = static_cast<std::uint32_t>(nears_.size());
     index_.emplace(s.key, n);
-    nears_.push_back({s, material, 0, {}});
-    for (std::size_t k = 0; k < s.size(); ++k) nears_of_[s.vertices[k]].push_back(n);
+    nears_.emplace_back(s, material);
+    for (std::size_t k = 0; k < s.size(); ++k) nears_of_[s.vertices[k]].emplace_back(n, k < s.first());
     counts_.most_near = std::max<std::uint64_t>(counts_.most_near, nears_.size());
   }
 
@@ -415,13 +415,13 @@ class Cells {
     const double edge = 0.5 * (tube.radius + std::sqrt(e.squaredNorm()));
     double until = std::min(slice_end_, now.t + time_to_leave<Dim>(e, w, edge));
     double radius = tube.radius - edge;
-    for (const std::uint32_t n : nears_of_[i]) {
-      const auto [clearance, closing] = wall(n, i, now);
+    for (const Side side : nears_of_[i]) {
+      const auto [clearance, closing] = wall(side, now);
       if (closing > 0) until = std::min(until, now.t + reach * (clearance / closing));
     }
-    for (const std::uint32_t n : nears_of_[i]) {
-      const Slab<Dim>& slab = nears_[n].slab;
-      const bool of_a = nears_[n].in_a(i);
+    for (const Side side : nears_of_[i]) {
+      const Slab<Dim>& slab = nears_[side.near()].slab;
+      const bool of_a = side.of_a();
       const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
       radius = std::min(radius, clearance - std::max(0.0, slab.closing(of_a, now.v)) * (until - now.t));
     }
@@ -434,8 +434,9 @@ class Cells {
   };
 
   /// Put up anew if it is worn.
-  Wall wall(std::uint32_t near, VertexId i, const Line<Dim>& now) {
-    const bool of_a = nears_[near].in_a(i);
+  Wall wall(Side side, const Line<Dim>& now) {
+    const std::uint32_t near = side.near();
+    const bool of_a = side.of_a();
     for (;;) {
       const Slab<Dim>& slab = nears_[near].slab;
       const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
@@ -464,7 +465,7 @@ class Cells {
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   std::vector<NearPair<Dim>> nears_;
   std::unordered_map<PairKey, std::uint32_t> index_;
-  std::vector<std::vector<std::uint32_t>> nears_of_;  ///< of a vertex: its near pairs
+  std::vector<std::vector<Side>> nears_of_;  ///< of a vertex: its near pairs
   std::vector<VertexId> work_;
   std::vector<bool> waiting_;
   CertificateCounts counts_;

@@ -71,7 +71,7 @@ class EveryPair {
     const std::uint16_t material = material_of(host_, s);
     if (material == no_material) return;
     const auto p = static_cast<std::uint32_t>(pairs_.size());
-    pairs_.push_back({s, material, 0, {}});
+    pairs_.emplace_back(s, material);
     index_.emplace(s.key, p);
     for (std::size_t k = 0; k < s.size(); ++k) contingent_[s.vertices[k]].push_back(p);
     counts_.most_near = pairs_.size();

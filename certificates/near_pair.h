@@ -18,14 +18,28 @@ namespace noli::certificates {
 
 constexpr std::uint16_t no_material = 0xffff;
 
+/// Aligned, so that the slab, which is looked at far more often than the rest, is one line of the processor's cache.
 template <int Dim>
-struct NearPair {
+struct alignas(64) NearPair {
+  Slab<Dim> slab;
   Stencil stencil;
   std::uint16_t material = 0;
   std::uint32_t layers = 0;  ///< L
-  Slab<Dim> slab;
 
-  bool in_a(VertexId i) const { return stencil.vertices[0] == i || (stencil.first() == 2 && stencil.vertices[1] == i); }
+  NearPair(const Stencil& s, std::uint16_t of_material) : stencil(s), material(of_material) {}
+};
+
+/// A pair that a vertex is part of.
+class Side {
+ public:
+  /// Precondition: near < 2^31.
+  Side(std::uint32_t near, bool of_a) : packed_(near << 1 | (of_a ? 1U : 0U)) {}
+
+  std::uint32_t near() const { return packed_ >> 1; }  ///< number of the pair
+  bool of_a() const { return (packed_ & 1) != 0; }     ///< whether the vertex is of A
+
+ private:
+  std::uint32_t packed_;
 };
 
 /// For all rounding of where a vertex is until `end`: of a coordinate some hundred units in the last place, of a time

@@ -28,6 +28,7 @@
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/contact_settings.h"
 #include "noli/integrator/kick.h"
+#include "noli/integrator/pair_list.h"
 #include "noli/integrator/phase.h"
 
 namespace noli::integrator {
@@ -118,7 +119,7 @@ class Contact {
   void for_each_acting(Each&& each) const {
     for (const auto& of_material : layers_) {
       for (const Layer& layer : of_material) {
-        for (const certificates::Stencil& pair : layer.pairs) {
+        for (const certificates::Stencil& pair : layer.pairs.in_order()) {
           std::array<Vec<double, Dim>, 4> x;
           for (std::size_t i = 0; i < pair.size(); ++i) x[i] = particles_[pair.vertices[i]].x;
           const auto c =
@@ -135,7 +136,7 @@ class Contact {
   void for_each_active(Each&& each) const {
     for (const auto& of_material : layers_) {
       for (const Layer& layer : of_material) {
-        for (const certificates::Stencil& pair : layer.pairs) each(pair);
+        for (const certificates::Stencil& pair : layer.pairs.in_order()) each(pair);
       }
     }
   }
@@ -176,12 +177,12 @@ class Contact {
       layer.clock.next = std::max(layer.clock.next, first_after(t, layer.clock.step));
       agenda_.insert({layer.clock.time(), material, l});
     }
-    layer.pairs.insert(place(layer, pair.key), pair);
+    layer.pairs.add(pair);
   }
 
   void deactivate(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l) {
     Layer& layer = layers_[material][l - 1];
-    layer.pairs.erase(place(layer, pair.key));
+    layer.pairs.remove(pair);
     if (layer.pairs.empty()) agenda_.erase({layer.clock.time(), material, l});
   }
 
@@ -193,7 +194,7 @@ class Contact {
   struct Layer {
     Clock clock;
     double thickness, stiffness;
-    std::vector<certificates::Stencil> pairs;  ///< for which it is active, by key
+    PairList pairs;  ///< for which it is active
   };
 
   template <class Question>
@@ -224,20 +225,15 @@ class Contact {
             {}};
   }
 
-  static auto place(Layer& layer, certificates::PairKey key) {
-    return std::lower_bound(layer.pairs.begin(), layer.pairs.end(), key,
-                            [](const certificates::Stencil& s, certificates::PairKey k) { return s.key < k; });
-  }
-
   template <class Recorder>
   std::size_t fire(Recorder& record, Account<double, Dim>& account, std::uint16_t material, std::uint32_t l, double t,
                    double h) {
-    const Doing firing(*activity_, Phase::layer);
-    firing_ = layers_[material][l - 1].pairs;  // the list may change while they fire
-    record.reserve(4 * firing_.size());
+    const Doing busy(*activity_, Phase::layer);
+    const auto firing = layers_[material][l - 1].pairs.in_order();  // as they are now, whatever happens meanwhile
+    record.reserve(4 * firing.size());
     const Kicked<double, Dim, Recorder> now{particles_, record, t};
     std::size_t acted = 0;
-    for (const certificates::Stencil& pair : firing_) {
+    for (const certificates::Stencil& pair : firing) {
       const double d = fire_pair(now, account, pair, settings_.materials[material], layers_[material][l - 1], h);
       const double eta = layers_[material][l - 1].thickness;
       if (d < eta) {
@@ -319,7 +315,6 @@ class Contact {
   std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
   std::vector<double> greatest_thicknesses_;                           ///< [group * class_count + class]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
-  std::vector<certificates::Stencil> firing_;
   ContactExtremes extremes_;
   Activity unseen_;
   Activity* activity_ = &unseen_;
