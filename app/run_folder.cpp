@@ -53,7 +53,7 @@ void require_idle(const fs::path& folder) {
   }
 }
 
-/// What is in a folder, but not the folder: it may be the current one. What tells that it is a run goes last, so that it
+/// What is in a folder, but not the folder: it may be the current one. What tells that it is a run goes last, so it
 /// is one still if this is cut short.
 void clear(const fs::path& folder) {
   const fs::path last = trajectory_path(folder);

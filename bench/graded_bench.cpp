@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What steps of their own save where a mesh is fine in one place and struck there (scenes/graded_sheet.json): a sheet whose
-// triangles are fifty times smaller in one place, and two beads that strike it there from both sides. Beside it the same
-// with one step for all forces, half of what the smallest ones can bear, and one for all first layers, the shortest of
-// theirs: same potentials, same integrator, same certificates. The smallest forces have eight times shorter steps in the
-// first run than in the second, as otherwise the larger ones, whose steps are then as long as they can be, make it less
-// exact: what is compared is time at the same error.
+// What steps of their own save where a mesh is fine in one place and struck there (scenes/graded_sheet.json): a sheet
+// whose triangles are fifty times smaller in one place, and two beads that strike it there from both sides. Beside it
+// the same with one step for all forces, half of what the smallest ones can bear, and one for all first layers, the
+// shortest of theirs: same potentials, same integrator, same certificates. The smallest forces have eight times shorter
+// steps in the first run than in the second, as otherwise the larger ones, whose steps are then as long as they can be,
+// make it less exact: what is compared is time at the same error.
 //
 // Energy error: the largest difference from the beginning at the ends of windows, in parts of the beginning.
 #include <fmt/format.h>

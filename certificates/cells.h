@@ -137,8 +137,8 @@ class Cells {
 
   // --- Slices --------------------------------------------------------------------------------------------------------
 
-  /// Radii of tubes: a part of the shortest edge at a vertex. And what cells have to keep clear around them: of a pair of
-  /// features each cell has at least half of the thickness.
+  /// Radii of tubes: a part of the shortest edge at a vertex. And what cells have to keep clear around them: of a pair
+  /// of features each cell has at least half of the thickness.
   void measure(std::span<const Vector<Dim>> x) {
     constexpr double part = 0.12;
     sizes_.assign(x.size(), never);

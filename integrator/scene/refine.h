@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles made smaller in one place, by bisection of the newest vertex (Mitchell, "A comparison of adaptive refinement
-// techniques for elliptic problems", 1989): each triangle has a peak and, opposite to it, a base; two triangles that
-// share a base are halved at its middle, which is the peak of their halves. A neighbour whose base is another edge is
-// halved first. So no vertex ever lies inside an edge, and the shapes that come about are the first ones and a few more.
+// Triangles made smaller in one place, by bisection of the newest vertex (Mitchell, "A comparison of adaptive
+// refinement techniques for elliptic problems", 1989): each triangle has a peak and, opposite to it, a base; two
+// triangles that share a base are halved at its middle, which is the peak of their halves. A neighbour whose base is
+// another edge is halved first. So no vertex ever lies inside an edge, and the shapes that come about are the first
+// ones and a few more.
 //
 // What this does not do: it does not judge angles, and moves no vertex.
 #pragma once

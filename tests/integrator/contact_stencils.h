@@ -88,7 +88,7 @@ struct NearFeatures {
   }
 };
 
-/// Edges as long as 1 or so, all regions of closest points, at distances of eta down to eta / 10^4; a few with coincident
+/// Edges as long as 1 or so, all regions of closest points, at distances of eta to eta / 10^4; a few with coincident
 /// vertices, slivers of faces, edges that are parallel or nearly so; vertices that no
 /// impulse moves, at rest or driven, but not all.
 template <int Dim>
