@@ -173,16 +173,25 @@ class Cells {
     std::fill(due_.begin(), due_.end(), never);
     events_ = {};
     find_near(t);
+    nears_at_begin_ = nears_.size();
+    if (is_swept()) slice_due_ = t + 0.25 * length_;
     for (std::size_t i = 0; i < tubes_.size(); ++i) plan_soon(static_cast<VertexId>(i));
     settle(t);
   }
 
-  /// Longer while nobody leaves his tube, shorter when many do.
+  /// Longer while nobody leaves his tube, shorter when many do, or when many pairs are near only because of how far
+  /// things go in a slice.
   void adapt_length() {
     const std::size_t n = tubes_.size();
-    if (retubed_ * 8 > n) length_ = std::max(length_ / 2, longest_ * 0x1p-12);
-    if (retubed_ * 64 < n && counts_.slices > 2) length_ = std::min(length_ * 2, longest_);
+    if (is_swept()) {
+      length_ = std::max(length_ / 4, longest_ * 0x1p-12);
+    } else if (retubed_ * 8 > n) {
+      length_ = std::max(length_ / 2, longest_ * 0x1p-12);
+    } else if (retubed_ * 64 < n && 8 * swept_ < n && counts_.slices > 2) {
+      length_ = std::min(length_ * 2, longest_);
+    }
   }
+  bool is_swept() const { return swept_ > tubes_.size() && 2 * swept_ > nears_at_begin_; }
 
   /// Goes on as the vertex went on average since the last slice began, and with the change of that: what shakes, stays
   /// in the middle; what falls, falls on.
@@ -240,7 +249,13 @@ class Cells {
         while (pair.layers > 0) lose_layer(host_, pair, counts_);
       }
     }
-    for (std::uint32_t n = 0; n < nears_.size(); ++n) put_up_slab(n, t);
+    swept_ = 0;
+    for (std::uint32_t n = 0; n < nears_.size(); ++n) {
+      const double distance = put_up_slab(n, t);
+      const Stencil& s = nears_[n].stencil;
+      const double room = sizes_[s.vertices[0]] + sizes_[s.vertices[s.first()]];
+      if (distance > 4 * (host_.thickness(nears_[n].material, 1) + room)) ++swept_;
+    }
   }
 
   void find_pairs(double t) {
@@ -315,14 +330,15 @@ class Cells {
     return low - high;
   }
 
-  /// A slab where the pair is now. Plans that do not respect it are to be made anew.
-  void put_up_slab(std::uint32_t near, double t) {
+  /// A slab where the pair is now. Plans that do not respect it are to be made anew. Returns the pair's distance.
+  double put_up_slab(std::uint32_t near, double t) {
     NearPair<Dim>& pair = nears_[near];
-    fit_slab(host_, pair, t, margin_, counts_);
+    const double distance = fit_slab(host_, pair, t, margin_, counts_);
     const Stencil& s = pair.stencil;
     for (std::size_t k = 0; k < s.size(); ++k) {
       if (!respects(guards_[s.vertices[k]], pair.slab, k < s.first(), t)) plan_soon(s.vertices[k]);
     }
+    return distance;
   }
 
   bool respects(const Plan<Dim>& guard, const Slab<Dim>& slab, bool of_a, double t) const {
@@ -386,7 +402,8 @@ class Cells {
     const std::size_t known = nears_.size();
     find_near_cells(i, now.t);
     for (std::size_t n = known; n < nears_.size(); ++n) put_up_slab(static_cast<std::uint32_t>(n), now.t);
-    if (retubed_ * 8 > tubes_.size() + 64) slice_due_ = now.t;
+    const bool crowded = nears_.size() > 2 * nears_at_begin_ + tubes_.size();
+    if (retubed_ * 8 > tubes_.size() + 64 || crowded) slice_due_ = now.t;
   }
 
   /// Pairs that the vertex is part of, its tube being new.
@@ -457,8 +474,10 @@ class Cells {
   double slice_due_ = 0;  ///< when the next one begins: earlier than the end if too many have left their tubes
   double margin_ = 0;
   std::size_t retubed_ = 0;
-  std::vector<double> sizes_;   ///< radii of tubes
-  std::vector<double> halves_;  ///< of a cell: half of the largest eta(1) of its features
+  std::size_t nears_at_begin_ = 0;  ///< near pairs when the slice began
+  std::size_t swept_ = 0;           ///< of them, those that were far apart then
+  std::vector<double> sizes_;       ///< radii of tubes
+  std::vector<double> halves_;      ///< of a cell: half of the largest eta(1) of its features
   std::vector<Course> courses_;
   std::vector<Plan<Dim>> tubes_, guards_;
   std::vector<double> due_;  ///< of a vertex: time of its event, or never

@@ -75,9 +75,9 @@ void lose_layer(Host& host, NearPair<Dim>& pair, CertificateCounts& counts) {
 }
 
 /// Puts up a slab of thickness eta(L + 1) where the pair is at time t, after as many more layers as that takes. A layer
-/// is taken when the room that is left is less than a quarter of the next one's width.
+/// is taken when the room that is left is less than a quarter of the next one's width. Returns the distance.
 template <int Dim, class Host>
-void fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, CertificateCounts& counts) {
+double fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, CertificateCounts& counts) {
   const Stencil& s = pair.stencil;
   std::array<Vector<Dim>, 4> x, v;
   for (std::size_t k = 0; k < s.size(); ++k) {
@@ -94,7 +94,7 @@ void fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, Certific
     const double room = 0.25 * (eta - host.thickness(pair.material, pair.layers + 2)) + 64 * margin;
     if (!(c.distance() - eta > room)) continue;
     pair.slab = slab_between<Dim>(s, c, xs, vs, t, 0.5 * eta);
-    if (pair.slab.slack > 0.25 * room) return;
+    if (pair.slab.slack > 0.25 * room) return c.distance();
   }
 }
 
