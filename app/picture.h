@@ -23,7 +23,7 @@ namespace noli::app {
 struct View {
   Position from{0.8, -1.4, 0.7};  ///< the direction in which the eye is; of any length but zero
   Position up{0, 0, 1};           ///< not along `from`
-  std::size_t width = 960;        ///< [pixels]; the height follows from what is seen
+  std::size_t width = 640;        ///< [pixels]; the height follows from what is seen
 };
 
 /// Rows from top to bottom; red, green, blue.

@@ -74,7 +74,7 @@ RunFrame frame_at(RunReader& reader, const PictureRequest& request) {
     nearest.add(*window);
     if (nearest.is_passed(*window)) break;
   }
-  if (nearest.found() && request.time <= end) return nearest.best();
+  if (nearest.found() && request.time >= 0 && request.time <= end) return nearest.best();
   throw InputError(request.run.string(), "",
                    fmt::format("goes up to {} s; expected a time of it, found {} s", end, request.time));
 }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli export RUN --at`: pictures.
+#include "noli/app/picture.h"
+
+#include <gtest/gtest.h>
+
+#include "noli/tests/app/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+using app::draw;
+using app::Picture;
+using app::View;
+
+std::array<int, 3> pixel(const Picture& picture, double right, double down) {
+  const auto i = static_cast<std::size_t>(right * static_cast<double>(picture.width));
+  const auto j = static_cast<std::size_t>(down * static_cast<double>(picture.height));
+  const std::uint8_t* const p = &picture.bytes.at(3 * (j * picture.width + i));
+  return {p[0], p[1], p[2]};
+}
+
+bool is_white(const std::array<int, 3>& p) { return p == std::array<int, 3>{255, 255, 255}; }
+bool is_grey(const std::array<int, 3>& p) { return !is_white(p) && std::abs(p[0] - p[2]) < 12; }
+
+/// A square in the plane of x and z, as two triangles, its corner at x, y.
+void add_square(Frame& frame, double x, double y, double size) {
+  const auto first = static_cast<VertexId>(frame.mesh.vertex_count);
+  frame.mesh.vertex_count += 4;
+  for (const auto& [dx, dz] : {std::pair{0.0, 0.0}, {size, 0.0}, {size, size}, {0.0, size}}) {
+    frame.positions.push_back({x + dx, y, dz});
+  }
+  frame.mesh.faces.push_back({first, first + 1, first + 2});
+  frame.mesh.faces.push_back({first, first + 2, first + 3});
+}
+
+const View front{{0, -1, 0}, {0, 0, 1}, 90};
+
+TEST(Picture, TheNearerOfTwoIsSeen) {
+  Frame frame;
+  add_square(frame, 0, 0, 1);
+  add_square(frame, 0.25, 1, 0.5);  // behind it
+  const std::vector<bool> free(8, false);
+  const auto covered = pixel(draw(frame, free, front), 0.4, 0.55);
+  EXPECT_GT(covered[2], covered[0]) << "the first colour is blue";
+  frame.positions = {};
+  frame.mesh = {};
+  add_square(frame, 0, 0, 1);
+  add_square(frame, 0.25, -1, 0.5);  // before it
+  const auto covering = pixel(draw(frame, free, front), 0.4, 0.55);
+  EXPECT_GT(covering[0], covering[2]) << "the second is orange";
+}
+
+TEST(Picture, ShowsAllOfIt) {
+  Frame frame;
+  add_square(frame, 5, 3, 2);
+  const Picture picture = draw(frame, std::vector<bool>(4, false), front);
+  EXPECT_EQ(picture.width, 90U);
+  EXPECT_EQ(picture.height, 90U);
+  EXPECT_EQ(picture.bytes.size(), 3U * 90 * 90);
+  EXPECT_TRUE(is_white(pixel(picture, 0.01, 0.5)));
+  EXPECT_TRUE(is_white(pixel(picture, 0.5, 0.99)));
+  for (const double x : {0.1, 0.9}) EXPECT_FALSE(is_white(pixel(picture, x, 0.35))) << x;
+}
+
+TEST(Picture, OfWallsOnlyBordersAreSeen) {
+  Frame frame;
+  add_square(frame, 0, -1, 1);
+  add_square(frame, 0.25, 0, 0.5);
+  std::vector<bool> fixed(8, false);
+  std::fill(fixed.begin(), fixed.begin() + 4, true);
+  const Picture open = draw(frame, fixed, front);
+  const auto centre = pixel(open, 0.5, 0.4);
+  EXPECT_FALSE(is_white(centre));
+  EXPECT_FALSE(is_grey(centre)) << "what is behind the wall";
+  fixed.assign(8, true);
+  EXPECT_TRUE(is_white(pixel(draw(frame, fixed, front), 0.5, 0.2))) << "walls alone";
+}
+
+TEST(Picture, ViewsThatAreNoneAreRefused) {
+  Frame frame;
+  add_square(frame, 0, 0, 1);
+  EXPECT_THROW(draw(frame, std::vector<bool>(4, false), View{{0, 0, 0}, {0, 0, 1}, 90}), std::invalid_argument);
+  EXPECT_THROW(draw(frame, std::vector<bool>(4, false), View{{0, 0, 1}, {0, 0, 1}, 90}), std::invalid_argument);
+}
+
+#ifdef NOLI_WITH_PNG
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes.at(at + k));
+  return value;
+}
+
+class ExportPicture : public Simulate {
+ protected:
+  Process export_at(const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments{"export", run_path("r")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_noli(arguments);
+  }
+};
+
+TEST_F(ExportPicture, IsWrittenOfATimeOfTheRun) {
+  for (const char* record : {"full", "frames"}) {
+    Json json = hanging_sheet();
+    json["record"] = record;
+    ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("r"), "--force"}).exit_code, 0);
+    const Process result = export_at({"--at", "0.2", "-o", run_path("p.png"), "--force"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(result.out.starts_with("picture width 640 height ")) << result.out;
+    const std::string png = bytes_of(run_path("p.png"));
+    ASSERT_TRUE(png.starts_with("\x89PNG\r\n"));
+    EXPECT_EQ(big_endian(png, 16), 640U);
+    EXPECT_NE(export_at({"--at", "0.2", "-o", run_path("p.png")}).exit_code, 0) << "it is there already";
+    EXPECT_EQ(export_at({"--at", "0.2", "--from", "1", "0", "0", "-o", run_path("q.png"), "--force"}).exit_code, 0);
+    EXPECT_NE(bytes_of(run_path("q.png")), png);
+  }
+}
+
+TEST_F(ExportPicture, BadInputIsNamed) {
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("r")}).exit_code, 0);
+  const auto expect_refused = [&](const std::vector<std::string>& options, const char* what) {
+    const Process result = export_at(options);
+    EXPECT_EQ(result.exit_code, 3) << what;
+    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+  };
+  expect_refused({"--at", "3", "-o", run_path("p.png")}, "goes up to 0.25 s");
+  expect_refused({"--at", "-1", "-o", run_path("p.png")}, "expected a time of it");
+  expect_refused({"--at", "0.1", "-o", run_path("p.jpg")}, ".png");
+  expect_refused({"--at", "0.1", "--from", "0", "0", "0", "-o", run_path("p.png")}, "--from");
+  expect_refused({"--at", "0.1", "--fps", "3", "-o", run_path("p.png")}, "--fps");
+  expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "--at");
+}
+
+#endif
+
+}  // namespace
+}  // namespace noli::app_tests
