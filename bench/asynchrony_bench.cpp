@@ -15,20 +15,19 @@
 #include <random>
 
 #include "noli/bench/bench.h"
+#include "noli/bench/energy_run.h"
 #include "noli/bench/one_step.h"
 #include "noli/bench/plain_loop.h"
 #include "noli/bench/report.h"
 #include "noli/bench/timing.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
-#include "noli/integrator/simulation.h"
 #include "noli/trajectory/text.h"
 
 namespace noli::bench {
 namespace {
 
 using integrator::Model;
-using integrator::Simulation;
 
 constexpr int windows = 5;
 
@@ -58,31 +57,6 @@ Model<double, 3> plate() {
   return model;
 }
 
-struct Measured {
-  std::uint64_t events = 0;
-  double seconds = 0, energy_error = 0;
-};
-
-double energy(const Simulation<double, 3>& simulation) {
-  const auto state = simulation.state();
-  return state.kinetic_mean + state.potential_sum();
-}
-
-Measured simulate(const Model<double, 3>& model) {
-  Simulation<double, 3> simulation(model);
-  integrator::Books<double, 3> books;
-  const double start = energy(simulation);
-  Measured result;
-  for (int i = 0; i < windows; ++i) {
-    const double begin = seconds();
-    simulation.run_window(books);
-    result.seconds += seconds() - begin;
-    result.energy_error = std::max(result.energy_error, std::abs(energy(simulation) - start) / start);
-  }
-  result.events = simulation.events();
-  return result;
-}
-
 double time_plain(const Model<double, 3>& model, double step) {
   PlainLoop<3> loop(model, step);
   const auto steps = static_cast<std::uint64_t>(std::llround(windows * model.window_length / step));
@@ -91,7 +65,7 @@ double time_plain(const Model<double, 3>& model, double step) {
   return seconds() - begin;
 }
 
-void add_row(Table& table, const char* name, const Measured& measured, double least) {
+void add_row(Table& table, const char* name, const EnergyRun& measured, double least) {
   table.row({name, fmt::format("{:.2e}", least), fmt::format("{}", measured.events),
              fmt::format("{:.2f}", measured.seconds), fmt::format("{:.1e}", measured.energy_error)});
 }
@@ -103,9 +77,9 @@ bool run() {
   const double least = least_step(own);
   set_steps(equal, least);
   std::vector<double> asynchronous, synchronous;
-  Measured a, s = simulate(equal);
+  EnergyRun a, s = run_for_energy(equal, windows);
   for (int i = 0; i < passes; ++i) {
-    a = simulate(own);
+    a = run_for_energy(own, windows);
     asynchronous.push_back(a.seconds);
     synchronous.push_back(time_plain(equal, least));
   }

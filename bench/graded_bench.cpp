@@ -16,20 +16,17 @@
 #include <filesystem>
 
 #include "noli/bench/bench.h"
+#include "noli/bench/energy_run.h"
 #include "noli/bench/one_step.h"
 #include "noli/bench/report.h"
-#include "noli/bench/timing.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
-#include "noli/integrator/simulation.h"
 #include "noli/trajectory/text.h"
 
 namespace noli::bench {
 namespace {
 
-using integrator::ForceKind;
 using Model = integrator::Model<double, 3>;
-using Simulation = integrator::Simulation<double, 3>;
 
 constexpr int windows = 8;  ///< 4 ms: both beads strike and rebound
 
@@ -48,33 +45,7 @@ Model with_one_step(integrator::Scene scene) {
   return model;
 }
 
-struct Measured {
-  std::uint64_t events = 0, impulses = 0;
-  double seconds = 0, energy_error = 0;
-};
-
-double energy(const Simulation& simulation) {
-  const auto state = simulation.state();
-  return state.kinetic_mean + state.potential_sum();
-}
-
-Measured simulate(const Model& model) {
-  Simulation simulation(model);
-  integrator::Books<double, 3> books;
-  const double start = energy(simulation);
-  Measured result;
-  for (int i = 0; i < windows; ++i) {
-    const double begin = seconds();
-    simulation.run_window(books);
-    result.seconds += seconds() - begin;
-    result.energy_error = std::max(result.energy_error, std::abs(energy(simulation) - start) / start);
-  }
-  result.events = simulation.events();
-  result.impulses = books.of(ForceKind::contact).events;
-  return result;
-}
-
-void add_row(Table& table, const char* name, const Measured& measured) {
+void add_row(Table& table, const char* name, const EnergyRun& measured) {
   table.row({name, fmt::format("{}", measured.events), fmt::format("{}", measured.impulses),
              fmt::format("{:.2f}", measured.seconds), fmt::format("{:.1e}", measured.energy_error)});
 }
@@ -85,11 +56,11 @@ void add_row(Table& table, const char* name, const Measured& measured) {
 bool run() {
   const integrator::Scene scene = graded();
   const Model model = integrator::build_model<3>(scene).model;
-  const Measured one = simulate(with_one_step(scene));
+  const EnergyRun one = run_for_energy(with_one_step(scene), windows);
   std::vector<double> times;
-  Measured own;
+  EnergyRun own;
   for (int i = 0; i < passes; ++i) {
-    own = simulate(model);
+    own = run_for_energy(model, windows);
     times.push_back(own.seconds);
   }
   own.seconds = median(times);

@@ -191,7 +191,10 @@ class Cells {
       length_ = std::min(length_ * 2, longest_);
     }
   }
-  bool is_swept() const { return swept_ > tubes_.size() && 2 * swept_ > nears_at_begin_; }
+  /// Where things are that fast in the shortest slices too, shorter ones would cost more than they save.
+  bool is_swept() const {
+    return length_ > longest_ * 0x1p-8 && swept_ > tubes_.size() && 2 * swept_ > nears_at_begin_;
+  }
 
   /// Goes on as the vertex went on average since the last slice began, and with the change of that: what shakes, stays
   /// in the middle; what falls, falls on.
