@@ -147,8 +147,11 @@ class Cells {
       sizes_[a] = std::min(sizes_[a], length);
       sizes_[b] = std::min(sizes_[b], length);
     }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (sizes_[i] == never) sizes_[i] = 2 * host_.greatest_thickness(static_cast<VertexId>(i));
+    double widest_of_all = 0;
+    for (VertexId i = 0; i < x.size(); ++i) widest_of_all = std::max(widest_of_all, host_.greatest_thickness(i));
+    for (VertexId i = 0; i < x.size(); ++i) {
+      const double own = host_.greatest_thickness(i);  // none, if it may go through everything
+      if (sizes_[i] == never) sizes_[i] = 2 * (own > 0 ? own : widest_of_all);
     }
     for (const auto& cell : features_.cells()) {
       double widest = 0;
