@@ -95,13 +95,6 @@ std::string momentum(const FigureData& data) {
 
 }  // namespace
 
-std::string figure_csv(FigureKind kind, const FigureData& data) {
-  switch (kind) {
-    case FigureKind::step_histogram: return steps(data);
-    case FigureKind::energy: return energy(data);
-    case FigureKind::momentum: return momentum(data);
-  }
-  return "";
-}
+FigureWriters csv_writers() { return {steps, energy, momentum}; }
 
 }  // namespace noli::app

@@ -8,9 +8,14 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "noli/integrator/scene/curve.h"
+
 namespace noli::app {
 namespace {
 
+using integrator::cross;
+using integrator::to_vec;
+using integrator::Vec3;
 using Colour = std::array<double, 3>;
 
 constexpr std::size_t samples = 3;  ///< across a pixel
@@ -28,15 +33,10 @@ constexpr std::array<Colour, 6> palette{{{0.36, 0.56, 0.80},
                                          {0.60, 0.50, 0.74},
                                          {0.84, 0.75, 0.40}}};
 
-double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Position cross(const Position& a, const Position& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Position minus(const Position& a, const Position& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Position unit(const Position& a) {
-  const double length = std::sqrt(dot(a, a));
+Vec3 unit(const Vec3& a) {
+  const double length = std::sqrt(a.squaredNorm());
   if (!(length > 0 && std::isfinite(length))) throw std::invalid_argument("picture: a view without direction");
-  return {a[0] / length, a[1] / length, a[2] / length};
+  return a / length;
 }
 
 /// For each vertex the first vertex of what it hangs together with.
@@ -86,8 +86,8 @@ Looks looks_of(const Mesh& mesh, const std::vector<bool>& fixed) {
 class Canvas {
  public:
   Canvas(const Frame& frame, const std::vector<bool>& fixed, const View& view)
-      : frame_(frame), looks_(looks_of(frame.mesh, fixed)), eye_(unit(view.from)) {
-    right_ = unit(cross(view.up, eye_));
+      : frame_(frame), looks_(looks_of(frame.mesh, fixed)), eye_(unit(to_vec(view.from))) {
+    right_ = unit(cross(to_vec(view.up), eye_));
     up_ = cross(eye_, right_);
     project(view.width);
     depth_.assign(width_ * height_, -std::numeric_limits<double>::infinity());
@@ -107,27 +107,23 @@ class Canvas {
  private:
   /// Right, down, towards the eye, in samples.
   void project(std::size_t pixels) {
-    Position low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     const bool only_walls = std::find(looks_.is_wall.begin(), looks_.is_wall.end(), false) == looks_.is_wall.end();
     for (std::size_t v = 0; v < frame_.positions.size(); ++v) {
-      const Position& x = frame_.positions[v];
-      at_.push_back({dot(x, right_), -dot(x, up_), dot(x, eye_)});
+      const Vec3 x = to_vec(frame_.positions[v]);
+      at_.emplace_back(x.dot(right_), -x.dot(up_), x.dot(eye_));
       if (looks_.is_wall[v] && !only_walls && !frame_.mesh.faces.empty()) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], at_.back()[k]);
-        high[k] = std::max(high[k], at_.back()[k]);
-      }
+      low = low.cwiseMin(at_.back());
+      high = high.cwiseMax(at_.back());
     }
-    if (at_.empty()) low = high = {0, 0, 0};
+    if (at_.empty()) low = high = Vec3::Zero();
     const double wide = high[0] - low[0], tall = high[1] - low[1];
     const double aspect = std::clamp(wide > 0 ? tall / wide : greatest_aspect, least_aspect, greatest_aspect);
     width_ = pixels * samples;
     height_ = static_cast<std::size_t>(std::lround(static_cast<double>(pixels) * aspect)) * samples;
     const double extent = std::max({wide, tall / aspect, std::numeric_limits<double>::min()});
     const double scale = static_cast<double>(width_) * (1 - 2 * margin) / extent;
-    for (Position& p : at_) {
+    for (Vec3& p : at_) {
       p[0] = scale * (p[0] - 0.5 * (low[0] + high[0])) + 0.5 * static_cast<double>(width_);
       p[1] = scale * (p[1] - 0.5 * (low[1] + high[1])) + 0.5 * static_cast<double>(height_);
       p[2] *= scale;
@@ -154,7 +150,7 @@ class Canvas {
   }
 
   void paint_face(const std::array<VertexId, 3>& face) {
-    const Position &a = at_[face[0]], &b = at_[face[1]], &c = at_[face[2]];
+    const Vec3 &a = at_[face[0]], &b = at_[face[1]], &c = at_[face[2]];
     const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if (twice_area == 0) return;
     const double light = light_on(face);
@@ -187,23 +183,22 @@ class Canvas {
   }
 
   /// Of the corners over the opposite edges, as they are seen.
-  static std::array<double, 3> heights_of(const Position& a, const Position& b, const Position& c, double twice_area) {
-    const auto length = [](const Position& p, const Position& q) { return std::hypot(p[0] - q[0], p[1] - q[1]); };
+  static std::array<double, 3> heights_of(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) {
+    const auto length = [](const Vec3& p, const Vec3& q) { return std::hypot(p[0] - q[0], p[1] - q[1]); };
     return {twice_area / length(b, c), twice_area / length(c, a), twice_area / length(a, b)};
   }
 
   double light_on(const std::array<VertexId, 3>& face) const {
-    const std::vector<Position>& x = frame_.positions;
-    const Position normal = cross(minus(x[face[1]], x[face[0]]), minus(x[face[2]], x[face[0]]));
-    const double length = std::sqrt(dot(normal, normal));
+    const auto x = [&](std::size_t k) { return to_vec(frame_.positions[face[k]]); };
+    const Vec3 normal = cross(x(1) - x(0), x(2) - x(0));
+    const double length = std::sqrt(normal.squaredNorm());
     if (!(length > 0)) return 1;
-    Position lamp;
-    for (std::size_t k = 0; k < 3; ++k) lamp[k] = eye_[k] + 0.6 * up_[k] - 0.5 * right_[k];
-    return 0.45 + 0.6 * std::min(0.92, std::abs(dot(normal, lamp)) / (length * std::sqrt(dot(lamp, lamp))));
+    const Vec3 lamp = eye_ + 0.6 * up_ - 0.5 * right_;
+    return 0.45 + 0.6 * std::min(0.92, std::abs(normal.dot(lamp)) / (length * std::sqrt(lamp.squaredNorm())));
   }
 
   /// With round ends.
-  void paint_line(const Position& a, const Position& b, double width, const Colour& colour) {
+  void paint_line(const Vec3& a, const Vec3& b, double width, const Colour& colour) {
     const double r = width / 2, dx = b[0] - a[0], dy = b[1] - a[1], squared = dx * dx + dy * dy;
     for_each_sample(std::min(a[0], b[0]) - r, std::min(a[1], b[1]) - r, std::max(a[0], b[0]) + r,
                     std::max(a[1], b[1]) + r, [&](std::size_t i, std::size_t j) {
@@ -234,8 +229,8 @@ class Canvas {
 
   const Frame& frame_;
   Looks looks_;
-  Position eye_, right_{}, up_{};
-  std::vector<Position> at_;
+  Vec3 eye_, right_, up_;
+  std::vector<Vec3> at_;
   std::size_t width_ = 0, height_ = 0;  ///< in samples
   std::vector<double> depth_;
   std::vector<Colour> colour_;

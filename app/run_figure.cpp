@@ -16,12 +16,12 @@
 namespace noli::app {
 namespace {
 
-FigureKind kind_of(const std::string& name) {
+std::size_t number_of(const std::string& name) {
   const auto found = std::find(figure_names.begin(), figure_names.end(), name);
   if (found == figure_names.end()) {
     throw UsageError(fmt::format("--figure {}: expected one of {}", name, fmt::join(figure_names, ", ")));
   }
-  return static_cast<FigureKind>(found - figure_names.begin());
+  return static_cast<std::size_t>(found - figure_names.begin());
 }
 
 /// Whether a picture is wanted, not numbers.
@@ -30,14 +30,6 @@ bool is_picture(const std::string& output) {
   if (ending == ".svg") return true;
   if (ending == ".csv") return false;
   throw UsageError("-o " + output + ": expected a name that ends in .svg or .csv");
-}
-
-void require_place(const FigureRequest& request) {
-  require_other_file(request.output, with_files_of_runs({request.run}), "-o");
-  require_writable_file(request.output, "-o");
-  std::error_code error;
-  if (request.force || !std::filesystem::exists(request.output, error)) return;
-  throw UsageError("-o " + request.output + ": is there already; expected no such file, or --force");
 }
 
 FigureData read(const std::filesystem::path& run, RunReader& reader) {
@@ -52,12 +44,12 @@ FigureData read(const std::filesystem::path& run, RunReader& reader) {
 }  // namespace
 
 FigureOutcome run_figure(const FigureRequest& request) {
-  const FigureKind kind = kind_of(request.figure);
+  const std::size_t figure = number_of(request.figure);
   const bool picture = is_picture(request.output);
   RunReader reader(request.run);
-  require_place(request);
+  require_place_of_run(request.output, request.run, request.force);
   const FigureData data = read(request.run, reader);
-  replace_file(request.output, picture ? figure_svg(kind, data) : figure_csv(kind, data));
+  replace_file(request.output, (picture ? svg_writers() : csv_writers())[figure](data));
   return {data.windows.size(), data.windows.back().row.time, reader.open_window().has_value()};
 }
 

@@ -22,7 +22,6 @@
 
 namespace noli::app {
 
-enum class FigureKind : std::uint8_t { step_histogram, energy, momentum };
 constexpr std::array<const char*, 3> figure_names = {"step-histogram", "energy", "momentum"};
 
 /// A window of the series.
@@ -54,8 +53,10 @@ struct FigureOutcome {
 /// output's name, a place that cannot be written to), std::system_error (disk).
 FigureOutcome run_figure(const FigureRequest& request);
 
+/// Of each figure, in the order of their names.
+using FigureWriters = std::array<std::string (*)(const FigureData&), figure_names.size()>;
 /// A first line of names with units, then a line for each window.
-std::string figure_csv(FigureKind kind, const FigureData& data);
-std::string figure_svg(FigureKind kind, const FigureData& data);
+FigureWriters csv_writers();
+FigureWriters svg_writers();
 
 }  // namespace noli::app

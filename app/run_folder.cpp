@@ -142,6 +142,14 @@ std::vector<fs::path> with_files_of_runs(std::vector<fs::path> paths) {
   return paths;
 }
 
+void require_place_of_run(const fs::path& output, const fs::path& run, bool force) {
+  require_other_file(output, with_files_of_runs({run}), "-o");
+  require_writable_file(output, "-o");
+  std::error_code error;
+  if (force || !fs::exists(output, error)) return;
+  throw UsageError("-o " + output.string() + ": is there already; expected no such file, or --force");
+}
+
 void RunFolder::log(std::uint64_t window, const SeriesRow& row, std::uint32_t deepest) {
   log({{"event", "window"},
        {"window", window},

@@ -64,8 +64,10 @@ class Reader {
   }
 
   void window(const Json& entry) {
+    const Json& timing = member(entry, "timing");
+    if (!member(timing, "deepest").is_number()) return;  // what it does not say is not known
     seen_.insert(number<std::uint64_t>(entry, "window"));
-    facts_.deepest = std::max(facts_.deepest, number<std::uint32_t>(member(entry, "timing"), "deepest"));
+    facts_.deepest = std::max(facts_.deepest, number<std::uint32_t>(timing, "deepest"));
   }
 
   void end(const Json& entry) {

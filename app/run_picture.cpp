@@ -9,24 +9,23 @@
 #include "noli/app/exit_code.h"
 #include "noli/app/output.h"
 #include "noli/app/picture.h"
-#include "noli/app/png_file.h"
+#include "noli/app/png.h"
+#include "noli/app/run_folder.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
+#include "noli/trajectory/write_file.h"
 
 namespace noli::app {
 namespace {
 
 void check(const PictureRequest& request) {
-  const std::string output = "-o " + request.output.string();
   if (!can_write_png()) throw UsageError("--at: this noli was built without pictures (NOLI_WITH_PNG=OFF)");
-  if (request.output.extension() != ".png") throw UsageError(output + ": expected a name that ends in .png");
-  std::error_code error;
-  if (std::filesystem::is_directory(request.output, error)) throw UsageError(output + ": is a folder");
-  if (!request.force && std::filesystem::exists(request.output, error)) {
-    throw UsageError(output + " is there already; expected no such file, or --force");
+  if (request.output.extension() != ".png") {
+    throw UsageError("-o " + request.output.string() + ": expected a name that ends in .png");
   }
   make_writable_folder(request.output.parent_path(), "-o");
+  require_place_of_run(request.output, request.run, request.force);
 }
 
 View view_of(const PictureRequest& request, std::uint32_t dimension) {
@@ -91,7 +90,7 @@ PictureOutcome run_picture(const PictureRequest& request) {
   try {
     const View view = view_of(request, reader.header().dimension);
     const Picture picture = draw({reader.mesh(), frame.positions}, fixed, view);
-    write_png(request.output, picture);
+    replace_file(request.output, png(picture));
     return {frame.time, picture.width, picture.height};
   } catch (const std::invalid_argument&) {
     throw UsageError("--from: expected a direction other than zero");

@@ -187,7 +187,7 @@ class Cells {
   void adapt_length() {
     const std::size_t n = tubes_.size();
     if (is_swept()) {
-      length_ = std::max(length_ / 4, longest_ * 0x1p-12);
+      length_ /= 4;
     } else if (retubed_ * 8 > n) {
       length_ = std::max(length_ / 2, longest_ * 0x1p-12);
     } else if (retubed_ * 64 < n && 8 * swept_ < n && counts_.slices > 2) {

@@ -283,8 +283,6 @@ class Materials {
     for (const std::size_t place : {settings().place(g, h, a, b), settings().place(h, g, b, a)}) {
       settings().material_of[place] = id;
     }
-    if (g != h) return;
-    settings().material_of[settings().place(g, g, b, a)] = id;
   }
 
   /// Of two classes, not both the first, the lighter one is what is stopped.

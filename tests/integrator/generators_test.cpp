@@ -38,10 +38,6 @@ std::uint64_t hash(const Shape& shape) {
 
 Vec3 at(const Shape& shape, VertexId i) { return to_vec(shape.positions[i]); }
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Vec3 normal(const Shape& shape, const std::array<VertexId, 3>& f) {
   return cross(at(shape, f[1]) - at(shape, f[0]), at(shape, f[2]) - at(shape, f[0]));
 }

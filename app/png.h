@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "noli/app/picture.h"
 
@@ -10,7 +10,7 @@ namespace noli::app {
 /// Whether this program was built with a library for it.
 bool can_write_png();
 
-/// Throws std::system_error when the file cannot be written, std::logic_error without a library.
-void write_png(const std::filesystem::path& path, const Picture& picture);
+/// The bytes of a file. Throws std::logic_error without a library, std::runtime_error when the library fails.
+std::string png(const Picture& picture);
 
 }  // namespace noli::app
