@@ -36,16 +36,17 @@
 // What this does not do: it moves nothing, and it proves nothing: what is recorded is verified exactly elsewhere.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <queue>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "noli/certificates/features.h"
 #include "noli/certificates/hierarchy.h"
 #include "noli/certificates/near_pair.h"
+#include "noli/certificates/pair_numbers.h"
 #include "noli/certificates/plan.h"
 
 namespace noli::certificates {
@@ -64,6 +65,8 @@ class Cells {
         guards_(x.size()),
         due_(x.size(), never),
         nears_of_(x.size()),
+        layered_(x.size()),
+        layered_before_(x.size()),
         waiting_(x.size(), false) {
     std::vector<Vector<Dim>> centres;
     std::vector<bool> fixed;
@@ -107,11 +110,13 @@ class Cells {
   const CertificateCounts& counts() const { return counts_; }
 
   /// Layer l of this pair gives no impulse at this distance: if it is the deepest and not needed soon, it goes.
-  void drop_if_clear(PairKey key, std::uint16_t material, std::uint32_t l, double distance, double t) {
+  /// Precondition: the pair has it.
+  void drop_if_clear(const Stencil& s, std::uint16_t material, std::uint32_t l, double distance, double t) {
     if (!is_clear(host_, material, l, distance, margin_)) return;
-    const std::uint32_t near = index_.at(key);
+    const std::uint32_t near = layered_.at(s);
     if (nears_[near].layers != l) return;
     lose_layer(host_, nears_[near], counts_);
+    if (nears_[near].layers == 0) layered_.remove(s);
     put_up_slab(near, t);
     settle(t);
   }
@@ -241,19 +246,12 @@ class Cells {
 
   /// All near pairs anew; of those that were near before, layers stay.
   void find_near(double t) {
-    std::vector<NearPair<Dim>> old;
-    old.swap(nears_);
-    std::unordered_map<PairKey, std::uint32_t> old_index;
-    old_index.swap(index_);
+    carry_layers();
+    nears_.clear();
     for (auto& list : nears_of_) list.clear();
     find_pairs(t);
-    for (NearPair<Dim>& pair : old) {
-      const auto found = index_.find(pair.stencil.key);
-      if (found != index_.end()) {
-        nears_[found->second].layers = pair.layers;
-      } else {
-        while (pair.layers > 0) lose_layer(host_, pair, counts_);
-      }
+    for (LayeredPair& pair : carried_) {
+      while (pair.layers > 0) lose_layer(host_, pair, counts_);
     }
     swept_ = 0;
     for (std::uint32_t n = 0; n < nears_.size(); ++n) {
@@ -264,26 +262,48 @@ class Cells {
     }
   }
 
+  void carry_layers() {
+    carried_.clear();
+    layered_before_.clear();
+    layered_.swap(layered_before_);
+    layered_before_.renumber([this](std::uint32_t near) {
+      carried_.push_back(nears_[near]);
+      return static_cast<std::uint32_t>(carried_.size() - 1);
+    });
+  }
+
   void find_pairs(double t) {
     [[maybe_unused]] const auto searching = host_.in_broad_phase();
     hierarchy_.refit([this](std::uint32_t cell) { return box_of(cell); });
     hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
       if (cells_settled(a, b, t)) return;
-      features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
+      features_.for_each_pair(a, b, [&](const Stencil& stencil) {
+        if (consider(stencil, t)) take_over_layers();
+      });
     });
+  }
+
+  /// What the pair found last had before.
+  void take_over_layers() {
+    NearPair<Dim>& pair = nears_.back();
+    const std::uint32_t before = layered_before_.find(pair.stencil);
+    if (before == PairNumbers::none) return;
+    pair.layers = std::exchange(carried_[before].layers, 0);
+    layered_.add(pair.stencil, static_cast<std::uint32_t>(nears_.size() - 1));
   }
 
   // --- Pairs ---------------------------------------------------------------------------------------------------------
 
-  /// Remembers a pair that the tubes do not settle. Its slab is still to be put up.
-  void consider(const Stencil& s, double t) {
+  /// Remembers a pair that the tubes do not settle, and says whether it did. Its slab is still to be put up.
+  /// Precondition: it is not remembered yet.
+  bool consider(const Stencil& s, double t) {
     const std::uint16_t material = material_of(host_, s);
-    if (material == no_material || index_.contains(s.key) || settled(s, material, t)) return;
+    if (material == no_material || settled(s, material, t)) return false;
     const auto n = static_cast<std::uint32_t>(nears_.size());
-    index_.emplace(s.key, n);
     nears_.emplace_back(s, material);
     for (std::size_t k = 0; k < s.size(); ++k) nears_of_[s.vertices[k]].emplace_back(n, k < s.first());
     counts_.most_near = std::max<std::uint64_t>(counts_.most_near, nears_.size());
+    return true;
   }
 
   /// Whether some direction keeps the tubes apart until the slice's end.
@@ -337,10 +357,13 @@ class Cells {
   }
 
   /// A slab where the pair is now. Plans that do not respect it are to be made anew. Returns the pair's distance.
-  double put_up_slab(std::uint32_t near, double t) {
+  double put_up_slab(std::uint32_t near, double t, bool thinner = false) {
     NearPair<Dim>& pair = nears_[near];
+    const bool had_layers = pair.layers > 0;
+    if (thinner) gain_layer(host_, pair, t, counts_);
     const double distance = fit_slab(host_, pair, t, margin_, counts_);
     const Stencil& s = pair.stencil;
+    if (pair.layers > 0 && !had_layers) layered_.add(s, near);
     for (std::size_t k = 0; k < s.size(); ++k) {
       if (!respects(guards_[s.vertices[k]], pair.slab, k < s.first(), t)) plan_soon(s.vertices[k]);
     }
@@ -415,18 +438,23 @@ class Cells {
   /// Pairs that the vertex is part of, its tube being new.
   void find_near_cells(VertexId i, double t) {
     [[maybe_unused]] const auto searching = host_.in_broad_phase();
+    known_.clear();
+    for (const Side side : nears_of_[i]) known_.push_back(nears_[side.near()].stencil.key);
+    std::sort(known_.begin(), known_.end());
     for (const std::uint32_t cell : features_.cells_of(i)) hierarchy_.enlarge(cell, box_of(cell));
     for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell, t);
   }
 
-  /// Pairs of this cell that the vertex is part of.
+  /// Pairs of this cell that the vertex is part of and that are not known; those with a later cell of the vertex only,
+  /// so that none is found twice.
   void find_near_cell(VertexId i, std::uint32_t cell, double t) {
+    const auto of_i = features_.cells_of(i);
     hierarchy_.for_each_near(box_of(cell), [&](std::uint32_t other) {
-      if (other == cell) return;
+      if (other <= cell && std::binary_search(of_i.begin(), of_i.end(), other)) return;
       features_.for_each_pair(cell, other, [&](const Stencil& s) {
-        for (std::size_t k = 0; k < s.size(); ++k) {
-          if (s.vertices[k] == i) return consider(s, t);
-        }
+        const auto end = s.vertices.begin() + s.size();
+        if (std::find(s.vertices.begin(), end, i) == end) return;
+        if (!std::binary_search(known_.begin(), known_.end(), s.key)) consider(s, t);
       });
     });
   }
@@ -464,9 +492,7 @@ class Cells {
       const Slab<Dim>& slab = nears_[near].slab;
       const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
       if (clearance > worn * slab.slack) return {clearance, slab.closing(of_a, now.v)};
-      // Just put up and worn already: only a thinner one can help.
-      if (slab.since == now.t) gain_layer(host_, nears_[near], now.t, counts_);
-      put_up_slab(near, now.t);
+      put_up_slab(near, now.t, slab.since == now.t);  // just put up and worn already: only a thinner one can help
     }
   }
 
@@ -489,8 +515,11 @@ class Cells {
   std::vector<double> due_;  ///< of a vertex: time of its event, or never
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   std::vector<NearPair<Dim>> nears_;
-  std::unordered_map<PairKey, std::uint32_t> index_;
   std::vector<std::vector<Side>> nears_of_;  ///< of a vertex: its near pairs
+  PairNumbers layered_;                      ///< near pairs with layers
+  PairNumbers layered_before_;               ///< those of the slice before, as places in carried_; for find_near
+  std::vector<LayeredPair> carried_;         ///< what near pairs of the slice before had; for find_near
+  std::vector<PairKey> known_;               ///< for find_near_cells, ascending
   std::vector<VertexId> work_;
   std::vector<bool> waiting_;
   CertificateCounts counts_;

@@ -54,9 +54,9 @@ class EveryPair {
     repair(p, t);
   }
 
-  void drop_if_clear(PairKey key, std::uint16_t material, std::uint32_t l, double distance, double t) {
+  void drop_if_clear(const Stencil& s, std::uint16_t material, std::uint32_t l, double distance, double t) {
     if (!is_clear(host_, material, l, distance, margin_)) return;
-    const std::uint32_t p = index_.at(key);
+    const std::uint32_t p = index_.at(s.key);
     if (pairs_[p].layers != l) return;
     lose_layer(host_, pairs_[p], counts_);
     repair(p, t);

@@ -18,15 +18,19 @@ namespace noli::certificates {
 
 constexpr std::uint16_t no_material = 0xffff;
 
-/// Aligned, so that the slab, which is looked at far more often than the rest, is one line of the processor's cache.
-template <int Dim>
-struct alignas(64) NearPair {
-  Slab<Dim> slab;
+/// A pair and how many layers it needs.
+struct LayeredPair {
   Stencil stencil;
   std::uint16_t material = 0;
   std::uint32_t layers = 0;  ///< L
+};
 
-  NearPair(const Stencil& s, std::uint16_t of_material) : stencil(s), material(of_material) {}
+/// Aligned, so that the slab, which is looked at far more often than the rest, is one line of the processor's cache.
+template <int Dim>
+struct NearPair : LayeredPair {
+  alignas(64) Slab<Dim> slab;
+
+  NearPair(const Stencil& s, std::uint16_t of_material) : LayeredPair{s, of_material} {}
 };
 
 /// A pair that a vertex is part of.
@@ -60,16 +64,16 @@ std::uint16_t material_of(const Host& host, const Stencil& s) {
 }
 
 /// One layer more.
-template <int Dim, class Host>
-void gain_layer(Host& host, NearPair<Dim>& pair, double t, CertificateCounts& counts) {
+template <class Host>
+void gain_layer(Host& host, LayeredPair& pair, double t, CertificateCounts& counts) {
   ++pair.layers;
   ++counts.activations;
   counts.deepest = std::max(counts.deepest, pair.layers);
   host.activate(pair.stencil, pair.material, pair.layers, t);
 }
 
-template <int Dim, class Host>
-void lose_layer(Host& host, NearPair<Dim>& pair, CertificateCounts& counts) {
+template <class Host>
+void lose_layer(Host& host, LayeredPair& pair, CertificateCounts& counts) {
   ++counts.deactivations;
   host.deactivate(pair.stencil, pair.material, pair.layers--);
 }

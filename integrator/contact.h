@@ -206,9 +206,10 @@ class Contact {
     }
   }
 
-  void drop_if_clear(certificates::PairKey key, std::uint16_t material, std::uint32_t l, double distance, double t) {
+  void drop_if_clear(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double distance,
+                     double t) {
     const Doing certifying(*activity_, Phase::certificate);
-    ask([=](auto& certificates) { certificates.drop_if_clear(key, material, l, distance, t); });
+    ask([&](auto& certificates) { certificates.drop_if_clear(pair, material, l, distance, t); });
   }
 
   static std::vector<Vec<double, Dim>> positions(const Particles& particles) {
@@ -240,7 +241,7 @@ class Contact {
         ++acted;
         extremes_.add({pair, t, d, material, l});
       }
-      if (d > eta) drop_if_clear(pair.key, material, l, d, t);
+      if (d > eta) drop_if_clear(pair, material, l, d, t);
     }
     account.events += acted;
     return acted;

@@ -284,7 +284,7 @@ class Dance {
       for (std::size_t j = 0; j < pair.stencil.size(); ++j) x[j] = bodies_[pair.stencil.vertices[j]].at(t_);
       const double d =
           closest<Dim>(pair.stencil.kind, std::span<const Vector<Dim>>(x.data(), pair.stencil.size())).distance();
-      if (d > layer(eta_of(pair.material), l)) certificates_->drop_if_clear(pair.stencil.key, pair.material, l, d, t_);
+      if (d > layer(eta_of(pair.material), l)) certificates_->drop_if_clear(pair.stencil, pair.material, l, d, t_);
     }
   }
 
