@@ -44,6 +44,7 @@ Json certificates_json(const certificates::CertificateCounts& counts) {
   return {{"slices", counts.slices},
           {"tubes", counts.tubes},
           {"plans", counts.plans},
+          {"penned", counts.penned},
           {"repairs", counts.repairs},
           {"activations", counts.activations},
           {"deactivations", counts.deactivations},

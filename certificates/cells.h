@@ -29,6 +29,7 @@
 //   double thickness(material, l)     eta(l), decreasing to 0
 //   double look_step(v)
 //   std::uint32_t least_layers()      so many are always active for a pair that is near
+//   std::size_t many_walls()          so many make a pen worth its while
 //   double greatest_thickness(v)      the largest eta(1) of any pair of a feature that v is part of
 //   in_broad_phase()                  something that is kept while this looks for who is near whom
 //   void activate(stencil, material, l, t), deactivate(stencil, material, l)
@@ -47,6 +48,7 @@
 #include "noli/certificates/hierarchy.h"
 #include "noli/certificates/near_pair.h"
 #include "noli/certificates/pair_numbers.h"
+#include "noli/certificates/pen.h"
 #include "noli/certificates/plan.h"
 
 namespace noli::certificates {
@@ -65,6 +67,7 @@ class Cells {
         guards_(x.size()),
         due_(x.size(), never),
         nears_of_(x.size()),
+        pens_(x.size()),
         layered_(x.size()),
         layered_before_(x.size()),
         waiting_(x.size(), false) {
@@ -249,6 +252,7 @@ class Cells {
     carry_layers();
     nears_.clear();
     for (auto& list : nears_of_) list.clear();
+    for (Pen<Dim>& pen : pens_) pen.take_down();
     find_pairs(t);
     for (LayeredPair& pair : carried_) {
       while (pair.layers > 0) lose_layer(host_, pair, counts_);
@@ -365,7 +369,10 @@ class Cells {
     const Stencil& s = pair.stencil;
     if (pair.layers > 0 && !had_layers) layered_.add(s, near);
     for (std::size_t k = 0; k < s.size(); ++k) {
-      if (!respects(guards_[s.vertices[k]], pair.slab, k < s.first(), t)) plan_soon(s.vertices[k]);
+      const VertexId v = s.vertices[k];
+      const bool of_a = k < s.first();
+      if (!respects(guards_[v], pair.slab, of_a, t)) plan_soon(v);
+      if (pens_[v].is_up(t) && !respects(pens_[v].plan(), pair.slab, of_a, t)) pens_[v].add_gate({near, of_a});
     }
     return distance;
   }
@@ -428,6 +435,7 @@ class Cells {
     const double elapsed = now.t - tubes_[i].line.t;
     if (elapsed > 0.25 * length_ && !host_.immovable(i)) line.v = (now.x - courses_[i].x) / (now.t - slice_begin_);
     set_tube(i, now, line);
+    pens_[i].take_down();
     const std::size_t known = nears_.size();
     find_near_cells(i, now.t);
     for (std::size_t n = known; n < nears_.size(); ++n) put_up_slab(static_cast<std::uint32_t>(n), now.t);
@@ -459,18 +467,45 @@ class Cells {
     });
   }
 
-  /// Along the vertex's own motion, until it has used up part of the way to a wall.
+  /// Inside its pen, if it has one; else, if it has many walls, it gets one for next time.
   Plan<Dim> plan_within(VertexId i, const Line<Dim>& now) {
+    Pen<Dim>& pen = pens_[i];
+    if (pen.holds(now)) {
+      ++counts_.penned;
+      return plan_between(pen.plan(), pen.gates(), now);
+    }
+    pen.take_down(now);
+    const Plan<Dim> guard = plan_between(tubes_[i], nears_of_[i], now);
+    if (nears_of_[i].size() >= host_.many_walls()) put_up_pen(i, now, guard.until);
+    return guard;
+  }
+
+  void put_up_pen(VertexId i, const Line<Dim>& now, double until) {
     const Plan<Dim>& tube = tubes_[i];
-    const Vector<Dim> e = now.x - tube.line.at(now.t), w = now.v - tube.line.v;
-    const double edge = 0.5 * (tube.radius + std::sqrt(e.squaredNorm()));
-    double until = std::min(slice_end_, now.t + time_to_leave<Dim>(e, w, edge));
-    double radius = tube.radius - edge;
+    const double end = std::min(slice_end_, now.t + pens_[i].plans() * (until - now.t));
+    clearances_.clear();
     for (const Side side : nears_of_[i]) {
+      const Slab<Dim>& slab = nears_[side.near()].slab;
+      const bool of_a = side.of_a();
+      clearances_.emplace_back(std::min(slab.clearance(of_a, now.x, now.t), slab.clearance(of_a, now.at(end), end)),
+                               side);
+    }
+    const double off_now = (now.x - tube.line.at(now.t)).squaredNorm();
+    const double off_end = (now.at(end) - tube.line.at(end)).squaredNorm();
+    pens_[i].put_up(now, end, tube.radius - std::sqrt(std::max(off_now, off_end)), clearances_, 8 * margin_);
+  }
+
+  /// Along the vertex's own motion inside `outer`, until it has used up part of the way to one of these walls.
+  Plan<Dim> plan_between(const Plan<Dim>& outer, std::span<const Side> walls, const Line<Dim>& now) {
+    const Vector<Dim> e = now.x - outer.line.at(now.t), w = now.v - outer.line.v;
+    const double edge = 0.5 * (outer.radius + std::sqrt(e.squaredNorm()));
+    double until = std::min(outer.until, now.t + time_to_leave<Dim>(e, w, edge));
+    double radius = outer.radius - edge;
+    for (const Side side : walls) {
       const auto [clearance, closing] = wall(side, now);
       if (closing > 0) until = std::min(until, now.t + reach * (clearance / closing));
     }
-    for (const Side side : nears_of_[i]) {
+    for (const Side side : walls) {
       const Slab<Dim>& slab = nears_[side.near()].slab;
       const bool of_a = side.of_a();
       const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
@@ -516,10 +551,12 @@ class Cells {
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   std::vector<NearPair<Dim>> nears_;
   std::vector<std::vector<Side>> nears_of_;  ///< of a vertex: its near pairs
-  PairNumbers layered_;                      ///< near pairs with layers
-  PairNumbers layered_before_;               ///< those of the slice before, as places in carried_; for find_near
-  std::vector<LayeredPair> carried_;         ///< what near pairs of the slice before had; for find_near
-  std::vector<PairKey> known_;               ///< for find_near_cells, ascending
+  std::vector<Pen<Dim>> pens_;
+  PairNumbers layered_;               ///< near pairs with layers
+  PairNumbers layered_before_;        ///< those of the slice before, as places in carried_; for find_near
+  std::vector<LayeredPair> carried_;  ///< what near pairs of the slice before had; for find_near
+  std::vector<PairKey> known_;        ///< for find_near_cells, ascending
+  std::vector<typename Pen<Dim>::Clearance> clearances_;  ///< for put_up_pen
   std::vector<VertexId> work_;
   std::vector<bool> waiting_;
   CertificateCounts counts_;

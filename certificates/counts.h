@@ -11,6 +11,7 @@ struct CertificateCounts {
   std::uint64_t slices = 0;
   std::uint64_t tubes = 0;                           ///< left before the slice's end
   std::uint64_t plans = 0;                           ///< guards made
+  std::uint64_t penned = 0;                          ///< of these, those inside a pen
   std::uint64_t repairs = 0;                         ///< slabs
   std::uint64_t activations = 0, deactivations = 0;  ///< of layers
   std::uint64_t most_near = 0;                       ///< near pairs at a time
@@ -20,6 +21,7 @@ struct CertificateCounts {
     slices += other.slices;
     tubes += other.tubes;
     plans += other.plans;
+    penned += other.penned;
     repairs += other.repairs;
     activations += other.activations;
     deactivations += other.deactivations;

@@ -41,6 +41,7 @@ class Side {
 
   std::uint32_t near() const { return packed_ >> 1; }  ///< number of the pair
   bool of_a() const { return (packed_ & 1) != 0; }     ///< whether the vertex is of A
+  bool operator==(const Side&) const = default;
 
  private:
   std::uint32_t packed_;

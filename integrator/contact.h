@@ -161,6 +161,7 @@ class Contact {
   Doing in_broad_phase() const { return {*activity_, Phase::broad_phase}; }
   double look_step(VertexId i) const { return look_steps_[i]; }
   std::uint32_t least_layers() const { return settings_.least_layers; }
+  std::size_t many_walls() const { return 64; }
   double greatest_thickness(VertexId i) const {
     return greatest_thicknesses_[settings_.groups[i] * settings_.class_count + settings_.class_of(i)];
   }

@@ -47,7 +47,8 @@ struct DanceOptions {
   double drift = 0;                 ///< speed
   double start = 0;                 ///< time
   int bodies = 6;
-  double slice = 10;  ///< the longest
+  double slice = 10;           ///< the longest
+  std::size_t many_walls = 4;  ///< make a pen worth its while
   Fault fault = Fault::none;
 };
 
@@ -139,6 +140,7 @@ class Dance {
   }
   double look_step(VertexId i) const { return steps_[i]; }
   std::uint32_t least_layers() const { return 0; }
+  std::size_t many_walls() const { return options_.many_walls; }
   double greatest_thickness(VertexId) const { return eta_of(0); }
   int in_broad_phase() const { return 0; }
 

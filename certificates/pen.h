@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pen: a plan of a vertex with many walls, chosen so that most of them do not reach into it.
+//
+// Notation: that of certificates/cells.h, and
+//   gates   walls that do reach into the pen
+// As long as a vertex stays in its pen its gates are all the walls that it has to look at. What is struck changes its
+// velocity with every impulse and has hundreds of walls: nearly all that its certificates cost was to look at all of
+// them each time.
+//
+// What this does not do: it knows no pairs; who puts up a slab says whether it reaches into the pen.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "noli/certificates/near_pair.h"
+#include "noli/certificates/plan.h"
+
+namespace noli::certificates {
+
+template <int Dim>
+class Pen {
+ public:
+  using Clearance = std::pair<double, Side>;
+
+  /// Until it is put up it holds nobody.
+  bool is_up(double t) const { return t <= plan_.until; }
+  void take_down() { plan_.until = -std::numeric_limits<double>::infinity(); }
+
+  /// For how many times the length of the vertex's next plan it should be put up.
+  double plans() const { return plans_; }
+
+  /// Around a motion from now until `until`, no wider than `widest`. `clearances`: of all walls of the vertex, the least
+  /// until then; put in another order here. `margin` is kept clear of walls that are no gates.
+  void put_up(const Line<Dim>& now, double until, double widest, std::vector<Clearance>& clearances, double margin) {
+    const auto gates = static_cast<std::ptrdiff_t>(clearances.size() / walls_a_gate);
+    const auto first = clearances.begin() + gates;
+    std::nth_element(clearances.begin(), first, clearances.end(),
+                     [](const Clearance& a, const Clearance& b) { return a.first < b.first; });
+    const double radius = std::min(widest, first->first - margin);
+    if (!(radius > 0)) {
+      plans_ = std::max(plans_ / 4, least_plans);
+      return;
+    }
+    plan_ = {now, radius, until};
+    gates_.clear();
+    for (auto wall = clearances.begin(); wall != first; ++wall) gates_.push_back(wall->second);
+  }
+
+  /// Whether a vertex that moves like this is well inside, and for a while.
+  bool holds(const Line<Dim>& now) const { return is_up(now.t) && !is_old(now.t) && has_well_inside(now); }
+
+  /// To be called when it does not hold its vertex any more.
+  void take_down(const Line<Dim>& now) {
+    if (is_up(now.t) && is_old(now.t) && has_well_inside(now)) plans_ = std::min(2 * plans_, most_plans);
+    take_down();
+  }
+
+  const Plan<Dim>& plan() const { return plan_; }
+  std::span<const Side> gates() const { return gates_; }
+
+  void add_gate(Side side) {
+    if (std::find(gates_.begin(), gates_.end(), side) == gates_.end()) gates_.push_back(side);
+  }
+
+ private:
+  bool is_old(double t) const { return 4 * (plan_.until - t) < plan_.until - plan_.line.t; }
+  bool has_well_inside(const Line<Dim>& now) const {
+    return (now.x - plan_.line.at(now.t)).squaredNorm() <= 0.25 * plan_.radius * plan_.radius;
+  }
+
+  static constexpr std::size_t walls_a_gate = 16;
+  static constexpr double least_plans = 4, most_plans = 64;
+
+  Plan<Dim> plan_{{}, 0, -std::numeric_limits<double>::infinity()};
+  std::vector<Side> gates_;
+  double plans_ = most_plans;
+};
+
+}  // namespace noli::certificates
