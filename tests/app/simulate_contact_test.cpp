@@ -3,7 +3,9 @@
 // Scenes with forces of contact, by the command.
 #include <gtest/gtest.h>
 
+#include "noli/tests/app/killer.h"
 #include "noli/tests/app/simulate_fixture.h"
+#include "noli/tests/kernel/random_numbers.h"
 
 namespace noli::app_tests {
 namespace {
@@ -37,6 +39,25 @@ TEST_F(Simulate, ContactGivesTheSameBytesWhateverInterruptsIt) {
       run_noli({"simulate", file, "--reproduce", run_path("whole"), "--window", "9", "-o", run_path("window-9.block")});
   EXPECT_EQ(again.exit_code, 0) << again.err;
 }
+
+class KilledScene : public Simulate, public testing::WithParamInterface<const char*> {};
+
+TEST_P(KilledScene, SlowHasTheSameBytesAfterAHundredKills) {
+  const std::string file = (fs::path(NOLI_SOURCE_DIR) / "scenes" / GetParam()).string();
+  ASSERT_EQ(run_noli({"simulate", file, "--short", "-o", run_path("whole")}).exit_code, 0);
+  test::Random random(1);
+  const auto pause = [&] { return std::chrono::milliseconds(100 + random.below(500)); };
+  int kills = 0;
+  while (kills < 100) {
+    const int more = kill_until_done({file, "--short"}, run_path("killed"), 100 - kills, pause);
+    ASSERT_GE(more, 0);
+    kills += more;
+    ASSERT_TRUE(blocks("killed") == blocks("whole"));
+    fs::remove_all(run_path("killed"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, KilledScene, testing::Values("curtains.json", "reef_knot.json"));
 
 TEST_F(Simulate, WhatASceneExcludesPassesThroughAndIsPartOfTheStatement) {
   Json json = two_cloths();

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <thread>
 
+#include "noli/tests/app/killer.h"
 #include "noli/tests/app/simulate_fixture.h"
+#include "noli/tests/kernel/random_numbers.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_log.h"
@@ -96,35 +95,14 @@ TEST_F(Simulate, ResumingGivesTheBytesOfTheWholeRun) {
   EXPECT_NE(past.err.find("has 25 windows, 18 more than asked for"), std::string::npos) << past.err;
 }
 
-/// Starts a run, kills it after a while, again and again until it is done.
-int kill_until_done(const std::string& file, const std::string& run, std::chrono::microseconds first, int most) {
-  int kills = 0;
-  for (;;) {
-    const bool resume = fs::exists(run);
-    const pid_t child = ::fork();
-    if (child == 0) {
-      std::freopen("/dev/null", "w", stdout);
-      ::execl(NOLI_COMMAND, "noli", "simulate", file.c_str(), "-o", run.c_str(), resume ? "--resume" : "--force",
-              nullptr);
-      ::_exit(127);
-    }
-    if (kills < most) {
-      std::this_thread::sleep_for(first + std::chrono::microseconds(kills * 977 % 9000));
-      ::kill(child, SIGKILL);
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? kills : -1;
-    ++kills;
-  }
-}
-
 TEST_F(Simulate, KilledRunsGoOn) {
   Json json = hanging_sheet();
   json["duration"] = 1;
   const std::string file = scene(json);
   EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
-  const int kills = kill_until_done(file, run_path("killed"), std::chrono::milliseconds(12), 5);
+  int microseconds = 12'000;
+  const auto pause = [&] { return std::chrono::microseconds(microseconds += 977); };
+  const int kills = kill_until_done({file}, run_path("killed"), 5, pause);
   EXPECT_GE(kills, 1);
   EXPECT_TRUE(blocks("killed") == blocks("whole"));
 }
@@ -134,9 +112,11 @@ TEST_F(Simulate, SlowKilledAHundredTimesARunHasTheSameBytes) {
   json["duration"] = 1;
   const std::string file = scene(json);
   EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  test::Random random(1);
+  const auto pause = [&] { return std::chrono::microseconds(9000 + random.below(9000)); };
   int kills = 0;
-  for (int i = 0; kills < 100; ++i) {
-    const int more = kill_until_done(file, run_path("killed"), std::chrono::microseconds(9000 + 137 * i), 20);
+  while (kills < 100) {
+    const int more = kill_until_done({file}, run_path("killed"), 20, pause);
     ASSERT_GE(more, 0);
     kills += more;
     ASSERT_TRUE(blocks("killed") == blocks("whole"));
