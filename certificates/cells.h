@@ -47,7 +47,7 @@
 #include "noli/certificates/features.h"
 #include "noli/certificates/hierarchy.h"
 #include "noli/certificates/near_pair.h"
-#include "noli/certificates/pair_numbers.h"
+#include "noli/certificates/near_pairs.h"
 #include "noli/certificates/pen.h"
 #include "noli/certificates/plan.h"
 
@@ -66,10 +66,8 @@ class Cells {
         tubes_(x.size()),
         guards_(x.size()),
         due_(x.size(), never),
-        nears_of_(x.size()),
+        nears_(x.size()),
         pens_(x.size()),
-        layered_(x.size()),
-        layered_before_(x.size()),
         waiting_(x.size(), false) {
     std::vector<Vector<Dim>> centres;
     std::vector<bool> fixed;
@@ -116,10 +114,10 @@ class Cells {
   /// Precondition: the pair has it.
   void drop_if_clear(const Stencil& s, std::uint16_t material, std::uint32_t l, double distance, double t) {
     if (!is_clear(host_, material, l, distance, margin_)) return;
-    const std::uint32_t near = layered_.at(s);
+    const std::uint32_t near = nears_.number(s);
     if (nears_[near].layers != l) return;
     lose_layer(host_, nears_[near], counts_);
-    if (nears_[near].layers == 0) layered_.remove(s);
+    nears_.note_layers(near, true);
     put_up_slab(near, t);
     settle(t);
   }
@@ -249,14 +247,12 @@ class Cells {
 
   /// All near pairs anew; of those that were near before, layers stay.
   void find_near(double t) {
-    carry_layers();
-    nears_.clear();
-    for (auto& list : nears_of_) list.clear();
     for (Pen<Dim>& pen : pens_) pen.take_down();
+    nears_.begin_slice();
     find_pairs(t);
-    for (LayeredPair& pair : carried_) {
+    nears_.for_each_left_out([this](LayeredPair& pair) {
       while (pair.layers > 0) lose_layer(host_, pair, counts_);
-    }
+    });
     swept_ = 0;
     for (std::uint32_t n = 0; n < nears_.size(); ++n) {
       const double distance = put_up_slab(n, t);
@@ -266,48 +262,24 @@ class Cells {
     }
   }
 
-  void carry_layers() {
-    carried_.clear();
-    layered_before_.clear();
-    layered_.swap(layered_before_);
-    layered_before_.renumber([this](std::uint32_t near) {
-      carried_.push_back(nears_[near]);
-      return static_cast<std::uint32_t>(carried_.size() - 1);
-    });
-  }
-
   void find_pairs(double t) {
     [[maybe_unused]] const auto searching = host_.in_broad_phase();
     hierarchy_.refit([this](std::uint32_t cell) { return box_of(cell); });
     hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
       if (cells_settled(a, b, t)) return;
-      features_.for_each_pair(a, b, [&](const Stencil& stencil) {
-        if (consider(stencil, t)) take_over_layers();
-      });
+      features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
     });
-  }
-
-  /// What the pair found last had before.
-  void take_over_layers() {
-    NearPair<Dim>& pair = nears_.back();
-    const std::uint32_t before = layered_before_.find(pair.stencil);
-    if (before == PairNumbers::none) return;
-    pair.layers = std::exchange(carried_[before].layers, 0);
-    layered_.add(pair.stencil, static_cast<std::uint32_t>(nears_.size() - 1));
   }
 
   // --- Pairs ---------------------------------------------------------------------------------------------------------
 
-  /// Remembers a pair that the tubes do not settle, and says whether it did. Its slab is still to be put up.
-  /// Precondition: it is not remembered yet.
-  bool consider(const Stencil& s, double t) {
+  /// Remembers a pair that the tubes do not settle. Its slab is still to be put up. Precondition: it is not remembered
+  /// yet.
+  void consider(const Stencil& s, double t) {
     const std::uint16_t material = material_of(host_, s);
-    if (material == no_material || settled(s, material, t)) return false;
-    const auto n = static_cast<std::uint32_t>(nears_.size());
-    nears_.emplace_back(s, material);
-    for (std::size_t k = 0; k < s.size(); ++k) nears_of_[s.vertices[k]].emplace_back(n, k < s.first());
+    if (material == no_material || settled(s, material, t)) return;
+    nears_.add(s, material);
     counts_.most_near = std::max<std::uint64_t>(counts_.most_near, nears_.size());
-    return true;
   }
 
   /// Whether some direction keeps the tubes apart until the slice's end.
@@ -367,7 +339,7 @@ class Cells {
     if (thinner) gain_layer(host_, pair, t, counts_);
     const double distance = fit_slab(host_, pair, t, margin_, counts_);
     const Stencil& s = pair.stencil;
-    if (pair.layers > 0 && !had_layers) layered_.add(s, near);
+    nears_.note_layers(near, had_layers);
     for (std::size_t k = 0; k < s.size(); ++k) {
       const VertexId v = s.vertices[k];
       const bool of_a = k < s.first();
@@ -412,7 +384,7 @@ class Cells {
     const double ahead = std::min(t + host_.look_step(i), slice_end_);
     if (must_leave_tube(i, now, ahead)) leave_tube(i, now);
     Plan<Dim>& guard = guards_[i];
-    if (nears_of_[i].empty()) {
+    if (nears_.of(i).empty()) {
       guard = tubes_[i];
     } else {
       guard = plan_within(i, now);
@@ -424,7 +396,7 @@ class Cells {
   /// Free ones follow their tube until they are looked at; those with walls want some room in it.
   bool must_leave_tube(VertexId i, const Line<Dim>& now, double ahead) const {
     const Plan<Dim>& tube = tubes_[i];
-    if (nears_of_[i].empty()) return !tube.holds(now, ahead);
+    if (nears_.of(i).empty()) return !tube.holds(now, ahead);
     return (now.x - tube.line.at(now.t)).squaredNorm() > 0.5 * tube.radius * tube.radius;
   }
 
@@ -447,7 +419,7 @@ class Cells {
   void find_near_cells(VertexId i, double t) {
     [[maybe_unused]] const auto searching = host_.in_broad_phase();
     known_.clear();
-    for (const Side side : nears_of_[i]) known_.push_back(nears_[side.near()].stencil.key);
+    for (const Side side : nears_.of(i)) known_.push_back(nears_[side.near()].stencil.key);
     std::sort(known_.begin(), known_.end());
     for (const std::uint32_t cell : features_.cells_of(i)) hierarchy_.enlarge(cell, box_of(cell));
     for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell, t);
@@ -475,8 +447,8 @@ class Cells {
       return plan_between(pen.plan(), pen.gates(), now);
     }
     pen.take_down(now);
-    const Plan<Dim> guard = plan_between(tubes_[i], nears_of_[i], now);
-    if (nears_of_[i].size() >= host_.many_walls()) put_up_pen(i, now, guard.until);
+    const Plan<Dim> guard = plan_between(tubes_[i], nears_.of(i), now);
+    if (nears_.of(i).size() >= host_.many_walls()) put_up_pen(i, now, guard.until);
     return guard;
   }
 
@@ -484,7 +456,7 @@ class Cells {
     const Plan<Dim>& tube = tubes_[i];
     const double end = std::min(slice_end_, now.t + pens_[i].plans() * (until - now.t));
     clearances_.clear();
-    for (const Side side : nears_of_[i]) {
+    for (const Side side : nears_.of(i)) {
       const Slab<Dim>& slab = nears_[side.near()].slab;
       const bool of_a = side.of_a();
       clearances_.emplace_back(std::min(slab.clearance(of_a, now.x, now.t), slab.clearance(of_a, now.at(end), end)),
@@ -549,13 +521,9 @@ class Cells {
   std::vector<Plan<Dim>> tubes_, guards_;
   std::vector<double> due_;  ///< of a vertex: time of its event, or never
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
-  std::vector<NearPair<Dim>> nears_;
-  std::vector<std::vector<Side>> nears_of_;  ///< of a vertex: its near pairs
+  NearPairs<Dim> nears_;
   std::vector<Pen<Dim>> pens_;
-  PairNumbers layered_;               ///< near pairs with layers
-  PairNumbers layered_before_;        ///< those of the slice before, as places in carried_; for find_near
-  std::vector<LayeredPair> carried_;  ///< what near pairs of the slice before had; for find_near
-  std::vector<PairKey> known_;        ///< for find_near_cells, ascending
+  std::vector<PairKey> known_;                            ///< for find_near_cells, ascending
   std::vector<typename Pen<Dim>::Clearance> clearances_;  ///< for put_up_pen
   std::vector<VertexId> work_;
   std::vector<bool> waiting_;

@@ -13,6 +13,7 @@
 
 #include <limits>
 #include <set>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -51,6 +52,13 @@ class EveryPair {
 
   void run_next() {
     const auto [t, p] = *queue_.begin();
+    if (t > instant_) {
+      instant_ = t;
+      at_once_ = 0;
+    }
+    if (++at_once_ > most_at_once * (pairs_.size() + 1)) {
+      throw std::runtime_error("certificates: no end of repairs at one instant");
+    }
     repair(p, t);
   }
 
@@ -66,6 +74,7 @@ class EveryPair {
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t most_at_once = 1000;
 
   void add(const Stencil& s) {
     const std::uint16_t material = material_of(host_, s);
@@ -114,6 +123,8 @@ class EveryPair {
   std::vector<double> failures_;
   std::set<std::pair<double, std::uint32_t>> queue_;
   double margin_ = 0;
+  double instant_ = -never;  ///< of the last event, and how many there were at it
+  std::size_t at_once_ = 0;
   CertificateCounts counts_;
 };
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pairs that are followed by themselves, as numbers and by their vertices.
+//
+// Notation: that of certificates/cells.h.
+//
+// Each slice has near pairs of its own, numbered as they are found; what layers a pair had in the slice before stays
+// with it. Pairs with layers are found by their stencil, others only by their vertices.
+//
+// What this does not do: it activates nothing.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "noli/certificates/near_pair.h"
+#include "noli/certificates/pair_numbers.h"
+
+namespace noli::certificates {
+
+template <int Dim>
+class NearPairs {
+ public:
+  explicit NearPairs(std::size_t vertex_count) : of_(vertex_count), layered_(vertex_count), before_(vertex_count) {}
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(pairs_.size()); }
+  NearPair<Dim>& operator[](std::uint32_t n) { return pairs_[n]; }
+  const NearPair<Dim>& operator[](std::uint32_t n) const { return pairs_[n]; }
+  /// Those that a vertex is part of.
+  const std::vector<Side>& of(VertexId v) const { return of_[v]; }
+
+  /// Forgets all pairs, but not what layers they had.
+  void begin_slice() {
+    before_.clear();
+    before_.swap(layered_);
+    carried_.clear();
+    before_.renumber([this](std::uint32_t n) {
+      carried_.push_back(pairs_[n]);
+      return static_cast<std::uint32_t>(carried_.size() - 1);
+    });
+    pairs_.clear();
+    for (auto& list : of_) list.clear();
+  }
+
+  /// With the layers that it had in the slice before. Precondition: it is not there yet.
+  void add(const Stencil& s, std::uint16_t material) {
+    const std::uint32_t n = size();
+    NearPair<Dim>& pair = pairs_.emplace_back(s, material);
+    for (std::size_t k = 0; k < s.size(); ++k) of_[s.vertices[k]].emplace_back(n, k < s.first());
+    const std::uint32_t before = before_.find(s);
+    if (before == PairNumbers::none) return;
+    pair.layers = std::exchange(carried_[before].layers, 0);
+    layered_.add(s, n);
+  }
+
+  /// Calls each(LayeredPair&) for pairs that had layers and have not been added again; then these are forgotten.
+  template <class Each>
+  void for_each_left_out(const Each& each) {
+    for (LayeredPair& pair : carried_) {
+      if (pair.layers > 0) each(pair);
+    }
+    before_.clear();
+  }
+
+  /// Of a pair with layers. Throws std::out_of_range if it has none.
+  std::uint32_t number(const Stencil& s) const { return layered_.at(s); }
+
+  /// To be called when pair n may have got its first layer or lost its last one; `had`: whether it had any before.
+  void note_layers(std::uint32_t n, bool had) {
+    const bool has = pairs_[n].layers > 0;
+    if (has && !had) layered_.add(pairs_[n].stencil, n);
+    if (had && !has) layered_.remove(pairs_[n].stencil);
+  }
+
+ private:
+  std::vector<NearPair<Dim>> pairs_;
+  std::vector<std::vector<Side>> of_;
+  PairNumbers layered_;
+  PairNumbers before_;  ///< pairs that had layers in the slice before, as places in carried_
+  std::vector<LayeredPair> carried_;
+};
+
+}  // namespace noli::certificates
