@@ -95,6 +95,13 @@ TEST_F(Simulate, ResumingGivesTheBytesOfTheWholeRun) {
   EXPECT_NE(past.err.find("has 25 windows, 18 more than asked for"), std::string::npos) << past.err;
 }
 
+TEST_F(Simulate, WhatGrowsWithoutEndComesToItsEnd) {
+  const std::string file = (fs::path(NOLI_SOURCE_DIR) / "scenes/resonance.json").string();
+  const Json json = json_of({"simulate", file, "-o", run_path("run")}, 0);
+  EXPECT_EQ(json["end"], "done");
+  EXPECT_EQ(json["windows"], json["windows_total"]);
+}
+
 TEST_F(Simulate, KilledRunsGoOn) {
   Json json = hanging_sheet();
   json["duration"] = 1;
