@@ -447,7 +447,7 @@ class Cells {
       return plan_between(pen.plan(), pen.gates(), now);
     }
     pen.take_down(now);
-    const Plan<Dim> guard = plan_between(tubes_[i], nears_.of(i), now);
+    Plan<Dim> guard = plan_between(tubes_[i], nears_.of(i), now);
     if (nears_.of(i).size() >= host_.many_walls()) put_up_pen(i, now, guard.until);
     return guard;
   }

@@ -34,8 +34,8 @@ class Pen {
   /// For how many times the length of the vertex's next plan it should be put up.
   double plans() const { return plans_; }
 
-  /// Around a motion from now until `until`, no wider than `widest`. `clearances`: of all walls of the vertex, the least
-  /// until then; put in another order here. `margin` is kept clear of walls that are no gates.
+  /// Around a motion from now until `until`, no wider than `widest`. `clearances`: of all walls of the vertex, the
+  /// least until then; put in another order here. `margin` is kept clear of walls that are no gates.
   void put_up(const Line<Dim>& now, double until, double widest, std::vector<Clearance>& clearances, double margin) {
     const auto gates = static_cast<std::ptrdiff_t>(clearances.size() / walls_a_gate);
     const auto first = clearances.begin() + gates;

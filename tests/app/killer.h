@@ -27,6 +27,7 @@ inline int kill_until_done(const std::vector<std::string>& arguments, const std:
     command.insert(command.end(), arguments.begin(), arguments.end());
     command.insert(command.end(), {"-o", run, std::filesystem::exists(run) ? "--resume" : "--force"});
     std::vector<char*> argv;
+    argv.reserve(command.size() + 1);
     for (std::string& word : command) argv.push_back(word.data());
     argv.push_back(nullptr);
     const pid_t child = ::fork();
