@@ -112,6 +112,11 @@ class Export {
 
   void write_frames(const RunWindow& window) {
     if (!window.lines) return write_recorded(window);
+    constexpr double most = 1e6;
+    if (!(window.end * request_.fps <= most)) {
+      throw UsageError(
+          fmt::format("--fps {}: expected at most {:.0f} frames up to {} s", request_.fps, most, window.end));
+    }
     for_each_frame_time(window.index, window.begin, window.end, request_.fps, [&](double t) {
       if (is_interrupted()) return false;
       write(t, sample(*window.lines, t));

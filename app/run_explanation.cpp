@@ -21,6 +21,7 @@ class Explaining {
 
   RunExplanation operator()() {
     while (auto window = reader_.next_window()) add(std::move(*window));
+    require_all_windows(run_, result_.log, result_.windows);
     result_.open_window = reader_.open_window().has_value();
     if (nearest_lines_) {
       const ActingLayer& nearest = result_.nearest->action;

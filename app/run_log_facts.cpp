@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/run_log_facts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <set>
 #include <string>
 #include <system_error>
+
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -109,6 +113,12 @@ LogFacts read_log(const std::filesystem::path& run) {
   }
   if (in.bad() || !in.eof()) throw std::system_error(errno, std::generic_category(), path.string());
   return reader.finish();
+}
+
+void require_all_windows(const std::filesystem::path& run, const LogFacts& log, std::uint64_t windows) {
+  if (log.windows <= windows) return;
+  throw InputError((run / "trajectory.blocks").string(), "",
+                   fmt::format("windows are missing: it has {}, the log tells of {}", windows, log.windows));
 }
 
 }  // namespace noli::app

@@ -38,4 +38,7 @@ struct LogFacts {
 /// Throws std::system_error when the log cannot be read; one that is not there has no lines.
 LogFacts read_log(const std::filesystem::path& run);
 
+/// A window is logged after it has been committed. Throws InputError if the log tells of more windows than are there.
+void require_all_windows(const std::filesystem::path& run, const LogFacts& log, std::uint64_t windows);
+
 }  // namespace noli::app

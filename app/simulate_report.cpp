@@ -53,7 +53,9 @@ Json too_near_json(const SimulateOutcome& outcome) {
 
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
-    case RunEnd::done: return "Nothing touches from beginning to end.";
+    case RunEnd::done:
+      return outcome.excluded.empty() ? "Nothing touches from beginning to end."
+                                      : "Nothing that is compared touches from beginning to end.";
     case RunEnd::contact: {
       const FirstInWindow& first = *outcome.contact->first;
       return fmt::format(
@@ -64,7 +66,7 @@ std::string end_text(const SimulateOutcome& outcome) {
     }
     case RunEnd::too_near:
       return fmt::format(
-          "Too near in window {}: {} needs more layers of contact than \"most_layers\" allows, at {} s. The window is "
+          "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s. The window is "
           "not "
           "part of the run.",
           outcome.windows, on_one_line(outcome.first_names), digits17(outcome.limit->time));
@@ -165,8 +167,9 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
                   name(outcome.end), outcome.windows, outcome.windows_total, digits17(outcome.time),
                   outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none"));
   text += end_text(outcome) + "\n";
-  text += fmt::format("{}: {} windows of {} s committed to {}, each verified exactly: {}\n", on_one_line(outcome.title),
-                      outcome.windows, outcome.window_length, request.run.string(), statement(outcome));
+  if (!outcome.title.empty()) text += on_one_line(outcome.title) + ": ";
+  text += fmt::format("{} windows of {} s committed to {}, each verified exactly: {}\n", outcome.windows,
+                      outcome.window_length, request.run.string(), statement(outcome));
   if (outcome.series == SeriesEnd::stopped) {
     text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
   }

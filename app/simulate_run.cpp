@@ -324,7 +324,7 @@ class Run {
     if (limit_) {
       outcome_.end = RunEnd::too_near;
       outcome_.limit = limit_;
-      outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "meets");
+      outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "and");
     } else if (!finite_) {
       outcome_.not_finite =
           simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] { return stopped(); });

@@ -7,6 +7,7 @@
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
+#include "noli/app/run_log_facts.h"
 #include "noli/app/verify_run.h"
 #include "noli/proofs/prover/window_verifier.h"
 #include "noli/trajectory/error.h"
@@ -25,6 +26,7 @@ class MotionRun {
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
+    require_all_windows(request.frames[0], read_log(request.frames[0]), outcome_.steps_total);
     outcome_.excluded = reader_.scene().exclusions.pairs;
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;

@@ -69,7 +69,7 @@ struct ContactSettings {
   static constexpr std::uint16_t excluded = 0xffff;
 
   LayerSchedule schedule;
-  std::uint32_t most_layers = 10000;  ///< a pair that needs more ends the run
+  std::uint32_t most_layers = 1000;  ///< a pair that needs more ends the run
   Certificates certificates = Certificates::cells;
   std::uint32_t least_layers = 0;  ///< of each pair that is followed; they change nothing but the time it takes
   std::vector<ContactMaterial> materials;

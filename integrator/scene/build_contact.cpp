@@ -328,6 +328,20 @@ void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
   for (const Parts& p : parts) settings.classes.insert(settings.classes.end(), p.classes.begin(), p.classes.end());
 }
 
+/// What certificates keep clear for rounding (certificates/near_pair.h, margin_of, 64 times) is less than any layer.
+template <int Dim>
+void require_digits(const Scene& scene, const Model<double, Dim>& model) {
+  constexpr double part = 0x1p-38;
+  double farthest = 0, thinnest = infinity;
+  for (const auto& x : model.x) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  for (const ContactMaterial& m : model.contact->materials) thinnest = std::min(thinnest, m.thickness);
+  if (part * farthest < thinnest) return;
+  Field(scene.document, scene.path.string())["contact"]["thickness"].fail(
+      fmt::format("expected more than {:.3g} where coordinates are as large as {:.3g}, found {:.3g}: what is nearer "
+                  "cannot be told from their rounding",
+                  part * farthest, farthest, thinnest));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -349,6 +363,7 @@ void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const 
   for (std::size_t a = 0; a < bodies.size(); ++a) {
     for (std::size_t b = a; b < bodies.size(); ++b) materials.add({a, b}, parts[a], parts[b]);
   }
+  require_digits(scene, built.model);
 }
 
 template void add_contact(const Scene&, const std::vector<BodyMesh>&, const std::vector<double>&, BuiltScene<2>&);

@@ -247,7 +247,7 @@ struct ContactPair {
 struct Contact {
   ContactValues values;  ///< of all pairs that say nothing else
   LayerSchedule layers;
-  std::uint32_t most_layers = 10000;
+  std::uint32_t most_layers = 1000;
   std::vector<ContactPair> pairs;  ///< each pair at most once
   std::vector<BodyPair> excluded;  ///< none of `pairs`
   friend bool operator==(const Contact&, const Contact&) = default;

@@ -101,6 +101,7 @@ TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
   EXPECT_EQ(result["too_near"]["pair"], "vertex_edge");
   EXPECT_GT(result["too_near"]["time"], 0.9);
   EXPECT_LT(result["too_near"]["time"], 1);
+  EXPECT_EQ(result["too_near"]["names"], "vertex point[0] and edge floor[0]-floor[1]");
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
 }
 

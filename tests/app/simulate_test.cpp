@@ -211,6 +211,24 @@ TEST_F(Simulate, FramesAreExported) {
   EXPECT_EQ(run_noli({"export", run_path("run"), "-o", run_path("frames/x.ply")}).exit_code, 3);
   EXPECT_EQ(run_noli({"export", run_path("run"), "--fps", "8", "-o", run_path("vtu/f_%d.vtu")}).exit_code, 0);
   EXPECT_TRUE(fs::exists(run_path("vtu/f.pvd")));
+  const Process many = run_noli({"export", run_path("run"), "--fps", "1e300", "-o", run_path("many/%d.ply")});
+  EXPECT_EQ(many.exit_code, 3);
+  EXPECT_NE(many.err.find("--fps 1e+300: expected at most 1000000 frames"), std::string::npos) << many.err;
+  EXPECT_TRUE(fs::is_empty(run_path("many")));
+}
+
+TEST_F(Simulate, WindowsThatTheLogKnowsAreMissed) {
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("run")}).exit_code, 0);
+  const std::string path = run_path("run/trajectory.blocks");
+  fs::resize_file(path, fs::file_size(path) / 2);
+  for (const char* command : {"verify", "explain"}) {
+    const Process process = run_noli({command, run_path("run")});
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(process.err.find("trajectory.blocks: windows are missing: it has "), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find(", the log tells of 25"), std::string::npos) << process.err;
+  }
+  EXPECT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("run"), "--resume"}).exit_code, 0);
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["steps"], 25);
 }
 
 TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {

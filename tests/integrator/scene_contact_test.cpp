@@ -59,7 +59,7 @@ TEST(SceneContact, DefaultsComeFromTheMeshTheMassesAndTheSpeeds) {
   Json scene = changed(sheet(), "/contact", Json::object());
   const ContactSettings still = settings(scene);
   EXPECT_EQ(still.schedule, LayerSchedule{});
-  EXPECT_EQ(still.most_layers, 10000u);
+  EXPECT_EQ(still.most_layers, 1000u);
   EXPECT_EQ(still.groups, std::vector<std::uint16_t>(9, 0));
   ASSERT_EQ(still.materials.size(), 1u);
   EXPECT_NEAR(still.materials[0].thickness, sheet_bound / 2, 1e-15);
@@ -276,6 +276,21 @@ INSTANTIATE_TEST_SUITE_P(
             "/pairs/0/bodies: expected bodies that \"exclude\" does not name"},
         Bad{R"({"pairs": [{"friction": 1}]})", "/pairs/0: expected the field \"bodies\" (their names)"}));
 
+TEST(SceneContact, IsRefusedWhereNumbersAreTooCoarseForIt) {
+  Json scene = sheets(R"({"thickness": 0.01})"_json);
+  const auto move_to = [&scene](double x) { scene["bodies"][0]["transform"]["translate"] = {x, 0, 0}; };
+  move_to(1e9);
+  EXPECT_EQ(settings(scene).materials[0].thickness, 0.01);
+  move_to(1e13);
+  try {
+    settings(scene);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/contact/thickness: expected more than 36.4 where"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(SceneContact, TheLargestThicknessThatIsNamedWorks) {
   EXPECT_EQ(settings(sheets(R"({"thickness": 0.17677669529663684})"_json)).materials[0].thickness, 0.17677669529663684);
 }
@@ -343,7 +358,7 @@ TEST(ExplainContact, DefaultsThatDependOnOthersAreListed) {
   EXPECT_TRUE(took(e, "/contact/stability", 0.05));
   EXPECT_TRUE(took(e, "/contact/restitution", 1));
   EXPECT_TRUE(took(e, "/contact/friction", 0));
-  EXPECT_TRUE(took(e, "/contact/most_layers", 10000));
+  EXPECT_TRUE(took(e, "/contact/most_layers", 1000));
   EXPECT_TRUE(left_out(e, "restitution", "it is 1 everywhere"));
 }
 
