@@ -1,0 +1,421 @@
+(* SPDX-License-Identifier: Apache-2.0 *)
+(** * Small scenes: what is accepted, and what is refused
+
+    Each token is used in a proof that is accepted; each condition of the checker is
+    broken, alone, in one that is refused.  All is computed inside Coq, so that this
+    file compiles only if the checker answers as it says.
+
+    Notation: a group is written with [+], cells as [#i]; half spaces, directions
+    and tokens as in Checker.v.
+
+    Not here: the reading of files. *)
+Require Import ZArith List.
+From Noli Require Import Spec Checker Sound Glue Hit.
+Import ListNotations.
+Open Scope Z_scope.
+
+Declare Scope group_scope.
+Notation "x + y" := (Join x y) : group_scope.
+Notation "# i" := (Cell i) (at level 5) : group_scope.
+Delimit Scope group_scope with group.
+Bind Scope group_scope with group.
+Arguments check _ _ _%group _.
+Arguments start _ _%group.
+
+(** Whether a scene is accepted, not strict unless said. *)
+Definition lax := check false.
+
+Ltac computed := vm_compute; reflexivity.
+
+(** A scene in which things are not to touch. *)
+Definition touching t0 t1 p n c l e := Scene t0 t1 p n c l e 0.
+
+(** ** A triangle at rest, and a point that falls towards it *)
+
+Definition at_rest p : traj := [(0, p); (4, p)].
+
+Definition tri v := at_rest (match v with 0 => V3 0 0 0 | 1 => V3 8 0 0 | _ => V3 0 8 0 end).
+
+(** The triangle is cell 0, the point, vertex 3, is cell 1. *)
+Definition over_tri (tr : traj) : scene :=
+  touching 0 4 (fun v => if v =? 3 then tr else tri v) 2 (fun i => if i =? 0 then [0; 1; 2] else [3])
+        (fun i => i) [].
+
+Definition fall z := over_tri [(0, V3 2 2 8); (1, V3 2 2 8); (4, V3 2 2 z)].
+Definition up := V3 0 0 1.
+Definition down := V3 0 0 (-1).
+Definition plane n t z := TPlane (HalfSpace n t z) 0.
+Definition above z := plane up 0 z.
+Definition below z := plane down 0 (- z).
+Definition point_first := (#1 + #0)%group.
+Definition tri_first := (#0 + #1)%group.
+Definition close tok := [TParts; TOne; tok; TOne].
+
+Lemma ok_plane : lax (fall 2) point_first (close (above 1)) = true. Proof. computed. Qed.
+Lemma ok_direction : lax (fall 2) point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Lemma ok_plane_down : lax (fall 2) tri_first (close (below 1)) = true. Proof. computed. Qed.
+Lemma ok_direction_down : lax (fall 2) tri_first (close (TDirection down)) = true. Proof. computed. Qed.
+Theorem safe : never_touch false (fall 2).
+Proof. exact (check_sound _ _ _ _ ok_plane). Qed.
+Theorem safe_well_formed : well_formed (fall 2).
+Proof. exact (check_well_formed _ _ _ _ ok_plane). Qed.
+
+(** A plane moves with its time: this one is between a point and another it follows. *)
+Definition two_points (tr0 tr1 : traj) : scene :=
+  touching 0 4 (fun v => if v =? 0 then tr0 else tr1) 2 (fun i => [i]) (fun i => i) [].
+Definition race := two_points [(0, V3 0 0 0); (4, V3 40 0 0)] [(0, V3 2 0 0); (4, V3 42 0 0)].
+Definition moving nd := plane (V3 (-1) 0 0) 10 nd.
+Lemma ok_moving : lax race tri_first (close (moving (-1))) = true. Proof. computed. Qed.
+Lemma ok_moving_other : lax race point_first (close (plane (V3 1 0 0) (-10) 1)) = true. Proof. computed. Qed.
+Lemma no_not_moving : lax race tri_first (close (plane (V3 (-1) 0 0) 0 (-1))) = false.
+Proof. computed. Qed.
+Lemma no_moving_zero : lax race tri_first (close (moving 0)) = false. Proof. computed. Qed.
+Lemma no_moving_zero_second : lax race tri_first (close (moving (-2))) = false. Proof. computed. Qed.
+
+(** Planes with the value 0 somewhere: at the point's last position, at the triangle. *)
+Lemma no_plane_zero : lax (fall 2) point_first (close (above 2)) = false. Proof. computed. Qed.
+Lemma no_plane_zero_second : lax (fall 2) point_first (close (above 0)) = false. Proof. computed. Qed.
+Lemma no_plane_side : lax (fall 2) point_first (close (below 1)) = false. Proof. computed. Qed.
+Lemma no_plane : lax (fall (-2)) point_first (close (above 1)) = false. Proof. computed. Qed.
+Lemma no_direction : lax (fall (-2)) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+Lemma no_direction_side : lax (fall 2) point_first (close (TDirection down)) = false. Proof. computed. Qed.
+
+(** A point that rises from the plane. *)
+Definition rise := over_tri [(0, V3 2 2 1); (4, V3 2 2 8)].
+Lemma ok_rise : lax rise point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Lemma no_rise : lax rise point_first (close (above 1)) = false. Proof. computed. Qed.
+
+(** A point that is above at both ends, and at 0 or below at a breakpoint between. *)
+Definition dip z := over_tri [(0, V3 2 2 8); (1, V3 2 2 z); (4, V3 2 2 8)].
+Lemma ok_dip : lax (dip 1) point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Lemma ok_dip_plane : lax (dip 2) point_first (close (above 1)) = true. Proof. computed. Qed.
+Lemma no_dip : lax (dip (-1)) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+Lemma no_dip_zero : lax (dip 0) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+Lemma no_dip_second : lax (dip (-1)) tri_first (close (TDirection down)) = false. Proof. computed. Qed.
+Lemma no_dip_plane : lax (dip 1) point_first (close (above 1)) = false. Proof. computed. Qed.
+Lemma no_dip_plane_second : lax (dip 1) tri_first (close (below 1)) = false. Proof. computed. Qed.
+
+(** Values with different denominators: breakpoints of one inside segments of the other. *)
+Definition cross z := two_points [(0, V3 0 0 0); (4, V3 0 0 8)]
+  [(0, V3 0 0 6); (1, V3 0 0 z); (3, V3 0 0 12); (4, V3 0 0 9)].
+Lemma ok_cross : lax (cross 3) point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Lemma no_cross : lax (cross 2) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+Lemma ok_cross_second : lax (cross 3) tri_first (close (TDirection down)) = true. Proof. computed. Qed.
+Lemma no_cross_second : lax (cross 2) tri_first (close (TDirection down)) = false. Proof. computed. Qed.
+
+(** What the checker asks of the times at which it compares, which are always so. *)
+Definition zigzag : traj := [(0, V3 0 0 0); (1, V3 0 0 9); (2, V3 0 0 0); (3, V3 0 0 9)].
+Definition values_of a b cs := values up a b 1 cs zigzag.
+Lemma ok_values : values_of 0 3 [0; 1; 2; 3] = Some [(0, 1); (9, 1); (0, 1); (9, 1)]. Proof. computed. Qed.
+Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] zigzag = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
+Proof. computed. Qed.
+Lemma no_values_breakpoint : values_of 0 3 [0; 1; 3] = None. Proof. computed. Qed.
+Lemma no_values_order : values_of 0 3 [0; 1; 0; 1; 2; 3] = None. Proof. computed. Qed.
+Lemma no_values_end : values_of 0 3 [0; 1; 2] = None. Proof. computed. Qed.
+Lemma no_values_begin : values_of (-1) 3 [0; 1; 2; 3] = None. Proof. computed. Qed.
+Lemma no_values_after : values_of 0 4 [0; 1; 2; 3; 4] = None. Proof. computed. Qed.
+Lemma no_lengths : orb (all_less 0 [] [(1, 1)]) (all_less 0 [(0, 1)] []) = false. Proof. computed. Qed.
+
+(** Three vertices a side: the lowest of one against the highest of the other. *)
+Definition steps (h : Z) : scene :=
+  touching 0 4 (fun v => at_rest (V3 v 0 (if v =? h then 5 else v))) 2
+        (fun i => if i =? 0 then [0; 1; 2] else [6; 7; 8]) (fun i => i) [].
+Lemma ok_steps : lax (steps 9) point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Lemma ok_steps_high : lax (steps 1) point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Definition raised v : scene :=
+  touching 0 4 (fun u => at_rest (V3 u 0 (if u =? v then 6 else u))) 2
+        (fun i => if i =? 0 then [0; 1; 2] else [6; 7; 8]) (fun i => i) [].
+Lemma no_raised : forallb (fun v => negb (lax (raised v) point_first (close (TDirection up)))) [0; 1; 2] = true.
+Proof. computed. Qed.
+Definition sunk v : scene :=
+  touching 0 4 (fun u => at_rest (V3 u 0 (if u =? v then 2 else u))) 2
+        (fun i => if i =? 0 then [0; 1; 2] else [6; 7; 8]) (fun i => i) [].
+Lemma no_sunk : forallb (fun v => negb (lax (sunk v) point_first (close (TDirection up)))) [6; 7; 8] = true.
+Proof. computed. Qed.
+
+(** ** T: halves *)
+
+(** One point passes the other at a corner: a direction serves half of the time. *)
+Definition pass k : scene :=
+  touching 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (1, V3 0 0 0)] else [(0, V3 4 (k - 4) 0); (1, V3 (k - 4) 4 0)])
+        2 (fun i => [i]) (fun i => i) [].
+Definition east := TDirection (V3 1 0 0).
+Definition north := TDirection (V3 0 1 0).
+Definition east_of x := plane (V3 2 0 0) 0 x.
+Definition north_of y := plane (V3 0 2 0) 0 y.
+Definition halves t1 t2 := [TParts; TOne; THalve; t1; t2; TOne].
+Lemma ok_halves : lax (pass 2) point_first (halves east north) = true. Proof. computed. Qed.
+Lemma ok_halves_planes : lax (pass 2) point_first (halves (east_of 1) (north_of 1)) = true. Proof. computed. Qed.
+Lemma ok_halves_self : lax (pass 2) point_first (THalve :: close east ++ close north) = true. Proof. computed. Qed.
+Lemma ok_quarters : lax (pass 2) point_first
+  [TParts; TOne; THalve; THalve; east; east; THalve; north; north; TOne] = true. Proof. computed. Qed.
+Lemma no_halves : lax (pass 2) point_first (close east) = false. Proof. computed. Qed.
+Lemma no_halves_zero : lax (pass 0) point_first (halves east north) = false. Proof. computed. Qed.
+Lemma no_halves_order : lax (pass 2) point_first (halves north east) = false. Proof. computed. Qed.
+Lemma no_halves_plane_zero : lax (pass 2) point_first (halves (east_of 2) (north_of 1)) = false. Proof. computed. Qed.
+Lemma no_halves_plane_zero_second : lax (pass 2) point_first (halves (east_of 1) (north_of 2)) = false.
+Proof. computed. Qed.
+Lemma no_half_missing : lax (pass 2) point_first [TParts; TOne; THalve; east; TOne] = false. Proof. computed. Qed.
+Lemma no_half_missing_at_end : lax (pass 2) point_first (THalve :: close east) = false. Proof. computed. Qed.
+
+Definition halvings n := run false (pass 2) [Self (Leaf 0 []) 0 1 1] (repeat THalve n).
+Definition pair_halvings n := run false (pass 2) [Pair (Leaf 0 []) (Leaf 0 []) 0 1 1] (repeat THalve n).
+Lemma ok_depth_pair : (if pair_halvings 1024 then true else false) = true. Proof. computed. Qed.
+Lemma no_depth_pair : (if pair_halvings 1025 then true else false) = false. Proof. computed. Qed.
+Lemma ok_depth : (if halvings 1024 then true else false) = true. Proof. computed. Qed.
+Lemma no_depth : (if halvings 1025 then true else false) = false. Proof. computed. Qed.
+
+(** ** D: two triangles with a common edge *)
+
+Definition hinge : scene :=
+  touching 0 4 (fun v => at_rest (match v with 0 => V3 (-4) 0 0 | 1 => V3 0 (-4) 0 | 2 => V3 0 4 0 | _ => V3 4 0 4 end))
+        2 (fun i => if i =? 0 then [2; 0; 1] else [1; 3; 2]) (fun i => i) [].
+Definition dir x y := TDirection (V3 x y 0).
+Definition hinge_with k :=
+  [TParts; TOne; TDrop k; TDrop 0; dir (-1) 0; dir (-1) 1; TDrop 0; dir (-1) (-1); dir (-1) 0; TOne].
+Lemma ok_drop : lax hinge tri_first (hinge_with 0) = true. Proof. computed. Qed.
+(** The common vertices are 1 and 2: number 1 is vertex 2, after which other pairs are left. *)
+Lemma no_drop_other : lax hinge tri_first (hinge_with 1) = false. Proof. computed. Qed.
+Lemma ok_drop_other : lax hinge tri_first
+  [TParts; TOne; TDrop 1; TDrop 0; dir (-1) 0; dir (-1) (-1); TDrop 0; dir (-1) 1; dir (-1) 0; TOne] = true.
+Proof. computed. Qed.
+Lemma no_drop_beyond : lax hinge tri_first (hinge_with 2) = false. Proof. computed. Qed.
+Lemma no_drop_negative : lax hinge tri_first (hinge_with (-1)) = false. Proof. computed. Qed.
+Lemma no_drop_nothing_common : lax (fall 2) point_first [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
+Lemma no_drop_needed : lax hinge tri_first (close (dir (-1) 0)) = false. Proof. computed. Qed.
+
+(** Strict, one edge against itself: its vertices are apart.  A side without a vertex
+    is closed by any direction. *)
+Definition edge x : scene := touching 0 4 (fun v => at_rest (V3 (v * x) 0 0)) 1 (fun _ => [0; 1]) (fun _ => 7) [].
+Definition nothing := TDirection (V3 0 0 0).
+Definition edge_self := [TBoth; TDrop 0; TDrop 0; nothing; dir 1 0; TDrop 0; dir (-1) 0; nothing].
+Lemma ok_strict : check true (edge 2) #0 edge_self = true. Proof. computed. Qed.
+Lemma ok_strict_planes : check true (edge 2) #0
+  (let p x nd := plane (V3 x 0 0) 0 nd in
+   [TBoth; TDrop 0; TDrop 0; p 0 1; p 1 1; TDrop 0; p (-1) (-1); p 0 (-1)]) = true. Proof. computed. Qed.
+Lemma no_strict : check true (edge 0) #0 edge_self = false. Proof. computed. Qed.
+Lemma no_strict_one : check true (edge 2) #0 [TOne] = false. Proof. computed. Qed.
+Lemma ok_lax_one : lax (edge 0) #0 [TOne] = true. Proof. computed. Qed.
+
+(** ** L, R, N, B: groups *)
+
+(** Three points in a row, one in each cell. *)
+Definition row : scene := touching 0 4 (fun v => at_rest (V3 v 0 0)) 3 (fun i => [i]) (fun i => i) [].
+Definition row_left := ((#0 + #1) + #2)%group.
+Definition row_right := (#0 + (#1 + #2))%group.
+Lemma ok_left : lax row row_left
+  [TParts; TParts; TOne; dir (-1) 0; TOne; TLeft; dir (-1) 0; dir (-1) 0; TOne] = true. Proof. computed. Qed.
+Lemma ok_right : lax row row_right
+  [TParts; TOne; TRight; dir (-1) 0; dir (-1) 0; TParts; TOne; dir (-1) 0; TOne] = true. Proof. computed. Qed.
+Lemma ok_group : lax row row_left
+  [TParts; TParts; TOne; dir (-1) 0; TOne; dir (-1) 0; TOne] = true. Proof. computed. Qed.
+Lemma ok_both : lax row row_left
+  [TParts; TBoth; TLeft; TRight; TDrop 0; nothing; nothing; dir (-1) 0;
+   TRight; dir 1 0; TDrop 0; nothing; nothing; dir (-1) 0; TOne] = true. Proof. computed. Qed.
+Lemma no_left_leaf : lax row row_right [TParts; TOne; TLeft] = false. Proof. computed. Qed.
+Lemma no_right_leaf : lax row row_left [TParts; TParts; TOne; dir (-1) 0; TOne; TRight] = false. Proof. computed. Qed.
+Lemma no_parts_leaf : lax row row_right [TParts; TParts] = false. Proof. computed. Qed.
+Lemma no_one_node : lax row row_right [TOne] = false. Proof. computed. Qed.
+Lemma no_drop_node : lax row row_right [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
+
+(** A token of the other kind of obligation. *)
+Definition root := Leaf 0 [(0, at_rest (V3 0 0 0))].
+Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) 0 4 1].
+Definition on_self := step false row [Self (Node None [] root root) 0 4 1].
+Definition refused (o : option (list obligation)) := match o with None => true | Some _ => false end.
+Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0] = true.
+Proof. computed. Qed.
+Lemma no_token_on_self :
+  forallb (fun tok => refused (on_self tok)) [TLeft; TRight; TDrop 0; above 0; TDirection up] = true.
+Proof. computed. Qed.
+
+(** The stack: tokens after the last obligation, and obligations after the last token. *)
+Lemma no_more_tokens : forallb (fun tok => negb (lax (fall 2) point_first (close (above 1) ++ [tok])))
+  [THalve; TLeft; TRight; TDrop 0; above 1; TDirection up; TExcluded; TParts; TOne; TBoth] = true.
+Proof. computed. Qed.
+Lemma no_tokens : lax (fall 2) point_first [] = false. Proof. computed. Qed.
+Lemma no_token_less : lax (fall 2) point_first [TParts; TOne; above 1] = false. Proof. computed. Qed.
+
+(** ** X: labels *)
+
+(** Four points at one place, in cells of their own with these labels. *)
+Definition heap (l : list Z) (e : list (Z * Z)) : scene :=
+  touching 0 4 (fun _ => at_rest (V3 0 0 0)) 4 (fun i => [i]) (fun i => nth (Z.to_nat i) l 0) e.
+Definition two_two := ((#0 + #1) + (#2 + #3))%group.
+Lemma ok_excluded_self : lax (heap [5; 5; 5; 5] [(5, 5)]) two_two [TExcluded] = true. Proof. computed. Qed.
+Lemma ok_excluded_pair : lax (heap [5; 5; 6; 6] [(5, 5); (6, 5); (6, 6)]) two_two
+  [TParts; TExcluded; TExcluded; TExcluded] = true. Proof. computed. Qed.
+Lemma ok_excluded_swapped : lax (heap [5; 5; 6; 6] [(5, 5); (5, 6); (6, 6)]) two_two
+  [TParts; TExcluded; TExcluded; TExcluded] = true. Proof. computed. Qed.
+Lemma no_excluded_pair : lax (heap [5; 5; 6; 6] [(5, 5); (6, 6); (5, 7); (7, 6)]) two_two
+  [TParts; TExcluded; TExcluded; TExcluded] = false. Proof. computed. Qed.
+Lemma no_excluded_self : lax (heap [5; 5; 5; 5] [(5, 6); (6, 6)]) two_two [TExcluded] = false. Proof. computed. Qed.
+Lemma no_excluded_mixed_self : lax (heap [5; 5; 6; 6] [(5, 5); (5, 6); (6, 6)]) two_two [TExcluded] = false.
+Proof. computed. Qed.
+Lemma no_excluded_mixed_first : lax (heap [5; 7; 6; 6] [(5, 5); (5, 6); (6, 6); (5, 7); (7, 7); (7, 6)]) two_two
+  [TParts; TParts; TExcluded; TExcluded; TExcluded; TExcluded] = false. Proof. computed. Qed.
+Lemma no_excluded_mixed_second : lax (heap [6; 6; 5; 7] [(5, 5); (5, 6); (6, 6); (5, 7); (7, 7); (7, 6)]) two_two
+  [TParts; TExcluded; TExcluded] = false. Proof. computed. Qed.
+Lemma no_excluded : lax (heap [5; 5; 5; 5] []) two_two [TExcluded] = false. Proof. computed. Qed.
+
+(** ** The tree has each cell once *)
+
+Definition row_tokens := [TParts; TParts; TOne; dir (-1) 0; TOne; dir (-1) 0; TOne].
+Definition row_with g := lax row g row_tokens.
+Lemma ok_tree : row_with row_left = true. Proof. computed. Qed.
+Definition two i j := (#i + #j)%group.
+Lemma no_cell_missing :
+  forallb (fun i => negb (lax row (two i ((i + 1) mod 3)) (close (dir (-1) 0)))) [0; 1; 2] = true.
+Proof. computed. Qed.
+Lemma no_tree_of_one : lax row #0 [TOne] = false. Proof. computed. Qed.
+Lemma no_cell_twice : start row (row_left + #1)%group = None. Proof. computed. Qed.
+Lemma no_cell_twice_instead : start row ((#0 + #2) + #2)%group = None. Proof. computed. Qed.
+Lemma no_cell_beyond : start row (row_left + #3)%group = None. Proof. computed. Qed.
+Lemma no_cell_twice_at_end : start row ((#0 + #1) + #1)%group = None. Proof. computed. Qed.
+Lemma no_cell_beyond_instead : start row ((#0 + #1) + #3)%group = None. Proof. computed. Qed.
+Lemma no_cell_negative : start row (Join (Cell (-1)) row_left) = None. Proof. computed. Qed.
+Lemma no_cell_negative_instead : start row (Join (Cell (-1)) (two 1 2)) = None. Proof. computed. Qed.
+
+(** ** Scenes that make no sense *)
+
+(** One cell, which needs no proof if the scene is as it should be. *)
+Definition alone t0 t1 tr := lax (touching t0 t1 (fun _ => tr) 1 (fun _ => [0; 1]) (fun _ => 0) []) #0 [TOne].
+Definition o := V3 0 0 0.
+Lemma ok_alone : alone 0 4 [(0, o); (4, o)] = true. Proof. computed. Qed.
+Lemma ok_longer : alone 0 4 [(-2, o); (-1, o); (2, o); (5, o); (6, o)] = true. Proof. computed. Qed.
+Lemma no_begin : alone 0 4 [(1, o); (4, o)] = false. Proof. computed. Qed.
+Lemma no_end : alone 0 4 [(0, o); (3, o)] = false. Proof. computed. Qed.
+Lemma no_breakpoint : alone 0 4 [] = false. Proof. computed. Qed.
+Lemma no_time_equal : alone 0 4 [(0, o); (2, o); (2, o); (4, o)] = false. Proof. computed. Qed.
+Lemma no_time_back : alone 0 4 [(0, o); (3, o); (2, o); (4, o)] = false. Proof. computed. Qed.
+Lemma no_time_back_after : alone 0 4 [(0, o); (5, o); (4, o)] = false. Proof. computed. Qed.
+Lemma no_interval : alone 4 4 [(0, o); (4, o); (6, o)] = false. Proof. computed. Qed.
+Lemma no_interval_back : alone 4 0 [(0, o); (4, o)] = false. Proof. computed. Qed.
+Definition many n := touching 0 4 (fun _ => at_rest o) n (fun _ => [0]) (fun _ => 0) [].
+Lemma no_cells : forallb (fun n => negb (lax (many n) #0 [TOne])) [0; -1; 2] = true. Proof. computed. Qed.
+
+(** ** Witnesses of contact *)
+
+(** The point is at height 8 - (10/3)(t-1), which is 0 at t = 17/5. *)
+Definition hit := Witness 17 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)].
+Lemma ok_hit : check_hit false (fall (-2)) hit = true. Proof. computed. Qed.
+Theorem unsafe : forall strict, ~ never_touch strict (fall (-2)).
+Proof. exact (check_hit_sound_both _ _ ok_hit). Qed.
+Lemma ok_hit_swapped : check_hit false (fall (-2)) (Witness 34 10 0 1 [(2, 3); (0, 6); (1, 3)] [(3, 5)]) = true.
+Proof. computed. Qed.
+Lemma ok_hit_end : check_hit false (fall 0) (Witness 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true.
+Proof. computed. Qed.
+Lemma ok_hit_begin : check_hit false (over_tri [(0, V3 2 2 0); (4, V3 2 2 8)])
+  (Witness 0 9 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true. Proof. computed. Qed.
+Lemma ok_hit_strict : check_hit true (edge 0) (Witness 1 1 0 0 [(0, 1)] [(1, 1)]) = true. Proof. computed. Qed.
+
+Definition no_hit w := check_hit false (fall (-2)) w = false.
+Lemma no_hit_time : no_hit (Witness 18 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_place : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 1); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_place_y : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 3); (1, 1)]). Proof. computed. Qed.
+Lemma no_hit_place_x : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 3); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator : no_hit (Witness (-17) (-5) 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator_0 : no_hit (Witness 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_weight : no_hit (Witness 17 5 1 0 [(3, 2); (3, -1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_total : no_hit (Witness 17 5 1 0 [(3, 0)] [(0, 0); (1, 0); (2, 0)]). Proof. computed. Qed.
+Lemma no_hit_nothing : no_hit (Witness 17 5 1 0 [] []). Proof. computed. Qed.
+Lemma no_hit_vertex : no_hit (Witness 17 5 0 1 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_cell : no_hit (Witness 17 5 2 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_cell_negative : no_hit (Witness 17 5 (-1) 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator_0_end : check_hit false (fall 0) (Witness 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false.
+Proof. computed. Qed.
+Lemma no_hit_common : check_hit false hinge (Witness 0 1 0 1 [(1, 1)] [(1, 1)]) = false. Proof. computed. Qed.
+Lemma no_hit_one_cell : check_hit false (edge 0) (Witness 1 1 0 0 [(0, 1)] [(1, 1)]) = false. Proof. computed. Qed.
+
+(** The same contact in claims that are about less. *)
+Definition fall_claim t0 t1 e :=
+  let s := fall (-2) in touching t0 t1 (path s) (ncell s) (cell s) (label s) e.
+Lemma ok_hit_claim : check_hit false (fall_claim 0 4 [(0, 0); (1, 1)]) hit = true. Proof. computed. Qed.
+Lemma no_hit_excluded : check_hit false (fall_claim 0 4 [(0, 1)]) hit = false. Proof. computed. Qed.
+Lemma no_hit_excluded_swapped : check_hit false (fall_claim 0 4 [(1, 0)]) hit = false. Proof. computed. Qed.
+Lemma no_hit_after : check_hit false (fall_claim 0 3 []) hit = false. Proof. computed. Qed.
+Lemma no_hit_before : check_hit false
+  (let s := over_tri [(0, V3 2 2 0); (4, V3 2 2 8)] in touching 1 4 (path s) 2 (cell s) (label s) [])
+  (Witness 0 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
+Lemma no_hit_interval : check_hit false
+  (let s := fall 0 in touching 4 4 (path s) 2 (cell s) (label s) [])
+  (Witness 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
+Lemma no_hit_trajectory : check_hit false (fall_claim 0 5 []) hit = false. Proof. computed. Qed.
+
+(** ** Least distance *)
+
+(** Two points, always apart by (3, 4, 0) and (6, 8, 0): at distance 5 first, then 10. *)
+Definition apart e :=
+  Scene 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (1, V3 0 0 0)] else [(0, V3 3 4 0); (1, V3 6 8 0)])
+        2 (fun i => [i]) (fun i => i) [] e.
+Definition along_34 := TDirection (V3 3 4 0).
+Definition gap nd w := TPlane (HalfSpace (V3 3 4 0) 0 nd) w.
+Lemma ok_eta : lax (apart 4) point_first (close along_34) = true. Proof. computed. Qed.
+Lemma ok_eta_plane : lax (apart 4) point_first (close (gap 21 20)) = true. Proof. computed. Qed.
+Lemma ok_eta_wider : lax (apart 4) point_first (close (gap 24 23)) = true. Proof. computed. Qed.
+Theorem safe_eta : never_touch false (apart 4).
+Proof. exact (check_sound _ _ _ _ ok_eta). Qed.
+Lemma no_eta : lax (apart 5) point_first (close along_34) = false. Proof. computed. Qed.
+Lemma no_eta_other : lax (apart 4) point_first (close north) = false. Proof. computed. Qed.
+Lemma ok_eta_other : lax (apart 3) point_first (close north) = true. Proof. computed. Qed.
+Lemma no_eta_gap : lax (apart 4) point_first (close (gap 21 19)) = false. Proof. computed. Qed.
+Lemma no_eta_gap_negative : lax (apart 4) point_first (close (gap 21 (-20))) = false. Proof. computed. Qed.
+Lemma no_gap_negative : lax (apart 0) point_first (close (gap 21 (-20))) = false. Proof. computed. Qed.
+Lemma no_eta_first : lax (apart 4) point_first (close (gap 25 20)) = false. Proof. computed. Qed.
+Lemma no_eta_second : lax (apart 4) point_first (close (gap 20 20)) = false. Proof. computed. Qed.
+Lemma no_eta_negative : lax (apart (-1)) point_first (close along_34) = false. Proof. computed. Qed.
+
+(** Values with different denominators, at height 1 or more above each other. *)
+Definition cross_eta e := let s := cross 4 in Scene 0 4 (path s) 2 (cell s) (label s) [] e.
+Lemma ok_eta_cross : lax (cross_eta 0) point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Lemma no_eta_cross : lax (cross_eta 1) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+Definition cross_eta_3 e := let s := cross 9 in
+  Scene 0 2 (path s) 2 (cell s) (label s) [] e.
+Lemma ok_eta_cross_3 : lax (cross_eta_3 5) point_first (close (TDirection up)) = true. Proof. computed. Qed.
+Lemma no_eta_cross_3 : lax (cross_eta_3 6) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+
+Definition hit_eta c e := check_hit false (apart e) (Witness c 5 0 1 [(0, 1)] [(1, 1)]).
+Lemma ok_hit_eta : hit_eta 0 5 = true. Proof. computed. Qed.
+Lemma ok_hit_eta_later : hit_eta 1 6 = true. Proof. computed. Qed.
+Lemma no_hit_eta : hit_eta 0 4 = false. Proof. computed. Qed.
+Lemma no_hit_eta_later : hit_eta 1 5 = false. Proof. computed. Qed.
+
+(** The same with segments of different length, and so different denominators. *)
+Definition apart_longer e :=
+  let s := apart e in
+  Scene 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (2, V3 0 0 0)] else path s v) 2 (cell s) (label s) [] e.
+Definition hit_longer e := check_hit false (apart_longer e) (Witness 1 5 0 1 [(0, 1)] [(1, 1)]).
+Lemma ok_hit_longer : hit_longer 6 = true. Proof. computed. Qed.
+Lemma no_hit_longer : hit_longer 5 = false. Proof. computed. Qed.
+Lemma no_value_after : value_at up 4 1 zigzag = None. Proof. computed. Qed.
+
+(** ** Windows *)
+
+Definition window t0 t1 tr : scene :=
+  let s := over_tri tr in
+  touching t0 t1 (fun v => if v =? 3 then tr else map (fun b => (if fst b =? 0 then t0 else t1, snd b)) (tri v))
+        2 (cell s) (label s) [].
+Definition w1 := window 0 4 [(0, V3 2 2 8); (1, V3 2 2 8); (4, V3 2 2 2)].
+Definition w2 := window 4 7 [(4, V3 2 2 2); (7, V3 2 2 1)].
+Definition w3 := window 7 9 [(7, V3 2 2 1); (8, V3 2 2 5); (9, V3 2 2 1)].
+
+Lemma windows_fit : chain w1 [w2; w3].
+Proof.
+  assert (forall i v, 0 <= i < 2 -> In v (cell w1 i) -> v = 0 \/ v = 1 \/ v = 2 \/ v = 3) as V.
+  { intros i v _. cbn. destruct (i =? 0); cbn; intuition. }
+  repeat split; intros i v Hi Hv; destruct (V i v Hi Hv) as [-> | [-> | [-> | ->]]]; cbn;
+    do 3 eexists; split;
+    match goal with
+    | |- [?a; ?b] = _ => exact (eq_refl ([a] ++ [b]))
+    | |- [?a; ?b; ?c] = _ => exact (eq_refl ([a; b] ++ [c]))
+    | |- _ => reflexivity
+    end.
+Qed.
+
+Theorem windows_safe : never_touch false (glue_all w1 [w2; w3]).
+Proof.
+  apply chain_sound; [exact windows_fit|].
+  repeat constructor; exists point_first, (close (TDirection up)); computed.
+Qed.
+Lemma windows_time : tbeg (glue_all w1 [w2; w3]) = 0 /\ tend (glue_all w1 [w2; w3]) = 9.
+Proof. split; computed. Qed.

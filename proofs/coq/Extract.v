@@ -1,0 +1,37 @@
+(* SPDX-License-Identifier: Apache-2.0 *)
+(** * The checker as an OCaml program
+
+    Writes Spec.ml, Checker.ml, Hit.ml and what they need into the current folder.
+    Integers become those of Zarith, under the name [Zint], because a module [Z] of
+    the extraction would hide Zarith's; functions on lists become those of OCaml's
+    library that do the same, most of them in constant stack.
+
+    Not proved: that these OCaml functions do what the Coq functions do whose place
+    they take.  Each is one line below, to be read. *)
+Require Import ZArith List Bool.
+Require Import ExtrOcamlBasic.
+From Noli Require Import Spec Checker Hit.
+
+(** Only 0, 1 and -1 occur as constants; numbers are never taken apart. *)
+Extract Inductive positive => "Zint.t" [ "Zint.no_xI" "Zint.no_xO" "Zint.one" ] "Zint.no_match".
+Extract Inductive Z => "Zint.t" [ "Zint.zero" "" "Zint.neg" ] "Zint.no_match".
+Extract Inlined Constant Z.add => "Zint.add".
+Extract Inlined Constant Z.sub => "Zint.sub".
+Extract Inlined Constant Z.mul => "Zint.mul".
+Extract Inlined Constant Z.opp => "Zint.neg".
+Extract Inlined Constant Z.ltb => "Zint.lt".
+Extract Inlined Constant Z.leb => "Zint.leq".
+Extract Inlined Constant Z.eqb => "Zint.equal".
+Extract Inlined Constant d_max => "Zint.d_max".
+
+Extract Inlined Constant fst => "fst".
+Extract Inlined Constant snd => "snd".
+Extract Inlined Constant negb => "not".
+Extract Inlined Constant rev_append => "List.rev_append".
+Extract Inlined Constant fold_left => "(fun f l a -> List.fold_left f a l)".
+Extract Inlined Constant fold_right => "(fun f a l -> List.fold_right f l a)".
+Extract Inlined Constant forallb => "List.for_all".
+Extract Inlined Constant existsb => "List.exists".
+Extract Inlined Constant filter => "List.filter".
+
+Separate Extraction check start step run check_hit.

@@ -1,0 +1,1075 @@
+(* SPDX-License-Identifier: Apache-2.0 *)
+(** * The checker is right: what it accepts never touches
+
+    The theorems: [check_sound] and [check_well_formed], at the end, and for streams
+    [run_app].  The way there: a trajectory from a time on (1), half
+    spaces (2), directions (3), hulls (4), obligations (5), one token (6), the tree
+    over the cells (7).
+
+    Notation: [t] is a real time; [D] is the real number of the denominator [d], so
+    that [a/d <= t] is written [IZR a <= t * D]; [f] and [g] are real functions of
+    time, [cs] times with denominator [d], [us] and [vs] values at these times.
+
+    Not here: that every scene without contact has a proof that is accepted. *)
+Require Import ZArith List Bool Reals Lra Lia Psatz.
+From Noli Require Import Spec Checker.
+Import ListNotations.
+
+(** Turns what the checker computed into statements about real numbers. *)
+Ltac to_R := repeat match goal with
+  | H : (_ <? _)%Z = true |- _ => apply Z.ltb_lt, IZR_lt in H
+  | H : (_ <? _)%Z = false |- _ => apply Z.ltb_ge, IZR_le in H
+  | H : (_ <=? _)%Z = true |- _ => apply Z.leb_le, IZR_le in H
+  | H : (_ <=? _)%Z = false |- _ => apply Z.leb_gt, IZR_lt in H
+  | H : (_ && _)%bool = true |- _ => apply andb_true_iff in H; destruct H
+  | H : (_ < _)%Z |- _ => apply IZR_lt in H
+  | H : (_ <= _)%Z |- _ => apply IZR_le in H
+  end; rewrite ?plus_IZR, ?mult_IZR, ?plus_IZR, ?minus_IZR in *.
+
+Open Scope R_scope.
+
+(** ** 1. Trajectories *)
+
+Lemma mix_0 p q : mix 0 p q = p.
+Proof. destruct p, q; unfold mix; cbn; f_equal; ring. Qed.
+Lemma mix_1 p q : mix 1 p q = q.
+Proof. destruct p, q; unfold mix; cbn; f_equal; ring. Qed.
+
+(** A trajectory is at its first breakpoint at that breakpoint's time. *)
+Lemma pos_from_start t0 p0 r : increasing t0 r -> pos_from t0 p0 r (IZR t0) = inj p0.
+Proof.
+  destruct r as [|(t1, p1) r]; cbn; auto. intros [W _]; to_R.
+  destruct (Rle_dec _ _); [|lra].
+  replace (_ / _) with 0 by (field; lra). apply mix_0.
+Qed.
+
+(** From the second breakpoint on, the first may be forgotten. *)
+Lemma pos_from_next t0 p0 t1 p1 r t : increasing t0 ((t1, p1) :: r) -> IZR t1 <= t ->
+  pos_from t0 p0 ((t1, p1) :: r) t = pos_from t1 p1 r t.
+Proof.
+  cbn; intros [L W] H; to_R. destruct (Rle_dec _ _); auto.
+  assert (t = IZR t1) as -> by lra. rewrite pos_from_start by auto.
+  replace (_ / _) with 1 by (field; lra). apply mix_1.
+Qed.
+
+(** [reaches] says of integers what [increasing] and [last_time] say. *)
+Lemma reaches_sound T r : forall t0, reaches t0 T r = true ->
+  increasing t0 r /\ (T <= last_time t0 r)%Z.
+Proof.
+  induction r as [|(t1, p1) r IH]; cbn; intros t0 H.
+  - split; auto. now apply Z.leb_le.
+  - apply andb_true_iff in H as [L H]. apply Z.ltb_lt in L. destruct (IH _ H); auto.
+Qed.
+
+Lemma wf_traj_sound T0 T1 tr : wf_traj T0 T1 tr = true -> covers_time T0 T1 tr.
+Proof.
+  destruct tr as [|(t0, p0) r]; cbn; [discriminate|]. intros H.
+  apply andb_true_iff in H as [L H]. apply Z.leb_le in L.
+  apply reaches_sound in H. tauto.
+Qed.
+
+(** [since] leaves a trajectory the same, from [a/d] on. *)
+Lemma since_sound d a r : (0 < d)%Z -> forall t0 p0, increasing t0 r ->
+  exists t0' p0' r', since d a ((t0, p0) :: r) = (t0', p0') :: r' /\
+    increasing t0' r' /\ IZR t0 <= IZR t0' /\
+    forall t, IZR t0 <= t -> IZR a <= t * IZR d ->
+      IZR t0' <= t /\ pos_from t0 p0 r t = pos_from t0' p0' r' t.
+Proof.
+  intros D; induction r as [|(t1, p1) r IH]; intros t0 p0 W.
+  - exists t0, p0, []. cbn; repeat split; auto; lra.
+  - cbn [since]. destruct (t1 * d <=? a)%Z eqn:E.
+    + destruct (IH t1 p1 (proj2 W)) as (t0' & p0' & r' & E1 & I & L & P).
+      assert (IZR t0 < IZR t1) by (apply IZR_lt, W).
+      exists t0', p0', r'. repeat split; auto; try lra; to_R;
+        assert (IZR t1 <= t) by nra.
+      * now apply P.
+      * rewrite pos_from_next by auto. now apply P.
+    + exists t0, p0, ((t1, p1) :: r). repeat split; auto; try lra; apply W.
+Qed.
+
+(** ** 2. P: half spaces *)
+
+Definition dotR (n : vec) (p : pt) : R := IZR (vx n) * px p + IZR (vy n) * py p + IZR (vz n) * pz p.
+
+Definition valueR (h : halfspace) (t : R) (p : pt) : R := dotR (normal h) p + IZR (nt h) * t - IZR (nd h).
+
+Lemma dot_IZR n p : IZR (dot n p) = dotR n (inj p).
+Proof. unfold dot, dotR, inj; cbn. now rewrite !plus_IZR, !mult_IZR. Qed.
+
+Lemma value_IZR h t p : IZR (value h t p) = valueR h (IZR t) (inj p).
+Proof. unfold value, valueR. now rewrite minus_IZR, plus_IZR, mult_IZR, dot_IZR. Qed.
+
+Lemma valueR_behind h w t p : valueR (behind h w) t p = - valueR h t p - IZR w.
+Proof. unfold valueR, dotR, behind, opposite; cbn; rewrite minus_IZR, !opp_IZR; ring. Qed.
+
+(** What is linear and positive at two times is positive between them. *)
+Lemma linear_positive u v lo hi t :
+  lo <= t <= hi -> 0 < u + v * lo -> 0 < u + v * hi -> 0 < u + v * t.
+Proof. intros; destruct (Rle_dec 0 v); nra. Qed.
+
+(** On a segment, a half space's value is interpolated between its ends. *)
+Lemma segment_value h (t0 t1 : R) p0 p1 t : t0 < t1 ->
+  (t1 - t0) * valueR h t (mix ((t - t0) / (t1 - t0)) p0 p1)
+  = valueR h t0 p0 * (t1 - t) + valueR h t1 p1 * (t - t0).
+Proof. intros; unfold valueR, dotR, mix; cbn; field; lra. Qed.
+
+(** [c] is a time with the denominator of [a], [b], [s0] and [s1]. *)
+Lemma segment_positive_sound a b s0 s1 g0 g1 c :
+  segment_positive a b s0 g0 s1 g1 = true ->
+  IZR s0 < IZR s1 -> IZR a <= c <= IZR b -> IZR s0 <= c <= IZR s1 ->
+  0 < IZR g0 * (IZR s1 - c) + IZR g1 * (c - IZR s0).
+Proof.
+  unfold segment_positive; intros H H01 Hab Ht.
+  set (u := IZR g0 * IZR s1 - IZR g1 * IZR s0).
+  set (v := IZR g1 - IZR g0).
+  replace (_ + _) with (u + v * c) by (unfold u, v; ring).
+  apply andb_true_iff in H; destruct H as [L U].
+  assert (exists lo, lo <= c /\ 0 < u + v * lo) as (lo & Hlo & Plo).
+  { destruct (a <=? s0)%Z eqn:E; to_R.
+    - exists (IZR s0); split; [lra|].
+      replace (u + _) with (IZR g0 * (IZR s1 - IZR s0)) by (unfold u, v; ring).
+      apply Rmult_lt_0_compat; lra.
+    - exists (IZR a); split; [lra|]. unfold u, v; lra. }
+  assert (exists hi, c <= hi /\ 0 < u + v * hi) as (hi & Hhi & Phi).
+  { destruct (s1 <=? b)%Z eqn:E; to_R.
+    - exists (IZR s1); split; [lra|].
+      replace (u + _) with (IZR g1 * (IZR s1 - IZR s0)) by (unfold u, v; ring).
+      apply Rmult_lt_0_compat; lra.
+    - exists (IZR b); split; [lra|]. unfold u, v; lra. }
+  apply (linear_positive u v lo hi c); auto.
+Qed.
+
+Lemma inside_from_sound h a b d r : (0 < d)%Z -> forall t0 p0,
+  increasing t0 r -> inside_from h a b d t0 (value h t0 p0) r = true ->
+  forall t, IZR a <= t * IZR d <= IZR b -> IZR t0 <= t ->
+  0 < valueR h t (pos_from t0 p0 r t).
+Proof.
+  intros D; induction r as [|(t1, p1) r IH]; intros t0 p0 W A t Hab Ht; [discriminate|].
+  cbn [inside_from] in A. destruct (segment_positive _ _ _ _ _ _) eqn:S; [|discriminate].
+  pose proof (IZR_lt _ _ (proj1 W)) as L. apply IZR_lt in D as D'.
+  destruct (Rle_dec t (IZR t1)) as [T|T].
+  - cbn [pos_from]. destruct (Rle_dec t (IZR t1)) as [_|]; [|contradiction].
+    apply segment_positive_sound with (c := t * IZR d) in S; rewrite ?mult_IZR in *;
+      [|apply Rmult_lt_compat_r; lra|lra|split; apply Rmult_le_compat_r; lra].
+    rewrite !value_IZR in S.
+    apply Rmult_lt_reg_l with ((IZR t1 - IZR t0) * IZR d); [nra|].
+    rewrite Rmult_0_r, (Rmult_comm _ (IZR d)), Rmult_assoc, segment_value by lra.
+    lra.
+  - rewrite pos_from_next by (auto; lra). destruct (b <=? t1 * d)%Z eqn:B; to_R; [nra|].
+    apply IH; auto; [apply W|lra].
+Qed.
+
+Lemma inside_sound h a b d T0 T1 tr t : (0 < d)%Z ->
+  covers_time T0 T1 tr -> inside h a b d tr = true ->
+  IZR a <= t * IZR d <= IZR b -> IZR T0 <= t ->
+  0 < valueR h t (pos tr t).
+Proof.
+  destruct tr as [|(t0, p0) r]; [easy|]. intros D (L & W & _) A Hab Ht.
+  destruct (since_sound d a r D t0 p0 W) as (t0' & p0' & r' & E & I & _ & P). apply IZR_le in L.
+  unfold inside in A. rewrite E in A. cbn [pos].
+  destruct (P t) as [Q ->]; try lra. now apply inside_from_sound with a b d.
+Qed.
+
+(** ** 3. S: directions *)
+
+(** The real number that a rational is. *)
+Definition ratR (q : rat) : R := IZR (fst q) / IZR (snd q).
+Definition proper (q : rat) : Prop := (0 < snd q)%Z.
+
+Lemma div_lt x y a b : 0 < a -> 0 < b -> (x / a < y / b <-> x * b < y * a).
+Proof.
+  intros A B. replace (x / a) with (x * b * / (a * b)) by (field; lra).
+  replace (y / b) with (y * a * / (a * b)) by (field; lra).
+  pose proof (Rinv_0_lt_compat _ (Rmult_lt_0_compat _ _ A B)) as I.
+  split; intros H; [now apply Rmult_lt_reg_r in H|now apply Rmult_lt_compat_r].
+Qed.
+
+Lemma rat_lt_sound q r : proper q -> proper r -> (rat_lt q r = true <-> ratR q < ratR r).
+Proof.
+  unfold proper, rat_lt, ratR; intros Q P. apply IZR_lt in Q as Q', P as P'.
+  rewrite div_lt by auto. destruct (snd q =? snd r)%Z eqn:E.
+  - apply Z.eqb_eq in E. rewrite E in *. rewrite Z.ltb_lt. split; intros H.
+    + apply Rmult_lt_compat_r; auto. now apply IZR_lt.
+    + apply Rmult_lt_reg_r in H; auto. now apply lt_IZR.
+  - rewrite Z.ltb_lt, <- !mult_IZR. split; [apply IZR_lt|apply lt_IZR].
+Qed.
+
+(** [m] is not negative, and at most the root of [k]: this avoids the root itself. *)
+Definition below_root (k : Z) (m : R) : Prop := 0 <= m /\ m * m <= IZR k.
+
+Lemma less_by_squares m g : 0 < g -> m * m < g * g -> m < g.
+Proof.
+  intros G H. apply Rnot_le_lt. intros L.
+  assert (g * g <= m * m) by (apply Rmult_le_compat; lra). lra.
+Qed.
+
+Lemma rat_over_sound k m q r : below_root k m -> proper q -> proper r ->
+  rat_over k q r = true -> ratR q + m < ratR r.
+Proof.
+  intros [M K] Q P. unfold rat_over. destruct (rat_lt q r) eqn:L; [|discriminate].
+  apply rat_lt_sound in L; auto. destruct (Z.eqb_spec k 0) as [->|_].
+  - intros _. assert (m = 0) as -> by nra. lra.
+  - cbn zeta. intros H. apply Z.ltb_lt, IZR_lt in H.
+    repeat (rewrite mult_IZR in H || rewrite minus_IZR in H).
+    assert (m < ratR r - ratR q); [|lra]. apply less_by_squares; [lra|].
+    apply Rle_lt_trans with (1 := K).
+    unfold proper, ratR in *. apply IZR_lt in Q, P.
+    set (a := IZR (fst q)) in *. set (b := IZR (snd q)) in *.
+    set (c := IZR (fst r)) in *. set (e := IZR (snd r)) in *.
+    replace (c / e - a / b) with ((c * b - a * e) / (b * e)) by (field; lra).
+    assert (0 < b * e) as BE by (apply Rmult_lt_0_compat; auto).
+    apply Rmult_lt_reg_r with ((b * e) * (b * e)); [apply Rmult_lt_0_compat; auto|].
+    match goal with |- _ < ?r => replace r with ((c * b - a * e) * (c * b - a * e)) by (field; lra) end. lra.
+Qed.
+
+Lemma rat_min_sound q r : proper q -> proper r ->
+  proper (rat_min q r) /\ ratR (rat_min q r) <= ratR q /\ ratR (rat_min q r) <= ratR r.
+Proof.
+  intros Q P. unfold rat_min. pose proof (rat_lt_sound q r Q P) as H.
+  destruct (rat_lt q r).
+  - assert (ratR q < ratR r) by now apply H. repeat split; auto; lra.
+  - assert (~ ratR q < ratR r) by (intros N; apply H in N; discriminate). repeat split; auto; lra.
+Qed.
+
+(** [f] is interpolated between its values at [c/d] and [c'/d]. *)
+Definition linear (f : R -> R) (d c c' : Z) : Prop :=
+  forall t, IZR c <= t * IZR d <= IZR c' ->
+  let u := (t * IZR d - IZR c) / (IZR c' - IZR c) in
+  f t = (1 - u) * f (IZR c / IZR d) + u * f (IZR c' / IZR d).
+
+(** [f] is linear between the times c0 and [cs], which are in order, and [us] are
+    its values at [cs]. *)
+Fixpoint knots (f : R -> R) (d c0 : Z) (cs : list Z) (us : list rat) : Prop :=
+  match cs, us with
+  | [], [] => True
+  | c :: cs', q :: us' =>
+      IZR c0 <= IZR c /\ linear f d c0 c /\ proper q /\ ratR q = f (IZR c / IZR d) /\ knots f d c cs' us'
+  | _, _ => False
+  end.
+
+Fixpoint final (c0 : Z) (cs : list Z) : Z :=
+  match cs with [] => c0 | c :: cs' => final c cs' end.
+
+Lemma knots_length f d cs : forall c0 us, knots f d c0 cs us -> length us = length cs.
+Proof.
+  induction cs as [|c cs IH]; destruct us; cbn; try easy.
+  intros (_ & _ & _ & _ & K). f_equal. eapply IH; eauto.
+Qed.
+
+Lemma knots_proper f d cs : forall c0 us, knots f d c0 cs us -> Forall proper us.
+Proof.
+  induction cs as [|c cs IH]; destruct us; cbn; try easy.
+  intros (_ & _ & P & _ & K). constructor; eauto.
+Qed.
+
+Lemma linear_ext f g d c c' : (0 < d)%Z -> IZR c <= IZR c' ->
+  (forall t, IZR c <= t * IZR d -> f t = g t) -> linear g d c c' -> linear f d c c'.
+Proof.
+  intros D L E H t T u. apply IZR_lt in D. rewrite !E; [now apply H| | |lra].
+  - replace (_ * _) with (IZR c') by (field; lra). lra.
+  - replace (_ * _) with (IZR c) by (field; lra). lra.
+Qed.
+
+Lemma knots_ext f g d : (0 < d)%Z -> forall cs c0 us,
+  (forall t, IZR c0 <= t * IZR d -> f t = g t) -> knots g d c0 cs us -> knots f d c0 cs us.
+Proof.
+  intros D; induction cs as [|c cs IH]; destruct us; cbn; try easy.
+  intros E (L & N & P & V & K). repeat split; auto.
+  - eapply linear_ext; eauto.
+  - rewrite V, E; auto. apply IZR_lt in D. replace (_ * _) with (IZR c) by (field; lra). lra.
+  - apply IH; auto. intros; apply E; lra.
+Qed.
+
+(** Two functions compare at all times as they do at the knots of both. *)
+Lemma knots_less m f g d : (0 < d)%Z -> forall cs c0 us vs,
+  knots f d c0 cs us -> knots g d c0 cs vs -> Forall2 (fun q r => ratR q + m < ratR r) us vs ->
+  f (IZR c0 / IZR d) + m < g (IZR c0 / IZR d) ->
+  forall t, IZR c0 <= t * IZR d <= IZR (final c0 cs) -> f t + m < g t.
+Proof.
+  intros D; apply IZR_lt in D as D'. induction cs as [|c cs IH]; intros c0 us vs F G A H0 t Ht.
+  - cbn in Ht. replace (IZR c0 / IZR d) with t in H0; auto.
+    replace (IZR c0) with (t * IZR d) by lra. field; lra.
+  - destruct us as [|q us], vs as [|r vs]; try easy. cbn in F, G, Ht.
+    destruct F as (L & Nf & _ & Ef & Kf), G as (_ & Ng & _ & Eg & Kg).
+    inversion A as [|? ? ? ? H1 A']; subst. rewrite Ef, Eg in H1.
+    destruct (Rle_dec (t * IZR d) (IZR c)) as [T|T].
+    + rewrite (Nf t), (Ng t) by lra. set (u := _ / _).
+      destruct (Req_dec (IZR c0) (IZR c)) as [E|E].
+      * rewrite E in H0 |- *. set (y := f _) in *. set (z := g _) in *.
+        replace ((1 - u) * y + u * y) with y by ring. replace ((1 - u) * z + u * z) with z by ring. auto.
+      * assert (0 <= u) by (apply Rmult_le_pos; [lra|]; apply Rlt_le, Rinv_0_lt_compat; lra).
+        assert (u <= 1).
+        { apply (Rmult_le_reg_r (IZR c - IZR c0)); [lra|].
+          unfold u, Rdiv. rewrite Rmult_assoc, Rinv_l; lra. }
+        destruct (Req_dec u 0) as [->|]; [lra|].
+        assert (0 <= (1 - u) * (g (IZR c0 / IZR d) - f (IZR c0 / IZR d) - m)) by (apply Rmult_le_pos; lra).
+        assert (0 < u * (g (IZR c / IZR d) - f (IZR c / IZR d) - m)) by (apply Rmult_lt_0_compat; lra). lra.
+    + apply (IH c us vs); auto; lra.
+Qed.
+
+(** How far a trajectory is in direction [n]. *)
+Definition far_from (n : vec) (t0 : Z) (p0 : vec) (r : traj) (t : R) : R := dotR n (pos_from t0 p0 r t).
+
+Lemma far_segment n t0 p0 t1 p1 r t : IZR t0 < IZR t1 -> t <= IZR t1 ->
+  far_from n t0 p0 ((t1, p1) :: r) t =
+  (IZR (dot n p0) * (IZR t1 - t) + IZR (dot n p1) * (t - IZR t0)) / (IZR t1 - IZR t0).
+Proof.
+  intros L T. unfold far_from; cbn [pos_from]. destruct (Rle_dec _ _) as [_|]; [|contradiction].
+  rewrite !dot_IZR. unfold dotR, mix; cbn. field; lra.
+Qed.
+
+Lemma far_linear n t0 p0 t1 p1 r d c c' : (0 < d)%Z -> IZR t0 < IZR t1 ->
+  IZR c <= IZR c' <= IZR (t1 * d) -> linear (far_from n t0 p0 ((t1, p1) :: r)) d c c'.
+Proof.
+  intros D L H t T u. apply IZR_lt in D. rewrite mult_IZR in H.
+  assert (forall x, x * IZR d <= IZR t1 * IZR d -> x <= IZR t1) as S.
+  { intros x Hx. now apply Rmult_le_reg_r in Hx. }
+  rewrite !far_segment; auto.
+  - destruct (Req_dec (IZR c) (IZR c')) as [E|E].
+    + replace (IZR c' / IZR d) with t.
+      * replace (IZR c / IZR d) with t; [field; lra|].
+        replace (IZR c) with (t * IZR d) by lra. field; lra.
+      * replace (IZR c') with (t * IZR d) by lra. field; lra.
+    + unfold u. field. lra.
+  - apply S. replace (_ * _) with (IZR c') by (field; lra). lra.
+  - apply S. replace (_ * _) with (IZR c) by (field; lra). lra.
+  - apply S. lra.
+Qed.
+
+Lemma between_sound n t0 p0 t1 p1 r d c : (0 < d)%Z -> IZR t0 < IZR t1 ->
+  IZR c <= IZR (t1 * d) ->
+  let q := between (t0 * d) (dot n p0) (t1 * d) (dot n p1) c in
+  proper q /\ ratR q = far_from n t0 p0 ((t1, p1) :: r) (IZR c / IZR d).
+Proof.
+  intros D L H. apply IZR_lt in D as D'. rewrite mult_IZR in H.
+  rewrite far_segment; auto; [|apply (Rmult_le_reg_r (IZR d)); auto; unfold Rdiv;
+                               rewrite Rmult_assoc, Rinv_l; lra].
+  unfold between, ratR, proper. destruct (c =? t0 * d)%Z eqn:E0; [|destruct (c =? t1 * d)%Z eqn:E1];
+    cbn [fst snd]; repeat split; try lia.
+  - apply Z.eqb_eq in E0 as ->. rewrite mult_IZR. field; lra.
+  - apply Z.eqb_eq in E1 as ->. rewrite mult_IZR. field; lra.
+  - apply lt_IZR in L. nia.
+  - rewrite plus_IZR, !mult_IZR, !minus_IZR, !mult_IZR. field. nra.
+Qed.
+
+Lemma along_cons n b d t0 g0 t1 p1 r c' c cs acc :
+  along n b d t0 g0 ((t1, p1) :: r) c' (c :: cs) acc =
+  if (c <? c')%Z then None
+  else if (c <=? t1 * d)%Z
+  then along n b d t0 g0 ((t1, p1) :: r) c cs (between (t0 * d) g0 (t1 * d) (dot n p1) c :: acc)
+  else if (t1 * d <=? c')%Z then along n b d t1 (dot n p1) r c' (c :: cs) acc else None.
+Proof. reflexivity. Qed.
+
+Lemma along_sound n b d r : (0 < d)%Z -> forall cs t0 p0 c' acc us,
+  increasing t0 r -> along n b d t0 (dot n p0) r c' cs acc = Some us ->
+  exists vs, us = rev_append acc vs /\ IZR b <= IZR (final c' cs) /\
+             knots (far_from n t0 p0 r) d c' cs vs.
+Proof.
+  intros D. induction r as [|(t1, p1) r IHr]; [discriminate|].
+  induction cs as [|c cs IHc]; intros t0 p0 c' acc us W A.
+  - cbn in A. destruct (b <=? c')%Z eqn:B; [|discriminate]. injection A as <-.
+    exists []. cbn. to_R. repeat split; auto.
+  - rewrite along_cons in A. destruct (c <? c')%Z eqn:E0; [discriminate|].
+    pose proof (IZR_lt _ _ (proj1 W)) as L. apply Z.ltb_ge, IZR_le in E0.
+    destruct (c <=? t1 * d)%Z eqn:E1.
+    + apply Z.leb_le, IZR_le in E1.
+      apply IHc in A as (vs & -> & B & K); auto.
+      destruct (between_sound n t0 p0 t1 p1 r d c D L E1) as [P V].
+      exists (between (t0 * d) (dot n p0) (t1 * d) (dot n p1) c :: vs). repeat split; auto.
+      now apply far_linear.
+    + destruct (t1 * d <=? c')%Z eqn:E2; [|discriminate].
+      apply IHr in A as (vs & -> & B & K); [|apply W]. exists vs. repeat split; auto.
+      eapply knots_ext; [auto| |apply K]. intros t T. unfold far_from.
+      rewrite pos_from_next; auto. apply IZR_lt in D. to_R. nra.
+Qed.
+
+Definition far (n : vec) (tr : traj) (t : R) : R := dotR n (pos tr t).
+
+Lemma values_sound n a b d cs T0 T1 tr us : (0 < d)%Z -> covers_time T0 T1 tr ->
+  values n a b d cs tr = Some us ->
+  knots (far n tr) d a cs us /\ IZR b <= IZR (final a cs).
+Proof.
+  destruct tr as [|(t0, p0) r]; [easy|]. intros D (_ & W & _) A.
+  destruct (since_sound d a r D t0 p0 W) as (t0' & p0' & r' & E & I & L & P).
+  unfold values in A. rewrite E in A. destruct (t0' * d <=? a)%Z eqn:E0; [|discriminate].
+  apply along_sound in A as (vs & -> & B & K); auto. split; auto. cbn [rev_append].
+  eapply knots_ext; [auto| |apply K]. intros t T. unfold far, far_from. cbn [pos].
+  destruct (P t) as [_ ->]; auto. apply IZR_lt in D. to_R. nra.
+Qed.
+
+Lemma lower_acc_length l1 : forall l2 acc, length l2 = length l1 ->
+  length (lower_acc l1 l2 acc) = (length acc + length l1)%nat.
+Proof.
+  induction l1 as [|q l1 IH]; destruct l2 as [|r l2]; cbn; intros acc E; try easy.
+  - rewrite rev_append_rev, app_length, rev_length; cbn; lia.
+  - rewrite IH by lia. cbn; lia.
+Qed.
+
+Definition rat_le (q r : rat) : Prop := ratR q <= ratR r.
+
+Lemma lower_acc_eq l1 : forall l2 acc, lower_acc l1 l2 acc = rev_append acc (lower_acc l1 l2 []).
+Proof.
+  induction l1 as [|q l1 IH]; destruct l2 as [|r l2]; cbn; intros acc; auto.
+  rewrite IH, (IH l2 [_]). reflexivity.
+Qed.
+
+Lemma lower_sound l1 : forall l2, length l1 = length l2 -> Forall proper l1 -> Forall proper l2 ->
+  let l := lower_acc l1 l2 [] in
+  Forall proper l /\ Forall2 rat_le l l1 /\ Forall2 rat_le l l2.
+Proof.
+  induction l1 as [|q l1 IH]; destruct l2 as [|r l2]; try easy; intros E P1 P2 l.
+  - unfold l; cbn; auto.
+  - unfold l. cbn [lower_acc]. rewrite lower_acc_eq. cbn [rev_append].
+    inversion P1; inversion P2; subst. destruct (IH l2) as (I1 & I2 & I3); auto.
+    destruct (rat_min_sound q r) as (M1 & M2 & M3); auto.
+Qed.
+
+Lemma rat_le_refl l : Forall2 rat_le l l.
+Proof. induction l; constructor; auto. unfold rat_le; lra. Qed.
+
+Lemma rat_le_trans l1 : forall l2 l3, Forall2 rat_le l1 l2 -> Forall2 rat_le l2 l3 -> Forall2 rat_le l1 l3.
+Proof.
+  induction l1; intros l2 l3 A B; inversion A; subst; inversion B; subst; constructor; eauto.
+  unfold rat_le in *; lra.
+Qed.
+
+Lemma all_less_sound k m l1 : below_root k m -> forall l2 l3, Forall proper l1 -> Forall proper l2 ->
+  all_less k l1 l2 = true -> Forall2 rat_le l2 l3 ->
+  Forall2 (fun q r => ratR q + m < ratR r) l1 l3.
+Proof.
+  intros K; induction l1 as [|q l1 IH]; destruct l2 as [|r l2]; try easy; intros l3 P1 P2 A L.
+  - inversion L; constructor.
+  - cbn in A. destruct (rat_over k q r) eqn:E; [|discriminate].
+    inversion P1; inversion P2; inversion L; subst. constructor; eauto.
+    apply (rat_over_sound k m) in E; auto. unfold rat_le in *; lra.
+Qed.
+
+(** A fold of [lower] is below each of its lists. *)
+Lemma lower_fold {A} (vals : A -> option (list rat)) n ws : forall o low,
+  fold_left (fun l w => lower l (vals w)) ws o = Some low ->
+  (forall w us, In w ws -> vals w = Some us -> length us = n /\ Forall proper us) ->
+  (forall us, o = Some us -> length us = n /\ Forall proper us) ->
+  length low = n /\ Forall proper low /\
+  (exists us, o = Some us /\ Forall2 rat_le low us) /\
+  forall w, In w ws -> exists us, vals w = Some us /\ Forall2 rat_le low us.
+Proof.
+  induction ws as [|w ws IH]; cbn; intros o low F Hw Ho.
+  - subst. destruct (Ho low eq_refl). repeat split; auto; [|easy].
+    exists low; split; auto. apply rat_le_refl.
+  - destruct o as [l1|]; [|exfalso; clear - F; induction ws; cbn in F; [easy|auto]].
+    destruct (vals w) as [l2|] eqn:E; [|exfalso; clear - F; induction ws; cbn in F; [easy|auto]].
+    destruct (Ho _ eq_refl) as [N1 P1]. destruct (Hw w l2) as [N2 P2]; auto.
+    destruct (lower_sound l1 l2) as (P & L1 & L2); try lia; auto.
+    apply IH in F as (A1 & A2 & (us & E3 & A3) & A4).
+    2:{ intros u us Hu; apply Hw; now right. }
+    2:{ cbn [lower]. intros us E3. injection E3 as <-. split; auto. rewrite lower_acc_length; cbn; lia. }
+    cbn [lower] in E3. injection E3 as <-. repeat split; auto.
+    + exists l1; split; auto. eapply rat_le_trans; eauto.
+    + intros v [<-|V]; auto. exists l2; split; auto. eapply rat_le_trans; eauto.
+Qed.
+
+(** What [separated] computes: the lowest of [x] at each time, and that [y] is below. *)
+Lemma separated_sound k m n a b d T0 T1 x y w v : below_root k m -> (0 < d)%Z ->
+  (forall u, In u x \/ In u y -> covers_time T0 T1 (snd u)) ->
+  separated k n a b d x y = true -> In w x -> In v y ->
+  forall t, IZR a <= t * IZR d <= IZR b -> far n (snd v) t + m < far n (snd w) t.
+Proof.
+  intros K0 D C. unfold separated. destruct x as [|w0 ws]; [easy|].
+  set (cs := fold_left _ y _). generalize cs as cs'; clear cs; intros cs.
+  destruct cs as [|c cs]; [discriminate|].
+  destruct (c =? a)%Z eqn:E; [|discriminate]. apply Z.eqb_eq in E as ->.
+  destruct (fold_left _ ws _) as [low|] eqn:F; [|discriminate].
+  intros A Hw Hv t Ht.
+  assert (forall u us, In u (w0 :: ws) \/ In u y -> values n a b d (a :: cs) (snd u) = Some us ->
+          (length us = S (length cs) /\ Forall proper us) /\
+          knots (far n (snd u)) d a (a :: cs) us /\ IZR b <= IZR (final a (a :: cs))) as V.
+  { intros u us I U. eapply values_sound in U; eauto. destruct U as [K B]. repeat split; auto.
+    - now apply knots_length in K.
+    - now apply knots_proper in K. }
+  apply lower_fold with (n := S (length cs)) in F as (N & P & (u0 & E0 & L0) & L).
+  - assert (exists us, values n a b d (a :: cs) (snd w) = Some us /\ Forall2 rat_le low us) as (us & Ew & Lw).
+    { destruct Hw as [<-|Hw]; eauto. }
+    pose proof (proj1 (forallb_forall _ _) A v Hv) as Av. cbn beta in Av.
+    destruct (values n a b d (a :: cs) (snd v)) as [vs|] eqn:Ev; [|discriminate].
+    apply V in Ew as (_ & Kw & B); auto. apply V in Ev as ((_ & Pv) & Kv & _); auto.
+    eapply all_less_sound in Av; eauto.
+    eapply (knots_less _ _ _ d D _ a vs us); eauto; [|lra].
+    destruct vs as [|q vs], us as [|r us]; try easy. inversion Av; subst.
+    destruct Kw as (_ & _ & _ & <- & _), Kv as (_ & _ & _ & <- & _). auto.
+  - intros u us Hu Eu. apply V in Eu; cbn; tauto.
+  - intros us Eu. apply V in Eu; cbn; tauto.
+Qed.
+
+(** ** 4. Convex hulls *)
+
+(** The empty hull has no point. *)
+Lemma hull_nil x : ~ hull [] x.
+Proof. intros (w & L & _ & S & _). destruct w; [cbn in S; lra|discriminate]. Qed.
+
+(** A weighted sum is as far in direction [n] as the points in it are at least. *)
+Lemma comb_far n (w : list R) : forall l m, length w = length l -> Forall (fun a => 0 <= a) w ->
+  (forall p, In p l -> m < dotR n p) ->
+  sum w * m <= dotR n (comb w l) /\ 0 <= sum w /\ (0 < sum w -> sum w * m < dotR n (comb w l)).
+Proof.
+  induction w as [|a w IH]; destruct l as [|p l]; try discriminate; intros m L F P.
+  - unfold dotR; cbn; lra.
+  - inversion F; subst. destruct (IH l m) as (I1 & I2 & I3); auto.
+    { intros; apply P; now right. }
+    replace (dotR n (comb (a :: w) (p :: l))) with (a * dotR n p + dotR n (comb w l))
+      by (unfold dotR; cbn; ring). cbn [sum].
+    assert (m < dotR n p) by (apply P; now left).
+    destruct (Rle_lt_or_eq_dec 0 a) as [A|A]; auto.
+    + assert (a * m < a * dotR n p) by (apply Rmult_lt_compat_l; auto). lra.
+    + subst a. lra.
+Qed.
+
+Lemma hull_far n l m x : (forall p, In p l -> m < dotR n p) -> hull l x -> m < dotR n x.
+Proof.
+  intros P (w & L & F & S & ->). destruct (comb_far n w l m L F P) as (_ & _ & H).
+  rewrite S in H. lra.
+Qed.
+
+Lemma hull_positive h t l x : (forall p, In p l -> 0 < valueR h t p) -> hull l x -> 0 < valueR h t x.
+Proof.
+  intros P H. apply (hull_far (normal h) l (IZR (nd h) - IZR (nt h) * t)) in H.
+  - unfold valueR. lra.
+  - intros p Hp. apply P in Hp. unfold valueR in Hp. lra.
+Qed.
+
+Lemma dotR_opposite n p : dotR (opposite n) p = - dotR n p.
+Proof. unfold dotR, opposite; cbn; rewrite !opp_IZR; ring. Qed.
+
+(** Hulls are as far from each other in a direction as their points are at least. *)
+Lemma hull_apart n m k l x y : (forall p q, In p k -> In q l -> dotR n p + m < dotR n q) ->
+  hull k x -> hull l y -> dotR n x + m < dotR n y.
+Proof.
+  intros H K L. apply (hull_far n l); auto. intros q Q.
+  apply (hull_far (opposite n) k (m - dotR n q)) in K.
+  - rewrite dotR_opposite in K. lra.
+  - intros p P. rewrite dotR_opposite. specialize (H p q P Q). lra.
+Qed.
+
+Lemma dist2_sym x y : dist2 x y = dist2 y x.
+Proof. unfold dist2. ring. Qed.
+
+(** Points that differ enough in some direction are apart. *)
+Lemma dist2_direction n x y e : let g := dotR n y - dotR n x in
+  e * e * dotR n (inj n) < g * g -> e ^ 2 < dist2 x y.
+Proof.
+  intros g E.
+  assert (g * g <= dotR n (inj n) * dist2 x y) as C.
+  { unfold g, dist2, dotR, inj; cbn [px py pz].
+    set (a := IZR (vx n)). set (b := IZR (vy n)). set (c := IZR (vz n)).
+    set (p := px x - px y). set (q := py x - py y). set (r := pz x - pz y).
+    replace (_ - _) with (- (a * p + b * q + c * r)) by (unfold p, q, r; ring).
+    pose proof (Rle_0_sqr (a * q - b * p)). pose proof (Rle_0_sqr (a * r - c * p)).
+    pose proof (Rle_0_sqr (b * r - c * q)). unfold Rsqr in *. lra. }
+  assert (0 <= dotR n (inj n)) as N.
+  { unfold dotR, inj; cbn. pose proof (Rle_0_sqr (IZR (vx n))). pose proof (Rle_0_sqr (IZR (vy n))).
+    pose proof (Rle_0_sqr (IZR (vz n))). unfold Rsqr in *. lra. }
+  apply Rnot_le_lt. intros L.
+  assert (dotR n (inj n) * dist2 x y <= dotR n (inj n) * e ^ 2) by (apply Rmult_le_compat_l; auto). lra.
+Qed.
+Close Scope R_scope.
+
+(** ** 5. Obligations *)
+Section Soundness.
+Variable s : scene.
+Variable strict : bool.
+
+(** During [a/d, b/d], and the scene's time, a feature of [P] and one of [Q] that
+    share no vertex are more than [eta] apart. *)
+Definition Apart (a b d : Z) (P Q : list Z) : Prop :=
+  forall t, (IZR a <= t * IZR d <= IZR b)%R -> (IZR (tbeg s) <= t <= IZR (tend s))%R ->
+  forall S U, incl S P -> incl U Q -> disjoint_ids S U ->
+  forall x y, simplex s S t x -> simplex s U t y -> (IZR (eta s) ^ 2 < dist2 x y)%R.
+
+(** The cells below a node: label and vertex ids. *)
+Fixpoint leaves (x : tree) : list (Z * list Z) :=
+  match x with
+  | Leaf l vs => [(l, map fst vs)]
+  | Node _ _ x y => leaves x ++ leaves y
+  end.
+
+Definition Claimed (a b d : Z) (P Q : Z * list Z) : Prop :=
+  ~ is_excluded s (fst P) (fst Q) -> Apart a b d (snd P) (snd Q).
+
+Definition PairApart a b d x y := forall P Q, In P (leaves x) -> In Q (leaves y) -> Claimed a b d P Q.
+
+Fixpoint SelfApart a b d (x : tree) : Prop :=
+  match x with
+  | Leaf l vs => strict = true -> Claimed a b d (l, map fst vs) (l, map fst vs)
+  | Node _ _ x y => SelfApart a b d x /\ PairApart a b d x y /\ SelfApart a b d y
+  end.
+
+Definition resolved (w : vertex) : Prop :=
+  snd w = path s (fst w) /\ covers_time (tbeg s) (tend s) (snd w).
+
+Definition vids (l : list vertex) := map fst l.
+
+(** What [build] makes true of a tree, and [step] keeps. *)
+Fixpoint inv (x : tree) : Prop :=
+  match x with
+  | Leaf _ vs => Forall resolved vs
+  | Node l vs x y =>
+      Forall resolved vs /\ incl (vids (verts x)) (vids vs) /\ incl (vids (verts y)) (vids vs) /\
+      inv x /\ inv y /\ (forall m, l = Some m -> label_of x = Some m /\ label_of y = Some m)
+  end.
+
+Definition holds (o : obligation) : Prop :=
+  match o with
+  | Pair x y a b d => (0 < d)%Z -> inv x -> inv y -> PairApart a b d x y
+  | Self x a b d => (0 < d)%Z -> inv x -> SelfApart a b d x
+  end.
+
+Lemma is_excluded_sym l m : is_excluded s l m -> is_excluded s m l.
+Proof. unfold is_excluded; tauto. Qed.
+
+Lemma Apart_sym a b d P Q : Apart a b d P Q -> Apart a b d Q P.
+Proof.
+  intros H t A B S U IS IU D x y HS HU. rewrite dist2_sym.
+  apply (H t A B U S IU IS); auto.
+  intros v V1 V2; now apply (D v).
+Qed.
+
+Lemma Claimed_sym a b d P Q : Claimed a b d P Q -> Claimed a b d Q P.
+Proof. intros H E. apply Apart_sym, H. intros N; now apply E, is_excluded_sym. Qed.
+
+(** T: the two halves are all of the interval. *)
+Lemma Claimed_halves a b d P Q :
+  Claimed (a + a) (a + b) (d + d) P Q -> Claimed (a + b) (b + b) (d + d) P Q -> Claimed a b d P Q.
+Proof.
+  intros H1 H2 E t A.
+  destruct (Rle_dec (t * IZR (d + d)) (IZR (a + b))); [apply H1|apply H2]; auto;
+    rewrite !plus_IZR in *; lra.
+Qed.
+
+(** D: of two features with no common vertex, one does not have [v]. *)
+Lemma Apart_drop a b d v P Q :
+  Apart a b d (filter (fun u => negb (u =? v)%Z) P) Q ->
+  Apart a b d P (filter (fun u => negb (u =? v)%Z) Q) -> Apart a b d P Q.
+Proof.
+  intros H1 H2 t A B S U IS IU D.
+  assert (I : forall L M, incl L M -> ~ In v L -> incl L (filter (fun u => negb (u =? v)%Z) M)).
+  { intros L M LM N u Hu. apply filter_In; split; auto.
+    destruct (Z.eqb_spec u v); auto; subst; contradiction. }
+  destruct (in_dec Z.eq_dec v S) as [VS|VS]; [apply H2|apply H1]; auto.
+Qed.
+
+Lemma without_ids v p : map fst (without v p) = filter (fun u => negb (u =? v)%Z) (map fst p).
+Proof.
+  unfold without; induction p as [|w p IH]; cbn; auto.
+  destruct (fst w =? v)%Z; cbn; now rewrite IH.
+Qed.
+
+Lemma inv_verts x : inv x -> Forall resolved (verts x).
+Proof. destruct x; cbn; tauto. Qed.
+
+Lemma inv_without v p : Forall resolved p -> Forall resolved (without v p).
+Proof. rewrite !Forall_forall; intros H w I; apply filter_In in I; now apply H. Qed.
+
+(** A node has the vertices of its cells. *)
+Lemma leaf_verts x P : inv x -> In P (leaves x) -> incl (snd P) (vids (verts x)).
+Proof.
+  revert P; induction x as [l vs|l vs x IHx y IHy]; cbn; intros P I H.
+  - destruct H as [<-|[]]. apply incl_refl.
+  - destruct I as (_ & L & R & Ix & Iy & _). apply in_app_or in H as [H|H].
+    + eapply incl_tran; [apply IHx|]; eauto.
+    + eapply incl_tran; [apply IHy|]; eauto.
+Qed.
+
+(** The vertices of a feature of a cell below [x] are resolved vertices of [x]. *)
+Lemma feature_vertex x P S v : inv x -> In P (leaves x) -> incl S (snd P) -> In v S ->
+  exists w, In w (verts x) /\ snd w = path s v /\ covers_time (tbeg s) (tend s) (snd w).
+Proof.
+  intros I L C Hv. apply C, (leaf_verts x P I L), in_map_iff in Hv as (w & <- & Hw).
+  destruct (proj1 (Forall_forall _ _) (inv_verts x I) w Hw). eauto.
+Qed.
+
+(** ** 6. One token *)
+
+Lemma plane_side h a b d x P S t : (0 < d)%Z -> inv x -> In P (leaves x) -> incl S (snd P) ->
+  forallb (fun w => inside h a b d (snd w)) (verts x) = true ->
+  (IZR a <= t * IZR d <= IZR b)%R -> (IZR (tbeg s) <= t <= IZR (tend s))%R ->
+  forall q, simplex s S t q -> (0 < valueR h t q)%R.
+Proof.
+  intros D I L C F A B q. apply hull_positive. intros p Hp.
+  apply in_map_iff in Hp as (v & <- & Hv).
+  destruct (feature_vertex x P S v I L C Hv) as (w & Hw & <- & W).
+  pose proof (proj1 (forallb_forall _ _) F w Hw) as Aw.
+  apply (inside_sound h a b d _ _ _ t D W Aw); tauto.
+Qed.
+
+Lemma wide_sound n w : wide (eta s) n w = true ->
+  (0 <= IZR w /\ IZR (eta s) * IZR (eta s) * dotR n (inj n) <= IZR w * IZR w)%R.
+Proof.
+  unfold wide. intros H. apply andb_true_iff in H as [A B]. apply Z.leb_le, IZR_le in A, B.
+  now rewrite !mult_IZR, dot_IZR in B.
+Qed.
+
+Lemma plane_sound h w a b d x y : (0 < d)%Z -> inv x -> inv y -> wide (eta s) (normal h) w = true ->
+  forallb (fun w => inside h a b d (snd w)) (verts x) = true ->
+  forallb (fun v => inside (behind h w) a b d (snd v)) (verts y) = true ->
+  PairApart a b d x y.
+Proof.
+  intros D Ix Iy W Fx Fy P Q HP HQ _ t A B S U IS IU _ p q HS HU.
+  apply wide_sound in W as [W1 W2].
+  pose proof (plane_side h a b d x P S t D Ix HP IS Fx A B p HS) as N1.
+  pose proof (plane_side (behind h w) a b d y Q U t D Iy HQ IU Fy A B q HU) as N2.
+  rewrite valueR_behind in N2. rewrite dist2_sym.
+  apply (dist2_direction (normal h)). apply Rle_lt_trans with (1 := W2).
+  apply Rmult_le_0_lt_compat; unfold valueR in *; lra.
+Qed.
+
+Lemma direction_sound n a b d x y : (0 < d)%Z -> inv x -> inv y ->
+  separated (eta s * eta s * dot n n) n a b d (verts x) (verts y) = true -> PairApart a b d x y.
+Proof.
+  intros D Ix Iy F P Q HP HQ _ t A _ S U IS IU _ p q HS HU.
+  set (k := (eta s * eta s * dot n n)%Z) in *.
+  assert (0 <= IZR k)%R as K by (apply IZR_le; unfold k, dot; nia).
+  assert (forall m, below_root k m -> dotR n q + m < dotR n p)%R as G.
+  2:{ pose proof (G 0%R) as G0. rewrite dist2_sym. apply (dist2_direction n).
+      replace (_ * _)%R with (IZR k) by (unfold k; now rewrite !mult_IZR, dot_IZR).
+      assert (dotR n q + 0 < dotR n p)%R by (apply G0; split; lra). apply Rnot_le_lt. intros L.
+      assert (dotR n q + (dotR n p - dotR n q) < dotR n p)%R by (apply G; split; lra). lra. }
+  intros m M. refine (hull_apart n _ _ _ q p _ HU HS). intros p1 p2 H1 H2.
+  apply in_map_iff in H1 as (v1 & <- & H1), H2 as (v2 & <- & H2).
+  destruct (feature_vertex y Q U v1 Iy HQ IU H1) as (w1 & I1 & <- & W1).
+  destruct (feature_vertex x P S v2 Ix HP IS H2) as (w2 & I2 & <- & W2).
+  apply (separated_sound k m n a b d (tbeg s) (tend s) (verts x) (verts y)); auto.
+  pose proof (inv_verts x Ix) as Fx. pose proof (inv_verts y Iy) as Fy.
+  rewrite Forall_forall in Fx, Fy. intros u [Hu|Hu]; [apply Fx in Hu|apply Fy in Hu]; apply Hu.
+Qed.
+
+(** The label of a node is that of all its cells. *)
+Lemma label_sound x l : inv x -> label_of x = Some l -> forall P, In P (leaves x) -> fst P = l.
+Proof.
+  induction x as [m vs|m vs x IHx y IHy]; cbn; intros I E P H.
+  - injection E as ->. destruct H as [<-|[]]. reflexivity.
+  - destruct I as (_ & _ & _ & Ix & Iy & L). destruct (L l E).
+    apply in_app_or in H as [H|H]; auto.
+Qed.
+
+Lemma excluded_pair_sound l m : excluded_pair s l m = true -> is_excluded s l m.
+Proof.
+  unfold excluded_pair, is_excluded. rewrite existsb_exists. intros ((p, q) & I & E). cbn in E.
+  apply orb_true_iff in E as [E|E]; apply andb_true_iff in E as [E1 E2];
+    apply Z.eqb_eq in E1, E2; subst; auto.
+Qed.
+
+Lemma excluded_sound a b d x y : inv x -> inv y ->
+  excluded_labels s (label_of x) (label_of y) = true -> PairApart a b d x y.
+Proof.
+  intros Ix Iy E P Q HP HQ N. exfalso. apply N. unfold excluded_labels in E.
+  destruct (label_of x) as [l|] eqn:Lx; [|discriminate].
+  destruct (label_of y) as [m|] eqn:Ly; [|discriminate].
+  rewrite (label_sound x l), (label_sound y m); auto. now apply excluded_pair_sound.
+Qed.
+
+Lemma both_sound a b d x : PairApart a b d x x -> SelfApart a b d x.
+Proof.
+  induction x as [l vs|l vs x IHx y IHy]; cbn; intros H.
+  - intros _. apply H; cbn; auto.
+  - repeat split; [apply IHx| |apply IHy]; intros P Q HP HQ; apply H; cbn; apply in_or_app; auto.
+Qed.
+
+Lemma self_halves a b d x :
+  SelfApart (a + a) (a + b) (d + d) x -> SelfApart (a + b) (b + b) (d + d) x -> SelfApart a b d x.
+Proof.
+  induction x as [l vs|l vs x IHx y IHy]; cbn.
+  - intros H1 H2 E. apply Claimed_halves; auto.
+  - intros (A1 & A2 & A3) (B1 & B2 & B3). repeat split; auto.
+    intros P Q HP HQ. apply Claimed_halves; [apply A2|apply B2]; auto.
+Qed.
+
+Ltac heads F := repeat match type of F with
+  | Forall _ (_ :: _) => let H := fresh "H" in apply Forall_inv in F as H; apply Forall_inv_tail in F
+  end.
+
+Ltac on_forallb l F := match goal with
+  | |- context [forallb ?f l] => destruct (forallb f l) eqn:F; [|discriminate]
+  end.
+
+(** If what a token leaves holds, so did what it found. *)
+Lemma step_pair_sound x y a b d k tok st' :
+  step_pair s x y a b d k tok = Some st' -> Forall holds st' -> Forall holds (Pair x y a b d :: k).
+Proof.
+  destruct tok as [| | |i|h w|n| | | |]; cbn [step_pair]; try discriminate.
+  - (* THalve *)
+    destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
+    cbn [holds] in *. intros D Ix Iy P Q HP HQ. apply Claimed_halves; [apply H|apply H0]; auto; lia.
+  - (* TLeft *)
+    destruct x as [|l vs x1 x2]; [discriminate|]. intros [= <-] F. heads F. constructor; auto.
+    cbn in *. intros D (? & ? & ? & I1 & I2 & _) Iy P Q HP HQ.
+    apply in_app_or in HP as [HP|HP]; [apply H|apply H0]; auto.
+  - (* TRight *)
+    destruct y as [|l vs y1 y2]; [discriminate|]. intros [= <-] F. heads F. constructor; auto.
+    cbn in *. intros D Ix (? & ? & ? & I1 & I2 & _) P Q HP HQ.
+    apply in_app_or in HQ as [HQ|HQ]; [apply H|apply H0]; auto.
+  - (* TDrop *)
+    destruct x as [l p|]; [|discriminate]. destruct y as [m q|]; [|discriminate].
+    destruct (nth_id _ _) as [v|]; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
+    cbn in *. intros D Ix Iy P Q [<-|[]] [<-|[]] E. cbn in *.
+    apply Apart_drop with v; rewrite <- without_ids.
+    + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
+    + apply (H0 D Ix (inv_without v q Iy) (l, vids p) (m, vids (without v q))); cbn; auto.
+  - (* TPlane *)
+    destruct (wide _ _ _) eqn:W; [|discriminate]. on_forallb (verts x) Fx. cbn zeta. on_forallb (verts y) Fy.
+    intros [= <-] F. constructor; auto. intros D Ix Iy. eapply plane_sound; eauto.
+  - (* TDirection *)
+    destruct (separated _ _ _ _ _ _ _) eqn:E; [|discriminate].
+    intros [= <-] F. constructor; auto. intros D Ix Iy. eapply direction_sound; eauto.
+  - (* TExcluded *)
+    destruct (excluded_labels _ _ _) eqn:E; [|discriminate].
+    intros [= <-] F. constructor; auto. intros D Ix Iy. now apply excluded_sound.
+Qed.
+
+Lemma step_self_sound x a b d k tok st' :
+  step_self strict s x a b d k tok = Some st' -> Forall holds st' -> Forall holds (Self x a b d :: k).
+Proof.
+  destruct tok as [| | |i|h w|n| | | |]; cbn [step_self]; try discriminate.
+  - (* THalve *)
+    destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
+    cbn [holds] in *. intros D I. apply self_halves; [apply H|apply H0]; auto; lia.
+  - (* TExcluded *)
+    destruct (excluded_labels _ _ _) eqn:E; [|discriminate].
+    intros [= <-] F. constructor; auto. intros D I. now apply both_sound, excluded_sound.
+  - (* TParts *)
+    destruct x as [|l vs x y]; [discriminate|]. intros [= <-] F. heads F. constructor; auto.
+    cbn in *. tauto.
+  - (* TOne *)
+    destruct x as [l vs|]; [|discriminate]. destruct strict eqn:E; [discriminate|].
+    intros [= <-] F. constructor; auto. cbn. now rewrite E.
+  - (* TBoth *)
+    intros [= <-] F. heads F. constructor; auto. cbn in *. intros. apply both_sound; auto.
+Qed.
+
+Lemma step_sound st tok st' : step strict s st tok = Some st' -> Forall holds st' -> Forall holds st.
+Proof.
+  destruct st as [|[x y a b d|x a b d] k]; cbn [step]; [discriminate| |];
+    [apply step_pair_sound|apply step_self_sound].
+Qed.
+
+Lemma run_sound toks : forall st st',
+  run strict s st toks = Some st' -> Forall holds st' -> Forall holds st.
+Proof.
+  induction toks as [|tok r IH]; cbn [run]; intros st st'.
+  - now intros [= <-].
+  - destruct (step strict s st tok) as [st1|] eqn:E; [|discriminate].
+    intros R F. eapply step_sound; eauto.
+Qed.
+
+(** Streaming: the tokens may be run piece by piece. *)
+Lemma run_app l1 l2 : forall st, run strict s st (l1 ++ l2) =
+  match run strict s st l1 with Some st' => run strict s st' l2 | None => None end.
+Proof.
+  induction l1 as [|tok r IH]; cbn [run app]; auto. intros st.
+  now destruct (step strict s st tok).
+Qed.
+
+(** ** 7. The tree *)
+Arguments union : simpl never.
+
+Lemma union_acc_cons {A} (key : A -> Z) x r1 y r2 acc :
+  union_acc key (x :: r1) (y :: r2) acc =
+    if (key x <? key y)%Z then union_acc key r1 (y :: r2) (x :: acc)
+    else if (key y <? key x)%Z then union_acc key (x :: r1) r2 (y :: acc)
+    else union_acc key r1 r2 (x :: acc).
+Proof. reflexivity. Qed.
+
+Lemma rev_append_in {A} (w : A) l1 l2 : In w (rev_append l1 l2) <-> In w l1 \/ In w l2.
+Proof. rewrite rev_append_rev, in_app_iff, <- in_rev. tauto. Qed.
+
+Lemma union_acc_in {A} (key : A -> Z) : forall l1 l2 acc w,
+  In w (union_acc key l1 l2 acc) -> In w acc \/ In w l1 \/ In w l2.
+Proof.
+  induction l1 as [|x r1 IH1].
+  { cbn; intros l2 acc w. rewrite rev_append_in. tauto. }
+  induction l2 as [|y r2 IH2]; intros acc w.
+  { cbn. rewrite rev_append_in. cbn; tauto. }
+  rewrite union_acc_cons.
+  destruct (_ <? _)%Z; [|destruct (_ <? _)%Z]; intros H;
+    [apply IH1 in H|apply IH2 in H|apply IH1 in H]; cbn in *; tauto.
+Qed.
+
+Lemma union_acc_keys {A} (key : A -> Z) : forall l1 l2 acc v,
+  In v (map key acc) \/ In v (map key l1) \/ In v (map key l2) -> In v (map key (union_acc key l1 l2 acc)).
+Proof.
+  induction l1 as [|x r1 IH1].
+  { cbn; intros l2 acc v. rewrite !in_map_iff.
+    intros [(w & E & H)|[[]|(w & E & H)]]; exists w; rewrite rev_append_in; auto. }
+  induction l2 as [|y r2 IH2]; intros acc v.
+  { cbn [union_acc]. rewrite !in_map_iff.
+    intros [(w & E & H)|[(w & E & H)|(w & E & [])]]; exists w; rewrite rev_append_in; auto. }
+  rewrite union_acc_cons.
+  destruct (_ <? _)%Z eqn:E1; [|destruct (key y <? key x)%Z eqn:E2]; intros H;
+    [apply IH1|apply IH2|apply IH1]; cbn in *; try tauto.
+  assert (key x = key y) by (apply Z.ltb_ge in E1, E2; lia). intuition congruence.
+Qed.
+
+Lemma union_in {A} (key : A -> Z) l1 l2 w : In w (union key l1 l2) -> In w l1 \/ In w l2.
+Proof. intros H; apply union_acc_in in H; cbn in H; tauto. Qed.
+
+Lemma union_keys {A} (key : A -> Z) l1 l2 v :
+  In v (map key l1) \/ In v (map key l2) -> In v (map key (union key l1 l2)).
+Proof. intros H; apply union_acc_keys; tauto. Qed.
+
+Fixpoint ids (g : group) : list Z :=
+  match g with Cell i => [i] | Join l r => ids l ++ ids r end.
+
+Lemma ids_of_in g : forall i, In i (ids_of g) -> In i (ids g).
+Proof.
+  induction g as [j|l IHl r IHr]; cbn; intros i; auto.
+  intros H; apply union_in in H as [H|H]; apply in_or_app; auto.
+Qed.
+
+Lemma is_range_sound n l : forall k, is_range k n l = true -> forall i, (k <= i < n)%Z -> In i l.
+Proof.
+  induction l as [|x r IH]; cbn; intros k H i Hi.
+  - apply Z.eqb_eq in H. lia.
+  - apply andb_true_iff in H as [E H]. apply Z.eqb_eq in E as ->.
+    destruct (Z.eq_dec k i); auto. right. apply (IH (k + 1)%Z); auto. lia.
+Qed.
+
+Lemma covers_sound n g i : covers n g = true -> (0 <= i < n)%Z -> In i (ids g).
+Proof.
+  intros C Hi. apply andb_true_iff in C as [_ C]. now apply ids_of_in, (is_range_sound _ _ _ C).
+Qed.
+
+Lemma leaf_in i w : In w (leaf s i) -> snd w = path s (fst w).
+Proof.
+  unfold leaf; induction (cell s i) as [|v l IH]; cbn; [tauto|].
+  intros H; apply union_in in H as [[<-|[]]|H]; auto.
+Qed.
+
+Definition cell_ids i := map fst (leaf s i).
+
+Lemma leaf_ids i : incl (cell s i) (cell_ids i).
+Proof.
+  unfold cell_ids, leaf; induction (cell s i) as [|v l IH]; cbn; intros u H; [easy|].
+  apply union_keys. destruct H as [<-|H]; [left; now left|right; now apply IH].
+Qed.
+
+Lemma build_cell i x : build s (Cell i) = Some x ->
+  x = Leaf (label s i) (leaf s i) /\ Forall resolved (leaf s i).
+Proof.
+  cbn [build]. on_forallb (leaf s i) F. intros [= <-]. split; auto.
+  apply Forall_forall. intros w Hw. split; [now apply leaf_in with i|].
+  apply (proj1 (forallb_forall _ _) F) in Hw. now apply wf_traj_sound.
+Qed.
+
+Lemma build_inv g : forall x, build s g = Some x -> inv x.
+Proof.
+  induction g as [i|l IHl r IHr]; intros x B.
+  - apply build_cell in B as [-> R]. exact R.
+  - cbn in B. destruct (build s l) as [xl|]; [|discriminate].
+    destruct (build s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
+    pose proof (IHl _ eq_refl) as L. pose proof (IHr _ eq_refl) as R.
+    pose proof (inv_verts _ L) as VL. pose proof (inv_verts _ R) as VR.
+    rewrite Forall_forall in VL, VR |- *. split; [|split; [|split; [|split; [|split]]]]; auto.
+    + intros w H; apply union_in in H as [H|H]; [now apply VL|now apply VR].
+    + intros v Hv; apply union_keys; auto.
+    + intros v Hv; apply union_keys; auto.
+    + unfold common_label. intros m.
+      destruct (label_of xl) as [a|], (label_of xr) as [b|]; try discriminate.
+      destruct (Z.eqb_spec a b); [|discriminate]. subst. now intros [= <-].
+Qed.
+
+Definition leaf_of i := (label s i, cell_ids i).
+
+Lemma build_leaves g : forall x, build s g = Some x -> leaves x = map leaf_of (ids g).
+Proof.
+  induction g as [i|l IHl r IHr]; intros x B.
+  - now apply build_cell in B as [-> _].
+  - cbn in B. destruct (build s l) as [xl|]; [|discriminate].
+    destruct (build s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
+    now rewrite (IHl _ eq_refl), (IHr _ eq_refl), map_app.
+Qed.
+
+(** A tree has every pair of its cells. *)
+Lemma self_pairs a b d g : forall x, build s g = Some x -> SelfApart a b d x ->
+  forall i j, In i (ids g) -> In j (ids g) -> strict = true \/ i <> j ->
+  Claimed a b d (leaf_of i) (leaf_of j).
+Proof.
+  induction g as [f|l IHl r IHr]; intros x Bx.
+  - apply build_cell in Bx as [-> _]. intros H i j [<-|[]] [<-|[]] [E|E]; [auto|congruence].
+  - cbn in Bx. destruct (build s l) as [xl|] eqn:L; [|discriminate].
+    destruct (build s r) as [xr|] eqn:R; [|discriminate].
+    injection Bx as <-. cbn. intros (A & B & C) i j Hi Hj N.
+    unfold PairApart in B. rewrite (build_leaves _ _ L), (build_leaves _ _ R) in B.
+    assert (I : forall k g', In k (ids g') -> In (leaf_of k) (map leaf_of (ids g'))).
+    { intros k g'. apply (in_map leaf_of). }
+    apply in_app_or in Hi as [Hi|Hi]; apply in_app_or in Hj as [Hj|Hj].
+    + eapply IHl; eauto.
+    + apply B; auto.
+    + apply Claimed_sym, B; auto.
+    + eapply IHr; eauto.
+Qed.
+
+(** Every cell of a tree that was built has trajectories as they should be. *)
+Lemma build_cells g : forall x i, build s g = Some x -> In i (ids g) -> Forall resolved (leaf s i).
+Proof.
+  induction g as [j|l IHl r IHr]; intros x i B H.
+  - apply build_cell in B as [_ R]. now destruct H as [<-|[]].
+  - cbn in B, H. destruct (build s l) as [xl|]; [|discriminate].
+    destruct (build s r) as [xr|]; [|discriminate].
+    apply in_app_or in H as [H|H]; eauto.
+Qed.
+
+Lemma start_sound g st : start s g = Some st ->
+  well_formed s /\ (Forall holds st -> never_touch strict s).
+Proof.
+  unfold start. destruct (_ && _)%bool eqn:E; [|discriminate].
+  rewrite !andb_true_iff in E. destruct E as [[[E0 E1] E2] C].
+  apply Z.ltb_lt in E0, E1. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
+  intros [= <-]. split.
+  - repeat split; auto. intros i v Hi Hv.
+    apply (build_cells g x i) in B; [|eapply covers_sound; eauto].
+    apply leaf_ids, in_map_iff in Hv as (w & <- & Hw).
+    rewrite Forall_forall in B. destruct (B w Hw) as [<- W]. exact W.
+  - intros F. apply Forall_inv in F as S. cbn [holds] in S.
+    specialize (S eq_refl (build_inv g x B)).
+    intros t Ht i j Hi Hj D N P Q IP IQ.
+    apply (self_pairs _ _ _ g x B S i j); eauto using covers_sound.
+    + lra.
+    + eapply incl_tran; [apply IP|apply leaf_ids].
+    + eapply incl_tran; [apply IQ|apply leaf_ids].
+Qed.
+End Soundness.
+
+(** ** The theorems *)
+
+(** What the checker accepts is true. *)
+Theorem check_sound strict s g toks : check strict s g toks = true -> never_touch strict s.
+Proof.
+  unfold check. destruct (start s g) as [st|] eqn:E; [|discriminate].
+  destruct (run _ _ _ _) as [[|]|] eqn:R; try discriminate. intros _.
+  apply (start_sound s strict) in E as [_ H]. apply H.
+  apply (run_sound s) in R; auto.
+Qed.
+
+(** It is said of no scene that makes no sense. *)
+Theorem check_well_formed strict s g toks : check strict s g toks = true -> well_formed s.
+Proof.
+  unfold check. destruct (start s g) as [st|] eqn:E; [|discriminate]. intros _.
+  now apply (start_sound s strict) in E.
+Qed.
+
+(** What is true of strict claims is true of others. *)
+Lemma never_touch_weaken s : never_touch true s -> never_touch false s.
+Proof. intros H t Ht i j Hi Hj _. apply H; auto. Qed.
+
+(** The same for two cells, which may be edges or points, that share no vertex: they
+    have no point in common. *)
+Corollary check_sound_cells strict s g toks : check strict s g toks = true ->
+  forall t, (IZR (tbeg s) <= t <= IZR (tend s))%R ->
+  forall i j, (0 <= i < ncell s)%Z -> (0 <= j < ncell s)%Z ->
+  ~ is_excluded s (label s i) (label s j) -> disjoint_ids (cell s i) (cell s j) ->
+  forall x, ~ (simplex s (cell s i) t x /\ simplex s (cell s j) t x).
+Proof.
+  intros H t Ht i j Hi Hj E D x [X Y].
+  destruct (Z.eq_dec i j) as [<-|N].
+  - destruct (cell s i) as [|v l]; [now apply hull_nil in X|]. apply (D v); now left.
+  - apply (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) D x x X) in Y.
+    unfold dist2 in Y. pose proof (Rle_0_sqr (IZR (eta s))) as P. unfold Rsqr in P. lra.
+Qed.

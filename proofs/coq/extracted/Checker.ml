@@ -1,0 +1,519 @@
+(* SPDX-License-Identifier: Apache-2.0 *)
+(* Extracted from Checker.v by build.sh --renew: not to be edited. *)
+open Spec
+
+type group =
+| Cell of Zint.t
+| Join of group * group
+
+type halfspace = { normal : vec; nt : Zint.t; nd : Zint.t }
+
+type token =
+| THalve
+| TLeft
+| TRight
+| TDrop of Zint.t
+| TPlane of halfspace * Zint.t
+| TDirection of vec
+| TExcluded
+| TParts
+| TOne
+| TBoth
+
+(** val reaches : Zint.t -> Zint.t -> traj -> bool **)
+
+let rec reaches t0 t = function
+| [] -> Zint.leq t t0
+| p :: r' -> let (t1, _) = p in (&&) (Zint.lt t0 t1) (reaches t1 t r')
+
+(** val wf_traj : Zint.t -> Zint.t -> traj -> bool **)
+
+let wf_traj t0 t1 = function
+| [] -> false
+| p :: r -> let (t2, _) = p in (&&) (Zint.leq t2 t0) (reaches t2 t1 r)
+
+(** val since : Zint.t -> Zint.t -> traj -> traj **)
+
+let rec since d a tr = match tr with
+| [] -> []
+| _ :: r ->
+  (match r with
+   | [] -> tr
+   | p :: _ ->
+     let (t1, _) = p in if Zint.leq (Zint.mul t1 d) a then since d a r else tr)
+
+(** val dot : vec -> vec -> Zint.t **)
+
+let dot n p =
+  Zint.add (Zint.add (Zint.mul n.vx p.vx) (Zint.mul n.vy p.vy))
+    (Zint.mul n.vz p.vz)
+
+(** val value : halfspace -> Zint.t -> vec -> Zint.t **)
+
+let value h t p =
+  Zint.sub (Zint.add (dot h.normal p) (Zint.mul h.nt t)) h.nd
+
+(** val opposite : vec -> vec **)
+
+let opposite n =
+  { vx = (Zint.neg n.vx); vy = (Zint.neg n.vy); vz = (Zint.neg n.vz) }
+
+(** val behind : halfspace -> Zint.t -> halfspace **)
+
+let behind h w =
+  { normal = (opposite h.normal); nt = (Zint.neg h.nt); nd =
+    (Zint.sub w h.nd) }
+
+(** val wide : Zint.t -> vec -> Zint.t -> bool **)
+
+let wide e n w =
+  (&&) (Zint.leq Zint.zero w)
+    (Zint.leq (Zint.mul (Zint.mul e e) (dot n n)) (Zint.mul w w))
+
+(** val segment_positive :
+    Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> bool **)
+
+let segment_positive a b s0 g0 s1 g1 =
+  (&&)
+    (if Zint.leq a s0
+     then Zint.lt Zint.zero g0
+     else Zint.lt Zint.zero
+            (Zint.add (Zint.mul g0 (Zint.sub s1 a))
+              (Zint.mul g1 (Zint.sub a s0))))
+    (if Zint.leq s1 b
+     then Zint.lt Zint.zero g1
+     else Zint.lt Zint.zero
+            (Zint.add (Zint.mul g0 (Zint.sub s1 b))
+              (Zint.mul g1 (Zint.sub b s0))))
+
+(** val inside_from :
+    halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> traj ->
+    bool **)
+
+let rec inside_from h a b d t0 g0 = function
+| [] -> false
+| p :: r' ->
+  let (t1, p1) = p in
+  let g1 = value h t1 p1 in
+  let s1 = Zint.mul t1 d in
+  if segment_positive a b (Zint.mul t0 d) g0 s1 g1
+  then if Zint.leq b s1 then true else inside_from h a b d t1 g1 r'
+  else false
+
+(** val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj -> bool **)
+
+let inside h a b d tr =
+  match since d a tr with
+  | [] -> false
+  | p :: r -> let (t0, p0) = p in inside_from h a b d t0 (value h t0 p0) r
+
+type rat = Zint.t * Zint.t
+
+(** val rat_lt : rat -> rat -> bool **)
+
+let rat_lt q r =
+  if Zint.equal (snd q) (snd r)
+  then Zint.lt (fst q) (fst r)
+  else Zint.lt (Zint.mul (fst q) (snd r)) (Zint.mul (fst r) (snd q))
+
+(** val rat_over : Zint.t -> rat -> rat -> bool **)
+
+let rat_over k q r =
+  if rat_lt q r
+  then if Zint.equal k Zint.zero
+       then true
+       else let g =
+              Zint.sub (Zint.mul (fst r) (snd q)) (Zint.mul (fst q) (snd r))
+            in
+            let h = Zint.mul (snd q) (snd r) in
+            Zint.lt (Zint.mul k (Zint.mul h h)) (Zint.mul g g)
+  else false
+
+(** val rat_min : rat -> rat -> rat **)
+
+let rat_min q r =
+  if rat_lt q r then q else r
+
+(** val between : Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> rat **)
+
+let between s0 g0 s1 g1 c =
+  if Zint.equal c s0
+  then (g0, Zint.one)
+  else if Zint.equal c s1
+       then (g1, Zint.one)
+       else ((Zint.add (Zint.mul g0 (Zint.sub s1 c))
+               (Zint.mul g1 (Zint.sub c s0))), (Zint.sub s1 s0))
+
+(** val along :
+    vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t -> Zint.t
+    list -> rat list -> rat list option **)
+
+let rec along n b d t0 g0 = function
+| [] -> (fun _ _ _ -> None)
+| p :: r' ->
+  let (t1, p1) = p in
+  let s0 = Zint.mul t0 d in
+  let s1 = Zint.mul t1 d in
+  let g1 = dot n p1 in
+  let rec here c' cs acc =
+    match cs with
+    | [] -> if Zint.leq b c' then Some (List.rev_append acc []) else None
+    | c :: cs' ->
+      if Zint.lt c c'
+      then None
+      else if Zint.leq c s1
+           then here c cs' ((between s0 g0 s1 g1 c) :: acc)
+           else if Zint.leq s1 c'
+                then along n b d t1 g1 r' c' cs acc
+                else None
+  in here
+
+(** val values :
+    vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj -> rat list
+    option **)
+
+let values n a b d cs tr =
+  match since d a tr with
+  | [] -> None
+  | p :: r ->
+    let (t0, p0) = p in
+    if Zint.leq (Zint.mul t0 d) a
+    then along n b d t0 (dot n p0) r a cs []
+    else None
+
+(** val times_until :
+    Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list -> Zint.t list **)
+
+let rec times_until d a b tr acc =
+  match tr with
+  | [] -> List.rev_append acc []
+  | p :: r ->
+    let (t, _) = p in
+    let c = Zint.mul t d in
+    if Zint.lt c b
+    then times_until d a b r (if Zint.lt a c then c :: acc else acc)
+    else List.rev_append acc []
+
+(** val times : Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list **)
+
+let times d a b tr =
+  times_until d a b (since d a tr) []
+
+(** val union_acc :
+    ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list -> 'a1 list **)
+
+let rec union_acc key l1 = match l1 with
+| [] -> (fun l2 acc -> List.rev_append acc l2)
+| x :: r1 ->
+  let rec aux l2 acc =
+    match l2 with
+    | [] -> List.rev_append acc l1
+    | y :: r2 ->
+      if Zint.lt (key x) (key y)
+      then union_acc key r1 l2 (x :: acc)
+      else if Zint.lt (key y) (key x)
+           then aux r2 (y :: acc)
+           else union_acc key r1 r2 (x :: acc)
+  in aux
+
+(** val union : ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list **)
+
+let union key l1 l2 =
+  union_acc key l1 l2 []
+
+(** val lower_acc : rat list -> rat list -> rat list -> rat list **)
+
+let rec lower_acc l1 l2 acc =
+  match l1 with
+  | [] -> List.rev_append acc []
+  | q :: r1 ->
+    (match l2 with
+     | [] -> List.rev_append acc []
+     | r :: r2 -> lower_acc r1 r2 ((rat_min q r) :: acc))
+
+(** val lower : rat list option -> rat list option -> rat list option **)
+
+let lower o v =
+  match o with
+  | Some l1 ->
+    (match v with
+     | Some l2 -> Some (lower_acc l1 l2 [])
+     | None -> None)
+  | None -> None
+
+(** val all_less : Zint.t -> rat list -> rat list -> bool **)
+
+let rec all_less k l1 l2 =
+  match l1 with
+  | [] -> (match l2 with
+           | [] -> true
+           | _ :: _ -> false)
+  | q :: r1 ->
+    (match l2 with
+     | [] -> false
+     | r :: r2 -> if rat_over k q r then all_less k r1 r2 else false)
+
+type vertex = Zint.t * traj
+
+(** val separated :
+    Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
+    -> bool **)
+
+let separated k n a b d x y =
+  match x with
+  | [] -> true
+  | w :: ws ->
+    let add = fun cs v -> union (fun c -> c) (times d a b (snd v)) cs in
+    let cs =
+      (fun f l a -> List.fold_left f a l) add y
+        ((fun f l a -> List.fold_left f a l) add x (a :: (b :: [])))
+    in
+    let at_times = fun v -> values n a b d cs (snd v) in
+    (match cs with
+     | [] -> false
+     | c :: _ ->
+       if Zint.equal c a
+       then (match (fun f l a -> List.fold_left f a l) (fun l v ->
+                     lower l (at_times v)) ws (at_times w) with
+             | Some low ->
+               List.for_all (fun v ->
+                 match at_times v with
+                 | Some l -> all_less k l low
+                 | None -> false) y
+             | None -> false)
+       else false)
+
+type tree =
+| Leaf of Zint.t * vertex list
+| Node of Zint.t option * vertex list * tree * tree
+
+(** val verts : tree -> vertex list **)
+
+let verts = function
+| Leaf (_, vs) -> vs
+| Node (_, vs, _, _) -> vs
+
+(** val label_of : tree -> Zint.t option **)
+
+let label_of = function
+| Leaf (l, _) -> Some l
+| Node (l, _, _, _) -> l
+
+(** val common_label : tree -> tree -> Zint.t option **)
+
+let common_label x y =
+  match label_of x with
+  | Some l ->
+    (match label_of y with
+     | Some m -> if Zint.equal l m then Some l else None
+     | None -> None)
+  | None -> None
+
+(** val leaf : scene -> Zint.t -> vertex list **)
+
+let leaf s i =
+  (fun f a l -> List.fold_right f l a) (fun v acc ->
+    union fst ((v, (s.path v)) :: []) acc) [] (s.cell i)
+
+(** val build : scene -> group -> tree option **)
+
+let rec build s = function
+| Cell i ->
+  let vs = leaf s i in
+  if List.for_all (fun w -> wf_traj s.tbeg s.tend (snd w)) vs
+  then Some (Leaf ((s.label i), vs))
+  else None
+| Join (l, r) ->
+  (match build s l with
+   | Some x ->
+     (match build s r with
+      | Some y ->
+        Some (Node ((common_label x y), (union fst (verts x) (verts y)), x,
+          y))
+      | None -> None)
+   | None -> None)
+
+(** val ids_of : group -> Zint.t list **)
+
+let rec ids_of = function
+| Cell i -> i :: []
+| Join (l, r) -> union (fun i -> i) (ids_of l) (ids_of r)
+
+(** val size : group -> Zint.t **)
+
+let rec size = function
+| Cell _ -> Zint.one
+| Join (l, r) -> Zint.add (size l) (size r)
+
+(** val is_range : Zint.t -> Zint.t -> Zint.t list -> bool **)
+
+let rec is_range k n = function
+| [] -> Zint.equal k n
+| i :: r -> (&&) (Zint.equal i k) (is_range (Zint.add k Zint.one) n r)
+
+(** val covers : Zint.t -> group -> bool **)
+
+let covers n g =
+  (&&) (Zint.equal (size g) n) (is_range Zint.zero n (ids_of g))
+
+(** val excluded_pair : scene -> Zint.t -> Zint.t -> bool **)
+
+let excluded_pair s l m =
+  List.exists (fun p ->
+    (||) ((&&) (Zint.equal (fst p) l) (Zint.equal (snd p) m))
+      ((&&) (Zint.equal (fst p) m) (Zint.equal (snd p) l))) s.excluded
+
+(** val excluded_labels : scene -> Zint.t option -> Zint.t option -> bool **)
+
+let excluded_labels s o p =
+  match o with
+  | Some l -> (match p with
+               | Some m -> excluded_pair s l m
+               | None -> false)
+  | None -> false
+
+(** val has : Zint.t -> vertex list -> bool **)
+
+let has v l =
+  List.exists (fun w -> Zint.equal (fst w) v) l
+
+(** val without : Zint.t -> vertex list -> vertex list **)
+
+let without v l =
+  List.filter (fun w -> not (Zint.equal (fst w) v)) l
+
+(** val nth_id : Zint.t -> vertex list -> Zint.t option **)
+
+let rec nth_id k = function
+| [] -> None
+| w :: r ->
+  if Zint.equal k Zint.zero
+  then Some (fst w)
+  else nth_id (Zint.sub k Zint.one) r
+
+type obligation =
+| Pair of tree * tree * Zint.t * Zint.t * Zint.t
+| Self of tree * Zint.t * Zint.t * Zint.t
+
+(** val step_pair :
+    scene -> tree -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
+    token -> obligation list option **)
+
+let step_pair s x y a b d k = function
+| THalve ->
+  if Zint.lt d Zint.d_max
+  then let m = Zint.add a b in
+       let d2 = Zint.add d d in
+       Some ((Pair (x, y, (Zint.add a a), m, d2)) :: ((Pair (x, y, m,
+       (Zint.add b b), d2)) :: k))
+  else None
+| TLeft ->
+  (match x with
+   | Leaf (_, _) -> None
+   | Node (_, _, l, r) ->
+     Some ((Pair (l, y, a, b, d)) :: ((Pair (r, y, a, b, d)) :: k)))
+| TRight ->
+  (match y with
+   | Leaf (_, _) -> None
+   | Node (_, _, l, r) ->
+     Some ((Pair (x, l, a, b, d)) :: ((Pair (x, r, a, b, d)) :: k)))
+| TDrop i ->
+  (match x with
+   | Leaf (l, p) ->
+     (match y with
+      | Leaf (m, q) ->
+        (match nth_id i (List.filter (fun w -> has (fst w) q) p) with
+         | Some v ->
+           Some ((Pair ((Leaf (l, (without v p))), y, a, b, d)) :: ((Pair (x,
+             (Leaf (m, (without v q))), a, b, d)) :: k))
+         | None -> None)
+      | Node (_, _, _, _) -> None)
+   | Node (_, _, _, _) -> None)
+| TPlane (h, w) ->
+  if wide s.eta h.normal w
+  then if List.for_all (fun v -> inside h a b d (snd v)) (verts x)
+       then let h' = behind h w in
+            if List.for_all (fun v -> inside h' a b d (snd v)) (verts y)
+            then Some k
+            else None
+       else None
+  else None
+| TDirection n ->
+  if separated (Zint.mul (Zint.mul s.eta s.eta) (dot n n)) n a b d (verts x)
+       (verts y)
+  then Some k
+  else None
+| TExcluded ->
+  if excluded_labels s (label_of x) (label_of y) then Some k else None
+| _ -> None
+
+(** val step_self :
+    bool -> scene -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
+    token -> obligation list option **)
+
+let step_self strict s x a b d k = function
+| THalve ->
+  if Zint.lt d Zint.d_max
+  then let m = Zint.add a b in
+       let d2 = Zint.add d d in
+       Some ((Self (x, (Zint.add a a), m, d2)) :: ((Self (x, m,
+       (Zint.add b b), d2)) :: k))
+  else None
+| TExcluded ->
+  if excluded_labels s (label_of x) (label_of x) then Some k else None
+| TParts ->
+  (match x with
+   | Leaf (_, _) -> None
+   | Node (_, _, l, r) ->
+     Some ((Self (l, a, b, d)) :: ((Pair (l, r, a, b, d)) :: ((Self (r, a, b,
+       d)) :: k))))
+| TOne ->
+  (match x with
+   | Leaf (_, _) -> if strict then None else Some k
+   | Node (_, _, _, _) -> None)
+| TBoth -> Some ((Pair (x, x, a, b, d)) :: k)
+| _ -> None
+
+(** val step :
+    bool -> scene -> obligation list -> token -> obligation list option **)
+
+let step strict s st tok =
+  match st with
+  | [] -> None
+  | o :: k ->
+    (match o with
+     | Pair (x, y, a, b, d) -> step_pair s x y a b d k tok
+     | Self (x, a, b, d) -> step_self strict s x a b d k tok)
+
+(** val run :
+    bool -> scene -> obligation list -> token list -> obligation list option **)
+
+let rec run strict s st = function
+| [] -> Some st
+| tok :: r ->
+  (match step strict s st tok with
+   | Some st' -> run strict s st' r
+   | None -> None)
+
+(** val start : scene -> group -> obligation list option **)
+
+let start s g =
+  if (&&)
+       ((&&) ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero s.ncell))
+         (Zint.leq Zint.zero s.eta)) (covers s.ncell g)
+  then (match build s g with
+        | Some x -> Some ((Self (x, s.tbeg, s.tend, Zint.one)) :: [])
+        | None -> None)
+  else None
+
+(** val check : bool -> scene -> group -> token list -> bool **)
+
+let check strict s g toks =
+  match start s g with
+  | Some st ->
+    (match run strict s st toks with
+     | Some l -> (match l with
+                  | [] -> true
+                  | _ :: _ -> false)
+     | None -> false)
+  | None -> false

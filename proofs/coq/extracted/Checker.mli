@@ -1,0 +1,137 @@
+(* SPDX-License-Identifier: Apache-2.0 *)
+(* Extracted from Checker.v by build.sh --renew: not to be edited. *)
+open Spec
+
+type group =
+| Cell of Zint.t
+| Join of group * group
+
+type halfspace = { normal : vec; nt : Zint.t; nd : Zint.t }
+
+type token =
+| THalve
+| TLeft
+| TRight
+| TDrop of Zint.t
+| TPlane of halfspace * Zint.t
+| TDirection of vec
+| TExcluded
+| TParts
+| TOne
+| TBoth
+
+val reaches : Zint.t -> Zint.t -> traj -> bool
+
+val wf_traj : Zint.t -> Zint.t -> traj -> bool
+
+val since : Zint.t -> Zint.t -> traj -> traj
+
+val dot : vec -> vec -> Zint.t
+
+val value : halfspace -> Zint.t -> vec -> Zint.t
+
+val opposite : vec -> vec
+
+val behind : halfspace -> Zint.t -> halfspace
+
+val wide : Zint.t -> vec -> Zint.t -> bool
+
+val segment_positive :
+  Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> bool
+
+val inside_from :
+  halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> traj -> bool
+
+val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj -> bool
+
+type rat = Zint.t * Zint.t
+
+val rat_lt : rat -> rat -> bool
+
+val rat_over : Zint.t -> rat -> rat -> bool
+
+val rat_min : rat -> rat -> rat
+
+val between : Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> rat
+
+val along :
+  vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t -> Zint.t
+  list -> rat list -> rat list option
+
+val values :
+  vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj -> rat list option
+
+val times_until :
+  Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list -> Zint.t list
+
+val times : Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list
+
+val union_acc :
+  ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list -> 'a1 list
+
+val union : ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list
+
+val lower_acc : rat list -> rat list -> rat list -> rat list
+
+val lower : rat list option -> rat list option -> rat list option
+
+val all_less : Zint.t -> rat list -> rat list -> bool
+
+type vertex = Zint.t * traj
+
+val separated :
+  Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
+  -> bool
+
+type tree =
+| Leaf of Zint.t * vertex list
+| Node of Zint.t option * vertex list * tree * tree
+
+val verts : tree -> vertex list
+
+val label_of : tree -> Zint.t option
+
+val common_label : tree -> tree -> Zint.t option
+
+val leaf : scene -> Zint.t -> vertex list
+
+val build : scene -> group -> tree option
+
+val ids_of : group -> Zint.t list
+
+val size : group -> Zint.t
+
+val is_range : Zint.t -> Zint.t -> Zint.t list -> bool
+
+val covers : Zint.t -> group -> bool
+
+val excluded_pair : scene -> Zint.t -> Zint.t -> bool
+
+val excluded_labels : scene -> Zint.t option -> Zint.t option -> bool
+
+val has : Zint.t -> vertex list -> bool
+
+val without : Zint.t -> vertex list -> vertex list
+
+val nth_id : Zint.t -> vertex list -> Zint.t option
+
+type obligation =
+| Pair of tree * tree * Zint.t * Zint.t * Zint.t
+| Self of tree * Zint.t * Zint.t * Zint.t
+
+val step_pair :
+  scene -> tree -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
+  token -> obligation list option
+
+val step_self :
+  bool -> scene -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
+  token -> obligation list option
+
+val step : bool -> scene -> obligation list -> token -> obligation list option
+
+val run :
+  bool -> scene -> obligation list -> token list -> obligation list option
+
+val start : scene -> group -> obligation list option
+
+val check : bool -> scene -> group -> token list -> bool
