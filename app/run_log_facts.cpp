@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <set>
 #include <string>
 #include <system_error>
 
@@ -45,10 +44,7 @@ class Reader {
     if (is("end")) end(entry);
   }
 
-  LogFacts finish() {
-    facts_.windows = seen_.size();
-    return std::move(facts_);
-  }
+  LogFacts finish() { return std::move(facts_); }
 
  private:
   void begin(const Json& entry) {
@@ -70,7 +66,11 @@ class Reader {
   void window(const Json& entry) {
     const Json& timing = member(entry, "timing");
     if (!member(timing, "deepest").is_number()) return;  // what it does not say is not known
-    seen_.insert(number<std::uint64_t>(entry, "window"));
+    const auto window = number<std::uint64_t>(entry, "window");
+    if (window >= next_) {
+      ++facts_.windows;
+      next_ = window + 1;
+    }
     facts_.deepest = std::max(facts_.deepest, number<std::uint32_t>(timing, "deepest"));
   }
 
@@ -98,7 +98,7 @@ class Reader {
   }
 
   LogFacts facts_;
-  std::set<std::uint64_t> seen_;  ///< a window may be logged twice, by a part that was killed and by the next
+  std::uint64_t next_ = 0;  ///< window; one may be logged twice, by a part that was killed and by the next
 };
 
 }  // namespace

@@ -368,9 +368,7 @@ class Cells {
     for (std::size_t done = 0; done < work_.size(); ++done) {
       waiting_[work_[done]] = false;
       if (slice_due_ <= t) continue;
-      if (done == most_at_once * (tubes_.size() + 1)) {
-        throw std::runtime_error("certificates: no end of repairs at one instant");
-      }
+      require_progress(done + 1, tubes_.size());
       plan(work_[done], t);
     }
     work_.clear();
@@ -502,8 +500,6 @@ class Cells {
       put_up_slab(near, now.t, slab.since == now.t);  // just put up and worn already: only a thinner one can help
     }
   }
-
-  static constexpr std::size_t most_at_once = 1000;
 
   Host& host_;
   Features features_;

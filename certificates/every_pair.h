@@ -13,7 +13,6 @@
 
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -56,9 +55,7 @@ class EveryPair {
       instant_ = t;
       at_once_ = 0;
     }
-    if (++at_once_ > most_at_once * (pairs_.size() + 1)) {
-      throw std::runtime_error("certificates: no end of repairs at one instant");
-    }
+    require_progress(++at_once_, pairs_.size());
     repair(p, t);
   }
 
@@ -74,7 +71,6 @@ class EveryPair {
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
-  static constexpr std::size_t most_at_once = 1000;
 
   void add(const Stencil& s) {
     const std::uint16_t material = material_of(host_, s);

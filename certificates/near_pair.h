@@ -9,7 +9,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 
 #include "noli/certificates/counts.h"
 #include "noli/certificates/slab.h"
@@ -46,6 +48,13 @@ class Side {
  private:
   std::uint32_t packed_;
 };
+
+/// Zeno guard: more of them at one instant, for so many things that can be repaired, are no progress.
+inline void require_progress(std::size_t repairs_at_once, std::size_t things) {
+  constexpr std::size_t most = 1000;
+  if (repairs_at_once <= most * (things + 1)) return;
+  throw std::runtime_error("certificates: no end of repairs at one instant");
+}
 
 /// For all rounding of where a vertex is until `end`: of a coordinate some hundred units in the last place, of a time
 /// some four.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Compiles all proofs and the extracted checker from nothing, in a temporary folder, and compares what they rest on, and the
-# extraction, with what is here. Exits 0 only if all is as it should be.
+# Compiles all proofs and the extracted checker from nothing, in a temporary folder, and compares what they rest on, and
+# the extraction, with what is here. Exits 0 only if all is as it should be.
 #   proofs/coq/build.sh            compile and compare
 #   proofs/coq/build.sh --renew    compile, and write assumptions.txt and extracted/ anew
 # Needs coqc 8.16, and ocamlfind, ocamlopt and Zarith.
@@ -14,7 +14,7 @@ renew=no
 case "${1-}" in
   '') ;;
   --renew) renew=yes ;;
-  *) echo "build.sh: unknown argument $1" >&2; exit 2 ;;
+  *) echo "build.sh: unknown argument '$1'; expected --renew or nothing" >&2; exit 3 ;;
 esac
 
 fail() { echo "build.sh: $1" >&2; exit 1; }
@@ -23,13 +23,17 @@ fail() { echo "build.sh: $1" >&2; exit 1; }
 cp "$here/_CoqProject" "$here"/*.v "$work"
 cd "$work"
 mapfile -t theories < <(grep '\.v$' _CoqProject)
-[ "$(printf '%s\n' "${theories[@]}" | sort)" = "$(printf '%s\n' *.v | sort)" ] || fail "_CoqProject does not list the .v files that are here"
-forbidden='Admitted|admit|give_up|Axioms?|Parameters?|Conjecture|Primitive|bypass_check|Unset +(Guard|Positivity|Universe) +Checking|Admit +Obligations'
+[ "$(printf '%s\n' "${theories[@]}" | sort)" = "$(printf '%s\n' *.v | sort)" ] ||
+  fail "_CoqProject does not list the .v files that are here"
+# What would let a theorem stand without its proof. These words are looked for so that they are not there.
+forbidden='Admitted|admit|give_up|Axioms?|Parameters?|Conjecture|Primitive|bypass_check'
+forbidden+='|Unset +(Guard|Positivity|Universe) +Checking|Admit +Obligations'
 if grep -nwE "$forbidden" ./*.v; then fail "a word that a proof must not have"; fi
 for theory in "${theories[@]}"; do coqc -q -Q . Noli "$theory" > "$theory.out" || fail "$theory does not compile"; done
 
 # What the theorems rest on.
-theorems=(check_sound check_sound_cells check_well_formed run_app glue_sound glue_well_formed chain_sound check_hit_sound check_hit_sound_both)
+theorems=(check_sound check_sound_cells check_well_formed run_app glue_sound glue_well_formed chain_sound
+          check_hit_sound check_hit_sound_both)
 mkdir ask
 {
   echo 'Require Import ZArith List Reals.'
