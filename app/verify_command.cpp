@@ -77,6 +77,8 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("N");
   command.add_option("--time-limit", arguments.time_limit, "Stop after this time, undecided: 500ms, 60s, 5m, 1h")
       ->type_name("TIME");
+  command.add_option("--proof", request.proof, "Write the proof there, a file that `noli check` checks")
+      ->type_name("OUT");
   command
       .add_option("--dimension", request.dimension,
                   "2 or 3; by default 2 if all z of the first two frames are equal, else 3. A later frame that leaves "

@@ -7,6 +7,7 @@
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
+#include "noli/app/prove_run.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/verify_run.h"
 #include "noli/proofs/prover/window_verifier.h"
@@ -95,6 +96,22 @@ class MotionRun {
     if (drop) drop_contacts_at_begin(window, result);
     outcome_.complete = result.complete;
     add(result);
+    if (request_.proof && result.complete && !outcome_.touches()) prove(window);
+  }
+
+  void prove(const RunWindow& window) {
+    const Stopwatch watch;
+    if (!proof_) {
+      std::filesystem::remove(*request_.proof);
+      proof_ = std::make_unique<RunProof>(std::make_unique<FileSink>(*request_.proof, FileSink::Open::create),
+                                          reader_.scene(), beginning(window), request_.strict);
+    }
+    VerifyOptions options;
+    options.threads = request_.threads;
+    options.stop = &interrupted();
+    options.deadline = deadline_;
+    outcome_.complete = proof_->prove(window.index, *window.lines, options);
+    outcome_.proof_seconds += watch.seconds();
   }
 
   std::vector<Position> beginning(const RunWindow& window) const {
@@ -154,6 +171,7 @@ class MotionRun {
   std::vector<std::uint8_t> scripted_;
   std::optional<WindowVerifier> verifier_;  ///< made where the run begins
   std::optional<std::chrono::steady_clock::time_point> deadline_;
+  std::unique_ptr<RunProof> proof_;
   bool meeting_at_end_ = false;
   bool ended_ = false;  ///< all windows have been read
   VerifyOutcome outcome_;

@@ -12,6 +12,7 @@
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
+#include "noli/app/prove_frames.h"
 #include "noli/audit/any_query.h"
 #include "noli/trajectory/cells.h"
 #include "noli/trajectory/error.h"
@@ -147,6 +148,18 @@ class Run {
     add_counts(result);
     add_reports(result);
     if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
+    if (request_.proof && result.complete) prove(asked);
+  }
+
+  void prove(const VerifyOptions& options) {
+    if (outcome_.touches()) return;
+    const Stopwatch watch;
+    if (!proof_) {
+      proof_.emplace(request_, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr, sequence_.x_t0(),
+                     sequence_.x_t1());
+    }
+    outcome_.complete = proof_->prove(sequence_.step(), sequence_.x_t0(), sequence_.x_t1(), options);
+    outcome_.proof_seconds += watch.seconds();
   }
 
   /// What is in contact at the beginning of a later step was in contact at the end of the step before, and counted
@@ -222,6 +235,7 @@ class Run {
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::optional<IdenticalVertices> classes_;
   Mesh mesh_;
+  std::optional<FrameProof> proof_;
   /// Whether some pair of features met in the step before: only then can one meet where the next step begins.
   bool meeting_at_end_ = false;
   VerifyOutcome outcome_;

@@ -35,6 +35,7 @@ struct VerifyRequest {
   bool constant_motion = false;  ///< --static: each frame for itself
   bool merge_identical = false;
   std::optional<std::chrono::nanoseconds> time_limit;
+  std::optional<std::filesystem::path> proof;  ///< where the proof is written to
 };
 
 enum class Verdict { no_contact, contact, undecided };
@@ -95,8 +96,9 @@ struct VerifyOutcome {
   StageCounters stages;
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
-  double seconds = 0;       ///< wall clock without reading
-  double read_seconds = 0;  ///< wall clock of reading
+  double seconds = 0;        ///< wall clock without reading
+  double read_seconds = 0;   ///< wall clock of reading
+  double proof_seconds = 0;  ///< wall clock of making the proof
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/prove_frames.h"
+
+#include "noli/proofs/prover/hierarchy.h"
+
+namespace noli::app {
+namespace {
+
+ProofClaim claim_of(const VerifyRequest& request, int dimension) { return {dimension, request.strict, {}}; }
+
+StepProver make_prover(const VerifyRequest& request, int dimension, const Mesh& mesh, std::span<const Position> x_t0,
+                       std::span<const Position> x_t1) {
+  const Hierarchy hierarchy(mesh, x_t0, x_t1, dimension, request.threads);
+  const std::vector<std::uint32_t> ends = {static_cast<std::uint32_t>(mesh.cell_count())};
+  return StepProver(mesh, hierarchy.leaf_cells(), ends, std::vector<std::uint32_t>(mesh.cell_count(), 0),
+                    claim_of(request, dimension));
+}
+
+ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes) {
+  ProofHeader header;
+  header.source = request.constant_motion ? ProofSource::frames_at_rest : ProofSource::frames;
+  header.dimension = dimension;
+  header.strict = request.strict;
+  header.points = request.points;
+  header.vertices = mesh.vertex_count;
+  header.mesh = &mesh;
+  const std::vector<std::uint32_t> labels(mesh.cell_count(), 0);
+  header.labels = labels;
+  if (classes != nullptr) {
+    const auto& same = classes->representative();
+    for (VertexId v = 0; v < same.size(); ++v) {
+      if (same[v] != v) header.merged.push_back({v, same[v]});
+    }
+  }
+  std::filesystem::remove(*request.proof);
+  return {std::make_unique<FileSink>(*request.proof, FileSink::Open::create), header};
+}
+
+}  // namespace
+
+FrameProof::FrameProof(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
+                       std::span<const Position> x_t0, std::span<const Position> x_t1)
+    : rest_(request.constant_motion),
+      prover_(make_prover(request, dimension, mesh, x_t0, x_t1)),
+      file_(make_file(request, dimension, mesh, classes)) {}
+
+bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                       const VerifyOptions& options) {
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+  file_.begin_step(step, ProofFile::Kind::proof, lines, rest_ ? 0 : static_cast<double>(step));
+  if (!tree_written_) file_.tree(prover_.tree().encoded());
+  const bool whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
+  if (!whole) {
+    file_.discard();
+    return false;
+  }
+  file_.commit();
+  tree_written_ = true;
+  return true;
+}
+
+}  // namespace noli::app

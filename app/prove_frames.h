@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The proof of `noli verify FRAMES... --proof OUT`, step by step beside the verifier.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "noli/app/verify_run.h"
+#include "noli/proofs/prover/proof_file.h"
+#include "noli/proofs/prover/step_prover.h"
+#include "noli/trajectory/merge.h"
+
+namespace noli::app {
+
+class FrameProof {
+ public:
+  /// `mesh` is what is compared (after merging), which has to outlive this; the rest is what the claim says of it.
+  FrameProof(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
+             std::span<const Position> x_t0, std::span<const Position> x_t1);
+
+  /// Writes the proof of a step that has no contact and commits it. False if it was stopped, which leaves the file as
+  /// it was.
+  bool prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+             const VerifyOptions& options);
+
+ private:
+  bool rest_;
+  bool tree_written_ = false;
+  StepProver prover_;
+  ProofFile file_;
+};
+
+}  // namespace noli::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/prove_run.h"
+
+#include "noli/proofs/prover/features.h"
+#include "noli/proofs/prover/forest.h"
+
+namespace noli::app {
+namespace {
+
+/// 2 g + s, as proofs/FORMAT.md has it.
+std::vector<std::uint32_t> labels_of(const RunScene& scene) {
+  std::vector<std::uint32_t> labels;
+  for (std::uint32_t c = 0; c < scene.mesh.cell_count(); ++c) {
+    const auto vertices = corners(scene.mesh, c);
+    const std::size_t count = corner_count(scene.mesh, c);
+    bool scripted = true;
+    for (std::size_t i = 0; i < count; ++i) scripted = scripted && (scene.labels[vertices[i]] & scripted_vertex) != 0;
+    const std::uint32_t group = scene.exclusions.empty() ? 0 : scene.exclusions.groups[vertices[0]];
+    labels.push_back(2 * group + (scripted ? 1 : 0));
+  }
+  return labels;
+}
+
+/// Those pairs of labels that occur and are not compared.
+LabelPairs excluded_pairs(const RunScene& scene, const std::vector<std::uint32_t>& labels) {
+  const std::set<std::uint32_t> there(labels.begin(), labels.end());
+  LabelPairs pairs;
+  for (const std::uint32_t a : there) {
+    for (const std::uint32_t b : there) {
+      const bool scripted = a % 2 == 1 && b % 2 == 1;
+      const auto group = [](std::uint32_t label) { return static_cast<std::uint16_t>(label / 2); };
+      if (a <= b && (scripted || scene.exclusions.excluded(group(a), group(b)))) pairs.insert({a, b});
+    }
+  }
+  return pairs;
+}
+
+StepProver make_prover(const RunScene& scene, std::span<const Position> x, bool strict,
+                       const std::vector<std::uint32_t>& labels) {
+  const int dimension = static_cast<int>(scene.header.dimension);
+  const Forest forest(scene.mesh, x, {dimension, strict, {}, nullptr});
+  std::vector<std::uint32_t> order, ends;
+  for (const Leaf& leaf : forest.leaves()) order.push_back(leaf.cell);
+  for (const Tree& tree : forest.trees()) ends.push_back(tree.root.begin + tree.root.count);
+  return StepProver(scene.mesh, order, ends, labels, {dimension, strict, excluded_pairs(scene, labels)});
+}
+
+ProofFile make_file(std::unique_ptr<Sink> sink, const RunScene& scene, bool strict,
+                    const std::vector<std::uint32_t>& labels) {
+  ProofHeader header;
+  header.source = ProofSource::run;
+  header.dimension = static_cast<int>(scene.header.dimension);
+  header.strict = strict;
+  header.vertices = scene.mesh.vertex_count;
+  header.mesh = &scene.mesh;
+  header.labels = labels;
+  header.excluded = excluded_pairs(scene, labels);
+  return {std::move(sink), header};
+}
+
+}  // namespace
+
+RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, bool strict)
+    : RunProof(std::move(sink), scene, x, strict, labels_of(scene)) {}
+
+RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, bool strict,
+                   const std::vector<std::uint32_t>& labels)
+    : prover_(make_prover(scene, x, strict, labels)), file_(make_file(std::move(sink), scene, strict, labels)) {}
+
+bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const VerifyOptions& options) {
+  file_.begin_step(window, ProofFile::Kind::proof, lines, 0);
+  if (!tree_written_) file_.tree(prover_.tree().encoded());
+  const bool whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
+  if (!whole) {
+    file_.discard();
+    return false;
+  }
+  file_.commit();
+  tree_written_ = true;
+  return true;
+}
+
+}  // namespace noli::app

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/proofs/prover/exact_direction.h"
+
+#include <algorithm>
+
+namespace noli {
+
+namespace {
+
+using Vector = IntegerVector;
+
+Integer inner(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+bool separates(const Vector& n, const std::vector<Vector>& differences) {
+  return std::all_of(differences.begin(), differences.end(), [&](const Vector& w) { return inner(n, w).sign() > 0; });
+}
+
+/// n with so many bits in its longest component, the rest rounded away.
+Vector rounded(const Vector& n, std::size_t bits) {
+  std::size_t most = 0;
+  for (const Integer& part : n) most = std::max(most, part.bit_length());
+  if (most <= bits) return n;
+  const std::size_t drop = most - bits;
+  Vector result = n;
+  for (Integer& part : result) {
+    part += Integer(1) << (drop - 1);
+    part >>= drop;
+  }
+  return result;
+}
+
+/// The same direction in as few bits as are enough, of some numbers that are tried.
+Vector shortened(const Vector& n, const std::vector<Vector>& differences) {
+  for (const std::size_t bits : {9U, 15U, 22U, 30U, 40U, 60U, 90U, 130U, 200U, 400U}) {
+    Vector shorter = rounded(n, bits);
+    if (separates(shorter, differences)) return shorter;
+  }
+  return n;
+}
+
+class Search {
+ public:
+  explicit Search(const std::vector<Vector>& differences) : d_(differences) {}
+
+  std::optional<Vector> operator()() {
+    for (const Vector& w : d_) {
+      if (take(w)) return found_;
+    }
+    for (std::size_t i = 0; i < d_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (take(across(d_[i], minus(d_[j], d_[i])))) return found_;
+      }
+    }
+    for (std::size_t i = 0; i < d_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (std::size_t k = 0; k < j; ++k) {
+          Vector n = cross(minus(d_[j], d_[i]), minus(d_[k], d_[i]));
+          if (take(n) || take({-n[0], -n[1], -n[2]})) return found_;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// From the origin to the line through w along u, times |u|^2.
+  static Vector across(const Vector& w, const Vector& u) {
+    const Integer uu = inner(u, u), wu = inner(w, u);
+    return {w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu};
+  }
+
+  bool take(const Vector& n) {
+    if (!separates(n, d_)) return false;
+    found_ = shortened(n, d_);
+    return true;
+  }
+
+  const std::vector<Vector>& d_;
+  std::optional<Vector> found_;
+};
+
+}  // namespace
+
+std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences) {
+  return Search(differences)();
+}
+
+}  // namespace noli

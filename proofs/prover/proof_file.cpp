@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/proofs/prover/proof_file.h"
+
+#include "noli/kernel/scaled_integers.h"
+#include "noli/proofs/prover/features.h"
+#include "noli/trajectory/bytes.h"
+
+namespace noli {
+
+namespace {
+
+constexpr FourLetters content = four_letters("PROF");
+
+/// The vertices of a cell as the mesh has them.
+Sha256Digest cells_hash(const ProofHeader& header) {
+  std::string bytes;
+  put(bytes, std::uint64_t{header.vertices});
+  put(bytes, std::uint64_t{header.mesh->cell_count()});
+  for (std::uint32_t c = 0; c < header.mesh->cell_count(); ++c) {
+    const auto vertices = corners(*header.mesh, c);
+    const auto count = static_cast<std::uint8_t>(corner_count(*header.mesh, c));
+    put(bytes, count);
+    for (std::uint8_t i = 0; i < count; ++i) put(bytes, vertices[i]);
+    put(bytes, header.labels[c]);
+  }
+  return sha256(bytes);
+}
+
+std::string claim_payload(const ProofHeader& header) {
+  std::string bytes;
+  put(bytes, static_cast<std::uint8_t>(header.source));
+  put(bytes, static_cast<std::uint8_t>(header.dimension));
+  put(bytes, static_cast<std::uint8_t>((header.strict ? 1 : 0) | (header.points ? 2 : 0)));
+  put(bytes, std::uint8_t{0});
+  put(bytes, std::uint32_t{1});
+  put(bytes, 0.0);
+  bytes.append(bytes_of(cells_hash(header)));
+  put(bytes, static_cast<std::uint32_t>(header.merged.size()));
+  for (const auto& [v, same] : header.merged) {
+    put(bytes, v);
+    put(bytes, same);
+  }
+  put(bytes, static_cast<std::uint32_t>(header.excluded.size()));
+  for (const auto& [a, b] : header.excluded) {
+    put(bytes, a);
+    put(bytes, b);
+  }
+  return bytes;
+}
+
+/// The hash of a step's breakpoints, and the units of its numbers.
+struct StepFacts {
+  Sha256 hash;
+  exact::ExponentRange space, time;
+
+  StepFacts(const WorldLines& lines, int dimension, double shift) {
+    std::string bytes;
+    for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
+      const auto times = lines.times(static_cast<VertexId>(v));
+      const auto positions = lines.positions(static_cast<VertexId>(v));
+      put(bytes, std::uint64_t{times.size()});
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        put(bytes, times[i] + shift + 0.0);  // -0 becomes +0
+        time.add(times[i] + shift);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double x = k < static_cast<std::size_t>(dimension) ? positions[i][k] + 0.0 : 0.0;
+          put(bytes, x);
+          space.add(x);
+        }
+      }
+      if (bytes.size() < 1 << 16) continue;
+      hash.update(bytes);
+      bytes.clear();
+    }
+    hash.update(bytes);
+  }
+};
+
+std::int32_t unit(const exact::ExponentRange& range) { return range.high < range.low ? 0 : range.low; }
+
+}  // namespace
+
+ProofFile::ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header)
+    : blocks_(std::move(sink), content), dimension_(header.dimension) {
+  blocks_.append(four_letters("CLAM"), claim_payload(header));
+  blocks_.commit();
+}
+
+ProofFile::ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, int dimension)
+    : blocks_(std::move(sink), committed), dimension_(dimension) {}
+
+void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift) {
+  const StepFacts facts(lines, dimension_, shift);
+  std::string bytes;
+  put(bytes, number);
+  put(bytes, lines.first_time() + shift);
+  put(bytes, lines.last_time() + shift);
+  put(bytes, static_cast<std::uint32_t>(unit(facts.space)));
+  put(bytes, static_cast<std::uint32_t>(unit(facts.time)));
+  put(bytes, static_cast<std::uint8_t>(kind));
+  bytes.append(bytes_of(facts.hash.digest()));
+  blocks_.append(four_letters("STEP"), bytes);
+}
+
+}  // namespace noli

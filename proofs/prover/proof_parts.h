@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is left of two cells: the directions that separate the two parts, piece of time by piece.
+//
+// Notation
+//   part     vertices of a cell, by a mask of its corners
+//   piece    the share [k / 2^e, (k + 1) / 2^e] of the step
+//   span     a piece for whose ends, or times a little outside it, there are chords of all vertices
+//   chord, radius   as in proofs/prover/chord.h; of a vertex without breakpoints inside the radius is 0, and its chord
+//            is its motion
+//   margin   as in proofs/prover/window_cell.h
+//
+// A piece is halved until a direction is found: as long as doubles do, by the proved test of proofs/prover/direction.h,
+// with a margin for the radii; where they do not and the piece is short, in exact arithmetic. The direction is then
+// written with as few bits as pass the same test.
+//
+// What this does not do: it decides no contact. Two parts that meet are halved until it gives up.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+
+#include "noli/kernel/scaled_integers.h"
+#include "noli/proofs/prover/around.h"
+#include "noli/proofs/prover/direction_search.h"
+#include "noli/proofs/prover/exact_direction.h"
+#include "noli/proofs/prover/proof_tree.h"
+#include "noli/proofs/prover/tokens.h"
+#include "noli/proofs/prover/window_cell.h"
+
+namespace noli {
+
+/// Two parts for which no direction was found, however short the piece.
+struct NoProof : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A vertex over the span.
+template <int Dim>
+using ProofChord = Chord<Dim>;
+
+/// A share of the step.
+struct Piece {
+  Integer k;
+  unsigned e = 0;
+
+  Piece half(long which) const { return {k * Integer(2) + Integer(which), e + 1}; }
+
+  /// Doubles around it: exact for the whole step, else at most a little outside it. Nothing where doubles cannot tell
+  /// its ends apart.
+  std::optional<Span> times(const WorldLines& lines) const {
+    const double first = lines.first_time(), last = lines.last_time();
+    if (e == 0) return Span{first, last};
+    if (e > 45 || !std::isfinite(last - first)) return std::nullopt;
+    const double width = std::ldexp(last - first, -static_cast<int>(e)), from = first + width * mpz_get_d(k.get());
+    const double slack = 8 * std::max(std::abs(first), std::abs(last)) * 0x1p-53;
+    const Span span{std::max(from - slack, first), std::min(from + width + slack, last)};
+    return span.begin < span.end ? std::optional(span) : std::nullopt;
+  }
+};
+
+template <int Dim>
+class ProofParts {
+ public:
+  ProofParts(const WorldLines& lines, const std::vector<ProofChord<Dim>>& chords, const Piece& span)
+      : lines_(lines), chords_(chords), span_(span) {}
+
+  /// Writes the tokens for two cells.
+  void settle(const ProofCell& a, const ProofCell& b, Tokens& tokens) {
+    known_ = false;
+    drop_common({a, all_corners(a.corners)}, {b, all_corners(b.corners)}, tokens);
+  }
+
+ private:
+  struct Part {
+    const ProofCell& cell;
+    CornerMask mask;
+
+    Part without(std::size_t corner) const { return {cell, static_cast<CornerMask>(mask & ~(1U << corner))}; }
+    bool has(std::size_t corner) const { return (mask >> corner & 1) != 0; }
+  };
+
+  /// Rounds of the search for a direction, as in proofs/prover/cell_pair.h; from which depth on exact arithmetic is
+  /// asked; and when to give up: at that depth neighbouring doubles are farther apart than anything moves.
+  static constexpr int search_rounds = 10;
+  static constexpr unsigned exact_from = 6, give_up = 1000, interval_bits = 20;
+  static constexpr std::size_t most_exact = 60;
+
+  /// The first vertex that both have is dropped from one and from the other.
+  void drop_common(Part a, Part b, Tokens& tokens) {
+    for (std::size_t i = 0; i < a.cell.corners; ++i) {
+      if (!a.has(i)) continue;
+      for (std::size_t j = 0; j < b.cell.corners; ++j) {
+        if (!b.has(j) || a.cell.vertices[i] != b.cell.vertices[j]) continue;
+        tokens.drop(0);
+        drop_common(a.without(i), b, tokens);
+        drop_common(a, b.without(j), tokens);
+        return;
+      }
+    }
+    if (a.mask == 0 || b.mask == 0) return tokens.empty();
+    const auto pair = pair_over(a, b, [&](VertexId v) -> const ProofChord<Dim>& { return chords_[v]; });
+    separate(a, b, pair, {}, tokens);
+  }
+
+  struct Pair {
+    PartPair<Dim> points;
+    bool exact = true;  ///< all radii are 0
+  };
+
+  template <class ChordOf>
+  static Pair pair_over(const Part& a, const Part& b, const ChordOf& chord) {
+    Pair pair;
+    double margin_a = 0, margin_b = 0;
+    const auto origin = chord(a.cell.vertices[static_cast<std::size_t>(std::countr_zero(a.mask))]).x_t0;
+    const auto origin_t1 = chord(a.cell.vertices[static_cast<std::size_t>(std::countr_zero(a.mask))]).x_t1;
+    const auto put = [&](const Part& part, std::size_t lane, double& margin) {
+      const auto& lanes = detail::lanes_of(part.mask);
+      for (std::size_t l = 0; l < 4; ++l) {
+        const auto& c = chord(part.cell.vertices[lanes[l]]);
+        for (std::size_t k = 0; k < Dim; ++k) {
+          pair.points.d[0][k][lane + l] = c.x_t0[k] - origin[k];
+          pair.points.d[1][k][lane + l] = c.x_t1[k] - origin_t1[k];
+          margin = std::max(margin, c.radius[k]);
+        }
+      }
+    };
+    put(a, 0, margin_a);
+    put(b, 4, margin_b);
+    pair.exact = margin_a + margin_b == 0;
+    pair.points.reach = detail::reach_of<Dim>(pair.points.d);
+    if (!pair.exact) pair.points.reach = raised(pair.points.reach, margin_a + margin_b);
+    return pair;
+  }
+
+  /// Over the whole span the directions of the cells' other parts are tried first.
+  void separate(const Part& a, const Part& b, const Pair& pair, const Interval& interval, Tokens& tokens) {
+    if (known_ && separates(pair.points, last_, interval) > 0) return write(pair, last_, interval, tokens);
+    if (const auto n = find(pair, interval)) return write(pair, *n, interval, tokens);
+    halve(a, b, pair, span_, tokens);
+  }
+
+  static std::optional<Direction<Dim>> find(const Pair& pair, const Interval& interval) {
+    const Direction<Dim> guess = between_middles(pair.points);
+    return find_direction(pair.points, guess, interval, search_rounds);
+  }
+
+  void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece, Tokens& tokens) {
+    if (piece.e == give_up) throw NoProof("no direction separates two parts, however short the time");
+    tokens.halve();
+    for (long which = 0; which < 2; ++which) over_piece(a, b, pair, piece.half(which), tokens);
+  }
+
+  void over_piece(const Part& a, const Part& b, const Pair& whole, const Piece& piece, Tokens& tokens) {
+    if (whole.exact && piece.e <= span_.e + interval_bits) {
+      const unsigned deeper = piece.e - span_.e;
+      const double width = std::ldexp(1.0, -static_cast<int>(deeper));
+      const double begin = width * mpz_get_d((piece.k - (span_.k << deeper)).get());
+      const Interval interval{begin, begin + width};
+      if (const auto n = find(whole, interval)) return write(whole, *n, interval, tokens);
+    } else if (!whole.exact) {
+      if (const auto pair = pair_in(a, b, piece)) {
+        if (const auto n = find(*pair, {})) return write(*pair, *n, {}, tokens);
+      }
+    }
+    if (piece.e >= exact_from) {
+      const auto differences = differences_in(a, b, piece);
+      if (differences.size() <= most_exact) {
+        if (const auto n = exact_direction(differences)) return tokens.direction(*n);
+      }
+    }
+    halve(a, b, whole, piece, tokens);
+  }
+
+  /// With chords over the piece.
+  std::optional<Pair> pair_in(const Part& a, const Part& b, const Piece& piece) const {
+    const auto times = piece.times(lines_);
+    if (!times) return std::nullopt;
+    std::array<ProofChord<Dim>, 6> chords;
+    std::array<VertexId, 6> ids;
+    std::size_t n = 0;
+    for (const Part* part : {&a, &b}) {
+      for (std::size_t i = 0; i < part->cell.corners; ++i) {
+        if (!part->has(i)) continue;
+        ids[n] = part->cell.vertices[i];
+        chords[n] = chord_of<Dim>(WorldLine(lines_, ids[n]), times->begin, times->end);
+        ++n;
+      }
+    }
+    return pair_over(a, b, [&](VertexId v) -> const ProofChord<Dim>& {
+      return chords[static_cast<std::size_t>(std::find(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(n), v) -
+                                             ids.begin())];
+    });
+  }
+
+  /// As few bits as separate by the same test. The first of them are the ten of the short token.
+  void write(const Pair& pair, const Direction<Dim>& n, const Interval& interval, Tokens& tokens) {
+    known_ = true;
+    last_ = n;
+    double most = 0;
+    for (const double part : n) most = std::max(most, std::abs(part));
+    for (const double scale : {0x1p9 - 1, 0x1p20, 0x1p31, 0x1p45}) {
+      Direction<Dim> m;
+      for (std::size_t k = 0; k < Dim; ++k) m[k] = std::nearbyint(n[k] / most * scale);
+      if (separates(pair.points, m, interval) <= 0) continue;
+      return scale < 512 ? put_short(m, tokens) : put_long(m, tokens);
+    }
+    put_long(n, tokens);
+  }
+
+  static void put_short(const Direction<Dim>& m, Tokens& tokens) {
+    std::array<int, 3> n{};
+    int used = 0;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      n[k] = static_cast<int>(m[k]);
+      used += n[k] != 0 ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < Dim; ++k) {
+      if (used == 1 && n[k] != 0) return tokens.axis(k, n[k] > 0);
+    }
+    tokens.direction(n);
+  }
+
+  /// The components as they are, times one power of two.
+  static void put_long(const Direction<Dim>& m, Tokens& tokens) {
+    exact::ExponentRange range;
+    for (const double part : m) range.add(part);
+    IntegerVector n;
+    for (std::size_t k = 0; k < Dim; ++k) n[k] = integer(m[k], range.low);
+    tokens.direction(n);
+  }
+
+  /// x / 2^low.
+  static Integer integer(double x, int low) {
+    if (x == 0) return Integer(0);
+    const exact::OddBinary parts(x);
+    return Integer(parts.mantissa) << static_cast<std::size_t>(parts.exponent - low);
+  }
+
+  /// D, exactly: at both ends of the piece and at each breakpoint of the parts between.
+  std::vector<IntegerVector> differences_in(const Part& a, const Part& b, const Piece& piece) const {
+    exact::ExponentRange space, time;
+    std::vector<VertexId> vertices;
+    std::size_t of_a = 0;
+    for (const Part* part : {&a, &b}) {
+      for (std::size_t i = 0; i < part->cell.corners; ++i) {
+        if (part->has(i)) vertices.push_back(part->cell.vertices[i]);
+      }
+      if (part == &a) of_a = vertices.size();
+    }
+    for (const VertexId v : vertices) {
+      for (const Position& x : lines_.positions(v)) {
+        for (std::size_t k = 0; k < Dim; ++k) space.add(x[k]);
+      }
+      for (const double t : lines_.times(v)) time.add(t);
+    }
+    time.add(lines_.first_time());
+    time.add(lines_.last_time());
+    const auto scaled = [&](double t) { return integer(t, time.low) << piece.e; };  // times 2^e
+    const Integer first = integer(lines_.first_time(), time.low),
+                  length = integer(lines_.last_time(), time.low) - first;
+    std::vector<Integer> times = {(first << piece.e) + length * piece.k,
+                                  (first << piece.e) + length * (piece.k + Integer(1))};
+    for (const VertexId v : vertices) {
+      for (const double t : lines_.times(v)) {
+        Integer c = scaled(t);
+        if (c > times[0] && c < times[1] && times.size() <= most_exact) times.push_back(std::move(c));
+      }
+    }
+    std::vector<IntegerVector> result;
+    for (const Integer& c : times) {
+      std::vector<std::pair<IntegerVector, Integer>> at;  // numerators, denominator > 0
+      for (const VertexId v : vertices) at.push_back(position(v, c, space.low, scaled));
+      for (std::size_t i = 0; i < of_a; ++i) {
+        for (std::size_t j = of_a; j < vertices.size(); ++j) {
+          IntegerVector w;
+          for (std::size_t k = 0; k < Dim; ++k) w[k] = at[i].first[k] * at[j].second - at[j].first[k] * at[i].second;
+          result.push_back(std::move(w));
+        }
+      }
+    }
+    return result;
+  }
+
+  template <class Scaled>
+  std::pair<IntegerVector, Integer> position(VertexId v, const Integer& c, int low, const Scaled& scaled) const {
+    const auto t = lines_.times(v);
+    const auto x = lines_.positions(v);
+    std::size_t s = 0;
+    while (s + 2 < t.size() && scaled(t[s + 1]) <= c) ++s;
+    const Integer before = c - scaled(t[s]), after = scaled(t[s + 1]) - c;
+    IntegerVector numerators;
+    for (std::size_t k = 0; k < Dim; ++k)
+      numerators[k] = integer(x[s][k], low) * after + integer(x[s + 1][k], low) * before;
+    return {std::move(numerators), before + after};
+  }
+
+  const WorldLines& lines_;
+  const std::vector<ProofChord<Dim>>& chords_;
+  Piece span_;
+  bool known_ = false;  ///< last_ separated two parts of the same cells
+  Direction<Dim> last_{};
+};
+
+}  // namespace noli

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writes the proof that nothing touches in a step: the tokens of proofs/FORMAT.md.
+//
+// Notation
+//   step     two frames, or a window of world lines
+//   order, ends, labels   as in proofs/prover/proof_tree.h
+//
+// The tokens are made by several threads and given away in order: memory grows with the number of threads, not with the
+// proof. They depend on the step, the tree, the claim, and nothing else.
+//
+// What this does not do: it does not find out whether there is a contact. Ask the verifier first: where there is one,
+// this gives up only after a long time. It writes no file (proofs/prover/proof_file.h).
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "noli/proofs/prover/proof_walk.h"
+#include "noli/proofs/prover/verifier.h"
+
+namespace noli {
+
+/// What is claimed, apart from the motion.
+struct ProofClaim {
+  int dimension = 3;
+  bool strict = false;
+  LabelPairs excluded;
+};
+
+class StepProver {
+ public:
+  /// As ProofTree.
+  StepProver(const Mesh& mesh, std::span<const std::uint32_t> order, std::span<const std::uint32_t> ends,
+             std::span<const std::uint32_t> labels, ProofClaim claim);
+
+  const ProofTree& tree() const { return tree_; }
+
+  /// Gives `take` the payloads of the blocks TOKS, in order, from one thread at a time. False if it was stopped (stop,
+  /// deadline). Throws NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and deadline
+  /// count.
+  bool prove(const WorldLines& lines, const VerifyOptions& options,
+             const std::function<void(std::string_view)>& take) const;
+
+ private:
+  ProofClaim claim_;
+  ProofTree tree_;
+};
+
+}  // namespace noli
