@@ -96,9 +96,10 @@ struct VerifyOutcome {
   StageCounters stages;
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
-  double seconds = 0;        ///< wall clock without reading
-  double read_seconds = 0;   ///< wall clock of reading
-  double proof_seconds = 0;  ///< wall clock of making the proof
+  double seconds = 0;         ///< wall clock without reading
+  double read_seconds = 0;    ///< wall clock of reading
+  std::size_t witnesses = 0;  ///< written to the proof
+  double proof_seconds = 0;   ///< wall clock of making the proof
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }
