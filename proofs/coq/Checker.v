@@ -53,16 +53,61 @@ Definition wf_traj (T0 T1 : Z) (tr : traj) : bool :=
   | (t0, _) :: r => (t0 <=? T0) && reaches t0 T1 r
   end.
 
-(** The trajectory without the segments that end at [a/d] or before. *)
-Fixpoint since (d a : Z) (tr : traj) : traj :=
-  match tr with
-  | [] => []
-  | _ :: r =>
-      match r with
-      | [] => tr
-      | (t1, _) :: _ => if t1 * d <=? a then since d a r else tr
+(** ** Search: in a trajectory, and among all vertices
+
+    A search tree has things in increasing order of their keys.  Its lists are built
+    and taken apart in constant stack, in time proportional to their length. *)
+
+(** What is at [k] or after is in [r], what is before in [l]. *)
+Inductive search (A : Type) :=
+| Found (x : A)
+| Choose (k : Z) (l r : search A).
+Arguments Found {A} _.
+Arguments Choose {A} _ _ _.
+
+(** The last thing whose key is [low], or the first if none is: all keys before one
+    that is [low] are. *)
+Fixpoint find {A} (low : Z -> bool) (x : search A) : A :=
+  match x with
+  | Found x => x
+  | Choose k l r => if low k then find low r else find low l
+  end.
+
+(** Each two neighbours of a list of keys and trees as one; [acc] has the earlier ones, last first. *)
+Fixpoint join_pairs {A} (l acc : list (Z * search A)) : list (Z * search A) :=
+  match l with
+  | (k1, x) :: (k2, y) :: r => join_pairs r ((k1, Choose k2 x y) :: acc)
+  | _ => rev_append acc l
+  end.
+
+(** One tree of all: half as many remain after each round.  [fuel] is any list that is
+    longer than there are rounds. *)
+Fixpoint join_all {A B} (fuel : list B) (l : list (Z * search A)) : option (search A) :=
+  match l with
+  | [] => None
+  | (_, x) :: r =>
+      match r, fuel with
+      | _ :: _, _ :: f => join_all f (join_pairs l [])
+      | _, _ => Some x
       end
   end.
+
+(** A trajectory's suffixes, each with the time at which it begins.  They share memory. *)
+Fixpoint suffixes (tr : traj) (acc : list (Z * search traj)) : list (Z * search traj) :=
+  match tr with
+  | [] => rev_append acc []
+  | (t, _) :: r => suffixes r ((t, Found tr) :: acc)
+  end.
+
+(** The search tree of a trajectory: of its suffixes, by their times. *)
+Definition index (tr : traj) : search traj :=
+  match join_all tr (suffixes tr []) with
+  | Some x => x
+  | None => Found tr
+  end.
+
+(** The trajectory from its last breakpoint at [a/d] or before on. *)
+Definition since (d a : Z) (x : search traj) : traj := find (fun t => t * d <=? a) x.
 
 (** ** P: a half of space-time *)
 
@@ -103,8 +148,8 @@ Fixpoint inside_from (h : halfspace) (a b d t0 g0 : Z) (r : traj) : bool :=
   end.
 
 (** A trajectory is in [h] during [a/d, b/d]. *)
-Definition inside (h : halfspace) (a b d : Z) (tr : traj) : bool :=
-  match since d a tr with
+Definition inside (h : halfspace) (a b d : Z) (x : search traj) : bool :=
+  match since d a x with
   | [] => false
   | (t0, p0) :: r => inside_from h a b d t0 (value h t0 p0) r
   end.
@@ -161,8 +206,8 @@ Fixpoint along (n : vec) (b d t0 g0 : Z) (r : traj) : Z -> list Z -> list rat ->
   end.
 
 (** How far a trajectory is in direction [n] at the times [cs], from [a] to [b]. *)
-Definition values (n : vec) (a b d : Z) (cs : list Z) (tr : traj) : option (list rat) :=
-  match since d a tr with
+Definition values (n : vec) (a b d : Z) (cs : list Z) (x : search traj) : option (list rat) :=
+  match since d a x with
   | [] => None
   | (t0, p0) :: r =>
       if t0 * d <=? a then along n b d t0 (dot n p0) r a cs [] else None
@@ -180,7 +225,7 @@ Fixpoint times_until (d a b : Z) (tr : traj) (acc : list Z) : list Z :=
   end.
 
 (** The same for all of a trajectory. *)
-Definition times (d a b : Z) (tr : traj) : list Z := times_until d a b (since d a tr) [].
+Definition times (d a b : Z) (x : search traj) : list Z := times_until d a b (since d a x) [].
 
 (** The union of two lists in strictly increasing order of [key], in constant stack. *)
 Fixpoint union_acc {A} (key : A -> Z) (l1 : list A) : list A -> list A -> list A :=
@@ -220,8 +265,8 @@ Fixpoint all_less (k : Z) (l1 l2 : list rat) : bool :=
   | _, _ => false
   end.
 
-(** A vertex id with its trajectory. *)
-Definition vertex : Type := Z * traj.
+(** A vertex id with the search tree of its trajectory. *)
+Definition vertex : Type := Z * search traj.
 
 (** At all times of [a/d, b/d], all of [x] is further in direction [n] than all of
     [y], by more than the root of [k].  Positions are linear between the times in [cs]: both ends, and the
@@ -269,23 +314,65 @@ Definition common_label (x y : tree) : option Z :=
   | _, _ => None
   end.
 
-(** The vertices of a cell, each once, with their trajectories. *)
-Definition leaf (s : scene) (i : Z) : list vertex :=
-  fold_right (fun v acc => union fst [(v, path s v)] acc) [] (cell s i).
+(** The ids of a cell's vertices, in order, each once. *)
+Definition cell_ids (s : scene) (i : Z) : list Z :=
+  fold_right (fun v acc => union (fun u => u) [v] acc) [] (cell s i).
 
-(** The tree with its labels and vertices; [None] if a trajectory makes no sense. *)
-Fixpoint build (s : scene) (g : group) : option tree :=
+(** The same for all cells of a group. *)
+Fixpoint group_ids (s : scene) (g : group) : list Z :=
+  match g with
+  | Cell i => cell_ids s i
+  | Join l r => union (fun u => u) (group_ids s l) (group_ids s r)
+  end.
+
+(** The vertices with these ids, by their ids: each trajectory's search tree is built
+    once, however many cells the vertex is in.  [acc] has the earlier ones, last first. *)
+Fixpoint vertices (s : scene) (ids : list Z) (acc : list (Z * search vertex)) : list (Z * search vertex) :=
+  match ids with
+  | [] => rev_append acc []
+  | v :: r => vertices s r ((v, Found (v, index (path s v))) :: acc)
+  end.
+
+(** The vertex [v] in a search tree by ids. *)
+Definition look_up (table : search vertex) (v : Z) : option vertex :=
+  let w := find (fun k => k <=? v) table in
+  if fst w =? v then Some w else None.
+
+(** The vertices with these ids. *)
+Fixpoint look_up_all (table : search vertex) (ids : list Z) : option (list vertex) :=
+  match ids with
+  | [] => Some []
+  | v :: r =>
+      match look_up table v, look_up_all table r with
+      | Some w, Some l => Some (w :: l)
+      | _, _ => None
+      end
+  end.
+
+(** The tree with its labels and vertices. *)
+Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tree :=
   match g with
   | Cell i =>
-      let vs := leaf s i in
-      if forallb (fun w => wf_traj (tbeg s) (tend s) (snd w)) vs
-      then Some (Leaf (label s i) vs) else None
+      match look_up_all table (cell_ids s i) with
+      | Some vs => Some (Leaf (label s i) vs)
+      | None => None
+      end
   | Join l r =>
-      match build s l, build s r with
+      match build_from table s l, build_from table s r with
       | Some x, Some y => Some (Node (common_label x y) (union fst (verts x) (verts y)) x y)
       | _, _ => None
       end
   end.
+
+(** The tree of a scene; [None] if a trajectory makes no sense. *)
+Definition build (s : scene) (g : group) : option tree :=
+  let ids := group_ids s g in
+  if forallb (fun v => wf_traj (tbeg s) (tend s) (path s v)) ids then
+    match join_all ids (vertices s ids []) with
+    | Some table => build_from table s g
+    | None => None
+    end
+  else None.
 
 (** The cells of a tree, in order, each once. *)
 Fixpoint ids_of (g : group) : list Z :=

@@ -105,9 +105,9 @@ Lemma no_cross_second : lax (cross 2) tri_first (close (TDirection down)) = fals
 
 (** What the checker asks of the times at which it compares, which are always so. *)
 Definition zigzag : traj := [(0, V3 0 0 0); (1, V3 0 0 9); (2, V3 0 0 0); (3, V3 0 0 9)].
-Definition values_of a b cs := values up a b 1 cs zigzag.
+Definition values_of a b cs := values up a b 1 cs (index zigzag).
 Lemma ok_values : values_of 0 3 [0; 1; 2; 3] = Some [(0, 1); (9, 1); (0, 1); (9, 1)]. Proof. computed. Qed.
-Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] zigzag = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
+Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] (index zigzag) = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
 Proof. computed. Qed.
 Lemma no_values_breakpoint : values_of 0 3 [0; 1; 3] = None. Proof. computed. Qed.
 Lemma no_values_order : values_of 0 3 [0; 1; 0; 1; 2; 3] = None. Proof. computed. Qed.
@@ -115,6 +115,29 @@ Lemma no_values_end : values_of 0 3 [0; 1; 2] = None. Proof. computed. Qed.
 Lemma no_values_begin : values_of (-1) 3 [0; 1; 2; 3] = None. Proof. computed. Qed.
 Lemma no_values_after : values_of 0 4 [0; 1; 2; 3; 4] = None. Proof. computed. Qed.
 Lemma no_lengths : orb (all_less 0 [] [(1, 1)]) (all_less 0 [(0, 1)] []) = false. Proof. computed. Qed.
+
+(** The search in trajectories of any number of breakpoints, which are at the times 3, 6, 9, ... *)
+Definition long (n : nat) : traj := map (fun k => (3 * Z.of_nat k, V3 (Z.of_nat k) 0 0)) (seq 1 n).
+Definition begins (n : nat) (a : Z) : option Z :=
+  match since 2 a (index (long n)) with (t, _) :: _ => Some t | [] => None end.
+Definition expected (n : nat) (a : Z) : option Z := Some (3 * Z.max 1 (Z.min (Z.of_nat n) (a / 6))).
+Lemma ok_since : forallb (fun n => forallb (fun a =>
+  match begins n (Z.of_nat a), expected n (Z.of_nat a) with Some t, Some u => t =? u | _, _ => false end)
+  (seq 0 120)) (seq 1 18) = true.
+Proof. computed. Qed.
+Lemma no_since : since 2 7 (index []) = []. Proof. computed. Qed.
+
+(** Of 1000 breakpoints those of one eighth of the time are looked at, or all. *)
+Definition long_race (z : Z) : scene :=
+  let tr z := map (fun k => (Z.of_nat k, V3 (Z.of_nat k) (Z.of_nat k mod 7) z)) (seq 0 1000) in
+  touching 0 999 (fun v => tr (if v =? 0 then 0 else z)) 2
+        (fun i => [i]) (fun i => i) [].
+Definition eighths (tok : token) :=
+  [TParts; TOne; THalve; THalve; tok; THalve; tok; tok; THalve; THalve; tok; tok; tok; TOne].
+Lemma ok_long : lax (long_race 1) point_first (eighths (TDirection up)) = true. Proof. computed. Qed.
+Lemma ok_long_plane : lax (long_race 2) point_first (eighths (above 1)) = true. Proof. computed. Qed.
+Lemma no_long : lax (long_race 0) point_first (eighths (TDirection up)) = false. Proof. computed. Qed.
+Lemma no_long_plane : lax (long_race 1) point_first (eighths (above 1)) = false. Proof. computed. Qed.
 
 (** Three vertices a side: the lowest of one against the highest of the other. *)
 Definition steps (h : Z) : scene :=
@@ -219,7 +242,7 @@ Lemma no_one_node : lax row row_right [TOne] = false. Proof. computed. Qed.
 Lemma no_drop_node : lax row row_right [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
 
 (** A token of the other kind of obligation. *)
-Definition root := Leaf 0 [(0, at_rest (V3 0 0 0))].
+Definition root := Leaf 0 [(0, index (at_rest (V3 0 0 0)))].
 Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) 0 4 1].
 Definition on_self := step false row [Self (Node None [] root root) 0 4 1].
 Definition refused (o : option (list obligation)) := match o with None => true | Some _ => false end.
@@ -275,6 +298,17 @@ Lemma no_cell_twice_at_end : start row ((#0 + #1) + #1)%group = None. Proof. com
 Lemma no_cell_beyond_instead : start row ((#0 + #1) + #3)%group = None. Proof. computed. Qed.
 Lemma no_cell_negative : start row (Join (Cell (-1)) row_left) = None. Proof. computed. Qed.
 Lemma no_cell_negative_instead : start row (Join (Cell (-1)) (two 1 2)) = None. Proof. computed. Qed.
+
+(** A vertex that is not in the table of vertices is not found. *)
+Definition table ids := join_all ids (vertices row ids []).
+Lemma ok_look_up : match table [1; 4; 5; 8; 9] with
+  | Some x => map (fun v => match look_up x v with Some (w, _) => w | None => -1 end) [0; 1; 2; 4; 5; 7; 8; 9; 10]
+  | None => []
+  end = [-1; 1; -1; 4; 5; -1; 8; 9; -1].
+Proof. computed. Qed.
+Lemma no_look_up : match table [1; 4] with Some x => look_up_all x [1; 2] | None => Some [] end = None.
+Proof. computed. Qed.
+Lemma no_table : table [] = None. Proof. computed. Qed.
 
 (** ** Scenes that make no sense *)
 

@@ -45,19 +45,6 @@ Proof.
   - destruct (Rle_dec _ _); auto.
 Qed.
 
-(** From there on, it is the second. *)
-Lemma glue_after l r T p t : forall t0 p0, increasing t0 (l ++ (T, p) :: r) -> (IZR T <= t)%R ->
-  pos_from t0 p0 (l ++ (T, p) :: r) t = pos_from T p r t.
-Proof.
-  induction l as [|(t1, p1) l IH]; intros t0 p0 W H.
-  - now apply pos_from_next.
-  - cbn [app] in *. rewrite pos_from_next; auto.
-    + apply IH; auto. apply W.
-    + apply Rle_trans with (IZR T); auto. apply IZR_le. clear - W. destruct W as [_ W].
-      revert t1 W. induction l as [|(t2, p2) l IH]; cbn; intros t1 W; [lia|].
-      destruct W as [L W]. apply IH in W. lia.
-Qed.
-
 Lemma increasing_app l r T p : forall t0,
   increasing t0 (l ++ [(T, p)]) -> increasing T r -> increasing t0 (l ++ (T, p) :: r).
 Proof. induction l as [|(t1, p1) l IH]; cbn; intros t0 H1 H2; [tauto|split; [|apply IH]; tauto]. Qed.
@@ -104,7 +91,7 @@ Proof.
     destruct (glue_path s1 s2 i v F W1 W2 Hi (HP v Hv)) as (t0 & p0 & l & p & r & E1 & E2 & E & _ & I & _);
     rewrite E; [rewrite E1|rewrite E2]; cbn [pos].
   - now apply glue_before.
-  - now apply glue_after.
+  - now apply pos_from_later.
 Qed.
 
 (** Two windows that fit: what is true of each is true of both as one. *)

@@ -27,7 +27,7 @@ Record witness := Witness {
 
 (** How far a trajectory is in direction [n] at the time [c/d]. *)
 Definition value_at (n : vec) (c d : Z) (tr : traj) : option rat :=
-  match since d c tr with
+  match since d c (index tr) with
   | [] => None
   | (t0, p0) :: r =>
       match r with

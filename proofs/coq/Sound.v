@@ -68,23 +68,144 @@ Proof.
   apply reaches_sound in H. tauto.
 Qed.
 
+(** From a breakpoint on, all breakpoints before may be forgotten. *)
+Lemma pos_from_later l r T p t : forall t0 p0, increasing t0 (l ++ (T, p) :: r) -> IZR T <= t ->
+  pos_from t0 p0 (l ++ (T, p) :: r) t = pos_from T p r t.
+Proof.
+  induction l as [|(t1, p1) l IH]; intros t0 p0 W H.
+  - now apply pos_from_next.
+  - cbn [app] in *. rewrite pos_from_next; auto.
+    + apply IH; auto. apply W.
+    + apply Rle_trans with (IZR T); auto. apply IZR_le. clear - W. destruct W as [_ W].
+      revert t1 W. induction l as [|(t2, p2) l IH]; cbn; intros t1 W; [lia|].
+      destruct W as [L W]. apply IH in W. lia.
+Qed.
+
+(** A breakpoint inside a trajectory is later than the first, and so are those after it. *)
+Lemma increasing_later l T p r : forall t0, increasing t0 (l ++ (T, p) :: r) -> (t0 < T)%Z /\ increasing T r.
+Proof. induction l as [|(t1, p1) l IH]; cbn; intros t0 [L W]; auto. apply IH in W. intuition lia. Qed.
+
+(** *** Search trees *)
+
+(** All things of a search tree are [P]. *)
+Fixpoint each {A} (P : A -> Prop) (x : search A) : Prop :=
+  match x with
+  | Found a => P a
+  | Choose _ l r => each P l /\ each P r
+  end.
+
+Fixpoint first {A} (x : search A) : A :=
+  match x with
+  | Found a => a
+  | Choose _ l _ => first l
+  end.
+
+(** The keys are those of the first things on their right. *)
+Fixpoint keyed {A} (key : A -> Z) (x : search A) : Prop :=
+  match x with
+  | Found _ => True
+  | Choose k l r => key (first r) = k /\ keyed key l /\ keyed key r
+  end.
+
+Lemma find_each {A} (P : A -> Prop) low x : each P x -> P (find low x).
+Proof. induction x as [|k l IHl r IHr]; cbn; auto. destruct (low k); tauto. Qed.
+
+(** What is found is the first, or its key is [low]. *)
+Lemma find_low {A} (key : A -> Z) low x : keyed key x ->
+  find low x = first x \/ low (key (find low x)) = true.
+Proof.
+  induction x as [a|k l IHl r IHr]; cbn; auto. intros (K & L & R).
+  destruct (low k) eqn:E; auto. right. destruct (IHr R) as [->|]; auto. now rewrite K.
+Qed.
+
+(** What [join_all] keeps of each tree in its list. *)
+Definition sorted_in {A} (P : A -> Prop) (key : A -> Z) (kx : Z * search A) : Prop :=
+  each P (snd kx) /\ keyed key (snd kx) /\ key (first (snd kx)) = fst kx.
+
+Lemma join_pairs_sound {A} (P : A -> Prop) key n : forall l acc, (length l <= n)%nat ->
+  Forall (sorted_in P key) l ->
+  exists l', join_pairs l acc = rev_append acc l' /\ Forall (sorted_in P key) l' /\
+    forall k x r, l = (k, x) :: r -> exists k' x' r', l' = (k', x') :: r' /\ first x' = first x.
+Proof.
+  induction n as [|n IH]; intros l acc L F.
+  - destruct l; cbn in L; [|lia]. exists []. cbn. repeat split; auto. discriminate.
+  - destruct l as [|(k1, x1) [|(k2, x2) r]].
+    + exists []. cbn. repeat split; auto. discriminate.
+    + exists [(k1, x1)]. cbn. repeat split; auto. intros k x r [= <- <- <-]. eauto.
+    + inversion F as [|? ? (E1 & K1 & H1) F1]; inversion F1 as [|? ? (E2 & K2 & H2) F2]; subst. cbn in *.
+      destruct (IH r ((k1, Choose k2 x1 x2) :: acc)) as (l' & E & F' & _); [lia|auto|].
+      exists ((k1, Choose k2 x1 x2) :: l'). repeat split.
+      * exact E.
+      * constructor; auto. unfold sorted_in; cbn; auto.
+      * intros k x r' [= <- <- <-]. exists k1, (Choose k2 x1 x2), l'. auto.
+Qed.
+
+Lemma join_all_sound {A B} (P : A -> Prop) key (fuel : list B) : forall l x,
+  Forall (sorted_in P key) l -> join_all fuel l = Some x ->
+  each P x /\ keyed key x /\ exists k x' r, l = (k, x') :: r /\ first x = first x'.
+Proof.
+  induction fuel as [|b fuel IH]; intros [|(k1, x1) r] x F; cbn [join_all]; try discriminate.
+  - apply Forall_inv in F as (E & K & _). cbn in *.
+    destruct r; intros [= <-]; repeat split; auto; do 3 eexists; eauto.
+  - destruct r as [|(k2, x2) r].
+    + apply Forall_inv in F as (E & K & _). intros [= <-]. repeat split; auto. do 3 eexists; eauto.
+    + intros H.
+      destruct (join_pairs_sound P key _ _ [] (le_n _) F) as (l' & E & F' & H').
+      rewrite E in H. cbn [rev_append] in H. destruct (IH l' x F' H) as (X1 & X2 & (k & x' & r' & E' & Fx)).
+      destruct (H' _ _ _ eq_refl) as (k3 & x3 & r3 & E3 & Fx3).
+      repeat split; auto. exists k1, x1, ((k2, x2) :: r). split; auto. congruence.
+Qed.
+
+(** *** The search tree of a trajectory *)
+
+Definition suffix_of (tr l : traj) : Prop := l <> [] /\ exists l', tr = l' ++ l.
+Definition time_of (tr : traj) : Z := match tr with [] => 0 | (t, _) :: _ => t end.
+
+Lemma suffixes_sound tr tr' : forall l acc, tr = l ++ tr' ->
+  Forall (sorted_in (suffix_of tr) time_of) acc ->
+  Forall (sorted_in (suffix_of tr) time_of) (suffixes tr' acc).
+Proof.
+  induction tr' as [|(t, p) r IH]; cbn [suffixes]; intros l acc E F.
+  - rewrite rev_append_rev, app_nil_r. now apply Forall_rev.
+  - apply (IH (l ++ [(t, p)])); [now rewrite <- app_assoc|]. constructor; auto.
+    repeat split; eauto. discriminate.
+Qed.
+
+Lemma suffixes_acc tr : forall acc, suffixes tr acc = rev_append acc (suffixes tr []).
+Proof.
+  induction tr as [|(t, p) r IH]; intros acc; cbn [suffixes]; auto. rewrite IH, (IH [_]). reflexivity.
+Qed.
+
+Lemma index_sound tr : tr <> [] ->
+  each (suffix_of tr) (index tr) /\ keyed time_of (index tr) /\ first (index tr) = tr.
+Proof.
+  intros N. unfold index. destruct (join_all tr (suffixes tr [])) as [x|] eqn:E.
+  - apply (join_all_sound (suffix_of tr) time_of) in E as (E & K & (k & x' & r & L & F)).
+    + repeat split; auto. rewrite F. destruct tr as [|(t, p) tr]; [easy|].
+      cbn [suffixes] in L. rewrite suffixes_acc in L. cbn in L. now injection L as <- <- <-.
+    + apply (suffixes_sound tr tr []); auto.
+  - cbn. repeat split; auto. now exists [].
+Qed.
+
 (** [since] leaves a trajectory the same, from [a/d] on. *)
 Lemma since_sound d a r : (0 < d)%Z -> forall t0 p0, increasing t0 r ->
-  exists t0' p0' r', since d a ((t0, p0) :: r) = (t0', p0') :: r' /\
+  exists t0' p0' r', since d a (index ((t0, p0) :: r)) = (t0', p0') :: r' /\
     increasing t0' r' /\ IZR t0 <= IZR t0' /\
     forall t, IZR t0 <= t -> IZR a <= t * IZR d ->
       IZR t0' <= t /\ pos_from t0 p0 r t = pos_from t0' p0' r' t.
 Proof.
-  intros D; induction r as [|(t1, p1) r IH]; intros t0 p0 W.
-  - exists t0, p0, []. cbn; repeat split; auto; lra.
-  - cbn [since]. destruct (t1 * d <=? a)%Z eqn:E.
-    + destruct (IH t1 p1 (proj2 W)) as (t0' & p0' & r' & E1 & I & L & P).
-      assert (IZR t0 < IZR t1) by (apply IZR_lt, W).
-      exists t0', p0', r'. repeat split; auto; try lra; to_R;
-        assert (IZR t1 <= t) by nra.
-      * now apply P.
-      * rewrite pos_from_next by auto. now apply P.
-    + exists t0, p0, ((t1, p1) :: r). repeat split; auto; try lra; apply W.
+  intros D t0 p0 W. set (tr := (t0, p0) :: r).
+  destruct (index_sound tr) as (E & K & F); [discriminate|].
+  apply (find_each _ (fun t => t * d <=? a)%Z) in E as [N (l & E)].
+  apply (find_low _ (fun t => t * d <=? a)%Z) in K. fold (since d a (index tr)) in *. rewrite F in K.
+  destruct (since d a (index tr)) as [|(t1, p1) r1]; [easy|].
+  exists t1, p1, r1. destruct l as [|b l].
+  - injection E as <- <- <-. repeat split; auto; lra.
+  - destruct K as [K|K].
+    + exfalso. apply (f_equal (@length _)) in E. rewrite <- K, app_length in E. cbn in E. lia.
+    + unfold tr in E. injection E as <- ->. apply increasing_later in W as W'. destruct W' as [L I].
+      apply IZR_lt in L, D. repeat split; auto; [lra| |]; cbn in K; to_R; assert (IZR t1 <= t) by nra; auto.
+      now apply pos_from_later.
 Qed.
 
 (** ** 2. P: half spaces *)
@@ -160,7 +281,7 @@ Proof.
 Qed.
 
 Lemma inside_sound h a b d T0 T1 tr t : (0 < d)%Z ->
-  covers_time T0 T1 tr -> inside h a b d tr = true ->
+  covers_time T0 T1 tr -> inside h a b d (index tr) = true ->
   IZR a <= t * IZR d <= IZR b -> IZR T0 <= t ->
   0 < valueR h t (pos tr t).
 Proof.
@@ -386,7 +507,7 @@ Qed.
 Definition far (n : vec) (tr : traj) (t : R) : R := dotR n (pos tr t).
 
 Lemma values_sound n a b d cs T0 T1 tr us : (0 < d)%Z -> covers_time T0 T1 tr ->
-  values n a b d cs tr = Some us ->
+  values n a b d cs (index tr) = Some us ->
   knots (far n tr) d a cs us /\ IZR b <= IZR (final a cs).
 Proof.
   destruct tr as [|(t0, p0) r]; [easy|]. intros D (_ & W & _) A.
@@ -469,10 +590,10 @@ Proof.
 Qed.
 
 (** What [separated] computes: the lowest of [x] at each time, and that [y] is below. *)
-Lemma separated_sound k m n a b d T0 T1 x y w v : below_root k m -> (0 < d)%Z ->
-  (forall u, In u x \/ In u y -> covers_time T0 T1 (snd u)) ->
+Lemma separated_sound k m n a b d T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z ->
+  (forall u, In u x \/ In u y -> snd u = index (path (fst u)) /\ covers_time T0 T1 (path (fst u))) ->
   separated k n a b d x y = true -> In w x -> In v y ->
-  forall t, IZR a <= t * IZR d <= IZR b -> far n (snd v) t + m < far n (snd w) t.
+  forall t, IZR a <= t * IZR d <= IZR b -> far n (path (fst v)) t + m < far n (path (fst w)) t.
 Proof.
   intros K0 D C. unfold separated. destruct x as [|w0 ws]; [easy|].
   set (cs := fold_left _ y _). generalize cs as cs'; clear cs; intros cs.
@@ -482,8 +603,9 @@ Proof.
   intros A Hw Hv t Ht.
   assert (forall u us, In u (w0 :: ws) \/ In u y -> values n a b d (a :: cs) (snd u) = Some us ->
           (length us = S (length cs) /\ Forall proper us) /\
-          knots (far n (snd u)) d a (a :: cs) us /\ IZR b <= IZR (final a (a :: cs))) as V.
-  { intros u us I U. eapply values_sound in U; eauto. destruct U as [K B]. repeat split; auto.
+          knots (far n (path (fst u))) d a (a :: cs) us /\ IZR b <= IZR (final a (a :: cs))) as V.
+  { intros u us I U. destruct (C u I) as [E W]. rewrite E in U.
+    eapply values_sound in U; eauto. destruct U as [K B]. repeat split; auto.
     - now apply knots_length in K.
     - now apply knots_proper in K. }
   apply lower_fold with (n := S (length cs)) in F as (N & P & (u0 & E0 & L0) & L).
@@ -603,7 +725,7 @@ Fixpoint SelfApart a b d (x : tree) : Prop :=
   end.
 
 Definition resolved (w : vertex) : Prop :=
-  snd w = path s (fst w) /\ covers_time (tbeg s) (tend s) (snd w).
+  snd w = index (path s (fst w)) /\ covers_time (tbeg s) (tend s) (path s (fst w)).
 
 Definition vids (l : list vertex) := map fst l.
 
@@ -680,10 +802,10 @@ Qed.
 
 (** The vertices of a feature of a cell below [x] are resolved vertices of [x]. *)
 Lemma feature_vertex x P S v : inv x -> In P (leaves x) -> incl S (snd P) -> In v S ->
-  exists w, In w (verts x) /\ snd w = path s v /\ covers_time (tbeg s) (tend s) (snd w).
+  exists w, In w (verts x) /\ fst w = v /\ resolved w.
 Proof.
   intros I L C Hv. apply C, (leaf_verts x P I L), in_map_iff in Hv as (w & <- & Hw).
-  destruct (proj1 (Forall_forall _ _) (inv_verts x I) w Hw). eauto.
+  pose proof (proj1 (Forall_forall _ _) (inv_verts x I) w Hw). eauto.
 Qed.
 
 (** ** 6. One token *)
@@ -695,8 +817,8 @@ Lemma plane_side h a b d x P S t : (0 < d)%Z -> inv x -> In P (leaves x) -> incl
 Proof.
   intros D I L C F A B q. apply hull_positive. intros p Hp.
   apply in_map_iff in Hp as (v & <- & Hv).
-  destruct (feature_vertex x P S v I L C Hv) as (w & Hw & <- & W).
-  pose proof (proj1 (forallb_forall _ _) F w Hw) as Aw.
+  destruct (feature_vertex x P S v I L C Hv) as (w & Hw & <- & E & W).
+  pose proof (proj1 (forallb_forall _ _) F w Hw) as Aw. cbn beta in Aw. rewrite E in Aw.
   apply (inside_sound h a b d _ _ _ t D W Aw); tauto.
 Qed.
 
@@ -736,7 +858,7 @@ Proof.
   apply in_map_iff in H1 as (v1 & <- & H1), H2 as (v2 & <- & H2).
   destruct (feature_vertex y Q U v1 Iy HQ IU H1) as (w1 & I1 & <- & W1).
   destruct (feature_vertex x P S v2 Ix HP IS H2) as (w2 & I2 & <- & W2).
-  apply (separated_sound k m n a b d (tbeg s) (tend s) (verts x) (verts y)); auto.
+  apply (separated_sound k m n a b d (tbeg s) (tend s) (path s) (verts x) (verts y)); auto.
   pose proof (inv_verts x Ix) as Fx. pose proof (inv_verts y Iy) as Fy.
   rewrite Forall_forall in Fx, Fy. intros u [Hu|Hu]; [apply Fx in Hu|apply Fy in Hu]; apply Hu.
 Qed.
@@ -936,34 +1058,56 @@ Proof.
   intros C Hi. apply andb_true_iff in C as [_ C]. now apply ids_of_in, (is_range_sound _ _ _ C).
 Qed.
 
-Lemma leaf_in i w : In w (leaf s i) -> snd w = path s (fst w).
+Lemma cell_ids_in i v : In v (cell s i) -> In v (cell_ids s i).
 Proof.
-  unfold leaf; induction (cell s i) as [|v l IH]; cbn; [tauto|].
-  intros H; apply union_in in H as [[<-|[]]|H]; auto.
+  unfold cell_ids; induction (cell s i) as [|u l IH]; cbn; [easy|]. intros H.
+  rewrite <- (map_id (union _ _ _)). apply union_keys. cbn. destruct H as [<-|H]; auto.
+  right. rewrite map_id. auto.
 Qed.
 
-Definition cell_ids i := map fst (leaf s i).
-
-Lemma leaf_ids i : incl (cell s i) (cell_ids i).
+Lemma group_ids_in g i v : In i (ids g) -> In v (cell_ids s i) -> In v (group_ids s g).
 Proof.
-  unfold cell_ids, leaf; induction (cell s i) as [|v l IH]; cbn; intros u H; [easy|].
-  apply union_keys. destruct H as [<-|H]; [left; now left|right; now apply IH].
+  induction g as [j|l IHl r IHr]; cbn; intros H V.
+  - now destruct H as [<-|[]].
+  - rewrite <- (map_id (union _ _ _)). apply union_keys. rewrite !map_id. apply in_app_or in H as [H|H]; auto.
 Qed.
 
-Lemma build_cell i x : build s (Cell i) = Some x ->
-  x = Leaf (label s i) (leaf s i) /\ Forall resolved (leaf s i).
+Lemma vertices_sound l : (forall v, In v l -> covers_time (tbeg s) (tend s) (path s v)) ->
+  forall acc, Forall (sorted_in resolved fst) acc -> Forall (sorted_in resolved fst) (vertices s l acc).
 Proof.
-  cbn [build]. on_forallb (leaf s i) F. intros [= <-]. split; auto.
-  apply Forall_forall. intros w Hw. split; [now apply leaf_in with i|].
-  apply (proj1 (forallb_forall _ _) F) in Hw. now apply wf_traj_sound.
+  induction l as [|v l IH]; cbn [vertices]; intros C acc F.
+  - rewrite rev_append_rev, app_nil_r. now apply Forall_rev.
+  - apply IH; [intros; apply C; now right|]. constructor; auto. repeat split. cbn. apply C. now left.
 Qed.
 
-Lemma build_inv g : forall x, build s g = Some x -> inv x.
+Lemma look_up_all_sound table l : each resolved table -> forall vs, look_up_all table l = Some vs ->
+  map fst vs = l /\ Forall resolved vs.
+Proof.
+  intros T; induction l as [|v l IH]; cbn [look_up_all]; intros vs.
+  - intros [= <-]. auto.
+  - unfold look_up. apply (find_each _ (fun k => k <=? v)%Z) in T as W. set (w := find _ _) in *.
+    destruct (Z.eqb_spec (fst w) v) as [E|]; [|discriminate].
+    destruct (look_up_all table l) as [l'|]; [|discriminate]. intros [= <-].
+    destruct (IH _ eq_refl). cbn. split; [congruence|auto].
+Qed.
+
+Section Table.
+Variable table : search vertex.
+Hypothesis table_resolved : each resolved table.
+
+Lemma build_cell i x : build_from table s (Cell i) = Some x ->
+  exists vs, x = Leaf (label s i) vs /\ map fst vs = cell_ids s i /\ Forall resolved vs.
+Proof.
+  cbn [build_from]. destruct (look_up_all _ _) as [vs|] eqn:E; [|discriminate]. intros [= <-].
+  apply look_up_all_sound in E as [E R]; eauto.
+Qed.
+
+Lemma build_inv g : forall x, build_from table s g = Some x -> inv x.
 Proof.
   induction g as [i|l IHl r IHr]; intros x B.
-  - apply build_cell in B as [-> R]. exact R.
-  - cbn in B. destruct (build s l) as [xl|]; [|discriminate].
-    destruct (build s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
+  - apply build_cell in B as (vs & -> & _ & R). exact R.
+  - cbn in B. destruct (build_from table s l) as [xl|]; [|discriminate].
+    destruct (build_from table s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
     pose proof (IHl _ eq_refl) as L. pose proof (IHr _ eq_refl) as R.
     pose proof (inv_verts _ L) as VL. pose proof (inv_verts _ R) as VR.
     rewrite Forall_forall in VL, VR |- *. split; [|split; [|split; [|split; [|split]]]]; auto.
@@ -975,26 +1119,27 @@ Proof.
       destruct (Z.eqb_spec a b); [|discriminate]. subst. now intros [= <-].
 Qed.
 
-Definition leaf_of i := (label s i, cell_ids i).
+Definition leaf_of i := (label s i, cell_ids s i).
 
-Lemma build_leaves g : forall x, build s g = Some x -> leaves x = map leaf_of (ids g).
+Lemma build_leaves g : forall x, build_from table s g = Some x -> leaves x = map leaf_of (ids g).
 Proof.
   induction g as [i|l IHl r IHr]; intros x B.
-  - now apply build_cell in B as [-> _].
-  - cbn in B. destruct (build s l) as [xl|]; [|discriminate].
-    destruct (build s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
+  - apply build_cell in B as (vs & -> & E & _). unfold leaf_of. cbn. now rewrite E.
+  - cbn in B. destruct (build_from table s l) as [xl|]; [|discriminate].
+    destruct (build_from table s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
     now rewrite (IHl _ eq_refl), (IHr _ eq_refl), map_app.
 Qed.
 
 (** A tree has every pair of its cells. *)
-Lemma self_pairs a b d g : forall x, build s g = Some x -> SelfApart a b d x ->
+Lemma self_pairs a b d g : forall x, build_from table s g = Some x -> SelfApart a b d x ->
   forall i j, In i (ids g) -> In j (ids g) -> strict = true \/ i <> j ->
   Claimed a b d (leaf_of i) (leaf_of j).
 Proof.
   induction g as [f|l IHl r IHr]; intros x Bx.
-  - apply build_cell in Bx as [-> _]. intros H i j [<-|[]] [<-|[]] [E|E]; [auto|congruence].
-  - cbn in Bx. destruct (build s l) as [xl|] eqn:L; [|discriminate].
-    destruct (build s r) as [xr|] eqn:R; [|discriminate].
+  - apply build_cell in Bx as (vs & -> & E & _). intros H i j [<-|[]] [<-|[]] [N|N]; [|congruence].
+    unfold leaf_of. rewrite <- E. now apply H.
+  - cbn in Bx. destruct (build_from table s l) as [xl|] eqn:L; [|discriminate].
+    destruct (build_from table s r) as [xr|] eqn:R; [|discriminate].
     injection Bx as <-. cbn. intros (A & B & C) i j Hi Hj N.
     unfold PairApart in B. rewrite (build_leaves _ _ L), (build_leaves _ _ R) in B.
     assert (I : forall k g', In k (ids g') -> In (leaf_of k) (map leaf_of (ids g'))).
@@ -1006,14 +1151,20 @@ Proof.
     + eapply IHr; eauto.
 Qed.
 
-(** Every cell of a tree that was built has trajectories as they should be. *)
-Lemma build_cells g : forall x i, build s g = Some x -> In i (ids g) -> Forall resolved (leaf s i).
+End Table.
+
+(** A scene with a tree has trajectories as they should be. *)
+Lemma build_sound g x : build s g = Some x ->
+  (forall i v, In i (ids g) -> In v (cell s i) -> covers_time (tbeg s) (tend s) (path s v)) /\
+  exists table, each resolved table /\ build_from table s g = Some x.
 Proof.
-  induction g as [j|l IHl r IHr]; intros x i B H.
-  - apply build_cell in B as [_ R]. now destruct H as [<-|[]].
-  - cbn in B, H. destruct (build s l) as [xl|]; [|discriminate].
-    destruct (build s r) as [xr|]; [|discriminate].
-    apply in_app_or in H as [H|H]; eauto.
+  unfold build. cbn zeta. on_forallb (group_ids s g) F.
+  assert (forall v, In v (group_ids s g) -> covers_time (tbeg s) (tend s) (path s v)) as C.
+  { intros v Hv. rewrite forallb_forall in F. now apply wf_traj_sound, F. }
+  destruct (join_all _ _) as [table|] eqn:E; [|discriminate]. intros B. split.
+  - intros i v Hi Hv. apply C, (group_ids_in g i); auto. now apply cell_ids_in.
+  - exists table. split; auto. apply (join_all_sound resolved fst) in E as [E _]; auto.
+    apply vertices_sound; auto.
 Qed.
 
 Lemma start_sound g st : start s g = Some st ->
@@ -1022,18 +1173,16 @@ Proof.
   unfold start. destruct (_ && _)%bool eqn:E; [|discriminate].
   rewrite !andb_true_iff in E. destruct E as [[[E0 E1] E2] C].
   apply Z.ltb_lt in E0, E1. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
+  apply build_sound in B as (W & table & R & B).
   intros [= <-]. split.
-  - repeat split; auto. intros i v Hi Hv.
-    apply (build_cells g x i) in B; [|eapply covers_sound; eauto].
-    apply leaf_ids, in_map_iff in Hv as (w & <- & Hw).
-    rewrite Forall_forall in B. destruct (B w Hw) as [<- W]. exact W.
+  - repeat split; auto. intros i v Hi Hv. apply (W i); auto. now apply covers_sound with (ncell s).
   - intros F. apply Forall_inv in F as S. cbn [holds] in S.
-    specialize (S eq_refl (build_inv g x B)).
+    specialize (S eq_refl (build_inv table R g x B)).
     intros t Ht i j Hi Hj D N P Q IP IQ.
-    apply (self_pairs _ _ _ g x B S i j); eauto using covers_sound.
+    apply (self_pairs table R _ _ _ g x B S i j); eauto using covers_sound.
     + lra.
-    + eapply incl_tran; [apply IP|apply leaf_ids].
-    + eapply incl_tran; [apply IQ|apply leaf_ids].
+    + intros v Hv. now apply cell_ids_in, IP.
+    + intros v Hv. now apply cell_ids_in, IQ.
 Qed.
 End Soundness.
 

@@ -32,15 +32,63 @@ let wf_traj t0 t1 = function
 | [] -> false
 | p :: r -> let (t2, _) = p in (&&) (Zint.leq t2 t0) (reaches t2 t1 r)
 
-(** val since : Zint.t -> Zint.t -> traj -> traj **)
+type 'a search =
+| Found of 'a
+| Choose of Zint.t * 'a search * 'a search
 
-let rec since d a tr = match tr with
-| [] -> []
-| _ :: r ->
+(** val find : (Zint.t -> bool) -> 'a1 search -> 'a1 **)
+
+let rec find low = function
+| Found x0 -> x0
+| Choose (k, l, r) -> if low k then find low r else find low l
+
+(** val join_pairs :
+    (Zint.t * 'a1 search) list -> (Zint.t * 'a1 search) list -> (Zint.t * 'a1
+    search) list **)
+
+let rec join_pairs l acc =
+  match l with
+  | [] -> List.rev_append acc l
+  | p :: l0 ->
+    let (k1, x) = p in
+    (match l0 with
+     | [] -> List.rev_append acc l
+     | p0 :: r ->
+       let (k2, y) = p0 in join_pairs r ((k1, (Choose (k2, x, y))) :: acc))
+
+(** val join_all :
+    'a2 list -> (Zint.t * 'a1 search) list -> 'a1 search option **)
+
+let rec join_all fuel l = match l with
+| [] -> None
+| p :: r ->
+  let (_, x) = p in
   (match r with
-   | [] -> tr
-   | p :: _ ->
-     let (t1, _) = p in if Zint.leq (Zint.mul t1 d) a then since d a r else tr)
+   | [] -> Some x
+   | _ :: _ ->
+     (match fuel with
+      | [] -> Some x
+      | _ :: f -> join_all f (join_pairs l [])))
+
+(** val suffixes :
+    traj -> (Zint.t * traj search) list -> (Zint.t * traj search) list **)
+
+let rec suffixes tr acc =
+  match tr with
+  | [] -> List.rev_append acc []
+  | p :: r -> let (t, _) = p in suffixes r ((t, (Found tr)) :: acc)
+
+(** val index : traj -> traj search **)
+
+let index tr =
+  match join_all tr (suffixes tr []) with
+  | Some x -> x
+  | None -> Found tr
+
+(** val since : Zint.t -> Zint.t -> traj search -> traj **)
+
+let since d a x =
+  find (fun t -> Zint.leq (Zint.mul t d) a) x
 
 (** val dot : vec -> vec -> Zint.t **)
 
@@ -100,10 +148,11 @@ let rec inside_from h a b d t0 g0 = function
   then if Zint.leq b s1 then true else inside_from h a b d t1 g1 r'
   else false
 
-(** val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj -> bool **)
+(** val inside :
+    halfspace -> Zint.t -> Zint.t -> Zint.t -> traj search -> bool **)
 
-let inside h a b d tr =
-  match since d a tr with
+let inside h a b d x =
+  match since d a x with
   | [] -> false
   | p :: r -> let (t0, p0) = p in inside_from h a b d t0 (value h t0 p0) r
 
@@ -169,11 +218,11 @@ let rec along n b d t0 g0 = function
   in here
 
 (** val values :
-    vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj -> rat list
-    option **)
+    vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj search -> rat
+    list option **)
 
-let values n a b d cs tr =
-  match since d a tr with
+let values n a b d cs x =
+  match since d a x with
   | [] -> None
   | p :: r ->
     let (t0, p0) = p in
@@ -194,10 +243,10 @@ let rec times_until d a b tr acc =
     then times_until d a b r (if Zint.lt a c then c :: acc else acc)
     else List.rev_append acc []
 
-(** val times : Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list **)
+(** val times : Zint.t -> Zint.t -> Zint.t -> traj search -> Zint.t list **)
 
-let times d a b tr =
-  times_until d a b (since d a tr) []
+let times d a b x =
+  times_until d a b (since d a x) []
 
 (** val union_acc :
     ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list -> 'a1 list **)
@@ -253,7 +302,7 @@ let rec all_less k l1 l2 =
      | [] -> false
      | r :: r2 -> if rat_over k q r then all_less k r1 r2 else false)
 
-type vertex = Zint.t * traj
+type vertex = Zint.t * traj search
 
 (** val separated :
     Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
@@ -309,29 +358,71 @@ let common_label x y =
      | None -> None)
   | None -> None
 
-(** val leaf : scene -> Zint.t -> vertex list **)
+(** val cell_ids : scene -> Zint.t -> Zint.t list **)
 
-let leaf s i =
+let cell_ids s i =
   (fun f a l -> List.fold_right f l a) (fun v acc ->
-    union fst ((v, (s.path v)) :: []) acc) [] (s.cell i)
+    union (fun u -> u) (v :: []) acc) [] (s.cell i)
 
-(** val build : scene -> group -> tree option **)
+(** val group_ids : scene -> group -> Zint.t list **)
 
-let rec build s = function
+let rec group_ids s = function
+| Cell i -> cell_ids s i
+| Join (l, r) -> union (fun u -> u) (group_ids s l) (group_ids s r)
+
+(** val vertices :
+    scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex
+    search) list **)
+
+let rec vertices s ids acc =
+  match ids with
+  | [] -> List.rev_append acc []
+  | v :: r -> vertices s r ((v, (Found (v, (index (s.path v))))) :: acc)
+
+(** val look_up : vertex search -> Zint.t -> vertex option **)
+
+let look_up table v =
+  let w = find (fun k -> Zint.leq k v) table in
+  if Zint.equal (fst w) v then Some w else None
+
+(** val look_up_all : vertex search -> Zint.t list -> vertex list option **)
+
+let rec look_up_all table = function
+| [] -> Some []
+| v :: r ->
+  (match look_up table v with
+   | Some w ->
+     (match look_up_all table r with
+      | Some l -> Some (w :: l)
+      | None -> None)
+   | None -> None)
+
+(** val build_from : vertex search -> scene -> group -> tree option **)
+
+let rec build_from table s = function
 | Cell i ->
-  let vs = leaf s i in
-  if List.for_all (fun w -> wf_traj s.tbeg s.tend (snd w)) vs
-  then Some (Leaf ((s.label i), vs))
-  else None
+  (match look_up_all table (cell_ids s i) with
+   | Some vs -> Some (Leaf ((s.label i), vs))
+   | None -> None)
 | Join (l, r) ->
-  (match build s l with
+  (match build_from table s l with
    | Some x ->
-     (match build s r with
+     (match build_from table s r with
       | Some y ->
         Some (Node ((common_label x y), (union fst (verts x) (verts y)), x,
           y))
       | None -> None)
    | None -> None)
+
+(** val build : scene -> group -> tree option **)
+
+let build s g =
+  let ids = group_ids s g in
+  if List.for_all (fun v -> wf_traj s.tbeg s.tend (s.path v)) ids
+  then (match join_all ids (vertices s ids []) with
+        | Some table -> build_from table s g
+        | None -> None)
+  else None
 
 (** val ids_of : group -> Zint.t list **)
 

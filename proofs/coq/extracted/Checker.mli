@@ -24,7 +24,24 @@ val reaches : Zint.t -> Zint.t -> traj -> bool
 
 val wf_traj : Zint.t -> Zint.t -> traj -> bool
 
-val since : Zint.t -> Zint.t -> traj -> traj
+type 'a search =
+| Found of 'a
+| Choose of Zint.t * 'a search * 'a search
+
+val find : (Zint.t -> bool) -> 'a1 search -> 'a1
+
+val join_pairs :
+  (Zint.t * 'a1 search) list -> (Zint.t * 'a1 search) list -> (Zint.t * 'a1
+  search) list
+
+val join_all : 'a2 list -> (Zint.t * 'a1 search) list -> 'a1 search option
+
+val suffixes :
+  traj -> (Zint.t * traj search) list -> (Zint.t * traj search) list
+
+val index : traj -> traj search
+
+val since : Zint.t -> Zint.t -> traj search -> traj
 
 val dot : vec -> vec -> Zint.t
 
@@ -42,7 +59,7 @@ val segment_positive :
 val inside_from :
   halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> traj -> bool
 
-val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj -> bool
+val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj search -> bool
 
 type rat = Zint.t * Zint.t
 
@@ -59,12 +76,13 @@ val along :
   list -> rat list -> rat list option
 
 val values :
-  vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj -> rat list option
+  vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj search -> rat list
+  option
 
 val times_until :
   Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list -> Zint.t list
 
-val times : Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list
+val times : Zint.t -> Zint.t -> Zint.t -> traj search -> Zint.t list
 
 val union_acc :
   ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list -> 'a1 list
@@ -77,7 +95,7 @@ val lower : rat list option -> rat list option -> rat list option
 
 val all_less : Zint.t -> rat list -> rat list -> bool
 
-type vertex = Zint.t * traj
+type vertex = Zint.t * traj search
 
 val separated :
   Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
@@ -93,7 +111,19 @@ val label_of : tree -> Zint.t option
 
 val common_label : tree -> tree -> Zint.t option
 
-val leaf : scene -> Zint.t -> vertex list
+val cell_ids : scene -> Zint.t -> Zint.t list
+
+val group_ids : scene -> group -> Zint.t list
+
+val vertices :
+  scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex
+  search) list
+
+val look_up : vertex search -> Zint.t -> vertex option
+
+val look_up_all : vertex search -> Zint.t list -> vertex list option
+
+val build_from : vertex search -> scene -> group -> tree option
 
 val build : scene -> group -> tree option
 

@@ -9,7 +9,7 @@ type witness = { wc : Zint.t; wd : Zint.t; wi : Zint.t; wj : Zint.t;
 (** val value_at : vec -> Zint.t -> Zint.t -> traj -> rat option **)
 
 let value_at n c d tr =
-  match since d c tr with
+  match since d c (index tr) with
   | [] -> None
   | p :: r ->
     let (t0, p0) = p in
