@@ -53,6 +53,15 @@ Definition wf_traj (T0 T1 : Z) (tr : traj) : bool :=
   | (t0, _) :: r => (t0 <=? T0) && reaches t0 T1 r
   end.
 
+(** Two trajectories are equal. *)
+Fixpoint equal_traj (tr1 tr2 : traj) : bool :=
+  match tr1, tr2 with
+  | [], [] => true
+  | (t1, p1) :: r1, (t2, p2) :: r2 =>
+      if (t1 =? t2) && (vx p1 =? vx p2) && (vy p1 =? vy p2) && (vz p1 =? vz p2) then equal_traj r1 r2 else false
+  | _, _ => false
+  end.
+
 (** ** Search: in a trajectory, and among all vertices
 
     A search tree has things in increasing order of their keys.  Its lists are built
@@ -314,16 +323,21 @@ Definition common_label (x y : tree) : option Z :=
   | _, _ => None
   end.
 
-(** The ids of a cell's vertices, in order, each once. *)
-Definition cell_ids (s : scene) (i : Z) : list Z :=
-  fold_right (fun v acc => union (fun u => u) [v] acc) [] (cell s i).
+(** The ids of a cell's vertices, or with [f] = [same s] of those that stand for them,
+    in order, each once. *)
+Definition cell_ids (f : Z -> Z) (s : scene) (i : Z) : list Z :=
+  fold_right (fun v acc => union (fun u => u) [f v] acc) [] (cell s i).
 
 (** The same for all cells of a group. *)
-Fixpoint group_ids (s : scene) (g : group) : list Z :=
+Fixpoint group_ids (f : Z -> Z) (s : scene) (g : group) : list Z :=
   match g with
-  | Cell i => cell_ids s i
-  | Join l r => union (fun u => u) (group_ids s l) (group_ids s r)
+  | Cell i => cell_ids f s i
+  | Join l r => union (fun u => u) (group_ids f s l) (group_ids f s r)
   end.
+
+(** A vertex is as Spec.v's [well_formed] has it. *)
+Definition wf_vertex (s : scene) (v : Z) : bool :=
+  wf_traj (tbeg s) (tend s) (path s v) && ((same s v =? v) || equal_traj (path s (same s v)) (path s v)).
 
 (** The vertices with these ids, by their ids: each trajectory's search tree is built
     once, however many cells the vertex is in.  [acc] has the earlier ones, last first. *)
@@ -353,7 +367,7 @@ Fixpoint look_up_all (table : search vertex) (ids : list Z) : option (list verte
 Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tree :=
   match g with
   | Cell i =>
-      match look_up_all table (cell_ids s i) with
+      match look_up_all table (cell_ids (same s) s i) with
       | Some vs => Some (Leaf (label s i) vs)
       | None => None
       end
@@ -364,10 +378,11 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
       end
   end.
 
-(** The tree of a scene; [None] if a trajectory makes no sense. *)
+(** The tree of a scene; [None] if a vertex makes no sense.  The vertices in it are those
+    that stand for others, or for themselves. *)
 Definition build (s : scene) (g : group) : option tree :=
-  let ids := group_ids s g in
-  if forallb (fun v => wf_traj (tbeg s) (tend s) (path s v)) ids then
+  if forallb (wf_vertex s) (group_ids (fun v => v) s g) then
+    let ids := group_ids (same s) s g in
     match join_all ids (vertices s ids []) with
     | Some table => build_from table s g
     | None => None

@@ -27,8 +27,11 @@ Definition lax := check false.
 
 Ltac computed := vm_compute; reflexivity.
 
-(** A scene in which things are not to touch. *)
-Definition touching t0 t1 p n c l e := Scene t0 t1 p n c l e 0.
+(** A scene in which things are to be more than a distance apart, and no vertices are merged. *)
+Definition spaced t0 t1 p n c l e eta := Scene t0 t1 p (fun v => v) n c l e eta.
+
+(** The same in which things are not to touch. *)
+Definition touching t0 t1 p n c l e := spaced t0 t1 p n c l e 0.
 
 (** ** A triangle at rest, and a point that falls towards it *)
 
@@ -207,6 +210,35 @@ Lemma no_drop_negative : lax hinge tri_first (hinge_with (-1)) = false. Proof. c
 Lemma no_drop_nothing_common : lax (fall 2) point_first [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
 Lemma no_drop_needed : lax hinge tri_first (close (dir (-1) 0)) = false. Proof. computed. Qed.
 
+(** The same with a seam: the second triangle has vertices of its own, 11 and 12, at the
+    places of 1 and 2, unless [p] says otherwise of 12. *)
+Definition seam (f : Z -> Z) (p : traj) : scene :=
+  Scene 0 4 (fun v => if v =? 12 then p else path hinge (v mod 10)) f 2
+        (fun i => if i =? 0 then [2; 0; 1] else [11; 3; 12]) (fun i => i) [] 0.
+Definition to_first v := v mod 10.
+Definition to_second v := if v <? 3 then v + 10 else v.
+Definition to_other v := v mod 10 + 20.
+Definition sewn f := lax (seam f (path hinge 2)) tri_first (hinge_with 0).
+Lemma ok_same : sewn to_first = true. Proof. computed. Qed.
+Lemma ok_same_other : sewn to_other = true. Proof. computed. Qed.
+Lemma no_same_none : sewn (fun v => v) = false. Proof. computed. Qed.
+Lemma ok_same_second : sewn to_second = true. Proof. computed. Qed.
+Lemma no_same_one : sewn (fun v => if v =? 11 then 1 else v) = false. Proof. computed. Qed.
+Theorem safe_same : never_touch false (seam to_first (path hinge 2)).
+Proof. exact (check_sound _ _ _ _ ok_same). Qed.
+(** Vertex 3 follows 2 in order: what is number 0 depends on the ids of those that stand for others. *)
+Lemma ok_same_order : lax (seam (fun v => if v =? 1 then 11 else if v =? 12 then 2 else v) (path hinge 2))
+  tri_first [TParts; TOne; TDrop 0; TDrop 0; dir (-1) 0; dir (-1) (-1); TDrop 0; dir (-1) 1; dir (-1) 0; TOne] = true.
+Proof. computed. Qed.
+(** Merged vertices with other trajectories, even if they are at the same places. *)
+Definition sewn_to p := lax (seam to_first p) tri_first (hinge_with 0).
+Lemma ok_same_equal : sewn_to [(0, V3 0 4 0); (4, V3 0 4 0)] = true. Proof. computed. Qed.
+Lemma no_same_unlike : forallb (fun p => negb (sewn_to p))
+  [[(0, V3 0 4 0); (4, V3 1 4 0)]; [(0, V3 0 4 0); (4, V3 0 5 0)]; [(0, V3 0 4 0); (4, V3 0 4 1)];
+   [(0, V3 0 4 0); (5, V3 0 4 0)]; [(0, V3 0 4 0); (2, V3 0 4 0); (4, V3 0 4 0)]; [(0, V3 0 4 0)]; []] = true.
+Proof. computed. Qed.
+Lemma no_same_shorter : equal_traj [(0, V3 0 4 0)] [] = false. Proof. computed. Qed.
+
 (** Strict, one edge against itself: its vertices are apart.  A side without a vertex
     is closed by any direction. *)
 Definition edge x : scene := touching 0 4 (fun v => at_rest (V3 (v * x) 0 0)) 1 (fun _ => [0; 1]) (fun _ => 7) [].
@@ -359,6 +391,10 @@ Lemma no_hit_cell_negative : no_hit (Witness 17 5 (-1) 0 [(3, 1)] [(0, 2); (1, 1
 Lemma no_hit_denominator_0_end : check_hit false (fall 0) (Witness 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false.
 Proof. computed. Qed.
 Lemma no_hit_common : check_hit false hinge (Witness 0 1 0 1 [(1, 1)] [(1, 1)]) = false. Proof. computed. Qed.
+Definition hit_seam f := check_hit false (seam f (path hinge 2)) (Witness 0 1 0 1 [(1, 1)] [(11, 1)]).
+Lemma ok_hit_seam : hit_seam (fun v => v) = true. Proof. computed. Qed.
+Lemma no_hit_seam : hit_seam to_first = false. Proof. computed. Qed.
+Lemma no_hit_seam_other : hit_seam to_other = false. Proof. computed. Qed.
 Lemma no_hit_one_cell : check_hit false (edge 0) (Witness 1 1 0 0 [(0, 1)] [(1, 1)]) = false. Proof. computed. Qed.
 
 (** The same contact in claims that are about less. *)
@@ -380,7 +416,7 @@ Lemma no_hit_trajectory : check_hit false (fall_claim 0 5 []) hit = false. Proof
 
 (** Two points, always apart by (3, 4, 0) and (6, 8, 0): at distance 5 first, then 10. *)
 Definition apart e :=
-  Scene 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (1, V3 0 0 0)] else [(0, V3 3 4 0); (1, V3 6 8 0)])
+  spaced 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (1, V3 0 0 0)] else [(0, V3 3 4 0); (1, V3 6 8 0)])
         2 (fun i => [i]) (fun i => i) [] e.
 Definition along_34 := TDirection (V3 3 4 0).
 Definition gap nd w := TPlane (HalfSpace (V3 3 4 0) 0 nd) w.
@@ -400,11 +436,11 @@ Lemma no_eta_second : lax (apart 4) point_first (close (gap 20 20)) = false. Pro
 Lemma no_eta_negative : lax (apart (-1)) point_first (close along_34) = false. Proof. computed. Qed.
 
 (** Values with different denominators, at height 1 or more above each other. *)
-Definition cross_eta e := let s := cross 4 in Scene 0 4 (path s) 2 (cell s) (label s) [] e.
+Definition cross_eta e := let s := cross 4 in spaced 0 4 (path s) 2 (cell s) (label s) [] e.
 Lemma ok_eta_cross : lax (cross_eta 0) point_first (close (TDirection up)) = true. Proof. computed. Qed.
 Lemma no_eta_cross : lax (cross_eta 1) point_first (close (TDirection up)) = false. Proof. computed. Qed.
 Definition cross_eta_3 e := let s := cross 9 in
-  Scene 0 2 (path s) 2 (cell s) (label s) [] e.
+  spaced 0 2 (path s) 2 (cell s) (label s) [] e.
 Lemma ok_eta_cross_3 : lax (cross_eta_3 5) point_first (close (TDirection up)) = true. Proof. computed. Qed.
 Lemma no_eta_cross_3 : lax (cross_eta_3 6) point_first (close (TDirection up)) = false. Proof. computed. Qed.
 
@@ -417,7 +453,7 @@ Lemma no_hit_eta_later : hit_eta 1 5 = false. Proof. computed. Qed.
 (** The same with segments of different length, and so different denominators. *)
 Definition apart_longer e :=
   let s := apart e in
-  Scene 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (2, V3 0 0 0)] else path s v) 2 (cell s) (label s) [] e.
+  spaced 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (2, V3 0 0 0)] else path s v) 2 (cell s) (label s) [] e.
 Definition hit_longer e := check_hit false (apart_longer e) (Witness 1 5 0 1 [(0, 1)] [(1, 1)]).
 Lemma ok_hit_longer : hit_longer 6 = true. Proof. computed. Qed.
 Lemma no_hit_longer : hit_longer 5 = false. Proof. computed. Qed.

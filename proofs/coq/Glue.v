@@ -19,15 +19,16 @@ Definition glue_traj (tr1 tr2 : traj) : traj := tr1 ++ tl tr2.
 
 (** One scene over the time of both; what a cell is, the first says. *)
 Definition glue (s1 s2 : scene) : scene :=
-  Scene (tbeg s1) (tend s2) (fun v => glue_traj (path s1 v) (path s2 v))
+  Scene (tbeg s1) (tend s2) (fun v => glue_traj (path s1 v) (path s2 v)) (same s1)
         (ncell s1) (cell s1) (label s1) (excluded s1) (eta s1).
 
-(** The same cells, labels, exclusions and distance, and each vertex of a cell has its last
+(** The same cells, merged vertices, labels, exclusions and distance, and each vertex of a cell has its last
     breakpoint in [s1], its first in [s2], at the time between them, at one position. *)
 Record follows (s1 s2 : scene) : Prop := {
   same_time     : tend s1 = tbeg s2;
   same_number   : ncell s1 = ncell s2;
   same_cells    : forall i, 0 <= i < ncell s1 -> cell s1 i = cell s2 i;
+  same_merged   : forall i v, 0 <= i < ncell s1 -> In v (cell s1 i) -> same s1 v = same s2 v;
   same_labels   : forall i, 0 <= i < ncell s1 -> label s1 i = label s2 i;
   same_excluded : excluded s1 = excluded s2;
   same_eta      : eta s1 = eta s2;
@@ -61,13 +62,23 @@ Lemma glue_path s1 s2 i v : follows s1 s2 -> well_formed s1 -> well_formed s2 ->
 Proof.
   intros F (L1 & _ & _ & W1) (_ & _ & _ & W2) Hi Hv.
   destruct (same_position s1 s2 F i v Hi Hv) as (l & p & r & E1 & E2).
-  specialize (W1 i v Hi Hv). rewrite (same_number s1 s2 F) in Hi.
+  destruct (W1 i v Hi Hv) as [C1 _]. rewrite (same_number s1 s2 F) in Hi.
   rewrite (same_cells s1 s2 F) in Hv by now rewrite (same_number s1 s2 F).
-  specialize (W2 i v Hi Hv). rewrite E2 in W2. destruct W2 as (_ & I2 & C2).
+  destruct (W2 i v Hi Hv) as [C2 _]. rewrite E2 in C2. destruct C2 as (_ & I2 & C2).
   unfold glue, glue_traj; cbn [path]. rewrite E1, E2 in *. destruct l as [|(t0, p0) l].
-  - cbn in W1. lia.
-  - cbn in W1. destruct W1 as (B & I1 & _). exists t0, p0, l, p, r. cbn [app tl].
+  - cbn in C1. lia.
+  - cbn in C1. destruct C1 as (B & I1 & _). exists t0, p0, l, p, r. cbn [app tl].
     rewrite <- app_assoc. cbn [app]. repeat split; auto. now apply increasing_app.
+Qed.
+
+(** The vertex that stands for another does so in both windows. *)
+Lemma glue_same s1 s2 i v : follows s1 s2 -> well_formed s1 -> well_formed s2 ->
+  0 <= i < ncell s1 -> In v (cell s1 i) -> path (glue s1 s2) (same s1 v) = path (glue s1 s2) v.
+Proof.
+  intros F (_ & _ & _ & W1) (_ & _ & _ & W2) Hi Hv. unfold glue; cbn [path].
+  destruct (W1 i v Hi Hv) as [_ ->]. rewrite (same_merged s1 s2 F i v Hi Hv).
+  rewrite (same_cells s1 s2 F) in Hv by auto. rewrite (same_number s1 s2 F) in Hi.
+  now destruct (W2 i v Hi Hv) as [_ ->].
 Qed.
 
 Lemma glue_well_formed s1 s2 : follows s1 s2 -> well_formed s1 -> well_formed s2 -> well_formed (glue s1 s2).
@@ -76,7 +87,7 @@ Proof.
   - cbn. pose proof (same_time s1 s2 F). destruct W1 as [? _], W2 as [? _]. lia.
   - apply W1.
   - apply W1.
-  - intros i v Hi Hv.
+  - intros i v Hi Hv. split; [|now apply (glue_same s1 s2 i)].
     destruct (glue_path s1 s2 i v F W1 W2 Hi Hv) as (t0 & p0 & l & p & r & _ & _ & -> & B & I & C).
     cbn. repeat split; auto. now rewrite last_time_app.
 Qed.
@@ -94,12 +105,17 @@ Proof.
   - now apply pos_from_later.
 Qed.
 
+(** The merged vertices of a feature are the same in both windows. *)
+Lemma glue_merged s1 s2 i P : follows s1 s2 -> 0 <= i < ncell s1 -> incl P (cell s1 i) ->
+  map (same s2) P = map (same s1) P.
+Proof. intros F Hi I. apply map_ext_in. intros v Hv. symmetry. apply (same_merged s1 s2 F i); auto. Qed.
+
 (** Two windows that fit: what is true of each is true of both as one. *)
 Theorem glue_sound strict s1 s2 : follows s1 s2 -> well_formed s1 -> well_formed s2 ->
   never_touch strict s1 -> never_touch strict s2 -> never_touch strict (glue s1 s2).
 Proof.
   intros F W1 W2 N1 N2 t [A B] i j Hi Hj D E P Q IP IQ Dis x y.
-  cbn [glue tbeg tend ncell cell label eta] in *.
+  cbn [glue tbeg tend same ncell cell label eta] in *.
   destruct (glue_simplex s1 s2 i P t F W1 W2 Hi IP) as [P1 P2].
   destruct (glue_simplex s1 s2 j Q t F W1 W2 Hj IQ) as [Q1 Q2].
   destruct (Rle_dec t (IZR (tend s1))) as [T|T].
@@ -107,7 +123,8 @@ Proof.
   - assert (IZR (tend s1) <= t)%R as T' by lra. rewrite P2, Q2 by auto.
     pose proof (same_time s1 s2 F) as ST. rewrite ST in T'.
     rewrite (same_eta s1 s2 F). apply (N2 t (conj T' B) i j); rewrite <- ?(same_number s1 s2 F),
-      <- ?(same_labels s1 s2 F), <- ?(same_cells s1 s2 F) by auto; auto.
+      <- ?(same_labels s1 s2 F), <- ?(same_cells s1 s2 F), ?(glue_merged s1 s2 i P F Hi IP),
+      ?(glue_merged s1 s2 j Q F Hj IQ) by auto; auto.
     intros X; apply E. unfold is_excluded in *; cbn. now rewrite (same_excluded s1 s2 F).
 Qed.
 
@@ -136,6 +153,9 @@ Proof.
   - now rewrite (same_number s1 s2 F), (same_number s2 s3 G).
   - intros i Hi. rewrite (same_cells s1 s2 F), (same_cells s2 s3 G); auto.
     now rewrite <- (same_number s1 s2 F).
+  - intros i v Hi Hv. rewrite (same_merged s1 s2 F i) by auto.
+    rewrite (same_cells s1 s2 F) in Hv by auto. rewrite (same_number s1 s2 F) in Hi.
+    now apply (same_merged s2 s3 G i).
   - intros i Hi. rewrite (same_labels s1 s2 F), (same_labels s2 s3 G); auto.
     now rewrite <- (same_number s1 s2 F).
   - now rewrite (same_excluded s1 s2 F), (same_excluded s2 s3 G).

@@ -84,7 +84,7 @@ Definition check_hit (strict : bool) (s : scene) (w : witness) : bool :=
   (tbeg s <? tend s) && (0 <? wd w) && (tbeg s * wd w <=? wc w) && (wc w <=? tend s * wd w) &&
   (strict || negb (wi w =? wj w)) && side_ok s (wi w) (wp w) && side_ok s (wj w) (wq w) &&
   negb (excluded_pair s (label s (wi w)) (label s (wj w))) &&
-  forallb (fun x => forallb (fun y => negb (fst x =? fst y)) (wq w)) (wp w) &&
+  forallb (fun x => forallb (fun y => negb (same s (fst x) =? same s (fst y))) (wq w)) (wp w) &&
   near s w.
 
 (** ** Its soundness *)
@@ -210,7 +210,7 @@ Proof.
     split; eapply Rmult_le_reg_r; eauto.
   - apply orb_true_iff in N as [N|N]; [now left|]. right. now apply negb_true_iff, Z.eqb_neq in N.
   - intros Y. apply excluded_pair_complete in Y. rewrite Y in X. discriminate.
-  - intros v V1 V2. apply in_map_iff in V1 as (a & <- & Ha), V2 as (b & Eb & Hb).
+  - intros v V1 V2. rewrite map_map in V1, V2. apply in_map_iff in V1 as (a & <- & Ha), V2 as (b & Eb & Hb).
     rewrite forallb_forall in I. apply I in Ha. rewrite forallb_forall in Ha. apply Ha in Hb.
     now rewrite Eb, Z.eqb_refl in Hb.
 Qed.

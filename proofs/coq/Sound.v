@@ -187,6 +187,14 @@ Proof.
   - cbn. repeat split; auto. now exists [].
 Qed.
 
+(** [equal_traj] is equality. *)
+Lemma equal_traj_sound tr1 : forall tr2, equal_traj tr1 tr2 = true -> tr1 = tr2.
+Proof.
+  induction tr1 as [|(t1, (x1, y1, z1)) r1 IH]; destruct tr2 as [|(t2, (x2, y2, z2)) r2]; cbn; try easy.
+  destruct (_ && _)%bool eqn:E; [|discriminate]. rewrite !andb_true_iff, !Z.eqb_eq in E.
+  destruct E as [[[-> ->] ->] ->]. intros H. f_equal. auto.
+Qed.
+
 (** [since] leaves a trajectory the same, from [a/d] on. *)
 Lemma since_sound d a r : (0 < d)%Z -> forall t0 p0, increasing t0 r ->
   exists t0' p0' r', since d a (index ((t0, p0) :: r)) = (t0', p0') :: r' /\
@@ -1058,18 +1066,41 @@ Proof.
   intros C Hi. apply andb_true_iff in C as [_ C]. now apply ids_of_in, (is_range_sound _ _ _ C).
 Qed.
 
-Lemma cell_ids_in i v : In v (cell s i) -> In v (cell_ids s i).
+Lemma cell_ids_in f i v : In v (cell s i) -> In (f v) (cell_ids f s i).
 Proof.
   unfold cell_ids; induction (cell s i) as [|u l IH]; cbn; [easy|]. intros H.
   rewrite <- (map_id (union _ _ _)). apply union_keys. cbn. destruct H as [<-|H]; auto.
   right. rewrite map_id. auto.
 Qed.
 
-Lemma group_ids_in g i v : In i (ids g) -> In v (cell_ids s i) -> In v (group_ids s g).
+Lemma cell_ids_from f i v : In v (cell_ids f s i) -> exists u, In u (cell s i) /\ f u = v.
+Proof.
+  unfold cell_ids; induction (cell s i) as [|u l IH]; cbn; [easy|]. intros H.
+  apply union_in in H as [[<-|[]]|H]; eauto. destruct (IH H) as (w & I & E); eauto.
+Qed.
+
+Lemma group_ids_in f g i v : In i (ids g) -> In v (cell_ids f s i) -> In v (group_ids f s g).
 Proof.
   induction g as [j|l IHl r IHr]; cbn; intros H V.
   - now destruct H as [<-|[]].
   - rewrite <- (map_id (union _ _ _)). apply union_keys. rewrite !map_id. apply in_app_or in H as [H|H]; auto.
+Qed.
+
+Lemma group_ids_from f g v : In v (group_ids f s g) -> exists i, In i (ids g) /\ In v (cell_ids f s i).
+Proof.
+  induction g as [j|l IHl r IHr]; cbn.
+  - exists j; auto.
+  - intros H. apply union_in in H as [H|H]; [apply IHl in H|apply IHr in H];
+      destruct H as (i & I & V); exists i; split; auto; apply in_or_app; auto.
+Qed.
+
+Definition sensible (v : Z) : Prop :=
+  covers_time (tbeg s) (tend s) (path s v) /\ path s (same s v) = path s v.
+
+Lemma wf_vertex_sound v : wf_vertex s v = true -> sensible v.
+Proof.
+  unfold wf_vertex. rewrite andb_true_iff, orb_true_iff, Z.eqb_eq. intros [W E].
+  apply wf_traj_sound in W. split; auto. destruct E as [->|E]; auto. now apply equal_traj_sound.
 Qed.
 
 Lemma vertices_sound l : (forall v, In v l -> covers_time (tbeg s) (tend s) (path s v)) ->
@@ -1096,7 +1127,7 @@ Variable table : search vertex.
 Hypothesis table_resolved : each resolved table.
 
 Lemma build_cell i x : build_from table s (Cell i) = Some x ->
-  exists vs, x = Leaf (label s i) vs /\ map fst vs = cell_ids s i /\ Forall resolved vs.
+  exists vs, x = Leaf (label s i) vs /\ map fst vs = cell_ids (same s) s i /\ Forall resolved vs.
 Proof.
   cbn [build_from]. destruct (look_up_all _ _) as [vs|] eqn:E; [|discriminate]. intros [= <-].
   apply look_up_all_sound in E as [E R]; eauto.
@@ -1119,7 +1150,7 @@ Proof.
       destruct (Z.eqb_spec a b); [|discriminate]. subst. now intros [= <-].
 Qed.
 
-Definition leaf_of i := (label s i, cell_ids s i).
+Definition leaf_of i := (label s i, cell_ids (same s) s i).
 
 Lemma build_leaves g : forall x, build_from table s g = Some x -> leaves x = map leaf_of (ids g).
 Proof.
@@ -1153,18 +1184,28 @@ Qed.
 
 End Table.
 
-(** A scene with a tree has trajectories as they should be. *)
+(** A scene with a tree has vertices as they should be. *)
 Lemma build_sound g x : build s g = Some x ->
-  (forall i v, In i (ids g) -> In v (cell s i) -> covers_time (tbeg s) (tend s) (path s v)) /\
+  (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) /\
   exists table, each resolved table /\ build_from table s g = Some x.
 Proof.
-  unfold build. cbn zeta. on_forallb (group_ids s g) F.
-  assert (forall v, In v (group_ids s g) -> covers_time (tbeg s) (tend s) (path s v)) as C.
-  { intros v Hv. rewrite forallb_forall in F. now apply wf_traj_sound, F. }
-  destruct (join_all _ _) as [table|] eqn:E; [|discriminate]. intros B. split.
-  - intros i v Hi Hv. apply C, (group_ids_in g i); auto. now apply cell_ids_in.
-  - exists table. split; auto. apply (join_all_sound resolved fst) in E as [E _]; auto.
-    apply vertices_sound; auto.
+  unfold build. on_forallb (group_ids (fun v => v) s g) F. cbn zeta.
+  assert (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) as C.
+  { intros i v Hi Hv. rewrite forallb_forall in F. apply wf_vertex_sound, F, (group_ids_in _ g i); auto.
+    now apply (cell_ids_in (fun u => u)). }
+  destruct (join_all _ _) as [table|] eqn:E; [|discriminate]. intros B. split; auto.
+  exists table. split; auto. apply (join_all_sound resolved fst) in E as [E _]; auto.
+  apply vertices_sound; auto. intros v Hv.
+  apply group_ids_from in Hv as (i & Hi & Hv). apply cell_ids_from in Hv as (u & Hu & <-).
+  destruct (C i u Hi Hu) as [W ->]. exact W.
+Qed.
+
+(** A feature is where the vertices that stand for its own are. *)
+Lemma simplex_same i P t : (forall v, In v (cell s i) -> sensible v) -> incl P (cell s i) ->
+  simplex s (map (same s) P) t = simplex s P t.
+Proof.
+  intros C I. unfold simplex. f_equal. rewrite map_map. apply map_ext_in. intros v Hv.
+  destruct (C v (I v Hv)) as [_ ->]. reflexivity.
 Qed.
 
 Lemma start_sound g st : start s g = Some st ->
@@ -1175,14 +1216,16 @@ Proof.
   apply Z.ltb_lt in E0, E1. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
   apply build_sound in B as (W & table & R & B).
   intros [= <-]. split.
-  - repeat split; auto. intros i v Hi Hv. apply (W i); auto. now apply covers_sound with (ncell s).
+  - do 3 (split; auto). intros i v Hi Hv. apply (W i); auto. now apply covers_sound with (ncell s).
   - intros F. apply Forall_inv in F as S. cbn [holds] in S.
     specialize (S eq_refl (build_inv table R g x B)).
-    intros t Ht i j Hi Hj D N P Q IP IQ.
-    apply (self_pairs table R _ _ _ g x B S i j); eauto using covers_sound.
-    + lra.
-    + intros v Hv. now apply cell_ids_in, IP.
-    + intros v Hv. now apply cell_ids_in, IQ.
+    intros t Ht i j Hi Hj D N P Q IP IQ E x1 x2 H1 H2.
+    assert (I : forall k T, incl T (cell s k) -> incl (map (same s) T) (cell_ids (same s) s k)).
+    { intros k T HT v Hv. apply in_map_iff in Hv as (u & <- & Hu). now apply cell_ids_in, HT. }
+    rewrite <- (simplex_same i) in H1; [| |exact IP]; [|intros v; apply W; eauto using covers_sound].
+    rewrite <- (simplex_same j) in H2; [| |exact IQ]; [|intros v; apply W; eauto using covers_sound].
+    refine (self_pairs table R _ _ _ g x B S i j _ _ D N t _ Ht _ _ (I i P IP) (I j Q IQ) E x1 x2 H1 H2);
+      eauto using covers_sound. lra.
 Qed.
 End Soundness.
 
@@ -1213,12 +1256,13 @@ Proof. intros H t Ht i j Hi Hj _. apply H; auto. Qed.
 Corollary check_sound_cells strict s g toks : check strict s g toks = true ->
   forall t, (IZR (tbeg s) <= t <= IZR (tend s))%R ->
   forall i j, (0 <= i < ncell s)%Z -> (0 <= j < ncell s)%Z ->
-  ~ is_excluded s (label s i) (label s j) -> disjoint_ids (cell s i) (cell s j) ->
+  ~ is_excluded s (label s i) (label s j) ->
+  disjoint_ids (map (same s) (cell s i)) (map (same s) (cell s j)) ->
   forall x, ~ (simplex s (cell s i) t x /\ simplex s (cell s j) t x).
 Proof.
   intros H t Ht i j Hi Hj E D x [X Y].
   destruct (Z.eq_dec i j) as [<-|N].
-  - destruct (cell s i) as [|v l]; [now apply hull_nil in X|]. apply (D v); now left.
+  - destruct (cell s i) as [|v l]; [now apply hull_nil in X|]. apply (D (same s v)); now left.
   - apply (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) D x x X) in Y.
     unfold dist2 in Y. pose proof (Rle_0_sqr (IZR (eta s))) as P. unfold Rsqr in P. lra.
 Qed.

@@ -24,12 +24,14 @@ Definition traj := list (Z * vec).
 (** A scene is an interval of time, the vertices' trajectories, and cells: the
     faces, and the edges and points that belong to no face.  A cell is a list of
     vertex ids of any length; it has a label, and [excluded] lists the unordered
-    pairs of labels about which nothing is claimed.  Things are to be more than
-    [eta] apart; [eta] = 0 says that they do not touch. *)
+    pairs of labels about which nothing is claimed.  Vertices that are always at one
+    place may be merged: [same] gives for each the one that stands for it.  Things are
+    to be more than [eta] apart; [eta] = 0 says that they do not touch. *)
 Record scene := Scene {
   tbeg     : Z;              (* the claim begins here  *)
   tend     : Z;              (* and ends here          *)
   path     : Z -> traj;      (* of each vertex id      *)
+  same     : Z -> Z;         (* stands for a vertex    *)
   ncell    : Z;              (* cells are 0 .. ncell-1 *)
   cell     : Z -> list Z;    (* vertex ids of a cell   *)
   label    : Z -> Z;         (* label of a cell        *)
@@ -62,10 +64,11 @@ Definition covers_time (T0 T1 : Z) (tr : traj) : Prop :=
 
 (** A scene is well formed if its interval has a length, it has a cell, its least
     distance is not negative, and each vertex of each cell has a trajectory for all
-    of the interval. *)
+    of the interval, which is also that of the vertex that stands for it. *)
 Definition well_formed (s : scene) : Prop :=
   tbeg s < tend s /\ 0 < ncell s /\ 0 <= eta s /\
-  forall i v, 0 <= i < ncell s -> In v (cell s i) -> covers_time (tbeg s) (tend s) (path s v).
+  forall i v, 0 <= i < ncell s -> In v (cell s i) ->
+    covers_time (tbeg s) (tend s) (path s v) /\ path s (same s v) = path s v.
 
 (** ** Its meaning over the real numbers *)
 Open Scope R_scope.
@@ -134,12 +137,12 @@ Definition is_excluded (s : scene) (l m : Z) : Prop :=
   In (l, m) (excluded s) \/ In (m, l) (excluded s).
 
 (** At all times of the interval, a feature of a cell [i] and a feature of a cell [j]
-    that share no vertex are more than [eta] apart (so if [eta] is 0, they have no
+    that share no vertex, after merging, are more than [eta] apart (so if [eta] is 0, they have no
     point in common), if the labels of [i] and [j] are not excluded.  This is said of
     two different cells and, if [strict], also of two features of one cell. *)
 Definition never_touch (strict : bool) (s : scene) : Prop :=
   forall t, IZR (tbeg s) <= t <= IZR (tend s) ->
   forall i j, (0 <= i < ncell s)%Z -> (0 <= j < ncell s)%Z ->
   strict = true \/ i <> j -> ~ is_excluded s (label s i) (label s j) ->
-  forall P Q, incl P (cell s i) -> incl Q (cell s j) -> disjoint_ids P Q ->
+  forall P Q, incl P (cell s i) -> incl Q (cell s j) -> disjoint_ids (map (same s) P) (map (same s) Q) ->
   forall x y, simplex s P t x -> simplex s Q t y -> IZR (eta s) ^ 2 < dist2 x y.

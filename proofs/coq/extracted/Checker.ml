@@ -32,6 +32,25 @@ let wf_traj t0 t1 = function
 | [] -> false
 | p :: r -> let (t2, _) = p in (&&) (Zint.leq t2 t0) (reaches t2 t1 r)
 
+(** val equal_traj : traj -> traj -> bool **)
+
+let rec equal_traj tr1 tr2 =
+  match tr1 with
+  | [] -> (match tr2 with
+           | [] -> true
+           | _ :: _ -> false)
+  | p :: r1 ->
+    let (t1, p1) = p in
+    (match tr2 with
+     | [] -> false
+     | p0 :: r2 ->
+       let (t2, p2) = p0 in
+       if (&&)
+            ((&&) ((&&) (Zint.equal t1 t2) (Zint.equal p1.vx p2.vx))
+              (Zint.equal p1.vy p2.vy)) (Zint.equal p1.vz p2.vz)
+       then equal_traj r1 r2
+       else false)
+
 type 'a search =
 | Found of 'a
 | Choose of Zint.t * 'a search * 'a search
@@ -358,17 +377,24 @@ let common_label x y =
      | None -> None)
   | None -> None
 
-(** val cell_ids : scene -> Zint.t -> Zint.t list **)
+(** val cell_ids : (Zint.t -> Zint.t) -> scene -> Zint.t -> Zint.t list **)
 
-let cell_ids s i =
+let cell_ids f s i =
   (fun f a l -> List.fold_right f l a) (fun v acc ->
-    union (fun u -> u) (v :: []) acc) [] (s.cell i)
+    union (fun u -> u) ((f v) :: []) acc) [] (s.cell i)
 
-(** val group_ids : scene -> group -> Zint.t list **)
+(** val group_ids : (Zint.t -> Zint.t) -> scene -> group -> Zint.t list **)
 
-let rec group_ids s = function
-| Cell i -> cell_ids s i
-| Join (l, r) -> union (fun u -> u) (group_ids s l) (group_ids s r)
+let rec group_ids f s = function
+| Cell i -> cell_ids f s i
+| Join (l, r) -> union (fun u -> u) (group_ids f s l) (group_ids f s r)
+
+(** val wf_vertex : scene -> Zint.t -> bool **)
+
+let wf_vertex s v =
+  (&&) (wf_traj s.tbeg s.tend (s.path v))
+    ((||) (Zint.equal (s.same v) v)
+      (equal_traj (s.path (s.same v)) (s.path v)))
 
 (** val vertices :
     scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex
@@ -401,7 +427,7 @@ let rec look_up_all table = function
 
 let rec build_from table s = function
 | Cell i ->
-  (match look_up_all table (cell_ids s i) with
+  (match look_up_all table (cell_ids s.same s i) with
    | Some vs -> Some (Leaf ((s.label i), vs))
    | None -> None)
 | Join (l, r) ->
@@ -417,9 +443,9 @@ let rec build_from table s = function
 (** val build : scene -> group -> tree option **)
 
 let build s g =
-  let ids = group_ids s g in
-  if List.for_all (fun v -> wf_traj s.tbeg s.tend (s.path v)) ids
-  then (match join_all ids (vertices s ids []) with
+  if List.for_all (wf_vertex s) (group_ids (fun v -> v) s g)
+  then let ids = group_ids s.same s g in
+       (match join_all ids (vertices s ids []) with
         | Some table -> build_from table s g
         | None -> None)
   else None

@@ -24,6 +24,8 @@ val reaches : Zint.t -> Zint.t -> traj -> bool
 
 val wf_traj : Zint.t -> Zint.t -> traj -> bool
 
+val equal_traj : traj -> traj -> bool
+
 type 'a search =
 | Found of 'a
 | Choose of Zint.t * 'a search * 'a search
@@ -111,9 +113,11 @@ val label_of : tree -> Zint.t option
 
 val common_label : tree -> tree -> Zint.t option
 
-val cell_ids : scene -> Zint.t -> Zint.t list
+val cell_ids : (Zint.t -> Zint.t) -> scene -> Zint.t -> Zint.t list
 
-val group_ids : scene -> group -> Zint.t list
+val group_ids : (Zint.t -> Zint.t) -> scene -> group -> Zint.t list
+
+val wf_vertex : scene -> Zint.t -> bool
 
 val vertices :
   scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex

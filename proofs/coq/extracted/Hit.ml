@@ -119,5 +119,6 @@ let check_hit strict s w =
             (side_ok s w.wi w.wp)) (side_ok s w.wj w.wq))
         (not (excluded_pair s (s.label w.wi) (s.label w.wj))))
       (List.for_all (fun x ->
-        List.for_all (fun y -> not (Zint.equal (fst x) (fst y))) w.wq) w.wp))
+        List.for_all (fun y ->
+          not (Zint.equal (s.same (fst x)) (s.same (fst y)))) w.wq) w.wp))
     (near s w)
