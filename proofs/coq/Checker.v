@@ -7,11 +7,15 @@
     why in Sound.v.
 
     Notation: an obligation's interval is [a/d, b/d], where [d] is 2^e for the
-    number e of halvings; [c] is a time with the same denominator.  The vertices of
-    a group come with their trajectories, in increasing order of their ids.
+    number e of halvings; [c] is a time with the same denominator; [o] is a mode.  The
+    vertices of a group come with search trees of their trajectories, in increasing order
+    of their ids, which are those that stand for others ([same] in Spec.v).
+
+    Cost: of a token, the search in each trajectory, which is logarithmic, and its
+    breakpoints in the interval; of [start], all breakpoints once, and the sorting of ids.
 
     Not here: reading bytes, and bounds for the lengths of what is read.  The tree
-    is recursed over, so that a reader has to bound its depth. *)
+    is recursed over, so that a reader has to bound its depth; and the length of a way, by the ring. *)
 Require Import ZArith List Bool.
 From Noli Require Import Spec.
 Import ListNotations.
@@ -26,16 +30,18 @@ Inductive group := Cell (i : Z) | Join (l r : group).
 Record halfspace := HalfSpace { normal : vec; nt : Z; nd : Z }.
 
 Inductive token :=
-| THalve                          (* T  any:  both halves of the interval                          *)
-| TLeft                           (* L  pair: each of the two parts of the first group             *)
-| TRight                          (* R  pair: each of the two parts of the second group            *)
-| TDrop (k : Z)                   (* D  two cells: without their k-th common vertex, first, second *)
-| TPlane (h : halfspace) (w : Z)  (* P  pair: the first group is in h, the second w behind it      *)
-| TDirection (n : vec)            (* S  pair: the first group is always further in direction n     *)
-| TExcluded                       (* X  any:  nothing is claimed about these labels                *)
-| TParts                          (* N  self: the first part, the pair of both, the second part    *)
-| TOne                            (* F  self: one cell; nothing to show, if not strict             *)
-| TBoth.                          (* B  self: as a pair of the group with itself                   *)
+| THalve                            (* T  any:  both halves of the interval                          *)
+| TLeft                             (* L  pair: each of the two parts of the first group             *)
+| TRight                            (* R  pair: each of the two parts of the second group            *)
+| TDrop (k : Z)                     (* D  two cells: without their k-th common vertex, first, second *)
+| TRing (v : Z) (w : list (Z * Z))  (* W  two cells: without an end of a short way, and disjoint     *)
+| TFar                              (* G  pair: far first, disjoint second                           *)
+| TPlane (h : halfspace) (w : Z)    (* P  pair: the first group is in h, the second w behind it      *)
+| TDirection (n : vec)              (* S  pair: the first group is always further in direction n     *)
+| TExcluded                         (* X  any:  nothing is claimed about these labels                *)
+| TParts                            (* N  self: the first part, the pair of both, the second part    *)
+| TOne                              (* F  self: one cell; nothing to show, if not strict             *)
+| TBoth.                            (* B  self: as a pair of the group with itself                   *)
 
 (** ** Trajectories *)
 
@@ -438,13 +444,34 @@ Fixpoint nth_id (k : Z) (l : list vertex) : option Z :=
   | w :: r => if k =? 0 then Some (fst w) else nth_id (k - 1) r
   end.
 
+(** ** W: ways from vertex to vertex *)
+
+(** The vertex [v] is in the cell [i], or stands for one that is. *)
+Definition in_cell (s : scene) (i v : Z) : bool :=
+  (0 <=? i) && (i <? ncell s) && existsb (fun u => same s u =? v) (cell s i).
+
+(** Where the way [w] leads from [v] in at most [n] steps: a step is a cell, and the next vertex in it. *)
+Fixpoint way_end (s : scene) (n v : Z) (w : list (Z * Z)) : option Z :=
+  match w with
+  | [] => Some v
+  | (i, u) :: r => if (0 <? n) && in_cell s i v && in_cell s i u then way_end s (n - 1) u r else None
+  end.
+
 (** ** The stack *)
+
+(** What is to be shown of two features: if they share no vertex, that they are disjoint
+    (not [Far]); if they are far by Spec.v's [far_ids], that they are more than [eta] apart
+    (not [Disjoint]). *)
+Inductive mode := Distance | Far | Disjoint.
 
 (** Every feature of a cell in [x] against every one of a cell in [y], or of every
     two cells in [x] (and of each with itself, if strict), over [a/d, b/d]. *)
 Inductive obligation :=
-| Pair (x y : tree) (a b d : Z)
-| Self (x : tree) (a b d : Z).
+| Pair (x y : tree) (o : mode) (a b d : Z)
+| Self (x : tree) (o : mode) (a b d : Z).
+
+(** How far apart separated groups have to be. *)
+Definition least (s : scene) (o : mode) : Z := match o with Disjoint => 0 | Distance | Far => eta s end.
 
 (** Halvings beyond this denominator are refused: it bounds the length of numbers. *)
 Definition d_max : Z := 2 ^ 1024.
@@ -454,11 +481,14 @@ Variable strict : bool.
 Variable s : scene.
 
 (** One token on a pair, and on a group with itself; [k] is the rest of the stack. *)
-Definition step_pair (x y : tree) (a b d : Z) (k : list obligation) (tok : token) : option (list obligation) :=
+Definition step_pair (x y : tree) (o : mode) (a b d : Z) (k : list obligation) (tok : token)
+  : option (list obligation) :=
   match tok with
-  | TDirection n => if separated (eta s * eta s * dot n n) n a b d (verts x) (verts y) then Some k else None
+  | TDirection n =>
+      let e := least s o in
+      if separated (e * e * dot n n) n a b d (verts x) (verts y) then Some k else None
   | TPlane h w =>
-      if wide (eta s) (normal h) w then
+      if wide (least s o) (normal h) w then
         if forallb (fun v => inside h a b d (snd v)) (verts x) then
           let h' := behind h w in
           if forallb (fun v => inside h' a b d (snd v)) (verts y) then Some k else None
@@ -468,42 +498,66 @@ Definition step_pair (x y : tree) (a b d : Z) (k : list obligation) (tok : token
       if d <? d_max then
         let m := a + b in
         let d2 := d + d in
-        Some (Pair x y (a + a) m d2 :: Pair x y m (b + b) d2 :: k)
+        Some (Pair x y o (a + a) m d2 :: Pair x y o m (b + b) d2 :: k)
       else None
   | TLeft =>
       match x with
-      | Node _ _ l r => Some (Pair l y a b d :: Pair r y a b d :: k)
+      | Node _ _ l r => Some (Pair l y o a b d :: Pair r y o a b d :: k)
       | Leaf _ _ => None
       end
   | TRight =>
       match y with
-      | Node _ _ l r => Some (Pair x l a b d :: Pair x r a b d :: k)
+      | Node _ _ l r => Some (Pair x l o a b d :: Pair x r o a b d :: k)
       | Leaf _ _ => None
       end
   | TDrop i =>
       match x, y with
       | Leaf l p, Leaf m q =>
           match nth_id i (filter (fun w => has (fst w) q) p) with
-          | Some v => Some (Pair (Leaf l (without v p)) y a b d :: Pair x (Leaf m (without v q)) a b d :: k)
+          | Some v => Some (Pair (Leaf l (without v p)) y o a b d :: Pair x (Leaf m (without v q)) o a b d :: k)
           | None => None
           end
       | _, _ => None
+      end
+  | TRing v w =>
+      match x, y with
+      | Leaf l p, Leaf m q =>
+          match way_end s (ring s - 1) v w with
+          | Some u =>
+              if has v p && has u q then
+                let x' := Leaf l (without v p) in
+                let y' := Leaf m (without u q) in
+                match o with
+                | Distance => Some (Pair x' y o a b d :: Pair x y' o a b d :: Pair x y Disjoint a b d :: k)
+                | Far => Some (Pair x' y o a b d :: Pair x y' o a b d :: k)
+                | Disjoint => None
+                end
+              else None
+          | None => None
+          end
+      | _, _ => None
+      end
+  | TFar =>
+      match o with
+      | Distance => Some (Pair x y Far a b d :: Pair x y Disjoint a b d :: k)
+      | Far | Disjoint => None
       end
   | TExcluded => if excluded_labels s (label_of x) (label_of y) then Some k else None
   | TParts | TOne | TBoth => None
   end.
 
-Definition step_self (x : tree) (a b d : Z) (k : list obligation) (tok : token) : option (list obligation) :=
+Definition step_self (x : tree) (o : mode) (a b d : Z) (k : list obligation) (tok : token)
+  : option (list obligation) :=
   match tok with
   | THalve =>
       if d <? d_max then
         let m := a + b in
         let d2 := d + d in
-        Some (Self x (a + a) m d2 :: Self x m (b + b) d2 :: k)
+        Some (Self x o (a + a) m d2 :: Self x o m (b + b) d2 :: k)
       else None
   | TParts =>
       match x with
-      | Node _ _ l r => Some (Self l a b d :: Pair l r a b d :: Self r a b d :: k)
+      | Node _ _ l r => Some (Self l o a b d :: Pair l r o a b d :: Self r o a b d :: k)
       | Leaf _ _ => None
       end
   | TOne =>
@@ -511,17 +565,17 @@ Definition step_self (x : tree) (a b d : Z) (k : list obligation) (tok : token) 
       | Leaf _ _ => if strict then None else Some k
       | Node _ _ _ _ => None
       end
-  | TBoth => Some (Pair x x a b d :: k)
+  | TBoth => Some (Pair x x o a b d :: k)
   | TExcluded => if excluded_labels s (label_of x) (label_of x) then Some k else None
-  | TLeft | TRight | TDrop _ | TPlane _ _ | TDirection _ => None
+  | TLeft | TRight | TDrop _ | TRing _ _ | TFar | TPlane _ _ | TDirection _ => None
   end.
 
 (** One token: what it puts in place of the obligation on top, or [None]. *)
 Definition step (st : list obligation) (tok : token) : option (list obligation) :=
   match st with
   | [] => None
-  | Pair x y a b d :: k => step_pair x y a b d k tok
-  | Self x a b d :: k => step_self x a b d k tok
+  | Pair x y o a b d :: k => step_pair x y o a b d k tok
+  | Self x o a b d :: k => step_self x o a b d k tok
   end.
 
 (** Token after token. *)
@@ -538,9 +592,9 @@ End Steps.
 
 (** The stack before the first token; [None] for a scene or tree that makes no sense. *)
 Definition start (s : scene) (g : group) : option (list obligation) :=
-  if (tbeg s <? tend s) && (0 <? ncell s) && (0 <=? eta s) && covers (ncell s) g then
+  if (tbeg s <? tend s) && (0 <? ncell s) && (0 <=? eta s) && (0 <? ring s) && covers (ncell s) g then
     match build s g with
-    | Some x => Some [Self x (tbeg s) (tend s) 1]
+    | Some x => Some [Self x (if 0 <? eta s then Distance else Disjoint) (tbeg s) (tend s) 1]
     | None => None
     end
   else None.

@@ -28,7 +28,7 @@ Definition lax := check false.
 Ltac computed := vm_compute; reflexivity.
 
 (** A scene in which things are to be more than a distance apart, and no vertices are merged. *)
-Definition spaced t0 t1 p n c l e eta := Scene t0 t1 p (fun v => v) n c l e eta.
+Definition spaced t0 t1 p n c l e eta := Scene t0 t1 p (fun v => v) n c l e eta 1.
 
 (** The same in which things are not to touch. *)
 Definition touching t0 t1 p n c l e := spaced t0 t1 p n c l e 0.
@@ -184,8 +184,8 @@ Proof. computed. Qed.
 Lemma no_half_missing : lax (pass 2) point_first [TParts; TOne; THalve; east; TOne] = false. Proof. computed. Qed.
 Lemma no_half_missing_at_end : lax (pass 2) point_first (THalve :: close east) = false. Proof. computed. Qed.
 
-Definition halvings n := run false (pass 2) [Self (Leaf 0 []) 0 1 1] (repeat THalve n).
-Definition pair_halvings n := run false (pass 2) [Pair (Leaf 0 []) (Leaf 0 []) 0 1 1] (repeat THalve n).
+Definition halvings n := run false (pass 2) [Self (Leaf 0 []) Disjoint 0 1 1] (repeat THalve n).
+Definition pair_halvings n := run false (pass 2) [Pair (Leaf 0 []) (Leaf 0 []) Disjoint 0 1 1] (repeat THalve n).
 Lemma ok_depth_pair : (if pair_halvings 1024 then true else false) = true. Proof. computed. Qed.
 Lemma no_depth_pair : (if pair_halvings 1025 then true else false) = false. Proof. computed. Qed.
 Lemma ok_depth : (if halvings 1024 then true else false) = true. Proof. computed. Qed.
@@ -214,7 +214,7 @@ Lemma no_drop_needed : lax hinge tri_first (close (dir (-1) 0)) = false. Proof. 
     places of 1 and 2, unless [p] says otherwise of 12. *)
 Definition seam (f : Z -> Z) (p : traj) : scene :=
   Scene 0 4 (fun v => if v =? 12 then p else path hinge (v mod 10)) f 2
-        (fun i => if i =? 0 then [2; 0; 1] else [11; 3; 12]) (fun i => i) [] 0.
+        (fun i => if i =? 0 then [2; 0; 1] else [11; 3; 12]) (fun i => i) [] 0 1.
 Definition to_first v := v mod 10.
 Definition to_second v := if v <? 3 then v + 10 else v.
 Definition to_other v := v mod 10 + 20.
@@ -275,18 +275,18 @@ Lemma no_drop_node : lax row row_right [TParts; TOne; TDrop 0] = false. Proof. c
 
 (** A token of the other kind of obligation. *)
 Definition root := Leaf 0 [(0, index (at_rest (V3 0 0 0)))].
-Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) 0 4 1].
-Definition on_self := step false row [Self (Node None [] root root) 0 4 1].
+Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) Distance 0 4 1].
+Definition on_self := step false row [Self (Node None [] root root) Distance 0 4 1].
 Definition refused (o : option (list obligation)) := match o with None => true | Some _ => false end.
-Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0] = true.
+Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0; TRing 0 []] = true.
 Proof. computed. Qed.
 Lemma no_token_on_self :
-  forallb (fun tok => refused (on_self tok)) [TLeft; TRight; TDrop 0; above 0; TDirection up] = true.
+  forallb (fun tok => refused (on_self tok)) [TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 0; TDirection up] = true.
 Proof. computed. Qed.
 
 (** The stack: tokens after the last obligation, and obligations after the last token. *)
 Lemma no_more_tokens : forallb (fun tok => negb (lax (fall 2) point_first (close (above 1) ++ [tok])))
-  [THalve; TLeft; TRight; TDrop 0; above 1; TDirection up; TExcluded; TParts; TOne; TBoth] = true.
+  [THalve; TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 1; TDirection up; TExcluded; TParts; TOne; TBoth] = true.
 Proof. computed. Qed.
 Lemma no_tokens : lax (fall 2) point_first [] = false. Proof. computed. Qed.
 Lemma no_token_less : lax (fall 2) point_first [TParts; TOne; above 1] = false. Proof. computed. Qed.
@@ -443,6 +443,84 @@ Definition cross_eta_3 e := let s := cross 9 in
   spaced 0 2 (path s) 2 (cell s) (label s) [] e.
 Lemma ok_eta_cross_3 : lax (cross_eta_3 5) point_first (close (TDirection up)) = true. Proof. computed. Qed.
 Lemma no_eta_cross_3 : lax (cross_eta_3 6) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+
+(** ** W, G: neighbours may be nearer *)
+
+(** A chain of three edges in a row, each of length 3: cell i joins the vertices i and i+1. *)
+Definition links e k :=
+  Scene 0 4 (fun v => at_rest (V3 (3 * v) 0 0)) (fun v => v) 3 (fun i => [i; i + 1]) (fun i => i) [] e k.
+Definition west := dir (-1) 0.
+Definition links_with next far :=
+  [TParts; TParts; TOne] ++ next 0 ++ [TOne; TLeft] ++ far ++ next 1 ++ [TOne].
+(** Of neighbouring cells, the vertices i and i+2 are at distance 6; of the two others, 0 and 2, and 1 and 3. *)
+Definition next i :=
+  [TDrop 0; TRing i [(i, i + 1)]; nothing; west; west; TRing (i + 1) [(i + 1, i + 2)]; west; nothing; west].
+Definition other := [TRing 1 [(1, 2)]; west; west; west].
+Definition linked e k := lax (links e k) row_left (links_with next other).
+Lemma ok_ring : linked 5 2 = true. Proof. computed. Qed.
+Theorem safe_ring : never_touch false (links 5 2).
+Proof. exact (check_sound _ _ _ _ ok_ring). Qed.
+Lemma ok_ring_more : linked 5 3 = true. Proof. computed. Qed.
+Lemma no_ring_eta : linked 6 2 = false. Proof. computed. Qed.
+Lemma no_ring_eta_0 : linked 0 2 = false. Proof. computed. Qed.
+Lemma no_ring_1 : linked 5 1 = false. Proof. computed. Qed.
+Lemma no_ring_0 : start (links 5 0) row_left = None. Proof. computed. Qed.
+Lemma no_ring_negative : start (links 0 (-1)) row_left = None. Proof. computed. Qed.
+(** A way of no steps does what D does. *)
+Definition next_by_none i :=
+  [TRing (i + 1) []; TRing i [(i, i + 1)]; nothing; west; west; TRing (i + 1) [(i + 1, i + 2)]; west; nothing; west;
+   TDrop 0; west; west].
+Lemma ok_ring_none : lax (links 5 2) row_left (links_with next_by_none other) = true. Proof. computed. Qed.
+(** Ways of two steps: nothing of neighbouring cells is far, and of the others only 0 and 3.  What is
+    disjoint is shown once, after G. *)
+Definition next_two i :=
+  [TFar; TRing i [(i, i + 1); (i + 1, i + 2)];
+   TRing (i + 1) []; nothing; TRing (i + 1) [(i + 1, i + 2)]; nothing; nothing;
+   TRing (i + 1) []; TRing i [(i, i + 1)]; nothing; nothing; nothing; TDrop 0; west; west].
+Definition other_two :=
+  [TFar; TRing 1 [(1, 2)]; TRing 0 [(0, 1); (1, 2)]; nothing; west; TRing 1 [(1, 2); (2, 3)]; west; nothing; west].
+Definition linked_two e k := lax (links e k) row_left (links_with next_two other_two).
+Lemma ok_ring_two : linked_two 8 3 = true. Proof. computed. Qed.
+Lemma no_ring_two_eta : linked_two 9 3 = false. Proof. computed. Qed.
+Lemma no_ring_two_eta_0 : linked_two 0 3 = false. Proof. computed. Qed.
+Lemma no_ring_two : linked_two 8 2 = false. Proof. computed. Qed.
+(** However near neighbours may be, they are to be disjoint. *)
+Definition folded k :=
+  let s := links 5 k in
+  Scene 0 4 (fun v => if v =? 3 then at_rest (V3 3 0 0) else path s v) (same s) 3 (cell s) (label s) [] 5 k.
+Lemma no_ring_folded : forallb (fun t => negb (lax (folded 4) row_left t))
+  [links_with next other; links_with next_two other_two] = true. Proof. computed. Qed.
+
+(** Each condition of W alone. *)
+Definition by_way k v w := lax (links 5 k) row_left (links_with next [TRing v w; west; west; west]).
+Lemma ok_way : by_way 2 1 [(1, 2)] = true. Proof. computed. Qed.
+Lemma ok_way_longer : by_way 3 1 [(0, 1); (1, 2)] = true. Proof. computed. Qed.
+Lemma ok_way_back : by_way 4 1 [(0, 0); (0, 1); (1, 2)] = true. Proof. computed. Qed.
+Lemma no_way_too_long : by_way 2 1 [(0, 1); (1, 2)] = false. Proof. computed. Qed.
+Lemma no_way_cell : by_way 2 1 [(0, 2)] = false. Proof. computed. Qed.
+Lemma no_way_cell_other : by_way 2 1 [(2, 2)] = false. Proof. computed. Qed.
+(** What is beyond the last cell, or before the first, is none, whatever vertices it may have. *)
+Lemma no_way_cell_beyond : way_end (links 5 9) 5 1 [(1, 2); (2, 3); (3, 4)] = None. Proof. computed. Qed.
+Lemma no_way_cell_negative : way_end (links 5 9) 5 1 [(0, 0); (-1, -1)] = None. Proof. computed. Qed.
+Definition on_cells o tok := step false (links 5 9)
+  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 [(2, index []); (3, index [])]) o 0 4 1] tok.
+Definition left_over (o : option (list obligation)) := match o with None => -1 | Some l => Z.of_nat (length l) end.
+Lemma ok_modes : map (fun o => (left_over (on_cells o (TRing 1 [(1, 2)])), left_over (on_cells o TFar)))
+  [Distance; Far; Disjoint] = [(3, 2); (2, -1); (-1, -1)]. Proof. computed. Qed.
+Lemma no_way_begin : on_cells Far (TRing 2 []) = None. Proof. computed. Qed.
+Lemma no_way_end : on_cells Far (TRing 1 []) = None. Proof. computed. Qed.
+Lemma no_way_leaf : forallb (fun o => refused (step false (links 5 9) [o] (TRing 0 [])))
+  [Pair (Node None [] root root) root Distance 0 4 1; Pair root (Node None [] root root) Distance 0 4 1] = true.
+Proof. computed. Qed.
+(** A way leads through merged vertices: 1 and 11, 2 and 12 at the seam are one each. *)
+Definition by_seam f w := step false (let s := seam f (path hinge 2) in
+    Scene 0 4 (path s) (same s) 2 (cell s) (label s) [] 5 3)
+  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 1 [(3, index [])]) Far 0 4 1] (TRing 0 w).
+Lemma ok_way_same : left_over (by_seam to_first [(0, 1); (1, 3)]) = 2. Proof. computed. Qed.
+Lemma no_way_same : by_seam (fun v => v) [(0, 1); (1, 3)] = None. Proof. computed. Qed.
+Lemma no_way_same_other : by_seam to_first [(0, 11); (1, 3)] = None. Proof. computed. Qed.
+
+(** ** Witnesses of a distance *)
 
 Definition hit_eta c e := check_hit false (apart e) (Witness c 5 0 1 [(0, 1)] [(1, 1)]).
 Lemma ok_hit_eta : hit_eta 0 5 = true. Proof. computed. Qed.

@@ -85,7 +85,7 @@ Definition check_hit (strict : bool) (s : scene) (w : witness) : bool :=
   (strict || negb (wi w =? wj w)) && side_ok s (wi w) (wp w) && side_ok s (wj w) (wq w) &&
   negb (excluded_pair s (label s (wi w)) (label s (wj w))) &&
   forallb (fun x => forallb (fun y => negb (same s (fst x) =? same s (fst y))) (wq w)) (wp w) &&
-  near s w.
+  (ring s =? 1) && near s w.
 
 (** ** Its soundness *)
 Open Scope R_scope.
@@ -177,7 +177,7 @@ Qed.
 Theorem check_hit_sound strict s w : check_hit strict s w = true -> ~ never_touch strict s.
 Proof.
   unfold check_hit; rewrite !andb_true_iff.
-  intros [[[[[[[[[_ D] T0] T1] N] A] B] X] I] E] H.
+  intros [[[[[[[[[[_ D] T0] T1] N] A] B] X] I] K] E] H.
   apply Z.ltb_lt in D. apply Z.leb_le in T0, T1.
   set (t := IZR (wc w) / IZR (wd w)).
   assert (t * IZR (wd w) = IZR (wc w)) as Et by (unfold t; apply IZR_lt in D; field; lra).
@@ -205,12 +205,13 @@ Proof.
   rewrite E5, E4, E1, E2, E3 in L. unfold dotR in L; cbn [vx vy vz] in L.
   apply (Rlt_not_le (dist2 x y) (IZR (eta s) ^ 2)); [|unfold dist2; lra].
   apply IZR_lt in D as D'.
-  refine (H t _ (wi w) (wj w) Hi Hj _ _ _ _ IP IQ _ x y HP HQ).
+  apply Z.eqb_eq in K.
+  refine (proj2 (H t _ (wi w) (wj w) Hi Hj _ _ _ _ IP IQ x y HP HQ) _).
   - apply IZR_le in T0, T1. rewrite mult_IZR in T0, T1. rewrite <- Et in T0, T1.
     split; eapply Rmult_le_reg_r; eauto.
   - apply orb_true_iff in N as [N|N]; [now left|]. right. now apply negb_true_iff, Z.eqb_neq in N.
   - intros Y. apply excluded_pair_complete in Y. rewrite Y in X. discriminate.
-  - intros v V1 V2. rewrite map_map in V1, V2. apply in_map_iff in V1 as (a & <- & Ha), V2 as (b & Eb & Hb).
+  - intros v u V1 V2 W. rewrite K in W. cbn in W. subst u. rewrite map_map in V1, V2. apply in_map_iff in V1 as (a & <- & Ha), V2 as (b & Eb & Hb).
     rewrite forallb_forall in I. apply I in Ha. rewrite forallb_forall in Ha. apply Ha in Hb.
     now rewrite Eb, Z.eqb_refl in Hb.
 Qed.

@@ -707,12 +707,13 @@ Section Soundness.
 Variable s : scene.
 Variable strict : bool.
 
-(** During [a/d, b/d], and the scene's time, a feature of [P] and one of [Q] that
-    share no vertex are more than [eta] apart. *)
-Definition Apart (a b d : Z) (P Q : list Z) : Prop :=
+(** During [a/d, b/d], and the scene's time, features of [P] and [Q] are as [o] says. *)
+Definition Apart (o : mode) (a b d : Z) (P Q : list Z) : Prop :=
   forall t, (IZR a <= t * IZR d <= IZR b)%R -> (IZR (tbeg s) <= t <= IZR (tend s))%R ->
-  forall S U, incl S P -> incl U Q -> disjoint_ids S U ->
-  forall x y, simplex s S t x -> simplex s U t y -> (IZR (eta s) ^ 2 < dist2 x y)%R.
+  forall S U, incl S P -> incl U Q ->
+  forall x y, simplex s S t x -> simplex s U t y ->
+  (o <> Far -> disjoint_ids S U -> (0 < dist2 x y)%R) /\
+  (o <> Disjoint -> far_ids s S U -> (IZR (eta s) ^ 2 < dist2 x y)%R).
 
 (** The cells below a node: label and vertex ids. *)
 Fixpoint leaves (x : tree) : list (Z * list Z) :=
@@ -721,15 +722,15 @@ Fixpoint leaves (x : tree) : list (Z * list Z) :=
   | Node _ _ x y => leaves x ++ leaves y
   end.
 
-Definition Claimed (a b d : Z) (P Q : Z * list Z) : Prop :=
-  ~ is_excluded s (fst P) (fst Q) -> Apart a b d (snd P) (snd Q).
+Definition Claimed (o : mode) (a b d : Z) (P Q : Z * list Z) : Prop :=
+  ~ is_excluded s (fst P) (fst Q) -> Apart o a b d (snd P) (snd Q).
 
-Definition PairApart a b d x y := forall P Q, In P (leaves x) -> In Q (leaves y) -> Claimed a b d P Q.
+Definition PairApart o a b d x y := forall P Q, In P (leaves x) -> In Q (leaves y) -> Claimed o a b d P Q.
 
-Fixpoint SelfApart a b d (x : tree) : Prop :=
+Fixpoint SelfApart (o : mode) (a b d : Z) (x : tree) : Prop :=
   match x with
-  | Leaf l vs => strict = true -> Claimed a b d (l, map fst vs) (l, map fst vs)
-  | Node _ _ x y => SelfApart a b d x /\ PairApart a b d x y /\ SelfApart a b d y
+  | Leaf l vs => strict = true -> Claimed o a b d (l, map fst vs) (l, map fst vs)
+  | Node _ _ x y => SelfApart o a b d x /\ PairApart o a b d x y /\ SelfApart o a b d y
   end.
 
 Definition resolved (w : vertex) : Prop :=
@@ -748,42 +749,137 @@ Fixpoint inv (x : tree) : Prop :=
 
 Definition holds (o : obligation) : Prop :=
   match o with
-  | Pair x y a b d => (0 < d)%Z -> inv x -> inv y -> PairApart a b d x y
-  | Self x a b d => (0 < d)%Z -> inv x -> SelfApart a b d x
+  | Pair x y o a b d => (0 < d)%Z -> inv x -> inv y -> PairApart o a b d x y
+  | Self x o a b d => (0 < d)%Z -> inv x -> SelfApart o a b d x
   end.
 
 Lemma is_excluded_sym l m : is_excluded s l m -> is_excluded s m l.
 Proof. unfold is_excluded; tauto. Qed.
 
-Lemma Apart_sym a b d P Q : Apart a b d P Q -> Apart a b d Q P.
+Lemma within_refl n v : within s n v v.
+Proof. destruct n; cbn; auto. Qed.
+
+Lemma joined_sym u v : joined s u v -> joined s v u.
+Proof. intros (i & H & U & V). exists i; auto. Qed.
+
+Lemma within_step n : forall u v w, within s n u v -> joined s v w -> within s (S n) u w.
 Proof.
-  intros H t A B S U IS IU D x y HS HU. rewrite dist2_sym.
-  apply (H t A B U S IU IS); auto.
-  intros v V1 V2; now apply (D v).
+  induction n as [|n IH]; intros u v w H J.
+  - cbn in H. subst. right. exists w. cbn. auto.
+  - destruct H as [->|(u' & J' & H)].
+    + right. exists w. split; auto. apply within_refl.
+    + right. exists u'. split; auto. now apply IH with v.
 Qed.
 
-Lemma Claimed_sym a b d P Q : Claimed a b d P Q -> Claimed a b d Q P.
+Lemma within_sym n : forall u v, within s n u v -> within s n v u.
+Proof.
+  induction n as [|n IH]; intros u v; cbn; auto. intros [->|(w & J & H)]; auto.
+  apply (within_step n v w u); [now apply IH|now apply joined_sym].
+Qed.
+
+Lemma disjoint_sym P Q : disjoint_ids P Q -> disjoint_ids Q P.
+Proof. intros D v V1 V2; now apply (D v). Qed.
+
+Lemma far_sym P Q : far_ids s P Q -> far_ids s Q P.
+Proof. intros F u v Hu Hv N. apply (F v u Hv Hu). now apply within_sym. Qed.
+
+(** Who is far has no vertex in common. *)
+Lemma far_disjoint P Q : far_ids s P Q -> disjoint_ids P Q.
+Proof. intros F v V1 V2. apply (F v v V1 V2), within_refl. Qed.
+
+Lemma Apart_sym o a b d P Q : Apart o a b d P Q -> Apart o a b d Q P.
+Proof.
+  intros H t A B S U IS IU x y HS HU. rewrite dist2_sym.
+  destruct (H t A B U S IU IS y x HU HS) as [H1 H2].
+  split; intros N F; [apply H1|apply H2]; auto using disjoint_sym, far_sym.
+Qed.
+
+(** What is true without regard to vertices. *)
+Lemma Apart_least o a b d P Q :
+  (forall t, (IZR a <= t * IZR d <= IZR b)%R -> (IZR (tbeg s) <= t <= IZR (tend s))%R ->
+   forall S U, incl S P -> incl U Q ->
+   forall x y, simplex s S t x -> simplex s U t y -> (IZR (least s o) ^ 2 < dist2 x y)%R) ->
+  Apart o a b d P Q.
+Proof.
+  intros H t A B S U IS IU x y HS HU. specialize (H t A B S U IS IU x y HS HU).
+  pose proof (pow2_ge_0 (IZR (least s o))). split; intros N _; [lra|].
+  destruct o; [exact H|exact H|contradiction].
+Qed.
+
+Lemma Claimed_sym o a b d P Q : Claimed o a b d P Q -> Claimed o a b d Q P.
 Proof. intros H E. apply Apart_sym, H. intros N; now apply E, is_excluded_sym. Qed.
 
 (** T: the two halves are all of the interval. *)
-Lemma Claimed_halves a b d P Q :
-  Claimed (a + a) (a + b) (d + d) P Q -> Claimed (a + b) (b + b) (d + d) P Q -> Claimed a b d P Q.
+Lemma Claimed_halves o a b d P Q :
+  Claimed o (a + a) (a + b) (d + d) P Q -> Claimed o (a + b) (b + b) (d + d) P Q -> Claimed o a b d P Q.
 Proof.
   intros H1 H2 E t A.
   destruct (Rle_dec (t * IZR (d + d)) (IZR (a + b))); [apply H1|apply H2]; auto;
     rewrite !plus_IZR in *; lra.
 Qed.
 
-(** D: of two features with no common vertex, one does not have [v]. *)
-Lemma Apart_drop a b d v P Q :
-  Apart a b d (filter (fun u => negb (u =? v)%Z) P) Q ->
-  Apart a b d P (filter (fun u => negb (u =? v)%Z) Q) -> Apart a b d P Q.
+Lemma incl_filter v (L M : list Z) : incl L M -> ~ In v L -> incl L (filter (fun u => negb (u =? v)%Z) M).
 Proof.
-  intros H1 H2 t A B S U IS IU D.
-  assert (I : forall L M, incl L M -> ~ In v L -> incl L (filter (fun u => negb (u =? v)%Z) M)).
-  { intros L M LM N u Hu. apply filter_In; split; auto.
-    destruct (Z.eqb_spec u v); auto; subst; contradiction. }
-  destruct (in_dec Z.eq_dec v S) as [VS|VS]; [apply H2|apply H1]; auto.
+  intros LM N u Hu. apply filter_In; split; auto. destruct (Z.eqb_spec u v); auto; subst; contradiction.
+Qed.
+
+(** D: of two features with no common vertex, one does not have [v]. *)
+Lemma Apart_drop o a b d v P Q :
+  Apart o a b d (filter (fun u => negb (u =? v)%Z) P) Q ->
+  Apart o a b d P (filter (fun u => negb (u =? v)%Z) Q) -> Apart o a b d P Q.
+Proof.
+  intros H1 H2 t A B S U IS IU x y HS HU.
+  assert (disjoint_ids S U -> ~ In v S \/ ~ In v U) as D.
+  { intros D. destruct (in_dec Z.eq_dec v S) as [VS|VS]; auto. }
+  split; intros N F; pose proof F as F'; [|apply far_disjoint in F']; apply D in F' as [V|V];
+    [destruct (H1 t A B S U (incl_filter _ _ _ IS V) IU x y HS HU)|
+     destruct (H2 t A B S U IS (incl_filter _ _ _ IU V) x y HS HU)|
+     destruct (H1 t A B S U (incl_filter _ _ _ IS V) IU x y HS HU)|
+     destruct (H2 t A B S U IS (incl_filter _ _ _ IU V) x y HS HU)]; auto.
+Qed.
+
+(** W: of two features that are far, one does not have an end of a short way. *)
+Lemma Apart_ring a b d u v P Q : within s (Z.to_nat (ring s - 1)) v u ->
+  Apart Far a b d (filter (fun w => negb (w =? v)%Z) P) Q ->
+  Apart Far a b d P (filter (fun w => negb (w =? u)%Z) Q) -> Apart Far a b d P Q.
+Proof.
+  intros W H1 H2 t A B S U IS IU x y HS HU. split; intros N F; [contradiction|].
+  destruct (in_dec Z.eq_dec v S) as [V|V].
+  - assert (~ In u U) as V' by (intros V'; now apply (F v u)).
+    destruct (H2 t A B S U IS (incl_filter _ _ _ IU V') x y HS HU); auto.
+  - destruct (H1 t A B S U (incl_filter _ _ _ IS V) IU x y HS HU); auto.
+Qed.
+
+(** G: the two parts of what [Distance] says. *)
+Lemma Apart_parts a b d P Q : Apart Far a b d P Q -> Apart Disjoint a b d P Q -> Apart Distance a b d P Q.
+Proof.
+  intros H1 H2 t A B S U IS IU x y HS HU. split; intros N F.
+  - now apply (H2 t A B S U IS IU x y HS HU).
+  - now apply (H1 t A B S U IS IU x y HS HU).
+Qed.
+
+Lemma Apart_far a b d P Q : Apart Distance a b d P Q -> Apart Far a b d P Q.
+Proof.
+  intros H t A B S U IS IU x y HS HU. split; intros N F; [contradiction|].
+  now apply (H t A B S U IS IU x y HS HU).
+Qed.
+
+(** A way leads where it says. *)
+Lemma in_cell_sound i v : in_cell s i v = true ->
+  (0 <= i < ncell s)%Z /\ In v (map (same s) (cell s i)).
+Proof.
+  unfold in_cell. rewrite !andb_true_iff, existsb_exists, Z.leb_le, Z.ltb_lt.
+  intros [[L U] (u & I & E)]. apply Z.eqb_eq in E as <-. auto using in_map.
+Qed.
+
+Lemma way_end_sound w : forall n v u, way_end s n v w = Some u -> within s (Z.to_nat n) v u.
+Proof.
+  induction w as [|(i, v1) w IH]; cbn [way_end]; intros n v u.
+  - intros [= ->]. apply within_refl.
+  - destruct (_ && _)%bool eqn:E; [|discriminate]. rewrite !andb_true_iff in E. destruct E as [[E0 E1] E2].
+    apply Z.ltb_lt in E0. apply in_cell_sound in E1 as [B V0], E2 as [_ V1]. intros H.
+    replace (Z.to_nat n) with (S (Z.to_nat (n - 1))) by lia. right. exists v1. split; auto.
+    now exists i.
 Qed.
 
 Lemma without_ids v p : map fst (without v p) = filter (fun u => negb (u =? v)%Z) (map fst p).
@@ -830,19 +926,19 @@ Proof.
   apply (inside_sound h a b d _ _ _ t D W Aw); tauto.
 Qed.
 
-Lemma wide_sound n w : wide (eta s) n w = true ->
-  (0 <= IZR w /\ IZR (eta s) * IZR (eta s) * dotR n (inj n) <= IZR w * IZR w)%R.
+Lemma wide_sound e n w : wide e n w = true ->
+  (0 <= IZR w /\ IZR e * IZR e * dotR n (inj n) <= IZR w * IZR w)%R.
 Proof.
   unfold wide. intros H. apply andb_true_iff in H as [A B]. apply Z.leb_le, IZR_le in A, B.
   now rewrite !mult_IZR, dot_IZR in B.
 Qed.
 
-Lemma plane_sound h w a b d x y : (0 < d)%Z -> inv x -> inv y -> wide (eta s) (normal h) w = true ->
+Lemma plane_sound h w o a b d x y : (0 < d)%Z -> inv x -> inv y -> wide (least s o) (normal h) w = true ->
   forallb (fun w => inside h a b d (snd w)) (verts x) = true ->
   forallb (fun v => inside (behind h w) a b d (snd v)) (verts y) = true ->
-  PairApart a b d x y.
+  PairApart o a b d x y.
 Proof.
-  intros D Ix Iy W Fx Fy P Q HP HQ _ t A B S U IS IU _ p q HS HU.
+  intros D Ix Iy W Fx Fy P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
   apply wide_sound in W as [W1 W2].
   pose proof (plane_side h a b d x P S t D Ix HP IS Fx A B p HS) as N1.
   pose proof (plane_side (behind h w) a b d y Q U t D Iy HQ IU Fy A B q HU) as N2.
@@ -851,11 +947,11 @@ Proof.
   apply Rmult_le_0_lt_compat; unfold valueR in *; lra.
 Qed.
 
-Lemma direction_sound n a b d x y : (0 < d)%Z -> inv x -> inv y ->
-  separated (eta s * eta s * dot n n) n a b d (verts x) (verts y) = true -> PairApart a b d x y.
+Lemma direction_sound n o a b d x y : (0 < d)%Z -> inv x -> inv y ->
+  separated (least s o * least s o * dot n n) n a b d (verts x) (verts y) = true -> PairApart o a b d x y.
 Proof.
-  intros D Ix Iy F P Q HP HQ _ t A _ S U IS IU _ p q HS HU.
-  set (k := (eta s * eta s * dot n n)%Z) in *.
+  intros D Ix Iy F P Q HP HQ _. apply Apart_least. intros t A _ S U IS IU p q HS HU.
+  set (e := least s o) in *. set (k := (e * e * dot n n)%Z) in *.
   assert (0 <= IZR k)%R as K by (apply IZR_le; unfold k, dot; nia).
   assert (forall m, below_root k m -> dotR n q + m < dotR n p)%R as G.
   2:{ pose proof (G 0%R) as G0. rewrite dist2_sym. apply (dist2_direction n).
@@ -887,8 +983,8 @@ Proof.
     apply Z.eqb_eq in E1, E2; subst; auto.
 Qed.
 
-Lemma excluded_sound a b d x y : inv x -> inv y ->
-  excluded_labels s (label_of x) (label_of y) = true -> PairApart a b d x y.
+Lemma excluded_sound o a b d x y : inv x -> inv y ->
+  excluded_labels s (label_of x) (label_of y) = true -> PairApart o a b d x y.
 Proof.
   intros Ix Iy E P Q HP HQ N. exfalso. apply N. unfold excluded_labels in E.
   destruct (label_of x) as [l|] eqn:Lx; [|discriminate].
@@ -896,19 +992,19 @@ Proof.
   rewrite (label_sound x l), (label_sound y m); auto. now apply excluded_pair_sound.
 Qed.
 
-Lemma both_sound a b d x : PairApart a b d x x -> SelfApart a b d x.
+Lemma both_sound o a b d x : PairApart o a b d x x -> SelfApart o a b d x.
 Proof.
   induction x as [l vs|l vs x IHx y IHy]; cbn; intros H.
   - intros _. apply H; cbn; auto.
-  - repeat split; [apply IHx| |apply IHy]; intros P Q HP HQ; apply H; cbn; apply in_or_app; auto.
+  - split; [apply IHx|split; [|apply IHy]]; intros P Q HP HQ; apply H; cbn; apply in_or_app; auto.
 Qed.
 
-Lemma self_halves a b d x :
-  SelfApart (a + a) (a + b) (d + d) x -> SelfApart (a + b) (b + b) (d + d) x -> SelfApart a b d x.
+Lemma self_halves o a b d x :
+  SelfApart o (a + a) (a + b) (d + d) x -> SelfApart o (a + b) (b + b) (d + d) x -> SelfApart o a b d x.
 Proof.
   induction x as [l vs|l vs x IHx y IHy]; cbn.
   - intros H1 H2 E. apply Claimed_halves; auto.
-  - intros (A1 & A2 & A3) (B1 & B2 & B3). repeat split; auto.
+  - intros (A1 & A2 & A3) (B1 & B2 & B3). split; [|split]; auto.
     intros P Q HP HQ. apply Claimed_halves; [apply A2|apply B2]; auto.
 Qed.
 
@@ -921,10 +1017,10 @@ Ltac on_forallb l F := match goal with
   end.
 
 (** If what a token leaves holds, so did what it found. *)
-Lemma step_pair_sound x y a b d k tok st' :
-  step_pair s x y a b d k tok = Some st' -> Forall holds st' -> Forall holds (Pair x y a b d :: k).
+Lemma step_pair_sound x y o a b d k tok st' :
+  step_pair s x y o a b d k tok = Some st' -> Forall holds st' -> Forall holds (Pair x y o a b d :: k).
 Proof.
-  destruct tok as [| | |i|h w|n| | | |]; cbn [step_pair]; try discriminate.
+  destruct tok as [| | |i|v w| |h w|n| | | |]; cbn [step_pair]; try discriminate.
   - (* THalve *)
     destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D Ix Iy P Q HP HQ. apply Claimed_halves; [apply H|apply H0]; auto; lia.
@@ -943,6 +1039,25 @@ Proof.
     apply Apart_drop with v; rewrite <- without_ids.
     + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
     + apply (H0 D Ix (inv_without v q Iy) (l, vids p) (m, vids (without v q))); cbn; auto.
+  - (* TRing *)
+    destruct x as [l p|]; [|discriminate]. destruct y as [m q|]; [|discriminate].
+    destruct (way_end _ _ _ _) as [u|] eqn:W; [|discriminate]. apply way_end_sound in W.
+    destruct (_ && _)%bool; [|discriminate]. cbn zeta.
+    assert (Forall resolved p -> Forall resolved q -> (0 < d)%Z ->
+      holds (Pair (Leaf l (without v p)) (Leaf m q) Far a b d) ->
+      holds (Pair (Leaf l p) (Leaf m (without u q)) Far a b d) -> PairApart Far a b d (Leaf l p) (Leaf m q)) as R.
+    { intros Ix Iy D H H0. cbn in *. intros P Q [<-|[]] [<-|[]] E. cbn in *.
+      apply Apart_ring with u v; auto; rewrite <- without_ids.
+      + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
+      + apply (H0 D Ix (inv_without u q Iy) (l, vids p) (m, vids (without u q))); cbn; auto. }
+    assert (forall x y, holds (Pair x y Distance a b d) -> holds (Pair x y Far a b d)) as R'.
+    { intros x y H D Ix Iy P Q HP HQ E. apply Apart_far. now apply H. }
+    destruct o; [| |discriminate]; intros [= <-] F; heads F; constructor; auto; intros D Ix Iy.
+    + intros P Q HP HQ E. apply Apart_parts; [apply R|apply H1]; auto.
+    + apply R; auto.
+  - (* TFar *)
+    destruct o; [|discriminate|discriminate]. intros [= <-] F. heads F. constructor; auto.
+    cbn [holds] in *. intros D Ix Iy P Q HP HQ E. apply Apart_parts; [apply H|apply H0]; auto.
   - (* TPlane *)
     destruct (wide _ _ _) eqn:W; [|discriminate]. on_forallb (verts x) Fx. cbn zeta. on_forallb (verts y) Fy.
     intros [= <-] F. constructor; auto. intros D Ix Iy. eapply plane_sound; eauto.
@@ -954,10 +1069,10 @@ Proof.
     intros [= <-] F. constructor; auto. intros D Ix Iy. now apply excluded_sound.
 Qed.
 
-Lemma step_self_sound x a b d k tok st' :
-  step_self strict s x a b d k tok = Some st' -> Forall holds st' -> Forall holds (Self x a b d :: k).
+Lemma step_self_sound x o a b d k tok st' :
+  step_self strict s x o a b d k tok = Some st' -> Forall holds st' -> Forall holds (Self x o a b d :: k).
 Proof.
-  destruct tok as [| | |i|h w|n| | | |]; cbn [step_self]; try discriminate.
+  destruct tok as [| | |i|v w| |h w|n| | | |]; cbn [step_self]; try discriminate.
   - (* THalve *)
     destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D I. apply self_halves; [apply H|apply H0]; auto; lia.
@@ -976,7 +1091,7 @@ Qed.
 
 Lemma step_sound st tok st' : step strict s st tok = Some st' -> Forall holds st' -> Forall holds st.
 Proof.
-  destruct st as [|[x y a b d|x a b d] k]; cbn [step]; [discriminate| |];
+  destruct st as [|[x y o a b d|x o a b d] k]; cbn [step]; [discriminate| |];
     [apply step_pair_sound|apply step_self_sound].
 Qed.
 
@@ -1162,9 +1277,9 @@ Proof.
 Qed.
 
 (** A tree has every pair of its cells. *)
-Lemma self_pairs a b d g : forall x, build_from table s g = Some x -> SelfApart a b d x ->
+Lemma self_pairs o a b d g : forall x, build_from table s g = Some x -> SelfApart o a b d x ->
   forall i j, In i (ids g) -> In j (ids g) -> strict = true \/ i <> j ->
-  Claimed a b d (leaf_of i) (leaf_of j).
+  Claimed o a b d (leaf_of i) (leaf_of j).
 Proof.
   induction g as [f|l IHl r IHr]; intros x Bx.
   - apply build_cell in Bx as (vs & -> & E & _). intros H i j [<-|[]] [<-|[]] [N|N]; [|congruence].
@@ -1212,20 +1327,26 @@ Lemma start_sound g st : start s g = Some st ->
   well_formed s /\ (Forall holds st -> never_touch strict s).
 Proof.
   unfold start. destruct (_ && _)%bool eqn:E; [|discriminate].
-  rewrite !andb_true_iff in E. destruct E as [[[E0 E1] E2] C].
-  apply Z.ltb_lt in E0, E1. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
+  rewrite !andb_true_iff in E. destruct E as [[[[E0 E1] E2] E3] C].
+  apply Z.ltb_lt in E0, E1, E3. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
   apply build_sound in B as (W & table & R & B).
   intros [= <-]. split.
-  - do 3 (split; auto). intros i v Hi Hv. apply (W i); auto. now apply covers_sound with (ncell s).
+  - do 4 (split; auto). intros i v Hi Hv. apply (W i); auto. now apply covers_sound with (ncell s).
   - intros F. apply Forall_inv in F as S. cbn [holds] in S.
     specialize (S eq_refl (build_inv table R g x B)).
-    intros t Ht i j Hi Hj D N P Q IP IQ E x1 x2 H1 H2.
+    intros t Ht i j Hi Hj D N P Q IP IQ x1 x2 H1 H2. cbn zeta.
     assert (I : forall k T, incl T (cell s k) -> incl (map (same s) T) (cell_ids (same s) s k)).
     { intros k T HT v Hv. apply in_map_iff in Hv as (u & <- & Hu). now apply cell_ids_in, HT. }
     rewrite <- (simplex_same i) in H1; [| |exact IP]; [|intros v; apply W; eauto using covers_sound].
     rewrite <- (simplex_same j) in H2; [| |exact IQ]; [|intros v; apply W; eauto using covers_sound].
-    refine (self_pairs table R _ _ _ g x B S i j _ _ D N t _ Ht _ _ (I i P IP) (I j Q IQ) E x1 x2 H1 H2);
-      eauto using covers_sound. lra.
+    assert (Apart (if (0 <? eta s)%Z then Distance else Disjoint) (tbeg s) (tend s) 1
+              (cell_ids (same s) s i) (cell_ids (same s) s j)) as A.
+    { apply (self_pairs table R _ _ _ _ g x B S i j); eauto using covers_sound. }
+    destruct (A t) with (S := map (same s) P) (U := map (same s) Q) (x := x1) (y := x2) as [A1 A2]; auto; [lra|].
+    destruct (0 <? eta s)%Z eqn:E.
+    + split; [apply A1|apply A2]; discriminate.
+    + apply Z.ltb_ge in E. assert (eta s = 0)%Z as -> by lia. split; [apply A1; discriminate|].
+      intros A3. rewrite pow_i by lia. apply A1; [discriminate|]. now apply far_disjoint.
 Qed.
 End Soundness.
 
@@ -1263,6 +1384,6 @@ Proof.
   intros H t Ht i j Hi Hj E D x [X Y].
   destruct (Z.eq_dec i j) as [<-|N].
   - destruct (cell s i) as [|v l]; [now apply hull_nil in X|]. apply (D (same s v)); now left.
-  - apply (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) D x x X) in Y.
-    unfold dist2 in Y. pose proof (Rle_0_sqr (IZR (eta s))) as P. unfold Rsqr in P. lra.
+  - destruct (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) x x X Y) as [A _].
+    specialize (A D). unfold dist2 in A. lra.
 Qed.

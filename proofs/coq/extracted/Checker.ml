@@ -13,6 +13,8 @@ type token =
 | TLeft
 | TRight
 | TDrop of Zint.t
+| TRing of Zint.t * (Zint.t * Zint.t) list
+| TFar
 | TPlane of halfspace * Zint.t
 | TDirection of vec
 | TExcluded
@@ -508,32 +510,60 @@ let rec nth_id k = function
   then Some (fst w)
   else nth_id (Zint.sub k Zint.one) r
 
+(** val in_cell : scene -> Zint.t -> Zint.t -> bool **)
+
+let in_cell s i v =
+  (&&) ((&&) (Zint.leq Zint.zero i) (Zint.lt i s.ncell))
+    (List.exists (fun u -> Zint.equal (s.same u) v) (s.cell i))
+
+(** val way_end :
+    scene -> Zint.t -> Zint.t -> (Zint.t * Zint.t) list -> Zint.t option **)
+
+let rec way_end s n v = function
+| [] -> Some v
+| p :: r ->
+  let (i, u) = p in
+  if (&&) ((&&) (Zint.lt Zint.zero n) (in_cell s i v)) (in_cell s i u)
+  then way_end s (Zint.sub n Zint.one) u r
+  else None
+
+type mode =
+| Distance
+| Far
+| Disjoint
+
 type obligation =
-| Pair of tree * tree * Zint.t * Zint.t * Zint.t
-| Self of tree * Zint.t * Zint.t * Zint.t
+| Pair of tree * tree * mode * Zint.t * Zint.t * Zint.t
+| Self of tree * mode * Zint.t * Zint.t * Zint.t
+
+(** val least : scene -> mode -> Zint.t **)
+
+let least s = function
+| Disjoint -> Zint.zero
+| _ -> s.eta
 
 (** val step_pair :
-    scene -> tree -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-    token -> obligation list option **)
+    scene -> tree -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+    list -> token -> obligation list option **)
 
-let step_pair s x y a b d k = function
+let step_pair s x y o a b d k = function
 | THalve ->
   if Zint.lt d Zint.d_max
   then let m = Zint.add a b in
        let d2 = Zint.add d d in
-       Some ((Pair (x, y, (Zint.add a a), m, d2)) :: ((Pair (x, y, m,
+       Some ((Pair (x, y, o, (Zint.add a a), m, d2)) :: ((Pair (x, y, o, m,
        (Zint.add b b), d2)) :: k))
   else None
 | TLeft ->
   (match x with
    | Leaf (_, _) -> None
    | Node (_, _, l, r) ->
-     Some ((Pair (l, y, a, b, d)) :: ((Pair (r, y, a, b, d)) :: k)))
+     Some ((Pair (l, y, o, a, b, d)) :: ((Pair (r, y, o, a, b, d)) :: k)))
 | TRight ->
   (match y with
    | Leaf (_, _) -> None
    | Node (_, _, l, r) ->
-     Some ((Pair (x, l, a, b, d)) :: ((Pair (x, r, a, b, d)) :: k)))
+     Some ((Pair (x, l, o, a, b, d)) :: ((Pair (x, r, o, a, b, d)) :: k)))
 | TDrop i ->
   (match x with
    | Leaf (l, p) ->
@@ -541,13 +571,41 @@ let step_pair s x y a b d k = function
       | Leaf (m, q) ->
         (match nth_id i (List.filter (fun w -> has (fst w) q) p) with
          | Some v ->
-           Some ((Pair ((Leaf (l, (without v p))), y, a, b, d)) :: ((Pair (x,
-             (Leaf (m, (without v q))), a, b, d)) :: k))
+           Some ((Pair ((Leaf (l, (without v p))), y, o, a, b, d)) :: ((Pair
+             (x, (Leaf (m, (without v q))), o, a, b, d)) :: k))
          | None -> None)
       | Node (_, _, _, _) -> None)
    | Node (_, _, _, _) -> None)
+| TRing (v, w) ->
+  (match x with
+   | Leaf (l, p) ->
+     (match y with
+      | Leaf (m, q) ->
+        (match way_end s (Zint.sub s.ring Zint.one) v w with
+         | Some u ->
+           if (&&) (has v p) (has u q)
+           then let x' = Leaf (l, (without v p)) in
+                let y' = Leaf (m, (without u q)) in
+                (match o with
+                 | Distance ->
+                   Some ((Pair (x', y, o, a, b, d)) :: ((Pair (x, y', o, a,
+                     b, d)) :: ((Pair (x, y, Disjoint, a, b, d)) :: k)))
+                 | Far ->
+                   Some ((Pair (x', y, o, a, b, d)) :: ((Pair (x, y', o, a,
+                     b, d)) :: k))
+                 | Disjoint -> None)
+           else None
+         | None -> None)
+      | Node (_, _, _, _) -> None)
+   | Node (_, _, _, _) -> None)
+| TFar ->
+  (match o with
+   | Distance ->
+     Some ((Pair (x, y, Far, a, b, d)) :: ((Pair (x, y, Disjoint, a, b,
+       d)) :: k))
+   | _ -> None)
 | TPlane (h, w) ->
-  if wide s.eta h.normal w
+  if wide (least s o) h.normal w
   then if List.for_all (fun v -> inside h a b d (snd v)) (verts x)
        then let h' = behind h w in
             if List.for_all (fun v -> inside h' a b d (snd v)) (verts y)
@@ -556,8 +614,8 @@ let step_pair s x y a b d k = function
        else None
   else None
 | TDirection n ->
-  if separated (Zint.mul (Zint.mul s.eta s.eta) (dot n n)) n a b d (verts x)
-       (verts y)
+  let e = least s o in
+  if separated (Zint.mul (Zint.mul e e) (dot n n)) n a b d (verts x) (verts y)
   then Some k
   else None
 | TExcluded ->
@@ -565,15 +623,15 @@ let step_pair s x y a b d k = function
 | _ -> None
 
 (** val step_self :
-    bool -> scene -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-    token -> obligation list option **)
+    bool -> scene -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+    list -> token -> obligation list option **)
 
-let step_self strict s x a b d k = function
+let step_self strict s x o a b d k = function
 | THalve ->
   if Zint.lt d Zint.d_max
   then let m = Zint.add a b in
        let d2 = Zint.add d d in
-       Some ((Self (x, (Zint.add a a), m, d2)) :: ((Self (x, m,
+       Some ((Self (x, o, (Zint.add a a), m, d2)) :: ((Self (x, o, m,
        (Zint.add b b), d2)) :: k))
   else None
 | TExcluded ->
@@ -582,13 +640,13 @@ let step_self strict s x a b d k = function
   (match x with
    | Leaf (_, _) -> None
    | Node (_, _, l, r) ->
-     Some ((Self (l, a, b, d)) :: ((Pair (l, r, a, b, d)) :: ((Self (r, a, b,
-       d)) :: k))))
+     Some ((Self (l, o, a, b, d)) :: ((Pair (l, r, o, a, b, d)) :: ((Self (r,
+       o, a, b, d)) :: k))))
 | TOne ->
   (match x with
    | Leaf (_, _) -> if strict then None else Some k
    | Node (_, _, _, _) -> None)
-| TBoth -> Some ((Pair (x, x, a, b, d)) :: k)
+| TBoth -> Some ((Pair (x, x, o, a, b, d)) :: k)
 | _ -> None
 
 (** val step :
@@ -597,10 +655,10 @@ let step_self strict s x a b d k = function
 let step strict s st tok =
   match st with
   | [] -> None
-  | o :: k ->
-    (match o with
-     | Pair (x, y, a, b, d) -> step_pair s x y a b d k tok
-     | Self (x, a, b, d) -> step_self strict s x a b d k tok)
+  | o0 :: k ->
+    (match o0 with
+     | Pair (x, y, o, a, b, d) -> step_pair s x y o a b d k tok
+     | Self (x, o, a, b, d) -> step_self strict s x o a b d k tok)
 
 (** val run :
     bool -> scene -> obligation list -> token list -> obligation list option **)
@@ -616,10 +674,15 @@ let rec run strict s st = function
 
 let start s g =
   if (&&)
-       ((&&) ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero s.ncell))
-         (Zint.leq Zint.zero s.eta)) (covers s.ncell g)
+       ((&&)
+         ((&&) ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero s.ncell))
+           (Zint.leq Zint.zero s.eta)) (Zint.lt Zint.zero s.ring))
+       (covers s.ncell g)
   then (match build s g with
-        | Some x -> Some ((Self (x, s.tbeg, s.tend, Zint.one)) :: [])
+        | Some x ->
+          Some ((Self (x,
+            (if Zint.lt Zint.zero s.eta then Distance else Disjoint), s.tbeg,
+            s.tend, Zint.one)) :: [])
         | None -> None)
   else None
 

@@ -13,6 +13,8 @@ type token =
 | TLeft
 | TRight
 | TDrop of Zint.t
+| TRing of Zint.t * (Zint.t * Zint.t) list
+| TFar
 | TPlane of halfspace * Zint.t
 | TDirection of vec
 | TExcluded
@@ -149,17 +151,29 @@ val without : Zint.t -> vertex list -> vertex list
 
 val nth_id : Zint.t -> vertex list -> Zint.t option
 
+val in_cell : scene -> Zint.t -> Zint.t -> bool
+
+val way_end :
+  scene -> Zint.t -> Zint.t -> (Zint.t * Zint.t) list -> Zint.t option
+
+type mode =
+| Distance
+| Far
+| Disjoint
+
 type obligation =
-| Pair of tree * tree * Zint.t * Zint.t * Zint.t
-| Self of tree * Zint.t * Zint.t * Zint.t
+| Pair of tree * tree * mode * Zint.t * Zint.t * Zint.t
+| Self of tree * mode * Zint.t * Zint.t * Zint.t
+
+val least : scene -> mode -> Zint.t
 
 val step_pair :
-  scene -> tree -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-  token -> obligation list option
+  scene -> tree -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+  list -> token -> obligation list option
 
 val step_self :
-  bool -> scene -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-  token -> obligation list option
+  bool -> scene -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+  list -> token -> obligation list option
 
 val step : bool -> scene -> obligation list -> token -> obligation list option
 

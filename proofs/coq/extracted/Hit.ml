@@ -112,13 +112,15 @@ let check_hit strict s w =
           ((&&)
             ((&&)
               ((&&)
-                ((&&) ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero w.wd))
-                  (Zint.leq (Zint.mul s.tbeg w.wd) w.wc))
-                (Zint.leq w.wc (Zint.mul s.tend w.wd)))
-              ((||) strict (not (Zint.equal w.wi w.wj))))
-            (side_ok s w.wi w.wp)) (side_ok s w.wj w.wq))
-        (not (excluded_pair s (s.label w.wi) (s.label w.wj))))
-      (List.for_all (fun x ->
-        List.for_all (fun y ->
-          not (Zint.equal (s.same (fst x)) (s.same (fst y)))) w.wq) w.wp))
-    (near s w)
+                ((&&)
+                  ((&&)
+                    ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero w.wd))
+                    (Zint.leq (Zint.mul s.tbeg w.wd) w.wc))
+                  (Zint.leq w.wc (Zint.mul s.tend w.wd)))
+                ((||) strict (not (Zint.equal w.wi w.wj))))
+              (side_ok s w.wi w.wp)) (side_ok s w.wj w.wq))
+          (not (excluded_pair s (s.label w.wi) (s.label w.wj))))
+        (List.for_all (fun x ->
+          List.for_all (fun y ->
+            not (Zint.equal (s.same (fst x)) (s.same (fst y)))) w.wq) w.wp))
+      (Zint.equal s.ring Zint.one)) (near s w)
