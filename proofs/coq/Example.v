@@ -10,7 +10,7 @@
 
     Not here: the reading of files. *)
 Require Import ZArith List.
-From Noli Require Import Spec Checker Sound Glue Hit.
+From Noli Require Import Spec Checker Sound Glue Poly Hit.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -178,7 +178,8 @@ Lemma ok_quarters : lax (pass 2) point_first
 Lemma no_halves : lax (pass 2) point_first (close east) = false. Proof. computed. Qed.
 Lemma no_halves_zero : lax (pass 0) point_first (halves east north) = false. Proof. computed. Qed.
 Lemma no_halves_order : lax (pass 2) point_first (halves north east) = false. Proof. computed. Qed.
-Lemma no_halves_plane_zero : lax (pass 2) point_first (halves (east_of 2) (north_of 1)) = false. Proof. computed. Qed.
+Lemma no_halves_plane_zero : lax (pass 2) point_first (halves (east_of 2) (north_of 1)) = false.
+Proof. computed. Qed.
 Lemma no_halves_plane_zero_second : lax (pass 2) point_first (halves (east_of 1) (north_of 2)) = false.
 Proof. computed. Qed.
 Lemma no_half_missing : lax (pass 2) point_first [TParts; TOne; THalve; east; TOne] = false. Proof. computed. Qed.
@@ -268,7 +269,8 @@ Lemma ok_both : lax row row_left
   [TParts; TBoth; TLeft; TRight; TDrop 0; nothing; nothing; dir (-1) 0;
    TRight; dir 1 0; TDrop 0; nothing; nothing; dir (-1) 0; TOne] = true. Proof. computed. Qed.
 Lemma no_left_leaf : lax row row_right [TParts; TOne; TLeft] = false. Proof. computed. Qed.
-Lemma no_right_leaf : lax row row_left [TParts; TParts; TOne; dir (-1) 0; TOne; TRight] = false. Proof. computed. Qed.
+Lemma no_right_leaf : lax row row_left [TParts; TParts; TOne; dir (-1) 0; TOne; TRight] = false.
+Proof. computed. Qed.
 Lemma no_parts_leaf : lax row row_right [TParts; TParts] = false. Proof. computed. Qed.
 Lemma no_one_node : lax row row_right [TOne] = false. Proof. computed. Qed.
 Lemma no_drop_node : lax row row_right [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
@@ -281,7 +283,8 @@ Definition refused (o : option (list obligation)) := match o with None => true |
 Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0; TRing 0 []] = true.
 Proof. computed. Qed.
 Lemma no_token_on_self :
-  forallb (fun tok => refused (on_self tok)) [TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 0; TDirection up] = true.
+  forallb (fun tok => refused (on_self tok))
+  [TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 0; TDirection up] = true.
 Proof. computed. Qed.
 
 (** The stack: tokens after the last obligation, and obligations after the last token. *)
@@ -304,7 +307,8 @@ Lemma ok_excluded_swapped : lax (heap [5; 5; 6; 6] [(5, 5); (5, 6); (6, 6)]) two
   [TParts; TExcluded; TExcluded; TExcluded] = true. Proof. computed. Qed.
 Lemma no_excluded_pair : lax (heap [5; 5; 6; 6] [(5, 5); (6, 6); (5, 7); (7, 6)]) two_two
   [TParts; TExcluded; TExcluded; TExcluded] = false. Proof. computed. Qed.
-Lemma no_excluded_self : lax (heap [5; 5; 5; 5] [(5, 6); (6, 6)]) two_two [TExcluded] = false. Proof. computed. Qed.
+Lemma no_excluded_self : lax (heap [5; 5; 5; 5] [(5, 6); (6, 6)]) two_two [TExcluded] = false.
+Proof. computed. Qed.
 Lemma no_excluded_mixed_self : lax (heap [5; 5; 6; 6] [(5, 5); (5, 6); (6, 6)]) two_two [TExcluded] = false.
 Proof. computed. Qed.
 Lemma no_excluded_mixed_first : lax (heap [5; 7; 6; 6] [(5, 5); (5, 6); (6, 6); (5, 7); (7, 7); (7, 6)]) two_two
@@ -362,40 +366,44 @@ Lemma no_cells : forallb (fun n => negb (lax (many n) #0 [TOne])) [0; -1; 2] = t
 
 (** ** Witnesses of contact *)
 
+(** The time c/d, with weights that do not change. *)
+Definition constant (l : list (Z * Z)) := map (fun x => (fst x, [snd x])) l.
+Definition at_time c d i j p q := Witness i j (constant p) (constant q) [- c; d] c c d.
+
 (** The point is at height 8 - (10/3)(t-1), which is 0 at t = 17/5. *)
-Definition hit := Witness 17 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)].
+Definition hit := at_time 17 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)].
 Lemma ok_hit : check_hit false (fall (-2)) hit = true. Proof. computed. Qed.
 Theorem unsafe : forall strict, ~ never_touch strict (fall (-2)).
 Proof. exact (check_hit_sound_both _ _ ok_hit). Qed.
-Lemma ok_hit_swapped : check_hit false (fall (-2)) (Witness 34 10 0 1 [(2, 3); (0, 6); (1, 3)] [(3, 5)]) = true.
+Lemma ok_hit_swapped : check_hit false (fall (-2)) (at_time 34 10 0 1 [(2, 3); (0, 6); (1, 3)] [(3, 5)]) = true.
 Proof. computed. Qed.
-Lemma ok_hit_end : check_hit false (fall 0) (Witness 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true.
+Lemma ok_hit_end : check_hit false (fall 0) (at_time 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true.
 Proof. computed. Qed.
 Lemma ok_hit_begin : check_hit false (over_tri [(0, V3 2 2 0); (4, V3 2 2 8)])
-  (Witness 0 9 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true. Proof. computed. Qed.
-Lemma ok_hit_strict : check_hit true (edge 0) (Witness 1 1 0 0 [(0, 1)] [(1, 1)]) = true. Proof. computed. Qed.
+  (at_time 0 9 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true. Proof. computed. Qed.
+Lemma ok_hit_strict : check_hit true (edge 0) (at_time 1 1 0 0 [(0, 1)] [(1, 1)]) = true. Proof. computed. Qed.
 
 Definition no_hit w := check_hit false (fall (-2)) w = false.
-Lemma no_hit_time : no_hit (Witness 18 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_place : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 1); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_place_y : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 3); (1, 1)]). Proof. computed. Qed.
-Lemma no_hit_place_x : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 3); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_denominator : no_hit (Witness (-17) (-5) 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_denominator_0 : no_hit (Witness 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_weight : no_hit (Witness 17 5 1 0 [(3, 2); (3, -1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_total : no_hit (Witness 17 5 1 0 [(3, 0)] [(0, 0); (1, 0); (2, 0)]). Proof. computed. Qed.
-Lemma no_hit_nothing : no_hit (Witness 17 5 1 0 [] []). Proof. computed. Qed.
-Lemma no_hit_vertex : no_hit (Witness 17 5 0 1 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_cell : no_hit (Witness 17 5 2 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_cell_negative : no_hit (Witness 17 5 (-1) 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_denominator_0_end : check_hit false (fall 0) (Witness 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false.
+Lemma no_hit_time : no_hit (at_time 18 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_place : no_hit (at_time 17 5 1 0 [(3, 1)] [(0, 1); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_place_y : no_hit (at_time 17 5 1 0 [(3, 1)] [(0, 3); (1, 1)]). Proof. computed. Qed.
+Lemma no_hit_place_x : no_hit (at_time 17 5 1 0 [(3, 1)] [(0, 3); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator : no_hit (at_time (-17) (-5) 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator_0 : no_hit (at_time 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_weight : no_hit (at_time 17 5 1 0 [(3, 2); (3, -1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_total : no_hit (at_time 17 5 1 0 [(3, 0)] [(0, 0); (1, 0); (2, 0)]). Proof. computed. Qed.
+Lemma no_hit_nothing : no_hit (at_time 17 5 1 0 [] []). Proof. computed. Qed.
+Lemma no_hit_vertex : no_hit (at_time 17 5 0 1 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_cell : no_hit (at_time 17 5 2 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_cell_negative : no_hit (at_time 17 5 (-1) 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator_0_end : check_hit false (fall 0) (at_time 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false.
 Proof. computed. Qed.
-Lemma no_hit_common : check_hit false hinge (Witness 0 1 0 1 [(1, 1)] [(1, 1)]) = false. Proof. computed. Qed.
-Definition hit_seam f := check_hit false (seam f (path hinge 2)) (Witness 0 1 0 1 [(1, 1)] [(11, 1)]).
+Lemma no_hit_common : check_hit false hinge (at_time 0 1 0 1 [(1, 1)] [(1, 1)]) = false. Proof. computed. Qed.
+Definition hit_seam f := check_hit false (seam f (path hinge 2)) (at_time 0 1 0 1 [(1, 1)] [(11, 1)]).
 Lemma ok_hit_seam : hit_seam (fun v => v) = true. Proof. computed. Qed.
 Lemma no_hit_seam : hit_seam to_first = false. Proof. computed. Qed.
 Lemma no_hit_seam_other : hit_seam to_other = false. Proof. computed. Qed.
-Lemma no_hit_one_cell : check_hit false (edge 0) (Witness 1 1 0 0 [(0, 1)] [(1, 1)]) = false. Proof. computed. Qed.
+Lemma no_hit_one_cell : check_hit false (edge 0) (at_time 1 1 0 0 [(0, 1)] [(1, 1)]) = false. Proof. computed. Qed.
 
 (** The same contact in claims that are about less. *)
 Definition fall_claim t0 t1 e :=
@@ -406,11 +414,108 @@ Lemma no_hit_excluded_swapped : check_hit false (fall_claim 0 4 [(1, 0)]) hit = 
 Lemma no_hit_after : check_hit false (fall_claim 0 3 []) hit = false. Proof. computed. Qed.
 Lemma no_hit_before : check_hit false
   (let s := over_tri [(0, V3 2 2 0); (4, V3 2 2 8)] in touching 1 4 (path s) 2 (cell s) (label s) [])
-  (Witness 0 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
+  (at_time 0 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
 Lemma no_hit_interval : check_hit false
   (let s := fall 0 in touching 4 4 (path s) 2 (cell s) (label s) [])
-  (Witness 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
+  (at_time 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
 Lemma no_hit_trajectory : check_hit false (fall_claim 0 5 []) hit = false. Proof. computed. Qed.
+
+(** *** Times that are roots *)
+
+(** An edge from (0, 0, 0) to (2, t, 0) that turns, and a point at (t, 1, 0): in it at the root of 2.
+    [mid] are the breakpoints of the point between the first and last. *)
+Definition turning mid := touching 0 4
+  (fun v => match v with 0 => at_rest o | 1 => [(0, V3 2 0 0); (4, V3 2 4 0)]
+                       | _ => (0, V3 0 1 0) :: mid ++ [(4, V3 4 1 0)] end)
+  2 (fun i => if i =? 0 then [0; 1] else [2]) (fun i => i) [].
+Definition ends := [(0, [2; -1]); (1, [0; 1])].
+Definition at_root p q g l u d := check_hit false (turning []) (Witness 0 1 p q g l u d).
+Definition root_2 := [-2; 0; 1].
+Definition inside_edge := [(2, [1])].
+Lemma ok_root : at_root ends inside_edge root_2 1 2 1 = true. Proof. computed. Qed.
+Theorem unsafe_root : forall strict, ~ never_touch strict (turning []).
+Proof. exact (check_hit_sound_both _ _ ok_root). Qed.
+Lemma ok_root_closer : at_root ends inside_edge root_2 181 182 128 = true. Proof. computed. Qed.
+Lemma ok_root_negative : at_root ends inside_edge [2; 0; -1] 1 2 1 = true. Proof. computed. Qed.
+(** A multiple may have the same sign at both ends, and does not divide what is 0. *)
+Lemma no_root_multiple : at_root ends inside_edge (mul root_2 [-3; 2]) 1 2 1 = false. Proof. computed. Qed.
+Lemma no_root_not_divided : at_root ends inside_edge (mul root_2 [1; 1]) 1 2 1 = false. Proof. computed. Qed.
+Lemma no_root_other : at_root ends inside_edge [-3; 0; 1] 1 2 1 = false. Proof. computed. Qed.
+(** The interval has no root of it, or not for certain. *)
+Lemma no_root_before : at_root ends inside_edge root_2 0 1 1 = false. Proof. computed. Qed.
+Lemma no_root_after : at_root ends inside_edge root_2 3 4 2 = false. Proof. computed. Qed.
+Lemma no_root_two : at_root ends inside_edge root_2 (-2) 2 1 = false. Proof. computed. Qed.
+Lemma no_root_back : at_root ends inside_edge root_2 2 1 1 = false. Proof. computed. Qed.
+Lemma no_root_denominator : at_root ends inside_edge root_2 (-1) (-2) (-1) = false. Proof. computed. Qed.
+Lemma no_root_late : check_hit false (let s := turning [] in touching 2 4 (path s) 2 (cell s) (label s) [])
+  (Witness 0 1 ends inside_edge root_2 1 2 1) = false. Proof. computed. Qed.
+Lemma no_root_early : check_hit false (let s := turning [] in touching 0 1 (path s) 2 (cell s) (label s) [])
+  (Witness 0 1 ends inside_edge root_2 1 2 1) = false. Proof. computed. Qed.
+(** The polynomial is to have a leading coefficient. *)
+Lemma no_root_leading : forallb (fun g => negb (at_root ends inside_edge g 1 2 1))
+  [[-2; 0; 1; 0]; [0]; []; [0; 0; 0]] = true.
+Proof. computed. Qed.
+(** A constant divides all, but has no root. *)
+Lemma no_root_constant : at_root ends inside_edge [1] 1 2 1 = false. Proof. computed. Qed.
+(** Weights: those divided by the polynomial do not count at the root, whatever their sign. *)
+Lemma ok_root_divided : at_root ((0, root_2) :: ends) inside_edge root_2 1 2 1 = true. Proof. computed. Qed.
+Lemma ok_root_divided_other : at_root ends [(2, [2; 0; 1]); (2, [2; 0; -1])] root_2 1 2 1 = true.
+Proof. computed. Qed.
+Lemma no_root_weight_negative : at_root [(0, [2; -1]); (1, [0; 2]); (1, [0; -1])] inside_edge root_2 1 2 1 = false.
+Proof. computed. Qed.
+Lemma no_root_weight_negative_other : at_root ends [(2, [2]); (2, [-1])] root_2 1 2 1 = false.
+Proof. computed. Qed.
+Lemma no_root_all_negative : at_root [(0, [-2; 1]); (1, [0; -1])] inside_edge root_2 1 2 1 = false.
+Proof. computed. Qed.
+Lemma no_root_total : at_root ((0, root_2) :: ends) [(2, root_2)] root_2 1 2 1 = false. Proof. computed. Qed.
+(** A weight that is positive at the root has to be so in the interval. *)
+Definition narrow := [(0, [2; -1]); (1, [6; -4]); (1, [-6; 5])].
+Lemma no_root_narrow : at_root narrow inside_edge root_2 1 2 1 = false. Proof. computed. Qed.
+Lemma ok_root_narrow : at_root narrow inside_edge root_2 5 6 4 = true. Proof. computed. Qed.
+(** All of the interval is in one segment. *)
+Definition bent mid l u := check_hit false (turning mid) (Witness 0 1 ends inside_edge root_2 l u 2).
+Lemma ok_root_segment : bent [(1, V3 1 1 0); (2, V3 2 1 0)] 2 4 = true. Proof. computed. Qed.
+Lemma no_root_across_1 : bent [(1, V3 1 1 0); (2, V3 2 1 0)] 1 4 = false. Proof. computed. Qed.
+Lemma no_root_across_2 : bent [(1, V3 1 1 0); (2, V3 2 1 0)] 2 5 = false. Proof. computed. Qed.
+Lemma no_root_elsewhere : bent [(1, V3 1 1 0); (2, V3 2 1 1)] 2 4 = false. Proof. computed. Qed.
+(** What is refused at rational times is refused here too. *)
+Lemma no_root_vertex : at_root inside_edge ends root_2 1 2 1 = false. Proof. computed. Qed.
+Lemma no_root_excluded : check_hit false (let s := turning [] in touching 0 4 (path s) 2 (cell s) (label s) [(1, 0)])
+  (Witness 0 1 ends inside_edge root_2 1 2 1) = false. Proof. computed. Qed.
+Definition one_face := let s := turning [] in touching 0 4 (path s) 1 (fun _ => [0; 1; 2]) (fun _ => 0) [].
+Lemma ok_root_strict : check_hit true one_face (Witness 0 0 ends inside_edge root_2 1 2 1) = true.
+Proof. computed. Qed.
+Lemma no_root_lax : check_hit false one_face (Witness 0 0 ends inside_edge root_2 1 2 1) = false.
+Proof. computed. Qed.
+Lemma no_root_shared : check_hit true one_face (Witness 0 0 ((2, root_2) :: ends) inside_edge root_2 1 2 1) = false.
+Proof. computed. Qed.
+
+(** The time 17/5, between 27/8 and 28/8. *)
+Definition hit_between g l u := check_hit false (fall (-2))
+  (Witness 1 0 (constant [(3, 1)]) (constant [(0, 2); (1, 1); (2, 1)]) g l u 8).
+Lemma ok_hit_between : hit_between [-17; 5] 27 28 = true. Proof. computed. Qed.
+Lemma no_hit_between : hit_between [-17; 5] 25 26 = false. Proof. computed. Qed.
+Lemma no_hit_between_other : hit_between [-16; 5] 24 28 = false. Proof. computed. Qed.
+(** The first root may be the time 0, at which the polynomial is its variable. *)
+Lemma ok_hit_at_0 : check_hit false (over_tri [(0, V3 2 2 0); (4, V3 2 2 8)])
+  (Witness 1 0 (constant [(3, 1)]) (constant [(0, 2); (1, 1); (2, 1)]) [0; 1] 0 1 1) = true. Proof. computed. Qed.
+
+(** Polynomials: Bernstein's coefficients, which do not depend on leading zeros, and divisibility. *)
+Lemma ok_bernstein : bernstein 1 2 1 [-2; 0; 1] = [-1; 0; 2] /\ bernstein 1 3 2 [0; 0; 0; 1; 0] = [1; 9; 27; 27] /\
+  bernstein 1 3 2 [0; 0] = [] /\ bernstein 1 3 2 [7] = [7]. Proof. repeat split. Qed.
+Lemma ok_positive : positive_on 1 2 1 [1; -2; 2] = true. Proof. computed. Qed.
+Lemma no_positive : forallb (fun p => negb (positive_on 1 2 1 p)) [[]; [0]; [0; 0]; [-1]; [-1; 1]; [2; -1]] = true.
+Proof. computed. Qed.
+Lemma ok_nonnegative : forallb (nonnegative_on 1 2 1) [[]; [0]; [0; 0]; [1]; [-1; 1]; [2; -1]] = true.
+Proof. computed. Qed.
+Lemma no_nonnegative : forallb (fun p => negb (nonnegative_on 1 2 1 p)) [[-1]; [-2; 1]; [1; -1]; [9; -12; 4]] = true.
+Proof. computed. Qed.
+Lemma ok_divides : forallb (divides [6; 0; 4])
+  [[]; [0]; [3; 0; 2]; [0; 3; 0; 2]; [3; 9; 2; 6; 0]; [-9; 0; 0; 0; 4]] = true.
+Proof. computed. Qed.
+Lemma no_divides : forallb (fun p => negb (divides [6; 0; 4] p))
+  [[1]; [0; 1]; [3; 1; 2]; [3; 0; -2]; [3; 9; 2; 5]] = true.
+Proof. computed. Qed.
 
 (** ** Least distance *)
 
@@ -522,7 +627,7 @@ Lemma no_way_same_other : by_seam to_first [(0, 11); (1, 3)] = None. Proof. comp
 
 (** ** Witnesses of a distance *)
 
-Definition hit_eta c e := check_hit false (apart e) (Witness c 5 0 1 [(0, 1)] [(1, 1)]).
+Definition hit_eta c e := check_hit false (apart e) (at_time c 5 0 1 [(0, 1)] [(1, 1)]).
 Lemma ok_hit_eta : hit_eta 0 5 = true. Proof. computed. Qed.
 Lemma ok_hit_eta_later : hit_eta 1 6 = true. Proof. computed. Qed.
 Lemma no_hit_eta : hit_eta 0 4 = false. Proof. computed. Qed.
@@ -532,10 +637,54 @@ Lemma no_hit_eta_later : hit_eta 1 5 = false. Proof. computed. Qed.
 Definition apart_longer e :=
   let s := apart e in
   spaced 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (2, V3 0 0 0)] else path s v) 2 (cell s) (label s) [] e.
-Definition hit_longer e := check_hit false (apart_longer e) (Witness 1 5 0 1 [(0, 1)] [(1, 1)]).
+Definition hit_longer e := check_hit false (apart_longer e) (at_time 1 5 0 1 [(0, 1)] [(1, 1)]).
 Lemma ok_hit_longer : hit_longer 6 = true. Proof. computed. Qed.
 Lemma no_hit_longer : hit_longer 5 = false. Proof. computed. Qed.
-Lemma no_value_after : value_at up 4 1 zigzag = None. Proof. computed. Qed.
+Lemma no_value_after : segment_of 4 4 1 zigzag = None. Proof. computed. Qed.
+Lemma ok_value_at_end : segment_of 3 3 1 zigzag = Some (Segment 3 (V3 0 0 9) 4 (V3 0 0 9)). Proof. computed. Qed.
+Lemma ok_value_until_end : segment_of 4 6 2 zigzag = Some (Segment 2 (V3 0 0 0) 3 (V3 0 0 9)).
+Proof. computed. Qed.
+Lemma no_value_across : segment_of 4 7 2 zigzag = None. Proof. computed. Qed.
+Lemma no_value_across_inside : segment_of 1 3 2 zigzag = None. Proof. computed. Qed.
+
+(** Points from (0, 0, 0) and from (t, 1, 0): at distance 2 at the root of 3. *)
+Definition leaving e := spaced 0 4 (fun v => if v =? 0 then at_rest o else [(0, V3 0 1 0); (4, V3 4 1 0)])
+  2 (fun i => [i]) (fun i => i) [] e.
+Definition hit_leaving e g l u := check_hit false (leaving e) (Witness 0 1 [(0, [1])] [(1, [1])] g l u 2).
+Lemma ok_hit_root_3 : hit_leaving 2 [-3; 0; 1] 2 4 = true. Proof. computed. Qed.
+Lemma no_hit_root_3 : hit_leaving 1 [-3; 0; 1] 2 4 = false. Proof. computed. Qed.
+Lemma ok_hit_root_2_eta : hit_leaving 2 [-2; 0; 1] 2 3 = true. Proof. computed. Qed.
+(** True at the root of 2, but not in all of the interval. *)
+Lemma no_hit_root_2_eta : hit_leaving 2 [-2; 0; 1] 2 4 = false. Proof. computed. Qed.
+Lemma no_hit_root_5 : hit_leaving 2 [-5; 0; 1] 4 6 = false. Proof. computed. Qed.
+
+(** Neighbours: 0 and 2 have two edges between them, and are at distance 6. *)
+Definition hit_links e k i j u v := check_hit false (links e k) (at_time 1 1 i j [(u, 1)] [(v, 1)]).
+Lemma ok_hit_ring : hit_links 6 2 0 2 0 2 = true. Proof. computed. Qed.
+Theorem unsafe_ring : forall strict, ~ never_touch strict (links 6 2).
+Proof. exact (check_hit_sound_both _ _ ok_hit_ring). Qed.
+Lemma no_hit_ring_eta : hit_links 5 2 0 2 0 2 = false. Proof. computed. Qed.
+Lemma no_hit_ring : hit_links 6 3 0 2 0 2 = false. Proof. computed. Qed.
+Lemma ok_hit_ring_3 : hit_links 9 3 0 2 0 3 = true. Proof. computed. Qed.
+Lemma no_hit_ring_4 : hit_links 9 4 0 2 0 3 = false. Proof. computed. Qed.
+Lemma no_hit_ring_back : hit_links 9 4 2 0 3 0 = false. Proof. computed. Qed.
+Lemma ok_hit_ring_1 : hit_links 3 1 0 2 1 2 = true. Proof. computed. Qed.
+Lemma no_hit_ring_2 : hit_links 3 2 0 2 1 2 = false. Proof. computed. Qed.
+(** One vertex of a feature that is near is enough for it to be. *)
+Lemma no_hit_ring_edge : check_hit false (links 9 2) (at_time 1 1 0 2 [(0, 1); (1, 0)] [(2, 0); (3, 1)]) = false.
+Proof. computed. Qed.
+Lemma ok_hit_ring_edge : check_hit false (links 9 2) (at_time 1 1 0 2 [(0, 1)] [(2, 0); (3, 1)]) = true.
+Proof. computed. Qed.
+(** However near neighbours may be: the folded chain has 3 at the place of 1. *)
+Lemma ok_hit_folded : check_hit false (folded 9) (at_time 1 1 0 2 [(1, 1)] [(3, 1)]) = true. Proof. computed. Qed.
+Lemma no_hit_folded : check_hit false (folded 9) (at_time 1 1 0 2 [(0, 1)] [(3, 1)]) = false. Proof. computed. Qed.
+(** Through merged vertices: 0 and 3 are joined by way of 1, which 11 is merged with. *)
+Definition hit_seam_ring f k :=
+  let s := seam f (path hinge 2) in
+  check_hit false (Scene 0 4 (path s) (same s) 2 (cell s) (label s) [] 99 k) (at_time 0 1 0 1 [(0, 1)] [(3, 1)]).
+Lemma ok_hit_seam_ring : hit_seam_ring (fun v => v) 9 = true. Proof. computed. Qed.
+Lemma ok_hit_seam_ring_2 : hit_seam_ring to_first 2 = true. Proof. computed. Qed.
+Lemma no_hit_seam_ring : hit_seam_ring to_first 3 = false. Proof. computed. Qed.
 
 (** ** Windows *)
 

@@ -22,8 +22,9 @@ Definition glue (s1 s2 : scene) : scene :=
   Scene (tbeg s1) (tend s2) (fun v => glue_traj (path s1 v) (path s2 v)) (same s1)
         (ncell s1) (cell s1) (label s1) (excluded s1) (eta s1) (ring s1).
 
-(** The same cells, merged vertices, labels, exclusions, distance and ring, and each vertex of a cell has its last
-    breakpoint in [s1], its first in [s2], at the time between them, at one position. *)
+(** The same cells, merged vertices, labels, exclusions, distance and ring, and each vertex of
+    a cell has its last breakpoint in [s1], its first in [s2], at the time between them, at one
+    position. *)
 Record follows (s1 s2 : scene) : Prop := {
   same_time     : tend s1 = tbeg s2;
   same_number   : ncell s1 = ncell s2;
@@ -139,7 +140,8 @@ Proof.
     intros H. apply M2. now apply (far_fewer (glue s1 s2)).
   - assert (IZR (tend s1) <= t)%R as T' by lra. rewrite P2, Q2 by auto. intros HP HQ.
     pose proof (same_time s1 s2 F) as ST. rewrite ST in T'.
-    assert (incl P (cell s2 i) /\ incl Q (cell s2 j)) as [IP2 IQ2] by now rewrite <- !(same_cells s1 s2 F) by auto.
+    assert (incl P (cell s2 i) /\ incl Q (cell s2 j)) as [IP2 IQ2]
+      by now rewrite <- !(same_cells s1 s2 F) by auto.
     destruct (N2 t (conj T' B) i j) with (P := P) (Q := Q) (x := x) (y := y) as [M1 M2];
       rewrite <- ?(same_number s1 s2 F), <- ?(same_labels s1 s2 F) by auto; auto.
     + intros X; apply E. unfold is_excluded in *; cbn. now rewrite (same_excluded s1 s2 F).

@@ -1045,7 +1045,8 @@ Proof.
     destruct (_ && _)%bool; [|discriminate]. cbn zeta.
     assert (Forall resolved p -> Forall resolved q -> (0 < d)%Z ->
       holds (Pair (Leaf l (without v p)) (Leaf m q) Far a b d) ->
-      holds (Pair (Leaf l p) (Leaf m (without u q)) Far a b d) -> PairApart Far a b d (Leaf l p) (Leaf m q)) as R.
+      holds (Pair (Leaf l p) (Leaf m (without u q)) Far a b d) ->
+      PairApart Far a b d (Leaf l p) (Leaf m q)) as R.
     { intros Ix Iy D H H0. cbn in *. intros P Q [<-|[]] [<-|[]] E. cbn in *.
       apply Apart_ring with u v; auto; rewrite <- without_ids.
       + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
@@ -1342,7 +1343,8 @@ Proof.
     assert (Apart (if (0 <? eta s)%Z then Distance else Disjoint) (tbeg s) (tend s) 1
               (cell_ids (same s) s i) (cell_ids (same s) s j)) as A.
     { apply (self_pairs table R _ _ _ _ g x B S i j); eauto using covers_sound. }
-    destruct (A t) with (S := map (same s) P) (U := map (same s) Q) (x := x1) (y := x2) as [A1 A2]; auto; [lra|].
+    destruct (A t) with (S := map (same s) P) (U := map (same s) Q) (x := x1) (y := x2) as [A1 A2];
+      auto; [lra|].
     destruct (0 <? eta s)%Z eqn:E.
     + split; [apply A1|apply A2]; discriminate.
     + apply Z.ltb_ge in E. assert (eta s = 0)%Z as -> by lia. split; [apply A1; discriminate|].
@@ -1384,6 +1386,7 @@ Proof.
   intros H t Ht i j Hi Hj E D x [X Y].
   destruct (Z.eq_dec i j) as [<-|N].
   - destruct (cell s i) as [|v l]; [now apply hull_nil in X|]. apply (D (same s v)); now left.
-  - destruct (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) x x X Y) as [A _].
+  - destruct (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) x x X Y)
+      as [A _].
     specialize (A D). unfold dist2 in A. lra.
 Qed.

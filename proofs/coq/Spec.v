@@ -2,10 +2,10 @@
 (** * What is claimed: a scene, and that nothing in it touches, or comes near
 
     This file is all that a reader has to believe about the meaning of the checker's answer:
-    a scene is made of integers, time and space of its meaning are real numbers.
+    a scene is made of integers, in units of its choice; its time and space are real.
 
-    Notation: [t] is a time, in a unit of the scene's choice, as are positions; [u], [v] and [w]
-    are vertex ids, [i] and [j] cell ids, [l] and [m] labels.  Not here: how a claim is proved (Checker.v), and how a scene is read. *)
+    Notation: [t] is a time; [u], [v], [w] are vertex ids, [i], [j] cell ids, [l], [m] labels.
+    Not here: how a claim is proved (Checker.v), and how a scene is read. *)
 Require Import ZArith List Reals.
 Import ListNotations.
 Open Scope Z_scope.
