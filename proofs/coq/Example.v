@@ -110,7 +110,8 @@ Lemma no_cross_second : lax (cross 2) tri_first (close (TDirection down)) = fals
 Definition zigzag : traj := [(0, V3 0 0 0); (1, V3 0 0 9); (2, V3 0 0 0); (3, V3 0 0 9)].
 Definition values_of a b cs := values up a b 1 cs (index zigzag).
 Lemma ok_values : values_of 0 3 [0; 1; 2; 3] = Some [(0, 1); (9, 1); (0, 1); (9, 1)]. Proof. computed. Qed.
-Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] (index zigzag) = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
+Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] (index zigzag)
+  = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
 Proof. computed. Qed.
 Lemma no_values_breakpoint : values_of 0 3 [0; 1; 3] = None. Proof. computed. Qed.
 Lemma no_values_order : values_of 0 3 [0; 1; 0; 1; 2; 3] = None. Proof. computed. Qed.
@@ -573,8 +574,8 @@ Lemma no_ring_0 : start (links 5 0) row_left = None. Proof. computed. Qed.
 Lemma no_ring_negative : start (links 0 (-1)) row_left = None. Proof. computed. Qed.
 (** A way of no steps does what D does. *)
 Definition next_by_none i :=
-  [TRing (i + 1) [[]]; TRing i [[(i, i + 1)]]; nothing; west; west; TRing (i + 1) [[(i + 1, i + 2)]]; west; nothing; west;
-   TDrop 0; west; west].
+  [TRing (i + 1) [[]]; TRing i [[(i, i + 1)]]; nothing; west; west; TRing (i + 1) [[(i + 1, i + 2)]]; west; nothing;
+   west; TDrop 0; west; west].
 Lemma ok_ring_none : lax (links 5 2) row_left (links_with next_by_none other) = true. Proof. computed. Qed.
 (** Ways of two steps: nothing of neighbouring cells is far, and of the others only 0 and 3.  What is
     disjoint is shown once, after G. *)
@@ -583,7 +584,8 @@ Definition next_two i :=
    TRing (i + 1) [[]]; nothing; TRing (i + 1) [[(i + 1, i + 2)]]; nothing; nothing;
    TRing (i + 1) [[]]; TRing i [[(i, i + 1)]]; nothing; nothing; nothing; TDrop 0; west; west].
 Definition other_two :=
-  [TFar; TRing 1 [[(1, 2)]]; TRing 0 [[(0, 1); (1, 2)]]; nothing; west; TRing 1 [[(1, 2); (2, 3)]]; west; nothing; west].
+  [TFar; TRing 1 [[(1, 2)]]; TRing 0 [[(0, 1); (1, 2)]]; nothing; west; TRing 1 [[(1, 2); (2, 3)]]; west;
+   nothing; west].
 Definition linked_two e k := lax (links e k) row_left (links_with next_two other_two).
 Lemma ok_ring_two : linked_two 8 3 = true. Proof. computed. Qed.
 Lemma no_ring_two_eta : linked_two 9 3 = false. Proof. computed. Qed.
