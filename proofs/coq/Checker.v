@@ -7,11 +7,15 @@
     why in Sound.v.
 
     Notation: an obligation's interval is [a/d, b/d], where [d] is 2^e for the
-    number e of halvings; [c] is a time with the same denominator.  The vertices of
-    a group come with their trajectories, in increasing order of their ids.
+    number e of halvings; [c] is a time with the same denominator; [o] is a mode.  The
+    vertices of a group come with search trees of their trajectories, in increasing order
+    of their ids, which are those that stand for others ([same] in Spec.v).
+
+    Cost: of a token, the search in each trajectory, which is logarithmic, and its
+    breakpoints in the interval; of [start], all breakpoints once, and the sorting of ids.
 
     Not here: reading bytes, and bounds for the lengths of what is read.  The tree
-    is recursed over, so that a reader has to bound its depth. *)
+    is recursed over, so that a reader has to bound its depth; and the length of a way, by the ring. *)
 Require Import ZArith List Bool.
 From Noli Require Import Spec.
 Import ListNotations.
@@ -26,16 +30,18 @@ Inductive group := Cell (i : Z) | Join (l r : group).
 Record halfspace := HalfSpace { normal : vec; nt : Z; nd : Z }.
 
 Inductive token :=
-| THalve                          (* T  any:  both halves of the interval                          *)
-| TLeft                           (* L  pair: each of the two parts of the first group             *)
-| TRight                          (* R  pair: each of the two parts of the second group            *)
-| TDrop (k : Z)                   (* D  two cells: without their k-th common vertex, first, second *)
-| TPlane (h : halfspace) (w : Z)  (* P  pair: the first group is in h, the second w behind it      *)
-| TDirection (n : vec)            (* S  pair: the first group is always further in direction n     *)
-| TExcluded                       (* X  any:  nothing is claimed about these labels                *)
-| TParts                          (* N  self: the first part, the pair of both, the second part    *)
-| TOne                            (* F  self: one cell; nothing to show, if not strict             *)
-| TBoth.                          (* B  self: as a pair of the group with itself                   *)
+| THalve                            (* T  any:  both halves of the interval                          *)
+| TLeft                             (* L  pair: each of the two parts of the first group             *)
+| TRight                            (* R  pair: each of the two parts of the second group            *)
+| TDrop (k : Z)                     (* D  two cells: without their k-th common vertex, first, second *)
+| TRing (v : Z) (w : list (Z * Z))  (* W  two cells: without an end of a short way, and disjoint     *)
+| TFar                              (* G  pair: far first, disjoint second                           *)
+| TPlane (h : halfspace) (w : Z)    (* P  pair: the first group is in h, the second w behind it      *)
+| TDirection (n : vec)              (* S  pair: the first group is always further in direction n     *)
+| TExcluded                         (* X  any:  nothing is claimed about these labels                *)
+| TParts                            (* N  self: the first part, the pair of both, the second part    *)
+| TOne                              (* F  self: one cell; nothing to show, if not strict             *)
+| TBoth.                            (* B  self: as a pair of the group with itself                   *)
 
 (** ** Trajectories *)
 
@@ -53,16 +59,70 @@ Definition wf_traj (T0 T1 : Z) (tr : traj) : bool :=
   | (t0, _) :: r => (t0 <=? T0) && reaches t0 T1 r
   end.
 
-(** The trajectory without the segments that end at [a/d] or before. *)
-Fixpoint since (d a : Z) (tr : traj) : traj :=
-  match tr with
-  | [] => []
-  | _ :: r =>
-      match r with
-      | [] => tr
-      | (t1, _) :: _ => if t1 * d <=? a then since d a r else tr
+(** Two trajectories are equal. *)
+Fixpoint equal_traj (tr1 tr2 : traj) : bool :=
+  match tr1, tr2 with
+  | [], [] => true
+  | (t1, p1) :: r1, (t2, p2) :: r2 =>
+      if (t1 =? t2) && (vx p1 =? vx p2) && (vy p1 =? vy p2) && (vz p1 =? vz p2) then equal_traj r1 r2 else false
+  | _, _ => false
+  end.
+
+(** ** Search: in a trajectory, and among all vertices
+
+    A search tree has things in increasing order of their keys.  Its lists are built
+    and taken apart in constant stack, in time proportional to their length. *)
+
+(** What is at [k] or after is in [r], what is before in [l]. *)
+Inductive search (A : Type) :=
+| Found (x : A)
+| Choose (k : Z) (l r : search A).
+Arguments Found {A} _.
+Arguments Choose {A} _ _ _.
+
+(** The last thing whose key is [low], or the first if none is: all keys before one
+    that is [low] are. *)
+Fixpoint find {A} (low : Z -> bool) (x : search A) : A :=
+  match x with
+  | Found x => x
+  | Choose k l r => if low k then find low r else find low l
+  end.
+
+(** Each two neighbours of a list of keys and trees as one; [acc] has the earlier ones, last first. *)
+Fixpoint join_pairs {A} (l acc : list (Z * search A)) : list (Z * search A) :=
+  match l with
+  | (k1, x) :: (k2, y) :: r => join_pairs r ((k1, Choose k2 x y) :: acc)
+  | _ => rev_append acc l
+  end.
+
+(** One tree of all: half as many remain after each round.  [fuel] is any list that is
+    longer than there are rounds. *)
+Fixpoint join_all {A B} (fuel : list B) (l : list (Z * search A)) : option (search A) :=
+  match l with
+  | [] => None
+  | (_, x) :: r =>
+      match r, fuel with
+      | _ :: _, _ :: f => join_all f (join_pairs l [])
+      | _, _ => Some x
       end
   end.
+
+(** A trajectory's suffixes, each with the time at which it begins.  They share memory. *)
+Fixpoint suffixes (tr : traj) (acc : list (Z * search traj)) : list (Z * search traj) :=
+  match tr with
+  | [] => rev_append acc []
+  | (t, _) :: r => suffixes r ((t, Found tr) :: acc)
+  end.
+
+(** The search tree of a trajectory: of its suffixes, by their times. *)
+Definition index (tr : traj) : search traj :=
+  match join_all tr (suffixes tr []) with
+  | Some x => x
+  | None => Found tr
+  end.
+
+(** The trajectory from its last breakpoint at [a/d] or before on. *)
+Definition since (d a : Z) (x : search traj) : traj := find (fun t => t * d <=? a) x.
 
 (** ** P: a half of space-time *)
 
@@ -103,8 +163,8 @@ Fixpoint inside_from (h : halfspace) (a b d t0 g0 : Z) (r : traj) : bool :=
   end.
 
 (** A trajectory is in [h] during [a/d, b/d]. *)
-Definition inside (h : halfspace) (a b d : Z) (tr : traj) : bool :=
-  match since d a tr with
+Definition inside (h : halfspace) (a b d : Z) (x : search traj) : bool :=
+  match since d a x with
   | [] => false
   | (t0, p0) :: r => inside_from h a b d t0 (value h t0 p0) r
   end.
@@ -161,8 +221,8 @@ Fixpoint along (n : vec) (b d t0 g0 : Z) (r : traj) : Z -> list Z -> list rat ->
   end.
 
 (** How far a trajectory is in direction [n] at the times [cs], from [a] to [b]. *)
-Definition values (n : vec) (a b d : Z) (cs : list Z) (tr : traj) : option (list rat) :=
-  match since d a tr with
+Definition values (n : vec) (a b d : Z) (cs : list Z) (x : search traj) : option (list rat) :=
+  match since d a x with
   | [] => None
   | (t0, p0) :: r =>
       if t0 * d <=? a then along n b d t0 (dot n p0) r a cs [] else None
@@ -180,7 +240,7 @@ Fixpoint times_until (d a b : Z) (tr : traj) (acc : list Z) : list Z :=
   end.
 
 (** The same for all of a trajectory. *)
-Definition times (d a b : Z) (tr : traj) : list Z := times_until d a b (since d a tr) [].
+Definition times (d a b : Z) (x : search traj) : list Z := times_until d a b (since d a x) [].
 
 (** The union of two lists in strictly increasing order of [key], in constant stack. *)
 Fixpoint union_acc {A} (key : A -> Z) (l1 : list A) : list A -> list A -> list A :=
@@ -220,8 +280,8 @@ Fixpoint all_less (k : Z) (l1 l2 : list rat) : bool :=
   | _, _ => false
   end.
 
-(** A vertex id with its trajectory. *)
-Definition vertex : Type := Z * traj.
+(** A vertex id with the search tree of its trajectory. *)
+Definition vertex : Type := Z * search traj.
 
 (** At all times of [a/d, b/d], all of [x] is further in direction [n] than all of
     [y], by more than the root of [k].  Positions are linear between the times in [cs]: both ends, and the
@@ -269,23 +329,71 @@ Definition common_label (x y : tree) : option Z :=
   | _, _ => None
   end.
 
-(** The vertices of a cell, each once, with their trajectories. *)
-Definition leaf (s : scene) (i : Z) : list vertex :=
-  fold_right (fun v acc => union fst [(v, path s v)] acc) [] (cell s i).
+(** The ids of a cell's vertices, or with [f] = [same s] of those that stand for them,
+    in order, each once. *)
+Definition cell_ids (f : Z -> Z) (s : scene) (i : Z) : list Z :=
+  fold_right (fun v acc => union (fun u => u) [f v] acc) [] (cell s i).
 
-(** The tree with its labels and vertices; [None] if a trajectory makes no sense. *)
-Fixpoint build (s : scene) (g : group) : option tree :=
+(** The same for all cells of a group. *)
+Fixpoint group_ids (f : Z -> Z) (s : scene) (g : group) : list Z :=
+  match g with
+  | Cell i => cell_ids f s i
+  | Join l r => union (fun u => u) (group_ids f s l) (group_ids f s r)
+  end.
+
+(** A vertex is as Spec.v's [well_formed] has it. *)
+Definition wf_vertex (s : scene) (v : Z) : bool :=
+  wf_traj (tbeg s) (tend s) (path s v) && ((same s v =? v) || equal_traj (path s (same s v)) (path s v)).
+
+(** The vertices with these ids, by their ids: each trajectory's search tree is built
+    once, however many cells the vertex is in.  [acc] has the earlier ones, last first. *)
+Fixpoint vertices (s : scene) (ids : list Z) (acc : list (Z * search vertex)) : list (Z * search vertex) :=
+  match ids with
+  | [] => rev_append acc []
+  | v :: r => vertices s r ((v, Found (v, index (path s v))) :: acc)
+  end.
+
+(** The vertex [v] in a search tree by ids. *)
+Definition look_up (table : search vertex) (v : Z) : option vertex :=
+  let w := find (fun k => k <=? v) table in
+  if fst w =? v then Some w else None.
+
+(** The vertices with these ids. *)
+Fixpoint look_up_all (table : search vertex) (ids : list Z) : option (list vertex) :=
+  match ids with
+  | [] => Some []
+  | v :: r =>
+      match look_up table v, look_up_all table r with
+      | Some w, Some l => Some (w :: l)
+      | _, _ => None
+      end
+  end.
+
+(** The tree with its labels and vertices. *)
+Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tree :=
   match g with
   | Cell i =>
-      let vs := leaf s i in
-      if forallb (fun w => wf_traj (tbeg s) (tend s) (snd w)) vs
-      then Some (Leaf (label s i) vs) else None
+      match look_up_all table (cell_ids (same s) s i) with
+      | Some vs => Some (Leaf (label s i) vs)
+      | None => None
+      end
   | Join l r =>
-      match build s l, build s r with
+      match build_from table s l, build_from table s r with
       | Some x, Some y => Some (Node (common_label x y) (union fst (verts x) (verts y)) x y)
       | _, _ => None
       end
   end.
+
+(** The tree of a scene; [None] if a vertex makes no sense.  The vertices in it are those
+    that stand for others, or for themselves. *)
+Definition build (s : scene) (g : group) : option tree :=
+  if forallb (wf_vertex s) (group_ids (fun v => v) s g) then
+    let ids := group_ids (same s) s g in
+    match join_all ids (vertices s ids []) with
+    | Some table => build_from table s g
+    | None => None
+    end
+  else None.
 
 (** The cells of a tree, in order, each once. *)
 Fixpoint ids_of (g : group) : list Z :=
@@ -336,13 +444,34 @@ Fixpoint nth_id (k : Z) (l : list vertex) : option Z :=
   | w :: r => if k =? 0 then Some (fst w) else nth_id (k - 1) r
   end.
 
+(** ** W: ways from vertex to vertex *)
+
+(** The vertex [v] is in the cell [i], or stands for one that is. *)
+Definition in_cell (s : scene) (i v : Z) : bool :=
+  (0 <=? i) && (i <? ncell s) && existsb (fun u => same s u =? v) (cell s i).
+
+(** Where the way [w] leads from [v] in at most [n] steps: a step is a cell, and the next vertex in it. *)
+Fixpoint way_end (s : scene) (n v : Z) (w : list (Z * Z)) : option Z :=
+  match w with
+  | [] => Some v
+  | (i, u) :: r => if (0 <? n) && in_cell s i v && in_cell s i u then way_end s (n - 1) u r else None
+  end.
+
 (** ** The stack *)
+
+(** What is to be shown of two features: if they share no vertex, that they are disjoint
+    (not [Far]); if they are far by Spec.v's [far_ids], that they are more than [eta] apart
+    (not [Disjoint]). *)
+Inductive mode := Distance | Far | Disjoint.
 
 (** Every feature of a cell in [x] against every one of a cell in [y], or of every
     two cells in [x] (and of each with itself, if strict), over [a/d, b/d]. *)
 Inductive obligation :=
-| Pair (x y : tree) (a b d : Z)
-| Self (x : tree) (a b d : Z).
+| Pair (x y : tree) (o : mode) (a b d : Z)
+| Self (x : tree) (o : mode) (a b d : Z).
+
+(** How far apart separated groups have to be. *)
+Definition least (s : scene) (o : mode) : Z := match o with Disjoint => 0 | Distance | Far => eta s end.
 
 (** Halvings beyond this denominator are refused: it bounds the length of numbers. *)
 Definition d_max : Z := 2 ^ 1024.
@@ -352,11 +481,14 @@ Variable strict : bool.
 Variable s : scene.
 
 (** One token on a pair, and on a group with itself; [k] is the rest of the stack. *)
-Definition step_pair (x y : tree) (a b d : Z) (k : list obligation) (tok : token) : option (list obligation) :=
+Definition step_pair (x y : tree) (o : mode) (a b d : Z) (k : list obligation) (tok : token)
+  : option (list obligation) :=
   match tok with
-  | TDirection n => if separated (eta s * eta s * dot n n) n a b d (verts x) (verts y) then Some k else None
+  | TDirection n =>
+      let e := least s o in
+      if separated (e * e * dot n n) n a b d (verts x) (verts y) then Some k else None
   | TPlane h w =>
-      if wide (eta s) (normal h) w then
+      if wide (least s o) (normal h) w then
         if forallb (fun v => inside h a b d (snd v)) (verts x) then
           let h' := behind h w in
           if forallb (fun v => inside h' a b d (snd v)) (verts y) then Some k else None
@@ -366,42 +498,66 @@ Definition step_pair (x y : tree) (a b d : Z) (k : list obligation) (tok : token
       if d <? d_max then
         let m := a + b in
         let d2 := d + d in
-        Some (Pair x y (a + a) m d2 :: Pair x y m (b + b) d2 :: k)
+        Some (Pair x y o (a + a) m d2 :: Pair x y o m (b + b) d2 :: k)
       else None
   | TLeft =>
       match x with
-      | Node _ _ l r => Some (Pair l y a b d :: Pair r y a b d :: k)
+      | Node _ _ l r => Some (Pair l y o a b d :: Pair r y o a b d :: k)
       | Leaf _ _ => None
       end
   | TRight =>
       match y with
-      | Node _ _ l r => Some (Pair x l a b d :: Pair x r a b d :: k)
+      | Node _ _ l r => Some (Pair x l o a b d :: Pair x r o a b d :: k)
       | Leaf _ _ => None
       end
   | TDrop i =>
       match x, y with
       | Leaf l p, Leaf m q =>
           match nth_id i (filter (fun w => has (fst w) q) p) with
-          | Some v => Some (Pair (Leaf l (without v p)) y a b d :: Pair x (Leaf m (without v q)) a b d :: k)
+          | Some v => Some (Pair (Leaf l (without v p)) y o a b d :: Pair x (Leaf m (without v q)) o a b d :: k)
           | None => None
           end
       | _, _ => None
+      end
+  | TRing v w =>
+      match x, y with
+      | Leaf l p, Leaf m q =>
+          match way_end s (ring s - 1) v w with
+          | Some u =>
+              if has v p && has u q then
+                let x' := Leaf l (without v p) in
+                let y' := Leaf m (without u q) in
+                match o with
+                | Distance => Some (Pair x' y o a b d :: Pair x y' o a b d :: Pair x y Disjoint a b d :: k)
+                | Far => Some (Pair x' y o a b d :: Pair x y' o a b d :: k)
+                | Disjoint => None
+                end
+              else None
+          | None => None
+          end
+      | _, _ => None
+      end
+  | TFar =>
+      match o with
+      | Distance => Some (Pair x y Far a b d :: Pair x y Disjoint a b d :: k)
+      | Far | Disjoint => None
       end
   | TExcluded => if excluded_labels s (label_of x) (label_of y) then Some k else None
   | TParts | TOne | TBoth => None
   end.
 
-Definition step_self (x : tree) (a b d : Z) (k : list obligation) (tok : token) : option (list obligation) :=
+Definition step_self (x : tree) (o : mode) (a b d : Z) (k : list obligation) (tok : token)
+  : option (list obligation) :=
   match tok with
   | THalve =>
       if d <? d_max then
         let m := a + b in
         let d2 := d + d in
-        Some (Self x (a + a) m d2 :: Self x m (b + b) d2 :: k)
+        Some (Self x o (a + a) m d2 :: Self x o m (b + b) d2 :: k)
       else None
   | TParts =>
       match x with
-      | Node _ _ l r => Some (Self l a b d :: Pair l r a b d :: Self r a b d :: k)
+      | Node _ _ l r => Some (Self l o a b d :: Pair l r o a b d :: Self r o a b d :: k)
       | Leaf _ _ => None
       end
   | TOne =>
@@ -409,17 +565,17 @@ Definition step_self (x : tree) (a b d : Z) (k : list obligation) (tok : token) 
       | Leaf _ _ => if strict then None else Some k
       | Node _ _ _ _ => None
       end
-  | TBoth => Some (Pair x x a b d :: k)
+  | TBoth => Some (Pair x x o a b d :: k)
   | TExcluded => if excluded_labels s (label_of x) (label_of x) then Some k else None
-  | TLeft | TRight | TDrop _ | TPlane _ _ | TDirection _ => None
+  | TLeft | TRight | TDrop _ | TRing _ _ | TFar | TPlane _ _ | TDirection _ => None
   end.
 
 (** One token: what it puts in place of the obligation on top, or [None]. *)
 Definition step (st : list obligation) (tok : token) : option (list obligation) :=
   match st with
   | [] => None
-  | Pair x y a b d :: k => step_pair x y a b d k tok
-  | Self x a b d :: k => step_self x a b d k tok
+  | Pair x y o a b d :: k => step_pair x y o a b d k tok
+  | Self x o a b d :: k => step_self x o a b d k tok
   end.
 
 (** Token after token. *)
@@ -436,9 +592,9 @@ End Steps.
 
 (** The stack before the first token; [None] for a scene or tree that makes no sense. *)
 Definition start (s : scene) (g : group) : option (list obligation) :=
-  if (tbeg s <? tend s) && (0 <? ncell s) && (0 <=? eta s) && covers (ncell s) g then
+  if (tbeg s <? tend s) && (0 <? ncell s) && (0 <=? eta s) && (0 <? ring s) && covers (ncell s) g then
     match build s g with
-    | Some x => Some [Self x (tbeg s) (tend s) 1]
+    | Some x => Some [Self x (if 0 <? eta s then Distance else Disjoint) (tbeg s) (tend s) 1]
     | None => None
     end
   else None.

@@ -10,7 +10,7 @@
 
     Not here: the reading of files. *)
 Require Import ZArith List.
-From Noli Require Import Spec Checker Sound Glue Hit.
+From Noli Require Import Spec Checker Sound Glue Poly Hit.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -27,8 +27,11 @@ Definition lax := check false.
 
 Ltac computed := vm_compute; reflexivity.
 
-(** A scene in which things are not to touch. *)
-Definition touching t0 t1 p n c l e := Scene t0 t1 p n c l e 0.
+(** A scene in which things are to be more than a distance apart, and no vertices are merged. *)
+Definition spaced t0 t1 p n c l e eta := Scene t0 t1 p (fun v => v) n c l e eta 1.
+
+(** The same in which things are not to touch. *)
+Definition touching t0 t1 p n c l e := spaced t0 t1 p n c l e 0.
 
 (** ** A triangle at rest, and a point that falls towards it *)
 
@@ -105,9 +108,9 @@ Lemma no_cross_second : lax (cross 2) tri_first (close (TDirection down)) = fals
 
 (** What the checker asks of the times at which it compares, which are always so. *)
 Definition zigzag : traj := [(0, V3 0 0 0); (1, V3 0 0 9); (2, V3 0 0 0); (3, V3 0 0 9)].
-Definition values_of a b cs := values up a b 1 cs zigzag.
+Definition values_of a b cs := values up a b 1 cs (index zigzag).
 Lemma ok_values : values_of 0 3 [0; 1; 2; 3] = Some [(0, 1); (9, 1); (0, 1); (9, 1)]. Proof. computed. Qed.
-Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] zigzag = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
+Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] (index zigzag) = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
 Proof. computed. Qed.
 Lemma no_values_breakpoint : values_of 0 3 [0; 1; 3] = None. Proof. computed. Qed.
 Lemma no_values_order : values_of 0 3 [0; 1; 0; 1; 2; 3] = None. Proof. computed. Qed.
@@ -115,6 +118,29 @@ Lemma no_values_end : values_of 0 3 [0; 1; 2] = None. Proof. computed. Qed.
 Lemma no_values_begin : values_of (-1) 3 [0; 1; 2; 3] = None. Proof. computed. Qed.
 Lemma no_values_after : values_of 0 4 [0; 1; 2; 3; 4] = None. Proof. computed. Qed.
 Lemma no_lengths : orb (all_less 0 [] [(1, 1)]) (all_less 0 [(0, 1)] []) = false. Proof. computed. Qed.
+
+(** The search in trajectories of any number of breakpoints, which are at the times 3, 6, 9, ... *)
+Definition long (n : nat) : traj := map (fun k => (3 * Z.of_nat k, V3 (Z.of_nat k) 0 0)) (seq 1 n).
+Definition begins (n : nat) (a : Z) : option Z :=
+  match since 2 a (index (long n)) with (t, _) :: _ => Some t | [] => None end.
+Definition expected (n : nat) (a : Z) : option Z := Some (3 * Z.max 1 (Z.min (Z.of_nat n) (a / 6))).
+Lemma ok_since : forallb (fun n => forallb (fun a =>
+  match begins n (Z.of_nat a), expected n (Z.of_nat a) with Some t, Some u => t =? u | _, _ => false end)
+  (seq 0 120)) (seq 1 18) = true.
+Proof. computed. Qed.
+Lemma no_since : since 2 7 (index []) = []. Proof. computed. Qed.
+
+(** Of 1000 breakpoints those of one eighth of the time are looked at, or all. *)
+Definition long_race (z : Z) : scene :=
+  let tr z := map (fun k => (Z.of_nat k, V3 (Z.of_nat k) (Z.of_nat k mod 7) z)) (seq 0 1000) in
+  touching 0 999 (fun v => tr (if v =? 0 then 0 else z)) 2
+        (fun i => [i]) (fun i => i) [].
+Definition eighths (tok : token) :=
+  [TParts; TOne; THalve; THalve; tok; THalve; tok; tok; THalve; THalve; tok; tok; tok; TOne].
+Lemma ok_long : lax (long_race 1) point_first (eighths (TDirection up)) = true. Proof. computed. Qed.
+Lemma ok_long_plane : lax (long_race 2) point_first (eighths (above 1)) = true. Proof. computed. Qed.
+Lemma no_long : lax (long_race 0) point_first (eighths (TDirection up)) = false. Proof. computed. Qed.
+Lemma no_long_plane : lax (long_race 1) point_first (eighths (above 1)) = false. Proof. computed. Qed.
 
 (** Three vertices a side: the lowest of one against the highest of the other. *)
 Definition steps (h : Z) : scene :=
@@ -152,14 +178,15 @@ Lemma ok_quarters : lax (pass 2) point_first
 Lemma no_halves : lax (pass 2) point_first (close east) = false. Proof. computed. Qed.
 Lemma no_halves_zero : lax (pass 0) point_first (halves east north) = false. Proof. computed. Qed.
 Lemma no_halves_order : lax (pass 2) point_first (halves north east) = false. Proof. computed. Qed.
-Lemma no_halves_plane_zero : lax (pass 2) point_first (halves (east_of 2) (north_of 1)) = false. Proof. computed. Qed.
+Lemma no_halves_plane_zero : lax (pass 2) point_first (halves (east_of 2) (north_of 1)) = false.
+Proof. computed. Qed.
 Lemma no_halves_plane_zero_second : lax (pass 2) point_first (halves (east_of 1) (north_of 2)) = false.
 Proof. computed. Qed.
 Lemma no_half_missing : lax (pass 2) point_first [TParts; TOne; THalve; east; TOne] = false. Proof. computed. Qed.
 Lemma no_half_missing_at_end : lax (pass 2) point_first (THalve :: close east) = false. Proof. computed. Qed.
 
-Definition halvings n := run false (pass 2) [Self (Leaf 0 []) 0 1 1] (repeat THalve n).
-Definition pair_halvings n := run false (pass 2) [Pair (Leaf 0 []) (Leaf 0 []) 0 1 1] (repeat THalve n).
+Definition halvings n := run false (pass 2) [Self (Leaf 0 []) Disjoint 0 1 1] (repeat THalve n).
+Definition pair_halvings n := run false (pass 2) [Pair (Leaf 0 []) (Leaf 0 []) Disjoint 0 1 1] (repeat THalve n).
 Lemma ok_depth_pair : (if pair_halvings 1024 then true else false) = true. Proof. computed. Qed.
 Lemma no_depth_pair : (if pair_halvings 1025 then true else false) = false. Proof. computed. Qed.
 Lemma ok_depth : (if halvings 1024 then true else false) = true. Proof. computed. Qed.
@@ -183,6 +210,35 @@ Lemma no_drop_beyond : lax hinge tri_first (hinge_with 2) = false. Proof. comput
 Lemma no_drop_negative : lax hinge tri_first (hinge_with (-1)) = false. Proof. computed. Qed.
 Lemma no_drop_nothing_common : lax (fall 2) point_first [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
 Lemma no_drop_needed : lax hinge tri_first (close (dir (-1) 0)) = false. Proof. computed. Qed.
+
+(** The same with a seam: the second triangle has vertices of its own, 11 and 12, at the
+    places of 1 and 2, unless [p] says otherwise of 12. *)
+Definition seam (f : Z -> Z) (p : traj) : scene :=
+  Scene 0 4 (fun v => if v =? 12 then p else path hinge (v mod 10)) f 2
+        (fun i => if i =? 0 then [2; 0; 1] else [11; 3; 12]) (fun i => i) [] 0 1.
+Definition to_first v := v mod 10.
+Definition to_second v := if v <? 3 then v + 10 else v.
+Definition to_other v := v mod 10 + 20.
+Definition sewn f := lax (seam f (path hinge 2)) tri_first (hinge_with 0).
+Lemma ok_same : sewn to_first = true. Proof. computed. Qed.
+Lemma ok_same_other : sewn to_other = true. Proof. computed. Qed.
+Lemma no_same_none : sewn (fun v => v) = false. Proof. computed. Qed.
+Lemma ok_same_second : sewn to_second = true. Proof. computed. Qed.
+Lemma no_same_one : sewn (fun v => if v =? 11 then 1 else v) = false. Proof. computed. Qed.
+Theorem safe_same : never_touch false (seam to_first (path hinge 2)).
+Proof. exact (check_sound _ _ _ _ ok_same). Qed.
+(** Vertex 3 follows 2 in order: what is number 0 depends on the ids of those that stand for others. *)
+Lemma ok_same_order : lax (seam (fun v => if v =? 1 then 11 else if v =? 12 then 2 else v) (path hinge 2))
+  tri_first [TParts; TOne; TDrop 0; TDrop 0; dir (-1) 0; dir (-1) (-1); TDrop 0; dir (-1) 1; dir (-1) 0; TOne] = true.
+Proof. computed. Qed.
+(** Merged vertices with other trajectories, even if they are at the same places. *)
+Definition sewn_to p := lax (seam to_first p) tri_first (hinge_with 0).
+Lemma ok_same_equal : sewn_to [(0, V3 0 4 0); (4, V3 0 4 0)] = true. Proof. computed. Qed.
+Lemma no_same_unlike : forallb (fun p => negb (sewn_to p))
+  [[(0, V3 0 4 0); (4, V3 1 4 0)]; [(0, V3 0 4 0); (4, V3 0 5 0)]; [(0, V3 0 4 0); (4, V3 0 4 1)];
+   [(0, V3 0 4 0); (5, V3 0 4 0)]; [(0, V3 0 4 0); (2, V3 0 4 0); (4, V3 0 4 0)]; [(0, V3 0 4 0)]; []] = true.
+Proof. computed. Qed.
+Lemma no_same_shorter : equal_traj [(0, V3 0 4 0)] [] = false. Proof. computed. Qed.
 
 (** Strict, one edge against itself: its vertices are apart.  A side without a vertex
     is closed by any direction. *)
@@ -213,25 +269,27 @@ Lemma ok_both : lax row row_left
   [TParts; TBoth; TLeft; TRight; TDrop 0; nothing; nothing; dir (-1) 0;
    TRight; dir 1 0; TDrop 0; nothing; nothing; dir (-1) 0; TOne] = true. Proof. computed. Qed.
 Lemma no_left_leaf : lax row row_right [TParts; TOne; TLeft] = false. Proof. computed. Qed.
-Lemma no_right_leaf : lax row row_left [TParts; TParts; TOne; dir (-1) 0; TOne; TRight] = false. Proof. computed. Qed.
+Lemma no_right_leaf : lax row row_left [TParts; TParts; TOne; dir (-1) 0; TOne; TRight] = false.
+Proof. computed. Qed.
 Lemma no_parts_leaf : lax row row_right [TParts; TParts] = false. Proof. computed. Qed.
 Lemma no_one_node : lax row row_right [TOne] = false. Proof. computed. Qed.
 Lemma no_drop_node : lax row row_right [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
 
 (** A token of the other kind of obligation. *)
-Definition root := Leaf 0 [(0, at_rest (V3 0 0 0))].
-Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) 0 4 1].
-Definition on_self := step false row [Self (Node None [] root root) 0 4 1].
+Definition root := Leaf 0 [(0, index (at_rest (V3 0 0 0)))].
+Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) Distance 0 4 1].
+Definition on_self := step false row [Self (Node None [] root root) Distance 0 4 1].
 Definition refused (o : option (list obligation)) := match o with None => true | Some _ => false end.
-Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0] = true.
+Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0; TRing 0 []] = true.
 Proof. computed. Qed.
 Lemma no_token_on_self :
-  forallb (fun tok => refused (on_self tok)) [TLeft; TRight; TDrop 0; above 0; TDirection up] = true.
+  forallb (fun tok => refused (on_self tok))
+  [TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 0; TDirection up] = true.
 Proof. computed. Qed.
 
 (** The stack: tokens after the last obligation, and obligations after the last token. *)
 Lemma no_more_tokens : forallb (fun tok => negb (lax (fall 2) point_first (close (above 1) ++ [tok])))
-  [THalve; TLeft; TRight; TDrop 0; above 1; TDirection up; TExcluded; TParts; TOne; TBoth] = true.
+  [THalve; TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 1; TDirection up; TExcluded; TParts; TOne; TBoth] = true.
 Proof. computed. Qed.
 Lemma no_tokens : lax (fall 2) point_first [] = false. Proof. computed. Qed.
 Lemma no_token_less : lax (fall 2) point_first [TParts; TOne; above 1] = false. Proof. computed. Qed.
@@ -249,7 +307,8 @@ Lemma ok_excluded_swapped : lax (heap [5; 5; 6; 6] [(5, 5); (5, 6); (6, 6)]) two
   [TParts; TExcluded; TExcluded; TExcluded] = true. Proof. computed. Qed.
 Lemma no_excluded_pair : lax (heap [5; 5; 6; 6] [(5, 5); (6, 6); (5, 7); (7, 6)]) two_two
   [TParts; TExcluded; TExcluded; TExcluded] = false. Proof. computed. Qed.
-Lemma no_excluded_self : lax (heap [5; 5; 5; 5] [(5, 6); (6, 6)]) two_two [TExcluded] = false. Proof. computed. Qed.
+Lemma no_excluded_self : lax (heap [5; 5; 5; 5] [(5, 6); (6, 6)]) two_two [TExcluded] = false.
+Proof. computed. Qed.
 Lemma no_excluded_mixed_self : lax (heap [5; 5; 6; 6] [(5, 5); (5, 6); (6, 6)]) two_two [TExcluded] = false.
 Proof. computed. Qed.
 Lemma no_excluded_mixed_first : lax (heap [5; 7; 6; 6] [(5, 5); (5, 6); (6, 6); (5, 7); (7, 7); (7, 6)]) two_two
@@ -276,6 +335,17 @@ Lemma no_cell_beyond_instead : start row ((#0 + #1) + #3)%group = None. Proof. c
 Lemma no_cell_negative : start row (Join (Cell (-1)) row_left) = None. Proof. computed. Qed.
 Lemma no_cell_negative_instead : start row (Join (Cell (-1)) (two 1 2)) = None. Proof. computed. Qed.
 
+(** A vertex that is not in the table of vertices is not found. *)
+Definition table ids := join_all ids (vertices row ids []).
+Lemma ok_look_up : match table [1; 4; 5; 8; 9] with
+  | Some x => map (fun v => match look_up x v with Some (w, _) => w | None => -1 end) [0; 1; 2; 4; 5; 7; 8; 9; 10]
+  | None => []
+  end = [-1; 1; -1; 4; 5; -1; 8; 9; -1].
+Proof. computed. Qed.
+Lemma no_look_up : match table [1; 4] with Some x => look_up_all x [1; 2] | None => Some [] end = None.
+Proof. computed. Qed.
+Lemma no_table : table [] = None. Proof. computed. Qed.
+
 (** ** Scenes that make no sense *)
 
 (** One cell, which needs no proof if the scene is as it should be. *)
@@ -296,36 +366,44 @@ Lemma no_cells : forallb (fun n => negb (lax (many n) #0 [TOne])) [0; -1; 2] = t
 
 (** ** Witnesses of contact *)
 
+(** The time c/d, with weights that do not change. *)
+Definition constant (l : list (Z * Z)) := map (fun x => (fst x, [snd x])) l.
+Definition at_time c d i j p q := Witness i j (constant p) (constant q) [- c; d] c c d.
+
 (** The point is at height 8 - (10/3)(t-1), which is 0 at t = 17/5. *)
-Definition hit := Witness 17 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)].
+Definition hit := at_time 17 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)].
 Lemma ok_hit : check_hit false (fall (-2)) hit = true. Proof. computed. Qed.
 Theorem unsafe : forall strict, ~ never_touch strict (fall (-2)).
 Proof. exact (check_hit_sound_both _ _ ok_hit). Qed.
-Lemma ok_hit_swapped : check_hit false (fall (-2)) (Witness 34 10 0 1 [(2, 3); (0, 6); (1, 3)] [(3, 5)]) = true.
+Lemma ok_hit_swapped : check_hit false (fall (-2)) (at_time 34 10 0 1 [(2, 3); (0, 6); (1, 3)] [(3, 5)]) = true.
 Proof. computed. Qed.
-Lemma ok_hit_end : check_hit false (fall 0) (Witness 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true.
+Lemma ok_hit_end : check_hit false (fall 0) (at_time 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true.
 Proof. computed. Qed.
 Lemma ok_hit_begin : check_hit false (over_tri [(0, V3 2 2 0); (4, V3 2 2 8)])
-  (Witness 0 9 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true. Proof. computed. Qed.
-Lemma ok_hit_strict : check_hit true (edge 0) (Witness 1 1 0 0 [(0, 1)] [(1, 1)]) = true. Proof. computed. Qed.
+  (at_time 0 9 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = true. Proof. computed. Qed.
+Lemma ok_hit_strict : check_hit true (edge 0) (at_time 1 1 0 0 [(0, 1)] [(1, 1)]) = true. Proof. computed. Qed.
 
 Definition no_hit w := check_hit false (fall (-2)) w = false.
-Lemma no_hit_time : no_hit (Witness 18 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_place : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 1); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_place_y : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 3); (1, 1)]). Proof. computed. Qed.
-Lemma no_hit_place_x : no_hit (Witness 17 5 1 0 [(3, 1)] [(0, 3); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_denominator : no_hit (Witness (-17) (-5) 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_denominator_0 : no_hit (Witness 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_weight : no_hit (Witness 17 5 1 0 [(3, 2); (3, -1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_total : no_hit (Witness 17 5 1 0 [(3, 0)] [(0, 0); (1, 0); (2, 0)]). Proof. computed. Qed.
-Lemma no_hit_nothing : no_hit (Witness 17 5 1 0 [] []). Proof. computed. Qed.
-Lemma no_hit_vertex : no_hit (Witness 17 5 0 1 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_cell : no_hit (Witness 17 5 2 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_cell_negative : no_hit (Witness 17 5 (-1) 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
-Lemma no_hit_denominator_0_end : check_hit false (fall 0) (Witness 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false.
+Lemma no_hit_time : no_hit (at_time 18 5 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_place : no_hit (at_time 17 5 1 0 [(3, 1)] [(0, 1); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_place_y : no_hit (at_time 17 5 1 0 [(3, 1)] [(0, 3); (1, 1)]). Proof. computed. Qed.
+Lemma no_hit_place_x : no_hit (at_time 17 5 1 0 [(3, 1)] [(0, 3); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator : no_hit (at_time (-17) (-5) 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator_0 : no_hit (at_time 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_weight : no_hit (at_time 17 5 1 0 [(3, 2); (3, -1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_total : no_hit (at_time 17 5 1 0 [(3, 0)] [(0, 0); (1, 0); (2, 0)]). Proof. computed. Qed.
+Lemma no_hit_nothing : no_hit (at_time 17 5 1 0 [] []). Proof. computed. Qed.
+Lemma no_hit_vertex : no_hit (at_time 17 5 0 1 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_cell : no_hit (at_time 17 5 2 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_cell_negative : no_hit (at_time 17 5 (-1) 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]). Proof. computed. Qed.
+Lemma no_hit_denominator_0_end : check_hit false (fall 0) (at_time 0 0 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false.
 Proof. computed. Qed.
-Lemma no_hit_common : check_hit false hinge (Witness 0 1 0 1 [(1, 1)] [(1, 1)]) = false. Proof. computed. Qed.
-Lemma no_hit_one_cell : check_hit false (edge 0) (Witness 1 1 0 0 [(0, 1)] [(1, 1)]) = false. Proof. computed. Qed.
+Lemma no_hit_common : check_hit false hinge (at_time 0 1 0 1 [(1, 1)] [(1, 1)]) = false. Proof. computed. Qed.
+Definition hit_seam f := check_hit false (seam f (path hinge 2)) (at_time 0 1 0 1 [(1, 1)] [(11, 1)]).
+Lemma ok_hit_seam : hit_seam (fun v => v) = true. Proof. computed. Qed.
+Lemma no_hit_seam : hit_seam to_first = false. Proof. computed. Qed.
+Lemma no_hit_seam_other : hit_seam to_other = false. Proof. computed. Qed.
+Lemma no_hit_one_cell : check_hit false (edge 0) (at_time 1 1 0 0 [(0, 1)] [(1, 1)]) = false. Proof. computed. Qed.
 
 (** The same contact in claims that are about less. *)
 Definition fall_claim t0 t1 e :=
@@ -336,17 +414,114 @@ Lemma no_hit_excluded_swapped : check_hit false (fall_claim 0 4 [(1, 0)]) hit = 
 Lemma no_hit_after : check_hit false (fall_claim 0 3 []) hit = false. Proof. computed. Qed.
 Lemma no_hit_before : check_hit false
   (let s := over_tri [(0, V3 2 2 0); (4, V3 2 2 8)] in touching 1 4 (path s) 2 (cell s) (label s) [])
-  (Witness 0 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
+  (at_time 0 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
 Lemma no_hit_interval : check_hit false
   (let s := fall 0 in touching 4 4 (path s) 2 (cell s) (label s) [])
-  (Witness 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
+  (at_time 4 1 1 0 [(3, 1)] [(0, 2); (1, 1); (2, 1)]) = false. Proof. computed. Qed.
 Lemma no_hit_trajectory : check_hit false (fall_claim 0 5 []) hit = false. Proof. computed. Qed.
+
+(** *** Times that are roots *)
+
+(** An edge from (0, 0, 0) to (2, t, 0) that turns, and a point at (t, 1, 0): in it at the root of 2.
+    [mid] are the breakpoints of the point between the first and last. *)
+Definition turning mid := touching 0 4
+  (fun v => match v with 0 => at_rest o | 1 => [(0, V3 2 0 0); (4, V3 2 4 0)]
+                       | _ => (0, V3 0 1 0) :: mid ++ [(4, V3 4 1 0)] end)
+  2 (fun i => if i =? 0 then [0; 1] else [2]) (fun i => i) [].
+Definition ends := [(0, [2; -1]); (1, [0; 1])].
+Definition at_root p q g l u d := check_hit false (turning []) (Witness 0 1 p q g l u d).
+Definition root_2 := [-2; 0; 1].
+Definition inside_edge := [(2, [1])].
+Lemma ok_root : at_root ends inside_edge root_2 1 2 1 = true. Proof. computed. Qed.
+Theorem unsafe_root : forall strict, ~ never_touch strict (turning []).
+Proof. exact (check_hit_sound_both _ _ ok_root). Qed.
+Lemma ok_root_closer : at_root ends inside_edge root_2 181 182 128 = true. Proof. computed. Qed.
+Lemma ok_root_negative : at_root ends inside_edge [2; 0; -1] 1 2 1 = true. Proof. computed. Qed.
+(** A multiple may have the same sign at both ends, and does not divide what is 0. *)
+Lemma no_root_multiple : at_root ends inside_edge (mul root_2 [-3; 2]) 1 2 1 = false. Proof. computed. Qed.
+Lemma no_root_not_divided : at_root ends inside_edge (mul root_2 [1; 1]) 1 2 1 = false. Proof. computed. Qed.
+Lemma no_root_other : at_root ends inside_edge [-3; 0; 1] 1 2 1 = false. Proof. computed. Qed.
+(** The interval has no root of it, or not for certain. *)
+Lemma no_root_before : at_root ends inside_edge root_2 0 1 1 = false. Proof. computed. Qed.
+Lemma no_root_after : at_root ends inside_edge root_2 3 4 2 = false. Proof. computed. Qed.
+Lemma no_root_two : at_root ends inside_edge root_2 (-2) 2 1 = false. Proof. computed. Qed.
+Lemma no_root_back : at_root ends inside_edge root_2 2 1 1 = false. Proof. computed. Qed.
+Lemma no_root_denominator : at_root ends inside_edge root_2 (-1) (-2) (-1) = false. Proof. computed. Qed.
+Lemma no_root_late : check_hit false (let s := turning [] in touching 2 4 (path s) 2 (cell s) (label s) [])
+  (Witness 0 1 ends inside_edge root_2 1 2 1) = false. Proof. computed. Qed.
+Lemma no_root_early : check_hit false (let s := turning [] in touching 0 1 (path s) 2 (cell s) (label s) [])
+  (Witness 0 1 ends inside_edge root_2 1 2 1) = false. Proof. computed. Qed.
+(** The polynomial is to have a leading coefficient. *)
+Lemma no_root_leading : forallb (fun g => negb (at_root ends inside_edge g 1 2 1))
+  [[-2; 0; 1; 0]; [0]; []; [0; 0; 0]] = true.
+Proof. computed. Qed.
+(** A constant divides all, but has no root. *)
+Lemma no_root_constant : at_root ends inside_edge [1] 1 2 1 = false. Proof. computed. Qed.
+(** Weights: those divided by the polynomial do not count at the root, whatever their sign. *)
+Lemma ok_root_divided : at_root ((0, root_2) :: ends) inside_edge root_2 1 2 1 = true. Proof. computed. Qed.
+Lemma ok_root_divided_other : at_root ends [(2, [2; 0; 1]); (2, [2; 0; -1])] root_2 1 2 1 = true.
+Proof. computed. Qed.
+Lemma no_root_weight_negative : at_root [(0, [2; -1]); (1, [0; 2]); (1, [0; -1])] inside_edge root_2 1 2 1 = false.
+Proof. computed. Qed.
+Lemma no_root_weight_negative_other : at_root ends [(2, [2]); (2, [-1])] root_2 1 2 1 = false.
+Proof. computed. Qed.
+Lemma no_root_all_negative : at_root [(0, [-2; 1]); (1, [0; -1])] inside_edge root_2 1 2 1 = false.
+Proof. computed. Qed.
+Lemma no_root_total : at_root ((0, root_2) :: ends) [(2, root_2)] root_2 1 2 1 = false. Proof. computed. Qed.
+(** A weight that is positive at the root has to be so in the interval. *)
+Definition narrow := [(0, [2; -1]); (1, [6; -4]); (1, [-6; 5])].
+Lemma no_root_narrow : at_root narrow inside_edge root_2 1 2 1 = false. Proof. computed. Qed.
+Lemma ok_root_narrow : at_root narrow inside_edge root_2 5 6 4 = true. Proof. computed. Qed.
+(** All of the interval is in one segment. *)
+Definition bent mid l u := check_hit false (turning mid) (Witness 0 1 ends inside_edge root_2 l u 2).
+Lemma ok_root_segment : bent [(1, V3 1 1 0); (2, V3 2 1 0)] 2 4 = true. Proof. computed. Qed.
+Lemma no_root_across_1 : bent [(1, V3 1 1 0); (2, V3 2 1 0)] 1 4 = false. Proof. computed. Qed.
+Lemma no_root_across_2 : bent [(1, V3 1 1 0); (2, V3 2 1 0)] 2 5 = false. Proof. computed. Qed.
+Lemma no_root_elsewhere : bent [(1, V3 1 1 0); (2, V3 2 1 1)] 2 4 = false. Proof. computed. Qed.
+(** What is refused at rational times is refused here too. *)
+Lemma no_root_vertex : at_root inside_edge ends root_2 1 2 1 = false. Proof. computed. Qed.
+Lemma no_root_excluded : check_hit false (let s := turning [] in touching 0 4 (path s) 2 (cell s) (label s) [(1, 0)])
+  (Witness 0 1 ends inside_edge root_2 1 2 1) = false. Proof. computed. Qed.
+Definition one_face := let s := turning [] in touching 0 4 (path s) 1 (fun _ => [0; 1; 2]) (fun _ => 0) [].
+Lemma ok_root_strict : check_hit true one_face (Witness 0 0 ends inside_edge root_2 1 2 1) = true.
+Proof. computed. Qed.
+Lemma no_root_lax : check_hit false one_face (Witness 0 0 ends inside_edge root_2 1 2 1) = false.
+Proof. computed. Qed.
+Lemma no_root_shared : check_hit true one_face (Witness 0 0 ((2, root_2) :: ends) inside_edge root_2 1 2 1) = false.
+Proof. computed. Qed.
+
+(** The time 17/5, between 27/8 and 28/8. *)
+Definition hit_between g l u := check_hit false (fall (-2))
+  (Witness 1 0 (constant [(3, 1)]) (constant [(0, 2); (1, 1); (2, 1)]) g l u 8).
+Lemma ok_hit_between : hit_between [-17; 5] 27 28 = true. Proof. computed. Qed.
+Lemma no_hit_between : hit_between [-17; 5] 25 26 = false. Proof. computed. Qed.
+Lemma no_hit_between_other : hit_between [-16; 5] 24 28 = false. Proof. computed. Qed.
+(** The first root may be the time 0, at which the polynomial is its variable. *)
+Lemma ok_hit_at_0 : check_hit false (over_tri [(0, V3 2 2 0); (4, V3 2 2 8)])
+  (Witness 1 0 (constant [(3, 1)]) (constant [(0, 2); (1, 1); (2, 1)]) [0; 1] 0 1 1) = true. Proof. computed. Qed.
+
+(** Polynomials: Bernstein's coefficients, which do not depend on leading zeros, and divisibility. *)
+Lemma ok_bernstein : bernstein 1 2 1 [-2; 0; 1] = [-1; 0; 2] /\ bernstein 1 3 2 [0; 0; 0; 1; 0] = [1; 9; 27; 27] /\
+  bernstein 1 3 2 [0; 0] = [] /\ bernstein 1 3 2 [7] = [7]. Proof. repeat split. Qed.
+Lemma ok_positive : positive_on 1 2 1 [1; -2; 2] = true. Proof. computed. Qed.
+Lemma no_positive : forallb (fun p => negb (positive_on 1 2 1 p)) [[]; [0]; [0; 0]; [-1]; [-1; 1]; [2; -1]] = true.
+Proof. computed. Qed.
+Lemma ok_nonnegative : forallb (nonnegative_on 1 2 1) [[]; [0]; [0; 0]; [1]; [-1; 1]; [2; -1]] = true.
+Proof. computed. Qed.
+Lemma no_nonnegative : forallb (fun p => negb (nonnegative_on 1 2 1 p)) [[-1]; [-2; 1]; [1; -1]; [9; -12; 4]] = true.
+Proof. computed. Qed.
+Lemma ok_divides : forallb (divides [6; 0; 4])
+  [[]; [0]; [3; 0; 2]; [0; 3; 0; 2]; [3; 9; 2; 6; 0]; [-9; 0; 0; 0; 4]] = true.
+Proof. computed. Qed.
+Lemma no_divides : forallb (fun p => negb (divides [6; 0; 4] p))
+  [[1]; [0; 1]; [3; 1; 2]; [3; 0; -2]; [3; 9; 2; 5]] = true.
+Proof. computed. Qed.
 
 (** ** Least distance *)
 
 (** Two points, always apart by (3, 4, 0) and (6, 8, 0): at distance 5 first, then 10. *)
 Definition apart e :=
-  Scene 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (1, V3 0 0 0)] else [(0, V3 3 4 0); (1, V3 6 8 0)])
+  spaced 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (1, V3 0 0 0)] else [(0, V3 3 4 0); (1, V3 6 8 0)])
         2 (fun i => [i]) (fun i => i) [] e.
 Definition along_34 := TDirection (V3 3 4 0).
 Definition gap nd w := TPlane (HalfSpace (V3 3 4 0) 0 nd) w.
@@ -366,15 +541,93 @@ Lemma no_eta_second : lax (apart 4) point_first (close (gap 20 20)) = false. Pro
 Lemma no_eta_negative : lax (apart (-1)) point_first (close along_34) = false. Proof. computed. Qed.
 
 (** Values with different denominators, at height 1 or more above each other. *)
-Definition cross_eta e := let s := cross 4 in Scene 0 4 (path s) 2 (cell s) (label s) [] e.
+Definition cross_eta e := let s := cross 4 in spaced 0 4 (path s) 2 (cell s) (label s) [] e.
 Lemma ok_eta_cross : lax (cross_eta 0) point_first (close (TDirection up)) = true. Proof. computed. Qed.
 Lemma no_eta_cross : lax (cross_eta 1) point_first (close (TDirection up)) = false. Proof. computed. Qed.
 Definition cross_eta_3 e := let s := cross 9 in
-  Scene 0 2 (path s) 2 (cell s) (label s) [] e.
+  spaced 0 2 (path s) 2 (cell s) (label s) [] e.
 Lemma ok_eta_cross_3 : lax (cross_eta_3 5) point_first (close (TDirection up)) = true. Proof. computed. Qed.
 Lemma no_eta_cross_3 : lax (cross_eta_3 6) point_first (close (TDirection up)) = false. Proof. computed. Qed.
 
-Definition hit_eta c e := check_hit false (apart e) (Witness c 5 0 1 [(0, 1)] [(1, 1)]).
+(** ** W, G: neighbours may be nearer *)
+
+(** A chain of three edges in a row, each of length 3: cell i joins the vertices i and i+1. *)
+Definition links e k :=
+  Scene 0 4 (fun v => at_rest (V3 (3 * v) 0 0)) (fun v => v) 3 (fun i => [i; i + 1]) (fun i => i) [] e k.
+Definition west := dir (-1) 0.
+Definition links_with next far :=
+  [TParts; TParts; TOne] ++ next 0 ++ [TOne; TLeft] ++ far ++ next 1 ++ [TOne].
+(** Of neighbouring cells, the vertices i and i+2 are at distance 6; of the two others, 0 and 2, and 1 and 3. *)
+Definition next i :=
+  [TDrop 0; TRing i [(i, i + 1)]; nothing; west; west; TRing (i + 1) [(i + 1, i + 2)]; west; nothing; west].
+Definition other := [TRing 1 [(1, 2)]; west; west; west].
+Definition linked e k := lax (links e k) row_left (links_with next other).
+Lemma ok_ring : linked 5 2 = true. Proof. computed. Qed.
+Theorem safe_ring : never_touch false (links 5 2).
+Proof. exact (check_sound _ _ _ _ ok_ring). Qed.
+Lemma ok_ring_more : linked 5 3 = true. Proof. computed. Qed.
+Lemma no_ring_eta : linked 6 2 = false. Proof. computed. Qed.
+Lemma no_ring_eta_0 : linked 0 2 = false. Proof. computed. Qed.
+Lemma no_ring_1 : linked 5 1 = false. Proof. computed. Qed.
+Lemma no_ring_0 : start (links 5 0) row_left = None. Proof. computed. Qed.
+Lemma no_ring_negative : start (links 0 (-1)) row_left = None. Proof. computed. Qed.
+(** A way of no steps does what D does. *)
+Definition next_by_none i :=
+  [TRing (i + 1) []; TRing i [(i, i + 1)]; nothing; west; west; TRing (i + 1) [(i + 1, i + 2)]; west; nothing; west;
+   TDrop 0; west; west].
+Lemma ok_ring_none : lax (links 5 2) row_left (links_with next_by_none other) = true. Proof. computed. Qed.
+(** Ways of two steps: nothing of neighbouring cells is far, and of the others only 0 and 3.  What is
+    disjoint is shown once, after G. *)
+Definition next_two i :=
+  [TFar; TRing i [(i, i + 1); (i + 1, i + 2)];
+   TRing (i + 1) []; nothing; TRing (i + 1) [(i + 1, i + 2)]; nothing; nothing;
+   TRing (i + 1) []; TRing i [(i, i + 1)]; nothing; nothing; nothing; TDrop 0; west; west].
+Definition other_two :=
+  [TFar; TRing 1 [(1, 2)]; TRing 0 [(0, 1); (1, 2)]; nothing; west; TRing 1 [(1, 2); (2, 3)]; west; nothing; west].
+Definition linked_two e k := lax (links e k) row_left (links_with next_two other_two).
+Lemma ok_ring_two : linked_two 8 3 = true. Proof. computed. Qed.
+Lemma no_ring_two_eta : linked_two 9 3 = false. Proof. computed. Qed.
+Lemma no_ring_two_eta_0 : linked_two 0 3 = false. Proof. computed. Qed.
+Lemma no_ring_two : linked_two 8 2 = false. Proof. computed. Qed.
+(** However near neighbours may be, they are to be disjoint. *)
+Definition folded k :=
+  let s := links 5 k in
+  Scene 0 4 (fun v => if v =? 3 then at_rest (V3 3 0 0) else path s v) (same s) 3 (cell s) (label s) [] 5 k.
+Lemma no_ring_folded : forallb (fun t => negb (lax (folded 4) row_left t))
+  [links_with next other; links_with next_two other_two] = true. Proof. computed. Qed.
+
+(** Each condition of W alone. *)
+Definition by_way k v w := lax (links 5 k) row_left (links_with next [TRing v w; west; west; west]).
+Lemma ok_way : by_way 2 1 [(1, 2)] = true. Proof. computed. Qed.
+Lemma ok_way_longer : by_way 3 1 [(0, 1); (1, 2)] = true. Proof. computed. Qed.
+Lemma ok_way_back : by_way 4 1 [(0, 0); (0, 1); (1, 2)] = true. Proof. computed. Qed.
+Lemma no_way_too_long : by_way 2 1 [(0, 1); (1, 2)] = false. Proof. computed. Qed.
+Lemma no_way_cell : by_way 2 1 [(0, 2)] = false. Proof. computed. Qed.
+Lemma no_way_cell_other : by_way 2 1 [(2, 2)] = false. Proof. computed. Qed.
+(** What is beyond the last cell, or before the first, is none, whatever vertices it may have. *)
+Lemma no_way_cell_beyond : way_end (links 5 9) 5 1 [(1, 2); (2, 3); (3, 4)] = None. Proof. computed. Qed.
+Lemma no_way_cell_negative : way_end (links 5 9) 5 1 [(0, 0); (-1, -1)] = None. Proof. computed. Qed.
+Definition on_cells o tok := step false (links 5 9)
+  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 [(2, index []); (3, index [])]) o 0 4 1] tok.
+Definition left_over (o : option (list obligation)) := match o with None => -1 | Some l => Z.of_nat (length l) end.
+Lemma ok_modes : map (fun o => (left_over (on_cells o (TRing 1 [(1, 2)])), left_over (on_cells o TFar)))
+  [Distance; Far; Disjoint] = [(3, 2); (2, -1); (-1, -1)]. Proof. computed. Qed.
+Lemma no_way_begin : on_cells Far (TRing 2 []) = None. Proof. computed. Qed.
+Lemma no_way_end : on_cells Far (TRing 1 []) = None. Proof. computed. Qed.
+Lemma no_way_leaf : forallb (fun o => refused (step false (links 5 9) [o] (TRing 0 [])))
+  [Pair (Node None [] root root) root Distance 0 4 1; Pair root (Node None [] root root) Distance 0 4 1] = true.
+Proof. computed. Qed.
+(** A way leads through merged vertices: 1 and 11, 2 and 12 at the seam are one each. *)
+Definition by_seam f w := step false (let s := seam f (path hinge 2) in
+    Scene 0 4 (path s) (same s) 2 (cell s) (label s) [] 5 3)
+  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 1 [(3, index [])]) Far 0 4 1] (TRing 0 w).
+Lemma ok_way_same : left_over (by_seam to_first [(0, 1); (1, 3)]) = 2. Proof. computed. Qed.
+Lemma no_way_same : by_seam (fun v => v) [(0, 1); (1, 3)] = None. Proof. computed. Qed.
+Lemma no_way_same_other : by_seam to_first [(0, 11); (1, 3)] = None. Proof. computed. Qed.
+
+(** ** Witnesses of a distance *)
+
+Definition hit_eta c e := check_hit false (apart e) (at_time c 5 0 1 [(0, 1)] [(1, 1)]).
 Lemma ok_hit_eta : hit_eta 0 5 = true. Proof. computed. Qed.
 Lemma ok_hit_eta_later : hit_eta 1 6 = true. Proof. computed. Qed.
 Lemma no_hit_eta : hit_eta 0 4 = false. Proof. computed. Qed.
@@ -383,11 +636,55 @@ Lemma no_hit_eta_later : hit_eta 1 5 = false. Proof. computed. Qed.
 (** The same with segments of different length, and so different denominators. *)
 Definition apart_longer e :=
   let s := apart e in
-  Scene 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (2, V3 0 0 0)] else path s v) 2 (cell s) (label s) [] e.
-Definition hit_longer e := check_hit false (apart_longer e) (Witness 1 5 0 1 [(0, 1)] [(1, 1)]).
+  spaced 0 1 (fun v => if v =? 0 then [(0, V3 0 0 0); (2, V3 0 0 0)] else path s v) 2 (cell s) (label s) [] e.
+Definition hit_longer e := check_hit false (apart_longer e) (at_time 1 5 0 1 [(0, 1)] [(1, 1)]).
 Lemma ok_hit_longer : hit_longer 6 = true. Proof. computed. Qed.
 Lemma no_hit_longer : hit_longer 5 = false. Proof. computed. Qed.
-Lemma no_value_after : value_at up 4 1 zigzag = None. Proof. computed. Qed.
+Lemma no_value_after : segment_of 4 4 1 zigzag = None. Proof. computed. Qed.
+Lemma ok_value_at_end : segment_of 3 3 1 zigzag = Some (Segment 3 (V3 0 0 9) 4 (V3 0 0 9)). Proof. computed. Qed.
+Lemma ok_value_until_end : segment_of 4 6 2 zigzag = Some (Segment 2 (V3 0 0 0) 3 (V3 0 0 9)).
+Proof. computed. Qed.
+Lemma no_value_across : segment_of 4 7 2 zigzag = None. Proof. computed. Qed.
+Lemma no_value_across_inside : segment_of 1 3 2 zigzag = None. Proof. computed. Qed.
+
+(** Points from (0, 0, 0) and from (t, 1, 0): at distance 2 at the root of 3. *)
+Definition leaving e := spaced 0 4 (fun v => if v =? 0 then at_rest o else [(0, V3 0 1 0); (4, V3 4 1 0)])
+  2 (fun i => [i]) (fun i => i) [] e.
+Definition hit_leaving e g l u := check_hit false (leaving e) (Witness 0 1 [(0, [1])] [(1, [1])] g l u 2).
+Lemma ok_hit_root_3 : hit_leaving 2 [-3; 0; 1] 2 4 = true. Proof. computed. Qed.
+Lemma no_hit_root_3 : hit_leaving 1 [-3; 0; 1] 2 4 = false. Proof. computed. Qed.
+Lemma ok_hit_root_2_eta : hit_leaving 2 [-2; 0; 1] 2 3 = true. Proof. computed. Qed.
+(** True at the root of 2, but not in all of the interval. *)
+Lemma no_hit_root_2_eta : hit_leaving 2 [-2; 0; 1] 2 4 = false. Proof. computed. Qed.
+Lemma no_hit_root_5 : hit_leaving 2 [-5; 0; 1] 4 6 = false. Proof. computed. Qed.
+
+(** Neighbours: 0 and 2 have two edges between them, and are at distance 6. *)
+Definition hit_links e k i j u v := check_hit false (links e k) (at_time 1 1 i j [(u, 1)] [(v, 1)]).
+Lemma ok_hit_ring : hit_links 6 2 0 2 0 2 = true. Proof. computed. Qed.
+Theorem unsafe_ring : forall strict, ~ never_touch strict (links 6 2).
+Proof. exact (check_hit_sound_both _ _ ok_hit_ring). Qed.
+Lemma no_hit_ring_eta : hit_links 5 2 0 2 0 2 = false. Proof. computed. Qed.
+Lemma no_hit_ring : hit_links 6 3 0 2 0 2 = false. Proof. computed. Qed.
+Lemma ok_hit_ring_3 : hit_links 9 3 0 2 0 3 = true. Proof. computed. Qed.
+Lemma no_hit_ring_4 : hit_links 9 4 0 2 0 3 = false. Proof. computed. Qed.
+Lemma no_hit_ring_back : hit_links 9 4 2 0 3 0 = false. Proof. computed. Qed.
+Lemma ok_hit_ring_1 : hit_links 3 1 0 2 1 2 = true. Proof. computed. Qed.
+Lemma no_hit_ring_2 : hit_links 3 2 0 2 1 2 = false. Proof. computed. Qed.
+(** One vertex of a feature that is near is enough for it to be. *)
+Lemma no_hit_ring_edge : check_hit false (links 9 2) (at_time 1 1 0 2 [(0, 1); (1, 0)] [(2, 0); (3, 1)]) = false.
+Proof. computed. Qed.
+Lemma ok_hit_ring_edge : check_hit false (links 9 2) (at_time 1 1 0 2 [(0, 1)] [(2, 0); (3, 1)]) = true.
+Proof. computed. Qed.
+(** However near neighbours may be: the folded chain has 3 at the place of 1. *)
+Lemma ok_hit_folded : check_hit false (folded 9) (at_time 1 1 0 2 [(1, 1)] [(3, 1)]) = true. Proof. computed. Qed.
+Lemma no_hit_folded : check_hit false (folded 9) (at_time 1 1 0 2 [(0, 1)] [(3, 1)]) = false. Proof. computed. Qed.
+(** Through merged vertices: 0 and 3 are joined by way of 1, which 11 is merged with. *)
+Definition hit_seam_ring f k :=
+  let s := seam f (path hinge 2) in
+  check_hit false (Scene 0 4 (path s) (same s) 2 (cell s) (label s) [] 99 k) (at_time 0 1 0 1 [(0, 1)] [(3, 1)]).
+Lemma ok_hit_seam_ring : hit_seam_ring (fun v => v) 9 = true. Proof. computed. Qed.
+Lemma ok_hit_seam_ring_2 : hit_seam_ring to_first 2 = true. Proof. computed. Qed.
+Lemma no_hit_seam_ring : hit_seam_ring to_first 3 = false. Proof. computed. Qed.
 
 (** ** Windows *)
 

@@ -1,16 +1,17 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
 (** * The checker as an OCaml program
 
-    Writes Spec.ml, Checker.ml, Hit.ml and what they need into the current folder.
+    Writes Spec.ml, Checker.ml, Poly.ml, Hit.ml and what they need into the current folder.
     Integers become those of Zarith, under the name [Zint], because a module [Z] of
     the extraction would hide Zarith's; functions on lists become those of OCaml's
-    library that do the same, most of them in constant stack.
+    library that do the same, most of them in constant stack; what is not is only used of
+    cells and polynomials, which are short.
 
     Not proved: that these OCaml functions do what the Coq functions do whose place
     they take.  Each is one line below, to be read. *)
 Require Import ZArith List Bool.
 Require Import ExtrOcamlBasic.
-From Noli Require Import Spec Checker Hit.
+From Noli Require Import Spec Checker Poly Hit.
 
 (** Only 0, 1 and -1 occur as constants; numbers are never taken apart. *)
 Extract Inductive positive => "Zint.t" [ "Zint.no_xI" "Zint.no_xO" "Zint.one" ] "Zint.no_match".
@@ -23,6 +24,7 @@ Extract Inlined Constant Z.ltb => "Zint.lt".
 Extract Inlined Constant Z.leb => "Zint.leq".
 Extract Inlined Constant Z.eqb => "Zint.equal".
 Extract Inlined Constant d_max => "Zint.d_max".
+Extract Inlined Constant repeatedly => "Zint.repeatedly".
 
 Extract Inlined Constant fst => "fst".
 Extract Inlined Constant snd => "snd".
@@ -33,5 +35,7 @@ Extract Inlined Constant fold_right => "(fun f a l -> List.fold_right f l a)".
 Extract Inlined Constant forallb => "List.for_all".
 Extract Inlined Constant existsb => "List.exists".
 Extract Inlined Constant filter => "List.filter".
+Extract Inlined Constant map => "List.map".
+Extract Inlined Constant app => "List.append".
 
 Separate Extraction check start step run check_hit.

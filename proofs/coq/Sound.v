@@ -68,23 +68,152 @@ Proof.
   apply reaches_sound in H. tauto.
 Qed.
 
+(** From a breakpoint on, all breakpoints before may be forgotten. *)
+Lemma pos_from_later l r T p t : forall t0 p0, increasing t0 (l ++ (T, p) :: r) -> IZR T <= t ->
+  pos_from t0 p0 (l ++ (T, p) :: r) t = pos_from T p r t.
+Proof.
+  induction l as [|(t1, p1) l IH]; intros t0 p0 W H.
+  - now apply pos_from_next.
+  - cbn [app] in *. rewrite pos_from_next; auto.
+    + apply IH; auto. apply W.
+    + apply Rle_trans with (IZR T); auto. apply IZR_le. clear - W. destruct W as [_ W].
+      revert t1 W. induction l as [|(t2, p2) l IH]; cbn; intros t1 W; [lia|].
+      destruct W as [L W]. apply IH in W. lia.
+Qed.
+
+(** A breakpoint inside a trajectory is later than the first, and so are those after it. *)
+Lemma increasing_later l T p r : forall t0, increasing t0 (l ++ (T, p) :: r) -> (t0 < T)%Z /\ increasing T r.
+Proof. induction l as [|(t1, p1) l IH]; cbn; intros t0 [L W]; auto. apply IH in W. intuition lia. Qed.
+
+(** *** Search trees *)
+
+(** All things of a search tree are [P]. *)
+Fixpoint each {A} (P : A -> Prop) (x : search A) : Prop :=
+  match x with
+  | Found a => P a
+  | Choose _ l r => each P l /\ each P r
+  end.
+
+Fixpoint first {A} (x : search A) : A :=
+  match x with
+  | Found a => a
+  | Choose _ l _ => first l
+  end.
+
+(** The keys are those of the first things on their right. *)
+Fixpoint keyed {A} (key : A -> Z) (x : search A) : Prop :=
+  match x with
+  | Found _ => True
+  | Choose k l r => key (first r) = k /\ keyed key l /\ keyed key r
+  end.
+
+Lemma find_each {A} (P : A -> Prop) low x : each P x -> P (find low x).
+Proof. induction x as [|k l IHl r IHr]; cbn; auto. destruct (low k); tauto. Qed.
+
+(** What is found is the first, or its key is [low]. *)
+Lemma find_low {A} (key : A -> Z) low x : keyed key x ->
+  find low x = first x \/ low (key (find low x)) = true.
+Proof.
+  induction x as [a|k l IHl r IHr]; cbn; auto. intros (K & L & R).
+  destruct (low k) eqn:E; auto. right. destruct (IHr R) as [->|]; auto. now rewrite K.
+Qed.
+
+(** What [join_all] keeps of each tree in its list. *)
+Definition sorted_in {A} (P : A -> Prop) (key : A -> Z) (kx : Z * search A) : Prop :=
+  each P (snd kx) /\ keyed key (snd kx) /\ key (first (snd kx)) = fst kx.
+
+Lemma join_pairs_sound {A} (P : A -> Prop) key n : forall l acc, (length l <= n)%nat ->
+  Forall (sorted_in P key) l ->
+  exists l', join_pairs l acc = rev_append acc l' /\ Forall (sorted_in P key) l' /\
+    forall k x r, l = (k, x) :: r -> exists k' x' r', l' = (k', x') :: r' /\ first x' = first x.
+Proof.
+  induction n as [|n IH]; intros l acc L F.
+  - destruct l; cbn in L; [|lia]. exists []. cbn. repeat split; auto. discriminate.
+  - destruct l as [|(k1, x1) [|(k2, x2) r]].
+    + exists []. cbn. repeat split; auto. discriminate.
+    + exists [(k1, x1)]. cbn. repeat split; auto. intros k x r [= <- <- <-]. eauto.
+    + inversion F as [|? ? (E1 & K1 & H1) F1]; inversion F1 as [|? ? (E2 & K2 & H2) F2]; subst. cbn in *.
+      destruct (IH r ((k1, Choose k2 x1 x2) :: acc)) as (l' & E & F' & _); [lia|auto|].
+      exists ((k1, Choose k2 x1 x2) :: l'). repeat split.
+      * exact E.
+      * constructor; auto. unfold sorted_in; cbn; auto.
+      * intros k x r' [= <- <- <-]. exists k1, (Choose k2 x1 x2), l'. auto.
+Qed.
+
+Lemma join_all_sound {A B} (P : A -> Prop) key (fuel : list B) : forall l x,
+  Forall (sorted_in P key) l -> join_all fuel l = Some x ->
+  each P x /\ keyed key x /\ exists k x' r, l = (k, x') :: r /\ first x = first x'.
+Proof.
+  induction fuel as [|b fuel IH]; intros [|(k1, x1) r] x F; cbn [join_all]; try discriminate.
+  - apply Forall_inv in F as (E & K & _). cbn in *.
+    destruct r; intros [= <-]; repeat split; auto; do 3 eexists; eauto.
+  - destruct r as [|(k2, x2) r].
+    + apply Forall_inv in F as (E & K & _). intros [= <-]. repeat split; auto. do 3 eexists; eauto.
+    + intros H.
+      destruct (join_pairs_sound P key _ _ [] (le_n _) F) as (l' & E & F' & H').
+      rewrite E in H. cbn [rev_append] in H. destruct (IH l' x F' H) as (X1 & X2 & (k & x' & r' & E' & Fx)).
+      destruct (H' _ _ _ eq_refl) as (k3 & x3 & r3 & E3 & Fx3).
+      repeat split; auto. exists k1, x1, ((k2, x2) :: r). split; auto. congruence.
+Qed.
+
+(** *** The search tree of a trajectory *)
+
+Definition suffix_of (tr l : traj) : Prop := l <> [] /\ exists l', tr = l' ++ l.
+Definition time_of (tr : traj) : Z := match tr with [] => 0 | (t, _) :: _ => t end.
+
+Lemma suffixes_sound tr tr' : forall l acc, tr = l ++ tr' ->
+  Forall (sorted_in (suffix_of tr) time_of) acc ->
+  Forall (sorted_in (suffix_of tr) time_of) (suffixes tr' acc).
+Proof.
+  induction tr' as [|(t, p) r IH]; cbn [suffixes]; intros l acc E F.
+  - rewrite rev_append_rev, app_nil_r. now apply Forall_rev.
+  - apply (IH (l ++ [(t, p)])); [now rewrite <- app_assoc|]. constructor; auto.
+    repeat split; eauto. discriminate.
+Qed.
+
+Lemma suffixes_acc tr : forall acc, suffixes tr acc = rev_append acc (suffixes tr []).
+Proof.
+  induction tr as [|(t, p) r IH]; intros acc; cbn [suffixes]; auto. rewrite IH, (IH [_]). reflexivity.
+Qed.
+
+Lemma index_sound tr : tr <> [] ->
+  each (suffix_of tr) (index tr) /\ keyed time_of (index tr) /\ first (index tr) = tr.
+Proof.
+  intros N. unfold index. destruct (join_all tr (suffixes tr [])) as [x|] eqn:E.
+  - apply (join_all_sound (suffix_of tr) time_of) in E as (E & K & (k & x' & r & L & F)).
+    + repeat split; auto. rewrite F. destruct tr as [|(t, p) tr]; [easy|].
+      cbn [suffixes] in L. rewrite suffixes_acc in L. cbn in L. now injection L as <- <- <-.
+    + apply (suffixes_sound tr tr []); auto.
+  - cbn. repeat split; auto. now exists [].
+Qed.
+
+(** [equal_traj] is equality. *)
+Lemma equal_traj_sound tr1 : forall tr2, equal_traj tr1 tr2 = true -> tr1 = tr2.
+Proof.
+  induction tr1 as [|(t1, (x1, y1, z1)) r1 IH]; destruct tr2 as [|(t2, (x2, y2, z2)) r2]; cbn; try easy.
+  destruct (_ && _)%bool eqn:E; [|discriminate]. rewrite !andb_true_iff, !Z.eqb_eq in E.
+  destruct E as [[[-> ->] ->] ->]. intros H. f_equal. auto.
+Qed.
+
 (** [since] leaves a trajectory the same, from [a/d] on. *)
 Lemma since_sound d a r : (0 < d)%Z -> forall t0 p0, increasing t0 r ->
-  exists t0' p0' r', since d a ((t0, p0) :: r) = (t0', p0') :: r' /\
+  exists t0' p0' r', since d a (index ((t0, p0) :: r)) = (t0', p0') :: r' /\
     increasing t0' r' /\ IZR t0 <= IZR t0' /\
     forall t, IZR t0 <= t -> IZR a <= t * IZR d ->
       IZR t0' <= t /\ pos_from t0 p0 r t = pos_from t0' p0' r' t.
 Proof.
-  intros D; induction r as [|(t1, p1) r IH]; intros t0 p0 W.
-  - exists t0, p0, []. cbn; repeat split; auto; lra.
-  - cbn [since]. destruct (t1 * d <=? a)%Z eqn:E.
-    + destruct (IH t1 p1 (proj2 W)) as (t0' & p0' & r' & E1 & I & L & P).
-      assert (IZR t0 < IZR t1) by (apply IZR_lt, W).
-      exists t0', p0', r'. repeat split; auto; try lra; to_R;
-        assert (IZR t1 <= t) by nra.
-      * now apply P.
-      * rewrite pos_from_next by auto. now apply P.
-    + exists t0, p0, ((t1, p1) :: r). repeat split; auto; try lra; apply W.
+  intros D t0 p0 W. set (tr := (t0, p0) :: r).
+  destruct (index_sound tr) as (E & K & F); [discriminate|].
+  apply (find_each _ (fun t => t * d <=? a)%Z) in E as [N (l & E)].
+  apply (find_low _ (fun t => t * d <=? a)%Z) in K. fold (since d a (index tr)) in *. rewrite F in K.
+  destruct (since d a (index tr)) as [|(t1, p1) r1]; [easy|].
+  exists t1, p1, r1. destruct l as [|b l].
+  - injection E as <- <- <-. repeat split; auto; lra.
+  - destruct K as [K|K].
+    + exfalso. apply (f_equal (@length _)) in E. rewrite <- K, app_length in E. cbn in E. lia.
+    + unfold tr in E. injection E as <- ->. apply increasing_later in W as W'. destruct W' as [L I].
+      apply IZR_lt in L, D. repeat split; auto; [lra| |]; cbn in K; to_R; assert (IZR t1 <= t) by nra; auto.
+      now apply pos_from_later.
 Qed.
 
 (** ** 2. P: half spaces *)
@@ -160,7 +289,7 @@ Proof.
 Qed.
 
 Lemma inside_sound h a b d T0 T1 tr t : (0 < d)%Z ->
-  covers_time T0 T1 tr -> inside h a b d tr = true ->
+  covers_time T0 T1 tr -> inside h a b d (index tr) = true ->
   IZR a <= t * IZR d <= IZR b -> IZR T0 <= t ->
   0 < valueR h t (pos tr t).
 Proof.
@@ -386,7 +515,7 @@ Qed.
 Definition far (n : vec) (tr : traj) (t : R) : R := dotR n (pos tr t).
 
 Lemma values_sound n a b d cs T0 T1 tr us : (0 < d)%Z -> covers_time T0 T1 tr ->
-  values n a b d cs tr = Some us ->
+  values n a b d cs (index tr) = Some us ->
   knots (far n tr) d a cs us /\ IZR b <= IZR (final a cs).
 Proof.
   destruct tr as [|(t0, p0) r]; [easy|]. intros D (_ & W & _) A.
@@ -469,10 +598,10 @@ Proof.
 Qed.
 
 (** What [separated] computes: the lowest of [x] at each time, and that [y] is below. *)
-Lemma separated_sound k m n a b d T0 T1 x y w v : below_root k m -> (0 < d)%Z ->
-  (forall u, In u x \/ In u y -> covers_time T0 T1 (snd u)) ->
+Lemma separated_sound k m n a b d T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z ->
+  (forall u, In u x \/ In u y -> snd u = index (path (fst u)) /\ covers_time T0 T1 (path (fst u))) ->
   separated k n a b d x y = true -> In w x -> In v y ->
-  forall t, IZR a <= t * IZR d <= IZR b -> far n (snd v) t + m < far n (snd w) t.
+  forall t, IZR a <= t * IZR d <= IZR b -> far n (path (fst v)) t + m < far n (path (fst w)) t.
 Proof.
   intros K0 D C. unfold separated. destruct x as [|w0 ws]; [easy|].
   set (cs := fold_left _ y _). generalize cs as cs'; clear cs; intros cs.
@@ -482,8 +611,9 @@ Proof.
   intros A Hw Hv t Ht.
   assert (forall u us, In u (w0 :: ws) \/ In u y -> values n a b d (a :: cs) (snd u) = Some us ->
           (length us = S (length cs) /\ Forall proper us) /\
-          knots (far n (snd u)) d a (a :: cs) us /\ IZR b <= IZR (final a (a :: cs))) as V.
-  { intros u us I U. eapply values_sound in U; eauto. destruct U as [K B]. repeat split; auto.
+          knots (far n (path (fst u))) d a (a :: cs) us /\ IZR b <= IZR (final a (a :: cs))) as V.
+  { intros u us I U. destruct (C u I) as [E W]. rewrite E in U.
+    eapply values_sound in U; eauto. destruct U as [K B]. repeat split; auto.
     - now apply knots_length in K.
     - now apply knots_proper in K. }
   apply lower_fold with (n := S (length cs)) in F as (N & P & (u0 & E0 & L0) & L).
@@ -577,12 +707,13 @@ Section Soundness.
 Variable s : scene.
 Variable strict : bool.
 
-(** During [a/d, b/d], and the scene's time, a feature of [P] and one of [Q] that
-    share no vertex are more than [eta] apart. *)
-Definition Apart (a b d : Z) (P Q : list Z) : Prop :=
+(** During [a/d, b/d], and the scene's time, features of [P] and [Q] are as [o] says. *)
+Definition Apart (o : mode) (a b d : Z) (P Q : list Z) : Prop :=
   forall t, (IZR a <= t * IZR d <= IZR b)%R -> (IZR (tbeg s) <= t <= IZR (tend s))%R ->
-  forall S U, incl S P -> incl U Q -> disjoint_ids S U ->
-  forall x y, simplex s S t x -> simplex s U t y -> (IZR (eta s) ^ 2 < dist2 x y)%R.
+  forall S U, incl S P -> incl U Q ->
+  forall x y, simplex s S t x -> simplex s U t y ->
+  (o <> Far -> disjoint_ids S U -> (0 < dist2 x y)%R) /\
+  (o <> Disjoint -> far_ids s S U -> (IZR (eta s) ^ 2 < dist2 x y)%R).
 
 (** The cells below a node: label and vertex ids. *)
 Fixpoint leaves (x : tree) : list (Z * list Z) :=
@@ -591,19 +722,19 @@ Fixpoint leaves (x : tree) : list (Z * list Z) :=
   | Node _ _ x y => leaves x ++ leaves y
   end.
 
-Definition Claimed (a b d : Z) (P Q : Z * list Z) : Prop :=
-  ~ is_excluded s (fst P) (fst Q) -> Apart a b d (snd P) (snd Q).
+Definition Claimed (o : mode) (a b d : Z) (P Q : Z * list Z) : Prop :=
+  ~ is_excluded s (fst P) (fst Q) -> Apart o a b d (snd P) (snd Q).
 
-Definition PairApart a b d x y := forall P Q, In P (leaves x) -> In Q (leaves y) -> Claimed a b d P Q.
+Definition PairApart o a b d x y := forall P Q, In P (leaves x) -> In Q (leaves y) -> Claimed o a b d P Q.
 
-Fixpoint SelfApart a b d (x : tree) : Prop :=
+Fixpoint SelfApart (o : mode) (a b d : Z) (x : tree) : Prop :=
   match x with
-  | Leaf l vs => strict = true -> Claimed a b d (l, map fst vs) (l, map fst vs)
-  | Node _ _ x y => SelfApart a b d x /\ PairApart a b d x y /\ SelfApart a b d y
+  | Leaf l vs => strict = true -> Claimed o a b d (l, map fst vs) (l, map fst vs)
+  | Node _ _ x y => SelfApart o a b d x /\ PairApart o a b d x y /\ SelfApart o a b d y
   end.
 
 Definition resolved (w : vertex) : Prop :=
-  snd w = path s (fst w) /\ covers_time (tbeg s) (tend s) (snd w).
+  snd w = index (path s (fst w)) /\ covers_time (tbeg s) (tend s) (path s (fst w)).
 
 Definition vids (l : list vertex) := map fst l.
 
@@ -618,42 +749,137 @@ Fixpoint inv (x : tree) : Prop :=
 
 Definition holds (o : obligation) : Prop :=
   match o with
-  | Pair x y a b d => (0 < d)%Z -> inv x -> inv y -> PairApart a b d x y
-  | Self x a b d => (0 < d)%Z -> inv x -> SelfApart a b d x
+  | Pair x y o a b d => (0 < d)%Z -> inv x -> inv y -> PairApart o a b d x y
+  | Self x o a b d => (0 < d)%Z -> inv x -> SelfApart o a b d x
   end.
 
 Lemma is_excluded_sym l m : is_excluded s l m -> is_excluded s m l.
 Proof. unfold is_excluded; tauto. Qed.
 
-Lemma Apart_sym a b d P Q : Apart a b d P Q -> Apart a b d Q P.
+Lemma within_refl n v : within s n v v.
+Proof. destruct n; cbn; auto. Qed.
+
+Lemma joined_sym u v : joined s u v -> joined s v u.
+Proof. intros (i & H & U & V). exists i; auto. Qed.
+
+Lemma within_step n : forall u v w, within s n u v -> joined s v w -> within s (S n) u w.
 Proof.
-  intros H t A B S U IS IU D x y HS HU. rewrite dist2_sym.
-  apply (H t A B U S IU IS); auto.
-  intros v V1 V2; now apply (D v).
+  induction n as [|n IH]; intros u v w H J.
+  - cbn in H. subst. right. exists w. cbn. auto.
+  - destruct H as [->|(u' & J' & H)].
+    + right. exists w. split; auto. apply within_refl.
+    + right. exists u'. split; auto. now apply IH with v.
 Qed.
 
-Lemma Claimed_sym a b d P Q : Claimed a b d P Q -> Claimed a b d Q P.
+Lemma within_sym n : forall u v, within s n u v -> within s n v u.
+Proof.
+  induction n as [|n IH]; intros u v; cbn; auto. intros [->|(w & J & H)]; auto.
+  apply (within_step n v w u); [now apply IH|now apply joined_sym].
+Qed.
+
+Lemma disjoint_sym P Q : disjoint_ids P Q -> disjoint_ids Q P.
+Proof. intros D v V1 V2; now apply (D v). Qed.
+
+Lemma far_sym P Q : far_ids s P Q -> far_ids s Q P.
+Proof. intros F u v Hu Hv N. apply (F v u Hv Hu). now apply within_sym. Qed.
+
+(** Who is far has no vertex in common. *)
+Lemma far_disjoint P Q : far_ids s P Q -> disjoint_ids P Q.
+Proof. intros F v V1 V2. apply (F v v V1 V2), within_refl. Qed.
+
+Lemma Apart_sym o a b d P Q : Apart o a b d P Q -> Apart o a b d Q P.
+Proof.
+  intros H t A B S U IS IU x y HS HU. rewrite dist2_sym.
+  destruct (H t A B U S IU IS y x HU HS) as [H1 H2].
+  split; intros N F; [apply H1|apply H2]; auto using disjoint_sym, far_sym.
+Qed.
+
+(** What is true without regard to vertices. *)
+Lemma Apart_least o a b d P Q :
+  (forall t, (IZR a <= t * IZR d <= IZR b)%R -> (IZR (tbeg s) <= t <= IZR (tend s))%R ->
+   forall S U, incl S P -> incl U Q ->
+   forall x y, simplex s S t x -> simplex s U t y -> (IZR (least s o) ^ 2 < dist2 x y)%R) ->
+  Apart o a b d P Q.
+Proof.
+  intros H t A B S U IS IU x y HS HU. specialize (H t A B S U IS IU x y HS HU).
+  pose proof (pow2_ge_0 (IZR (least s o))). split; intros N _; [lra|].
+  destruct o; [exact H|exact H|contradiction].
+Qed.
+
+Lemma Claimed_sym o a b d P Q : Claimed o a b d P Q -> Claimed o a b d Q P.
 Proof. intros H E. apply Apart_sym, H. intros N; now apply E, is_excluded_sym. Qed.
 
 (** T: the two halves are all of the interval. *)
-Lemma Claimed_halves a b d P Q :
-  Claimed (a + a) (a + b) (d + d) P Q -> Claimed (a + b) (b + b) (d + d) P Q -> Claimed a b d P Q.
+Lemma Claimed_halves o a b d P Q :
+  Claimed o (a + a) (a + b) (d + d) P Q -> Claimed o (a + b) (b + b) (d + d) P Q -> Claimed o a b d P Q.
 Proof.
   intros H1 H2 E t A.
   destruct (Rle_dec (t * IZR (d + d)) (IZR (a + b))); [apply H1|apply H2]; auto;
     rewrite !plus_IZR in *; lra.
 Qed.
 
-(** D: of two features with no common vertex, one does not have [v]. *)
-Lemma Apart_drop a b d v P Q :
-  Apart a b d (filter (fun u => negb (u =? v)%Z) P) Q ->
-  Apart a b d P (filter (fun u => negb (u =? v)%Z) Q) -> Apart a b d P Q.
+Lemma incl_filter v (L M : list Z) : incl L M -> ~ In v L -> incl L (filter (fun u => negb (u =? v)%Z) M).
 Proof.
-  intros H1 H2 t A B S U IS IU D.
-  assert (I : forall L M, incl L M -> ~ In v L -> incl L (filter (fun u => negb (u =? v)%Z) M)).
-  { intros L M LM N u Hu. apply filter_In; split; auto.
-    destruct (Z.eqb_spec u v); auto; subst; contradiction. }
-  destruct (in_dec Z.eq_dec v S) as [VS|VS]; [apply H2|apply H1]; auto.
+  intros LM N u Hu. apply filter_In; split; auto. destruct (Z.eqb_spec u v); auto; subst; contradiction.
+Qed.
+
+(** D: of two features with no common vertex, one does not have [v]. *)
+Lemma Apart_drop o a b d v P Q :
+  Apart o a b d (filter (fun u => negb (u =? v)%Z) P) Q ->
+  Apart o a b d P (filter (fun u => negb (u =? v)%Z) Q) -> Apart o a b d P Q.
+Proof.
+  intros H1 H2 t A B S U IS IU x y HS HU.
+  assert (disjoint_ids S U -> ~ In v S \/ ~ In v U) as D.
+  { intros D. destruct (in_dec Z.eq_dec v S) as [VS|VS]; auto. }
+  split; intros N F; pose proof F as F'; [|apply far_disjoint in F']; apply D in F' as [V|V];
+    [destruct (H1 t A B S U (incl_filter _ _ _ IS V) IU x y HS HU)|
+     destruct (H2 t A B S U IS (incl_filter _ _ _ IU V) x y HS HU)|
+     destruct (H1 t A B S U (incl_filter _ _ _ IS V) IU x y HS HU)|
+     destruct (H2 t A B S U IS (incl_filter _ _ _ IU V) x y HS HU)]; auto.
+Qed.
+
+(** W: of two features that are far, one does not have an end of a short way. *)
+Lemma Apart_ring a b d u v P Q : within s (Z.to_nat (ring s - 1)) v u ->
+  Apart Far a b d (filter (fun w => negb (w =? v)%Z) P) Q ->
+  Apart Far a b d P (filter (fun w => negb (w =? u)%Z) Q) -> Apart Far a b d P Q.
+Proof.
+  intros W H1 H2 t A B S U IS IU x y HS HU. split; intros N F; [contradiction|].
+  destruct (in_dec Z.eq_dec v S) as [V|V].
+  - assert (~ In u U) as V' by (intros V'; now apply (F v u)).
+    destruct (H2 t A B S U IS (incl_filter _ _ _ IU V') x y HS HU); auto.
+  - destruct (H1 t A B S U (incl_filter _ _ _ IS V) IU x y HS HU); auto.
+Qed.
+
+(** G: the two parts of what [Distance] says. *)
+Lemma Apart_parts a b d P Q : Apart Far a b d P Q -> Apart Disjoint a b d P Q -> Apart Distance a b d P Q.
+Proof.
+  intros H1 H2 t A B S U IS IU x y HS HU. split; intros N F.
+  - now apply (H2 t A B S U IS IU x y HS HU).
+  - now apply (H1 t A B S U IS IU x y HS HU).
+Qed.
+
+Lemma Apart_far a b d P Q : Apart Distance a b d P Q -> Apart Far a b d P Q.
+Proof.
+  intros H t A B S U IS IU x y HS HU. split; intros N F; [contradiction|].
+  now apply (H t A B S U IS IU x y HS HU).
+Qed.
+
+(** A way leads where it says. *)
+Lemma in_cell_sound i v : in_cell s i v = true ->
+  (0 <= i < ncell s)%Z /\ In v (map (same s) (cell s i)).
+Proof.
+  unfold in_cell. rewrite !andb_true_iff, existsb_exists, Z.leb_le, Z.ltb_lt.
+  intros [[L U] (u & I & E)]. apply Z.eqb_eq in E as <-. auto using in_map.
+Qed.
+
+Lemma way_end_sound w : forall n v u, way_end s n v w = Some u -> within s (Z.to_nat n) v u.
+Proof.
+  induction w as [|(i, v1) w IH]; cbn [way_end]; intros n v u.
+  - intros [= ->]. apply within_refl.
+  - destruct (_ && _)%bool eqn:E; [|discriminate]. rewrite !andb_true_iff in E. destruct E as [[E0 E1] E2].
+    apply Z.ltb_lt in E0. apply in_cell_sound in E1 as [B V0], E2 as [_ V1]. intros H.
+    replace (Z.to_nat n) with (S (Z.to_nat (n - 1))) by lia. right. exists v1. split; auto.
+    now exists i.
 Qed.
 
 Lemma without_ids v p : map fst (without v p) = filter (fun u => negb (u =? v)%Z) (map fst p).
@@ -680,10 +906,10 @@ Qed.
 
 (** The vertices of a feature of a cell below [x] are resolved vertices of [x]. *)
 Lemma feature_vertex x P S v : inv x -> In P (leaves x) -> incl S (snd P) -> In v S ->
-  exists w, In w (verts x) /\ snd w = path s v /\ covers_time (tbeg s) (tend s) (snd w).
+  exists w, In w (verts x) /\ fst w = v /\ resolved w.
 Proof.
   intros I L C Hv. apply C, (leaf_verts x P I L), in_map_iff in Hv as (w & <- & Hw).
-  destruct (proj1 (Forall_forall _ _) (inv_verts x I) w Hw). eauto.
+  pose proof (proj1 (Forall_forall _ _) (inv_verts x I) w Hw). eauto.
 Qed.
 
 (** ** 6. One token *)
@@ -695,24 +921,24 @@ Lemma plane_side h a b d x P S t : (0 < d)%Z -> inv x -> In P (leaves x) -> incl
 Proof.
   intros D I L C F A B q. apply hull_positive. intros p Hp.
   apply in_map_iff in Hp as (v & <- & Hv).
-  destruct (feature_vertex x P S v I L C Hv) as (w & Hw & <- & W).
-  pose proof (proj1 (forallb_forall _ _) F w Hw) as Aw.
+  destruct (feature_vertex x P S v I L C Hv) as (w & Hw & <- & E & W).
+  pose proof (proj1 (forallb_forall _ _) F w Hw) as Aw. cbn beta in Aw. rewrite E in Aw.
   apply (inside_sound h a b d _ _ _ t D W Aw); tauto.
 Qed.
 
-Lemma wide_sound n w : wide (eta s) n w = true ->
-  (0 <= IZR w /\ IZR (eta s) * IZR (eta s) * dotR n (inj n) <= IZR w * IZR w)%R.
+Lemma wide_sound e n w : wide e n w = true ->
+  (0 <= IZR w /\ IZR e * IZR e * dotR n (inj n) <= IZR w * IZR w)%R.
 Proof.
   unfold wide. intros H. apply andb_true_iff in H as [A B]. apply Z.leb_le, IZR_le in A, B.
   now rewrite !mult_IZR, dot_IZR in B.
 Qed.
 
-Lemma plane_sound h w a b d x y : (0 < d)%Z -> inv x -> inv y -> wide (eta s) (normal h) w = true ->
+Lemma plane_sound h w o a b d x y : (0 < d)%Z -> inv x -> inv y -> wide (least s o) (normal h) w = true ->
   forallb (fun w => inside h a b d (snd w)) (verts x) = true ->
   forallb (fun v => inside (behind h w) a b d (snd v)) (verts y) = true ->
-  PairApart a b d x y.
+  PairApart o a b d x y.
 Proof.
-  intros D Ix Iy W Fx Fy P Q HP HQ _ t A B S U IS IU _ p q HS HU.
+  intros D Ix Iy W Fx Fy P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
   apply wide_sound in W as [W1 W2].
   pose proof (plane_side h a b d x P S t D Ix HP IS Fx A B p HS) as N1.
   pose proof (plane_side (behind h w) a b d y Q U t D Iy HQ IU Fy A B q HU) as N2.
@@ -721,11 +947,11 @@ Proof.
   apply Rmult_le_0_lt_compat; unfold valueR in *; lra.
 Qed.
 
-Lemma direction_sound n a b d x y : (0 < d)%Z -> inv x -> inv y ->
-  separated (eta s * eta s * dot n n) n a b d (verts x) (verts y) = true -> PairApart a b d x y.
+Lemma direction_sound n o a b d x y : (0 < d)%Z -> inv x -> inv y ->
+  separated (least s o * least s o * dot n n) n a b d (verts x) (verts y) = true -> PairApart o a b d x y.
 Proof.
-  intros D Ix Iy F P Q HP HQ _ t A _ S U IS IU _ p q HS HU.
-  set (k := (eta s * eta s * dot n n)%Z) in *.
+  intros D Ix Iy F P Q HP HQ _. apply Apart_least. intros t A _ S U IS IU p q HS HU.
+  set (e := least s o) in *. set (k := (e * e * dot n n)%Z) in *.
   assert (0 <= IZR k)%R as K by (apply IZR_le; unfold k, dot; nia).
   assert (forall m, below_root k m -> dotR n q + m < dotR n p)%R as G.
   2:{ pose proof (G 0%R) as G0. rewrite dist2_sym. apply (dist2_direction n).
@@ -736,7 +962,7 @@ Proof.
   apply in_map_iff in H1 as (v1 & <- & H1), H2 as (v2 & <- & H2).
   destruct (feature_vertex y Q U v1 Iy HQ IU H1) as (w1 & I1 & <- & W1).
   destruct (feature_vertex x P S v2 Ix HP IS H2) as (w2 & I2 & <- & W2).
-  apply (separated_sound k m n a b d (tbeg s) (tend s) (verts x) (verts y)); auto.
+  apply (separated_sound k m n a b d (tbeg s) (tend s) (path s) (verts x) (verts y)); auto.
   pose proof (inv_verts x Ix) as Fx. pose proof (inv_verts y Iy) as Fy.
   rewrite Forall_forall in Fx, Fy. intros u [Hu|Hu]; [apply Fx in Hu|apply Fy in Hu]; apply Hu.
 Qed.
@@ -757,8 +983,8 @@ Proof.
     apply Z.eqb_eq in E1, E2; subst; auto.
 Qed.
 
-Lemma excluded_sound a b d x y : inv x -> inv y ->
-  excluded_labels s (label_of x) (label_of y) = true -> PairApart a b d x y.
+Lemma excluded_sound o a b d x y : inv x -> inv y ->
+  excluded_labels s (label_of x) (label_of y) = true -> PairApart o a b d x y.
 Proof.
   intros Ix Iy E P Q HP HQ N. exfalso. apply N. unfold excluded_labels in E.
   destruct (label_of x) as [l|] eqn:Lx; [|discriminate].
@@ -766,19 +992,19 @@ Proof.
   rewrite (label_sound x l), (label_sound y m); auto. now apply excluded_pair_sound.
 Qed.
 
-Lemma both_sound a b d x : PairApart a b d x x -> SelfApart a b d x.
+Lemma both_sound o a b d x : PairApart o a b d x x -> SelfApart o a b d x.
 Proof.
   induction x as [l vs|l vs x IHx y IHy]; cbn; intros H.
   - intros _. apply H; cbn; auto.
-  - repeat split; [apply IHx| |apply IHy]; intros P Q HP HQ; apply H; cbn; apply in_or_app; auto.
+  - split; [apply IHx|split; [|apply IHy]]; intros P Q HP HQ; apply H; cbn; apply in_or_app; auto.
 Qed.
 
-Lemma self_halves a b d x :
-  SelfApart (a + a) (a + b) (d + d) x -> SelfApart (a + b) (b + b) (d + d) x -> SelfApart a b d x.
+Lemma self_halves o a b d x :
+  SelfApart o (a + a) (a + b) (d + d) x -> SelfApart o (a + b) (b + b) (d + d) x -> SelfApart o a b d x.
 Proof.
   induction x as [l vs|l vs x IHx y IHy]; cbn.
   - intros H1 H2 E. apply Claimed_halves; auto.
-  - intros (A1 & A2 & A3) (B1 & B2 & B3). repeat split; auto.
+  - intros (A1 & A2 & A3) (B1 & B2 & B3). split; [|split]; auto.
     intros P Q HP HQ. apply Claimed_halves; [apply A2|apply B2]; auto.
 Qed.
 
@@ -791,10 +1017,10 @@ Ltac on_forallb l F := match goal with
   end.
 
 (** If what a token leaves holds, so did what it found. *)
-Lemma step_pair_sound x y a b d k tok st' :
-  step_pair s x y a b d k tok = Some st' -> Forall holds st' -> Forall holds (Pair x y a b d :: k).
+Lemma step_pair_sound x y o a b d k tok st' :
+  step_pair s x y o a b d k tok = Some st' -> Forall holds st' -> Forall holds (Pair x y o a b d :: k).
 Proof.
-  destruct tok as [| | |i|h w|n| | | |]; cbn [step_pair]; try discriminate.
+  destruct tok as [| | |i|v w| |h w|n| | | |]; cbn [step_pair]; try discriminate.
   - (* THalve *)
     destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D Ix Iy P Q HP HQ. apply Claimed_halves; [apply H|apply H0]; auto; lia.
@@ -813,6 +1039,26 @@ Proof.
     apply Apart_drop with v; rewrite <- without_ids.
     + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
     + apply (H0 D Ix (inv_without v q Iy) (l, vids p) (m, vids (without v q))); cbn; auto.
+  - (* TRing *)
+    destruct x as [l p|]; [|discriminate]. destruct y as [m q|]; [|discriminate].
+    destruct (way_end _ _ _ _) as [u|] eqn:W; [|discriminate]. apply way_end_sound in W.
+    destruct (_ && _)%bool; [|discriminate]. cbn zeta.
+    assert (Forall resolved p -> Forall resolved q -> (0 < d)%Z ->
+      holds (Pair (Leaf l (without v p)) (Leaf m q) Far a b d) ->
+      holds (Pair (Leaf l p) (Leaf m (without u q)) Far a b d) ->
+      PairApart Far a b d (Leaf l p) (Leaf m q)) as R.
+    { intros Ix Iy D H H0. cbn in *. intros P Q [<-|[]] [<-|[]] E. cbn in *.
+      apply Apart_ring with u v; auto; rewrite <- without_ids.
+      + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
+      + apply (H0 D Ix (inv_without u q Iy) (l, vids p) (m, vids (without u q))); cbn; auto. }
+    assert (forall x y, holds (Pair x y Distance a b d) -> holds (Pair x y Far a b d)) as R'.
+    { intros x y H D Ix Iy P Q HP HQ E. apply Apart_far. now apply H. }
+    destruct o; [| |discriminate]; intros [= <-] F; heads F; constructor; auto; intros D Ix Iy.
+    + intros P Q HP HQ E. apply Apart_parts; [apply R|apply H1]; auto.
+    + apply R; auto.
+  - (* TFar *)
+    destruct o; [|discriminate|discriminate]. intros [= <-] F. heads F. constructor; auto.
+    cbn [holds] in *. intros D Ix Iy P Q HP HQ E. apply Apart_parts; [apply H|apply H0]; auto.
   - (* TPlane *)
     destruct (wide _ _ _) eqn:W; [|discriminate]. on_forallb (verts x) Fx. cbn zeta. on_forallb (verts y) Fy.
     intros [= <-] F. constructor; auto. intros D Ix Iy. eapply plane_sound; eauto.
@@ -824,10 +1070,10 @@ Proof.
     intros [= <-] F. constructor; auto. intros D Ix Iy. now apply excluded_sound.
 Qed.
 
-Lemma step_self_sound x a b d k tok st' :
-  step_self strict s x a b d k tok = Some st' -> Forall holds st' -> Forall holds (Self x a b d :: k).
+Lemma step_self_sound x o a b d k tok st' :
+  step_self strict s x o a b d k tok = Some st' -> Forall holds st' -> Forall holds (Self x o a b d :: k).
 Proof.
-  destruct tok as [| | |i|h w|n| | | |]; cbn [step_self]; try discriminate.
+  destruct tok as [| | |i|v w| |h w|n| | | |]; cbn [step_self]; try discriminate.
   - (* THalve *)
     destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D I. apply self_halves; [apply H|apply H0]; auto; lia.
@@ -846,7 +1092,7 @@ Qed.
 
 Lemma step_sound st tok st' : step strict s st tok = Some st' -> Forall holds st' -> Forall holds st.
 Proof.
-  destruct st as [|[x y a b d|x a b d] k]; cbn [step]; [discriminate| |];
+  destruct st as [|[x y o a b d|x o a b d] k]; cbn [step]; [discriminate| |];
     [apply step_pair_sound|apply step_self_sound].
 Qed.
 
@@ -936,34 +1182,79 @@ Proof.
   intros C Hi. apply andb_true_iff in C as [_ C]. now apply ids_of_in, (is_range_sound _ _ _ C).
 Qed.
 
-Lemma leaf_in i w : In w (leaf s i) -> snd w = path s (fst w).
+Lemma cell_ids_in f i v : In v (cell s i) -> In (f v) (cell_ids f s i).
 Proof.
-  unfold leaf; induction (cell s i) as [|v l IH]; cbn; [tauto|].
-  intros H; apply union_in in H as [[<-|[]]|H]; auto.
+  unfold cell_ids; induction (cell s i) as [|u l IH]; cbn; [easy|]. intros H.
+  rewrite <- (map_id (union _ _ _)). apply union_keys. cbn. destruct H as [<-|H]; auto.
+  right. rewrite map_id. auto.
 Qed.
 
-Definition cell_ids i := map fst (leaf s i).
-
-Lemma leaf_ids i : incl (cell s i) (cell_ids i).
+Lemma cell_ids_from f i v : In v (cell_ids f s i) -> exists u, In u (cell s i) /\ f u = v.
 Proof.
-  unfold cell_ids, leaf; induction (cell s i) as [|v l IH]; cbn; intros u H; [easy|].
-  apply union_keys. destruct H as [<-|H]; [left; now left|right; now apply IH].
+  unfold cell_ids; induction (cell s i) as [|u l IH]; cbn; [easy|]. intros H.
+  apply union_in in H as [[<-|[]]|H]; eauto. destruct (IH H) as (w & I & E); eauto.
 Qed.
 
-Lemma build_cell i x : build s (Cell i) = Some x ->
-  x = Leaf (label s i) (leaf s i) /\ Forall resolved (leaf s i).
+Lemma group_ids_in f g i v : In i (ids g) -> In v (cell_ids f s i) -> In v (group_ids f s g).
 Proof.
-  cbn [build]. on_forallb (leaf s i) F. intros [= <-]. split; auto.
-  apply Forall_forall. intros w Hw. split; [now apply leaf_in with i|].
-  apply (proj1 (forallb_forall _ _) F) in Hw. now apply wf_traj_sound.
+  induction g as [j|l IHl r IHr]; cbn; intros H V.
+  - now destruct H as [<-|[]].
+  - rewrite <- (map_id (union _ _ _)). apply union_keys. rewrite !map_id. apply in_app_or in H as [H|H]; auto.
 Qed.
 
-Lemma build_inv g : forall x, build s g = Some x -> inv x.
+Lemma group_ids_from f g v : In v (group_ids f s g) -> exists i, In i (ids g) /\ In v (cell_ids f s i).
+Proof.
+  induction g as [j|l IHl r IHr]; cbn.
+  - exists j; auto.
+  - intros H. apply union_in in H as [H|H]; [apply IHl in H|apply IHr in H];
+      destruct H as (i & I & V); exists i; split; auto; apply in_or_app; auto.
+Qed.
+
+Definition sensible (v : Z) : Prop :=
+  covers_time (tbeg s) (tend s) (path s v) /\ path s (same s v) = path s v.
+
+Lemma wf_vertex_sound v : wf_vertex s v = true -> sensible v.
+Proof.
+  unfold wf_vertex. rewrite andb_true_iff, orb_true_iff, Z.eqb_eq. intros [W E].
+  apply wf_traj_sound in W. split; auto. destruct E as [->|E]; auto. now apply equal_traj_sound.
+Qed.
+
+Lemma vertices_sound l : (forall v, In v l -> covers_time (tbeg s) (tend s) (path s v)) ->
+  forall acc, Forall (sorted_in resolved fst) acc -> Forall (sorted_in resolved fst) (vertices s l acc).
+Proof.
+  induction l as [|v l IH]; cbn [vertices]; intros C acc F.
+  - rewrite rev_append_rev, app_nil_r. now apply Forall_rev.
+  - apply IH; [intros; apply C; now right|]. constructor; auto. repeat split. cbn. apply C. now left.
+Qed.
+
+Lemma look_up_all_sound table l : each resolved table -> forall vs, look_up_all table l = Some vs ->
+  map fst vs = l /\ Forall resolved vs.
+Proof.
+  intros T; induction l as [|v l IH]; cbn [look_up_all]; intros vs.
+  - intros [= <-]. auto.
+  - unfold look_up. apply (find_each _ (fun k => k <=? v)%Z) in T as W. set (w := find _ _) in *.
+    destruct (Z.eqb_spec (fst w) v) as [E|]; [|discriminate].
+    destruct (look_up_all table l) as [l'|]; [|discriminate]. intros [= <-].
+    destruct (IH _ eq_refl). cbn. split; [congruence|auto].
+Qed.
+
+Section Table.
+Variable table : search vertex.
+Hypothesis table_resolved : each resolved table.
+
+Lemma build_cell i x : build_from table s (Cell i) = Some x ->
+  exists vs, x = Leaf (label s i) vs /\ map fst vs = cell_ids (same s) s i /\ Forall resolved vs.
+Proof.
+  cbn [build_from]. destruct (look_up_all _ _) as [vs|] eqn:E; [|discriminate]. intros [= <-].
+  apply look_up_all_sound in E as [E R]; eauto.
+Qed.
+
+Lemma build_inv g : forall x, build_from table s g = Some x -> inv x.
 Proof.
   induction g as [i|l IHl r IHr]; intros x B.
-  - apply build_cell in B as [-> R]. exact R.
-  - cbn in B. destruct (build s l) as [xl|]; [|discriminate].
-    destruct (build s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
+  - apply build_cell in B as (vs & -> & _ & R). exact R.
+  - cbn in B. destruct (build_from table s l) as [xl|]; [|discriminate].
+    destruct (build_from table s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
     pose proof (IHl _ eq_refl) as L. pose proof (IHr _ eq_refl) as R.
     pose proof (inv_verts _ L) as VL. pose proof (inv_verts _ R) as VR.
     rewrite Forall_forall in VL, VR |- *. split; [|split; [|split; [|split; [|split]]]]; auto.
@@ -975,26 +1266,27 @@ Proof.
       destruct (Z.eqb_spec a b); [|discriminate]. subst. now intros [= <-].
 Qed.
 
-Definition leaf_of i := (label s i, cell_ids i).
+Definition leaf_of i := (label s i, cell_ids (same s) s i).
 
-Lemma build_leaves g : forall x, build s g = Some x -> leaves x = map leaf_of (ids g).
+Lemma build_leaves g : forall x, build_from table s g = Some x -> leaves x = map leaf_of (ids g).
 Proof.
   induction g as [i|l IHl r IHr]; intros x B.
-  - now apply build_cell in B as [-> _].
-  - cbn in B. destruct (build s l) as [xl|]; [|discriminate].
-    destruct (build s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
+  - apply build_cell in B as (vs & -> & E & _). unfold leaf_of. cbn. now rewrite E.
+  - cbn in B. destruct (build_from table s l) as [xl|]; [|discriminate].
+    destruct (build_from table s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
     now rewrite (IHl _ eq_refl), (IHr _ eq_refl), map_app.
 Qed.
 
 (** A tree has every pair of its cells. *)
-Lemma self_pairs a b d g : forall x, build s g = Some x -> SelfApart a b d x ->
+Lemma self_pairs o a b d g : forall x, build_from table s g = Some x -> SelfApart o a b d x ->
   forall i j, In i (ids g) -> In j (ids g) -> strict = true \/ i <> j ->
-  Claimed a b d (leaf_of i) (leaf_of j).
+  Claimed o a b d (leaf_of i) (leaf_of j).
 Proof.
   induction g as [f|l IHl r IHr]; intros x Bx.
-  - apply build_cell in Bx as [-> _]. intros H i j [<-|[]] [<-|[]] [E|E]; [auto|congruence].
-  - cbn in Bx. destruct (build s l) as [xl|] eqn:L; [|discriminate].
-    destruct (build s r) as [xr|] eqn:R; [|discriminate].
+  - apply build_cell in Bx as (vs & -> & E & _). intros H i j [<-|[]] [<-|[]] [N|N]; [|congruence].
+    unfold leaf_of. rewrite <- E. now apply H.
+  - cbn in Bx. destruct (build_from table s l) as [xl|] eqn:L; [|discriminate].
+    destruct (build_from table s r) as [xr|] eqn:R; [|discriminate].
     injection Bx as <-. cbn. intros (A & B & C) i j Hi Hj N.
     unfold PairApart in B. rewrite (build_leaves _ _ L), (build_leaves _ _ R) in B.
     assert (I : forall k g', In k (ids g') -> In (leaf_of k) (map leaf_of (ids g'))).
@@ -1006,34 +1298,57 @@ Proof.
     + eapply IHr; eauto.
 Qed.
 
-(** Every cell of a tree that was built has trajectories as they should be. *)
-Lemma build_cells g : forall x i, build s g = Some x -> In i (ids g) -> Forall resolved (leaf s i).
+End Table.
+
+(** A scene with a tree has vertices as they should be. *)
+Lemma build_sound g x : build s g = Some x ->
+  (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) /\
+  exists table, each resolved table /\ build_from table s g = Some x.
 Proof.
-  induction g as [j|l IHl r IHr]; intros x i B H.
-  - apply build_cell in B as [_ R]. now destruct H as [<-|[]].
-  - cbn in B, H. destruct (build s l) as [xl|]; [|discriminate].
-    destruct (build s r) as [xr|]; [|discriminate].
-    apply in_app_or in H as [H|H]; eauto.
+  unfold build. on_forallb (group_ids (fun v => v) s g) F. cbn zeta.
+  assert (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) as C.
+  { intros i v Hi Hv. rewrite forallb_forall in F. apply wf_vertex_sound, F, (group_ids_in _ g i); auto.
+    now apply (cell_ids_in (fun u => u)). }
+  destruct (join_all _ _) as [table|] eqn:E; [|discriminate]. intros B. split; auto.
+  exists table. split; auto. apply (join_all_sound resolved fst) in E as [E _]; auto.
+  apply vertices_sound; auto. intros v Hv.
+  apply group_ids_from in Hv as (i & Hi & Hv). apply cell_ids_from in Hv as (u & Hu & <-).
+  destruct (C i u Hi Hu) as [W ->]. exact W.
+Qed.
+
+(** A feature is where the vertices that stand for its own are. *)
+Lemma simplex_same i P t : (forall v, In v (cell s i) -> sensible v) -> incl P (cell s i) ->
+  simplex s (map (same s) P) t = simplex s P t.
+Proof.
+  intros C I. unfold simplex. f_equal. rewrite map_map. apply map_ext_in. intros v Hv.
+  destruct (C v (I v Hv)) as [_ ->]. reflexivity.
 Qed.
 
 Lemma start_sound g st : start s g = Some st ->
   well_formed s /\ (Forall holds st -> never_touch strict s).
 Proof.
   unfold start. destruct (_ && _)%bool eqn:E; [|discriminate].
-  rewrite !andb_true_iff in E. destruct E as [[[E0 E1] E2] C].
-  apply Z.ltb_lt in E0, E1. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
+  rewrite !andb_true_iff in E. destruct E as [[[[E0 E1] E2] E3] C].
+  apply Z.ltb_lt in E0, E1, E3. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
+  apply build_sound in B as (W & table & R & B).
   intros [= <-]. split.
-  - repeat split; auto. intros i v Hi Hv.
-    apply (build_cells g x i) in B; [|eapply covers_sound; eauto].
-    apply leaf_ids, in_map_iff in Hv as (w & <- & Hw).
-    rewrite Forall_forall in B. destruct (B w Hw) as [<- W]. exact W.
+  - do 4 (split; auto). intros i v Hi Hv. apply (W i); auto. now apply covers_sound with (ncell s).
   - intros F. apply Forall_inv in F as S. cbn [holds] in S.
-    specialize (S eq_refl (build_inv g x B)).
-    intros t Ht i j Hi Hj D N P Q IP IQ.
-    apply (self_pairs _ _ _ g x B S i j); eauto using covers_sound.
-    + lra.
-    + eapply incl_tran; [apply IP|apply leaf_ids].
-    + eapply incl_tran; [apply IQ|apply leaf_ids].
+    specialize (S eq_refl (build_inv table R g x B)).
+    intros t Ht i j Hi Hj D N P Q IP IQ x1 x2 H1 H2. cbn zeta.
+    assert (I : forall k T, incl T (cell s k) -> incl (map (same s) T) (cell_ids (same s) s k)).
+    { intros k T HT v Hv. apply in_map_iff in Hv as (u & <- & Hu). now apply cell_ids_in, HT. }
+    rewrite <- (simplex_same i) in H1; [| |exact IP]; [|intros v; apply W; eauto using covers_sound].
+    rewrite <- (simplex_same j) in H2; [| |exact IQ]; [|intros v; apply W; eauto using covers_sound].
+    assert (Apart (if (0 <? eta s)%Z then Distance else Disjoint) (tbeg s) (tend s) 1
+              (cell_ids (same s) s i) (cell_ids (same s) s j)) as A.
+    { apply (self_pairs table R _ _ _ _ g x B S i j); eauto using covers_sound. }
+    destruct (A t) with (S := map (same s) P) (U := map (same s) Q) (x := x1) (y := x2) as [A1 A2];
+      auto; [lra|].
+    destruct (0 <? eta s)%Z eqn:E.
+    + split; [apply A1|apply A2]; discriminate.
+    + apply Z.ltb_ge in E. assert (eta s = 0)%Z as -> by lia. split; [apply A1; discriminate|].
+      intros A3. rewrite pow_i by lia. apply A1; [discriminate|]. now apply far_disjoint.
 Qed.
 End Soundness.
 
@@ -1064,12 +1379,14 @@ Proof. intros H t Ht i j Hi Hj _. apply H; auto. Qed.
 Corollary check_sound_cells strict s g toks : check strict s g toks = true ->
   forall t, (IZR (tbeg s) <= t <= IZR (tend s))%R ->
   forall i j, (0 <= i < ncell s)%Z -> (0 <= j < ncell s)%Z ->
-  ~ is_excluded s (label s i) (label s j) -> disjoint_ids (cell s i) (cell s j) ->
+  ~ is_excluded s (label s i) (label s j) ->
+  disjoint_ids (map (same s) (cell s i)) (map (same s) (cell s j)) ->
   forall x, ~ (simplex s (cell s i) t x /\ simplex s (cell s j) t x).
 Proof.
   intros H t Ht i j Hi Hj E D x [X Y].
   destruct (Z.eq_dec i j) as [<-|N].
-  - destruct (cell s i) as [|v l]; [now apply hull_nil in X|]. apply (D v); now left.
-  - apply (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) D x x X) in Y.
-    unfold dist2 in Y. pose proof (Rle_0_sqr (IZR (eta s))) as P. unfold Rsqr in P. lra.
+  - destruct (cell s i) as [|v l]; [now apply hull_nil in X|]. apply (D (same s v)); now left.
+  - destruct (check_sound _ _ _ _ H t Ht i j Hi Hj (or_intror N) E _ _ (incl_refl _) (incl_refl _) x x X Y)
+      as [A _].
+    specialize (A D). unfold dist2 in A. lra.
 Qed.

@@ -48,7 +48,7 @@ coqc -q -Q . Noli ask/Ask.v > assumptions.txt || fail "a theorem is missing"
 
 # The extracted checker: the same text, and it compiles with Zarith alone.
 mkdir out
-for module in Spec Checker Hit; do
+for module in Spec Checker Poly Hit; do
   for end in ml mli; do
     { echo '(* SPDX-License-Identifier: Apache-2.0 *)'
       echo "(* Extracted from $module.v by build.sh --renew: not to be edited. *)"
@@ -58,7 +58,8 @@ done
 cp "$here/extracted/zint.ml" out
 mkdir compiled
 cp out/* compiled
-(cd compiled && ocamlfind ocamlopt -package zarith -c zint.ml Spec.mli Spec.ml Checker.mli Checker.ml Hit.mli Hit.ml) ||
+(cd compiled && ocamlfind ocamlopt -package zarith -c zint.ml Spec.mli Spec.ml Checker.mli Checker.ml \
+  Poly.mli Poly.ml Hit.mli Hit.ml) ||
   fail "the extracted checker does not compile"
 
 if [ "$renew" = yes ]; then

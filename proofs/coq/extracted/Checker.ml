@@ -13,6 +13,8 @@ type token =
 | TLeft
 | TRight
 | TDrop of Zint.t
+| TRing of Zint.t * (Zint.t * Zint.t) list
+| TFar
 | TPlane of halfspace * Zint.t
 | TDirection of vec
 | TExcluded
@@ -32,15 +34,82 @@ let wf_traj t0 t1 = function
 | [] -> false
 | p :: r -> let (t2, _) = p in (&&) (Zint.leq t2 t0) (reaches t2 t1 r)
 
-(** val since : Zint.t -> Zint.t -> traj -> traj **)
+(** val equal_traj : traj -> traj -> bool **)
 
-let rec since d a tr = match tr with
-| [] -> []
-| _ :: r ->
+let rec equal_traj tr1 tr2 =
+  match tr1 with
+  | [] -> (match tr2 with
+           | [] -> true
+           | _ :: _ -> false)
+  | p :: r1 ->
+    let (t1, p1) = p in
+    (match tr2 with
+     | [] -> false
+     | p0 :: r2 ->
+       let (t2, p2) = p0 in
+       if (&&)
+            ((&&) ((&&) (Zint.equal t1 t2) (Zint.equal p1.vx p2.vx))
+              (Zint.equal p1.vy p2.vy)) (Zint.equal p1.vz p2.vz)
+       then equal_traj r1 r2
+       else false)
+
+type 'a search =
+| Found of 'a
+| Choose of Zint.t * 'a search * 'a search
+
+(** val find : (Zint.t -> bool) -> 'a1 search -> 'a1 **)
+
+let rec find low = function
+| Found x0 -> x0
+| Choose (k, l, r) -> if low k then find low r else find low l
+
+(** val join_pairs :
+    (Zint.t * 'a1 search) list -> (Zint.t * 'a1 search) list -> (Zint.t * 'a1
+    search) list **)
+
+let rec join_pairs l acc =
+  match l with
+  | [] -> List.rev_append acc l
+  | p :: l0 ->
+    let (k1, x) = p in
+    (match l0 with
+     | [] -> List.rev_append acc l
+     | p0 :: r ->
+       let (k2, y) = p0 in join_pairs r ((k1, (Choose (k2, x, y))) :: acc))
+
+(** val join_all :
+    'a2 list -> (Zint.t * 'a1 search) list -> 'a1 search option **)
+
+let rec join_all fuel l = match l with
+| [] -> None
+| p :: r ->
+  let (_, x) = p in
   (match r with
-   | [] -> tr
-   | p :: _ ->
-     let (t1, _) = p in if Zint.leq (Zint.mul t1 d) a then since d a r else tr)
+   | [] -> Some x
+   | _ :: _ ->
+     (match fuel with
+      | [] -> Some x
+      | _ :: f -> join_all f (join_pairs l [])))
+
+(** val suffixes :
+    traj -> (Zint.t * traj search) list -> (Zint.t * traj search) list **)
+
+let rec suffixes tr acc =
+  match tr with
+  | [] -> List.rev_append acc []
+  | p :: r -> let (t, _) = p in suffixes r ((t, (Found tr)) :: acc)
+
+(** val index : traj -> traj search **)
+
+let index tr =
+  match join_all tr (suffixes tr []) with
+  | Some x -> x
+  | None -> Found tr
+
+(** val since : Zint.t -> Zint.t -> traj search -> traj **)
+
+let since d a x =
+  find (fun t -> Zint.leq (Zint.mul t d) a) x
 
 (** val dot : vec -> vec -> Zint.t **)
 
@@ -100,10 +169,11 @@ let rec inside_from h a b d t0 g0 = function
   then if Zint.leq b s1 then true else inside_from h a b d t1 g1 r'
   else false
 
-(** val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj -> bool **)
+(** val inside :
+    halfspace -> Zint.t -> Zint.t -> Zint.t -> traj search -> bool **)
 
-let inside h a b d tr =
-  match since d a tr with
+let inside h a b d x =
+  match since d a x with
   | [] -> false
   | p :: r -> let (t0, p0) = p in inside_from h a b d t0 (value h t0 p0) r
 
@@ -169,11 +239,11 @@ let rec along n b d t0 g0 = function
   in here
 
 (** val values :
-    vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj -> rat list
-    option **)
+    vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj search -> rat
+    list option **)
 
-let values n a b d cs tr =
-  match since d a tr with
+let values n a b d cs x =
+  match since d a x with
   | [] -> None
   | p :: r ->
     let (t0, p0) = p in
@@ -194,10 +264,10 @@ let rec times_until d a b tr acc =
     then times_until d a b r (if Zint.lt a c then c :: acc else acc)
     else List.rev_append acc []
 
-(** val times : Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list **)
+(** val times : Zint.t -> Zint.t -> Zint.t -> traj search -> Zint.t list **)
 
-let times d a b tr =
-  times_until d a b (since d a tr) []
+let times d a b x =
+  times_until d a b (since d a x) []
 
 (** val union_acc :
     ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list -> 'a1 list **)
@@ -253,7 +323,7 @@ let rec all_less k l1 l2 =
      | [] -> false
      | r :: r2 -> if rat_over k q r then all_less k r1 r2 else false)
 
-type vertex = Zint.t * traj
+type vertex = Zint.t * traj search
 
 (** val separated :
     Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
@@ -309,29 +379,78 @@ let common_label x y =
      | None -> None)
   | None -> None
 
-(** val leaf : scene -> Zint.t -> vertex list **)
+(** val cell_ids : (Zint.t -> Zint.t) -> scene -> Zint.t -> Zint.t list **)
 
-let leaf s i =
+let cell_ids f s i =
   (fun f a l -> List.fold_right f l a) (fun v acc ->
-    union fst ((v, (s.path v)) :: []) acc) [] (s.cell i)
+    union (fun u -> u) ((f v) :: []) acc) [] (s.cell i)
 
-(** val build : scene -> group -> tree option **)
+(** val group_ids : (Zint.t -> Zint.t) -> scene -> group -> Zint.t list **)
 
-let rec build s = function
+let rec group_ids f s = function
+| Cell i -> cell_ids f s i
+| Join (l, r) -> union (fun u -> u) (group_ids f s l) (group_ids f s r)
+
+(** val wf_vertex : scene -> Zint.t -> bool **)
+
+let wf_vertex s v =
+  (&&) (wf_traj s.tbeg s.tend (s.path v))
+    ((||) (Zint.equal (s.same v) v)
+      (equal_traj (s.path (s.same v)) (s.path v)))
+
+(** val vertices :
+    scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex
+    search) list **)
+
+let rec vertices s ids acc =
+  match ids with
+  | [] -> List.rev_append acc []
+  | v :: r -> vertices s r ((v, (Found (v, (index (s.path v))))) :: acc)
+
+(** val look_up : vertex search -> Zint.t -> vertex option **)
+
+let look_up table v =
+  let w = find (fun k -> Zint.leq k v) table in
+  if Zint.equal (fst w) v then Some w else None
+
+(** val look_up_all : vertex search -> Zint.t list -> vertex list option **)
+
+let rec look_up_all table = function
+| [] -> Some []
+| v :: r ->
+  (match look_up table v with
+   | Some w ->
+     (match look_up_all table r with
+      | Some l -> Some (w :: l)
+      | None -> None)
+   | None -> None)
+
+(** val build_from : vertex search -> scene -> group -> tree option **)
+
+let rec build_from table s = function
 | Cell i ->
-  let vs = leaf s i in
-  if List.for_all (fun w -> wf_traj s.tbeg s.tend (snd w)) vs
-  then Some (Leaf ((s.label i), vs))
-  else None
+  (match look_up_all table (cell_ids s.same s i) with
+   | Some vs -> Some (Leaf ((s.label i), vs))
+   | None -> None)
 | Join (l, r) ->
-  (match build s l with
+  (match build_from table s l with
    | Some x ->
-     (match build s r with
+     (match build_from table s r with
       | Some y ->
         Some (Node ((common_label x y), (union fst (verts x) (verts y)), x,
           y))
       | None -> None)
    | None -> None)
+
+(** val build : scene -> group -> tree option **)
+
+let build s g =
+  if List.for_all (wf_vertex s) (group_ids (fun v -> v) s g)
+  then let ids = group_ids s.same s g in
+       (match join_all ids (vertices s ids []) with
+        | Some table -> build_from table s g
+        | None -> None)
+  else None
 
 (** val ids_of : group -> Zint.t list **)
 
@@ -391,32 +510,60 @@ let rec nth_id k = function
   then Some (fst w)
   else nth_id (Zint.sub k Zint.one) r
 
+(** val in_cell : scene -> Zint.t -> Zint.t -> bool **)
+
+let in_cell s i v =
+  (&&) ((&&) (Zint.leq Zint.zero i) (Zint.lt i s.ncell))
+    (List.exists (fun u -> Zint.equal (s.same u) v) (s.cell i))
+
+(** val way_end :
+    scene -> Zint.t -> Zint.t -> (Zint.t * Zint.t) list -> Zint.t option **)
+
+let rec way_end s n v = function
+| [] -> Some v
+| p :: r ->
+  let (i, u) = p in
+  if (&&) ((&&) (Zint.lt Zint.zero n) (in_cell s i v)) (in_cell s i u)
+  then way_end s (Zint.sub n Zint.one) u r
+  else None
+
+type mode =
+| Distance
+| Far
+| Disjoint
+
 type obligation =
-| Pair of tree * tree * Zint.t * Zint.t * Zint.t
-| Self of tree * Zint.t * Zint.t * Zint.t
+| Pair of tree * tree * mode * Zint.t * Zint.t * Zint.t
+| Self of tree * mode * Zint.t * Zint.t * Zint.t
+
+(** val least : scene -> mode -> Zint.t **)
+
+let least s = function
+| Disjoint -> Zint.zero
+| _ -> s.eta
 
 (** val step_pair :
-    scene -> tree -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-    token -> obligation list option **)
+    scene -> tree -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+    list -> token -> obligation list option **)
 
-let step_pair s x y a b d k = function
+let step_pair s x y o a b d k = function
 | THalve ->
   if Zint.lt d Zint.d_max
   then let m = Zint.add a b in
        let d2 = Zint.add d d in
-       Some ((Pair (x, y, (Zint.add a a), m, d2)) :: ((Pair (x, y, m,
+       Some ((Pair (x, y, o, (Zint.add a a), m, d2)) :: ((Pair (x, y, o, m,
        (Zint.add b b), d2)) :: k))
   else None
 | TLeft ->
   (match x with
    | Leaf (_, _) -> None
    | Node (_, _, l, r) ->
-     Some ((Pair (l, y, a, b, d)) :: ((Pair (r, y, a, b, d)) :: k)))
+     Some ((Pair (l, y, o, a, b, d)) :: ((Pair (r, y, o, a, b, d)) :: k)))
 | TRight ->
   (match y with
    | Leaf (_, _) -> None
    | Node (_, _, l, r) ->
-     Some ((Pair (x, l, a, b, d)) :: ((Pair (x, r, a, b, d)) :: k)))
+     Some ((Pair (x, l, o, a, b, d)) :: ((Pair (x, r, o, a, b, d)) :: k)))
 | TDrop i ->
   (match x with
    | Leaf (l, p) ->
@@ -424,13 +571,41 @@ let step_pair s x y a b d k = function
       | Leaf (m, q) ->
         (match nth_id i (List.filter (fun w -> has (fst w) q) p) with
          | Some v ->
-           Some ((Pair ((Leaf (l, (without v p))), y, a, b, d)) :: ((Pair (x,
-             (Leaf (m, (without v q))), a, b, d)) :: k))
+           Some ((Pair ((Leaf (l, (without v p))), y, o, a, b, d)) :: ((Pair
+             (x, (Leaf (m, (without v q))), o, a, b, d)) :: k))
          | None -> None)
       | Node (_, _, _, _) -> None)
    | Node (_, _, _, _) -> None)
+| TRing (v, w) ->
+  (match x with
+   | Leaf (l, p) ->
+     (match y with
+      | Leaf (m, q) ->
+        (match way_end s (Zint.sub s.ring Zint.one) v w with
+         | Some u ->
+           if (&&) (has v p) (has u q)
+           then let x' = Leaf (l, (without v p)) in
+                let y' = Leaf (m, (without u q)) in
+                (match o with
+                 | Distance ->
+                   Some ((Pair (x', y, o, a, b, d)) :: ((Pair (x, y', o, a,
+                     b, d)) :: ((Pair (x, y, Disjoint, a, b, d)) :: k)))
+                 | Far ->
+                   Some ((Pair (x', y, o, a, b, d)) :: ((Pair (x, y', o, a,
+                     b, d)) :: k))
+                 | Disjoint -> None)
+           else None
+         | None -> None)
+      | Node (_, _, _, _) -> None)
+   | Node (_, _, _, _) -> None)
+| TFar ->
+  (match o with
+   | Distance ->
+     Some ((Pair (x, y, Far, a, b, d)) :: ((Pair (x, y, Disjoint, a, b,
+       d)) :: k))
+   | _ -> None)
 | TPlane (h, w) ->
-  if wide s.eta h.normal w
+  if wide (least s o) h.normal w
   then if List.for_all (fun v -> inside h a b d (snd v)) (verts x)
        then let h' = behind h w in
             if List.for_all (fun v -> inside h' a b d (snd v)) (verts y)
@@ -439,8 +614,8 @@ let step_pair s x y a b d k = function
        else None
   else None
 | TDirection n ->
-  if separated (Zint.mul (Zint.mul s.eta s.eta) (dot n n)) n a b d (verts x)
-       (verts y)
+  let e = least s o in
+  if separated (Zint.mul (Zint.mul e e) (dot n n)) n a b d (verts x) (verts y)
   then Some k
   else None
 | TExcluded ->
@@ -448,15 +623,15 @@ let step_pair s x y a b d k = function
 | _ -> None
 
 (** val step_self :
-    bool -> scene -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-    token -> obligation list option **)
+    bool -> scene -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+    list -> token -> obligation list option **)
 
-let step_self strict s x a b d k = function
+let step_self strict s x o a b d k = function
 | THalve ->
   if Zint.lt d Zint.d_max
   then let m = Zint.add a b in
        let d2 = Zint.add d d in
-       Some ((Self (x, (Zint.add a a), m, d2)) :: ((Self (x, m,
+       Some ((Self (x, o, (Zint.add a a), m, d2)) :: ((Self (x, o, m,
        (Zint.add b b), d2)) :: k))
   else None
 | TExcluded ->
@@ -465,13 +640,13 @@ let step_self strict s x a b d k = function
   (match x with
    | Leaf (_, _) -> None
    | Node (_, _, l, r) ->
-     Some ((Self (l, a, b, d)) :: ((Pair (l, r, a, b, d)) :: ((Self (r, a, b,
-       d)) :: k))))
+     Some ((Self (l, o, a, b, d)) :: ((Pair (l, r, o, a, b, d)) :: ((Self (r,
+       o, a, b, d)) :: k))))
 | TOne ->
   (match x with
    | Leaf (_, _) -> if strict then None else Some k
    | Node (_, _, _, _) -> None)
-| TBoth -> Some ((Pair (x, x, a, b, d)) :: k)
+| TBoth -> Some ((Pair (x, x, o, a, b, d)) :: k)
 | _ -> None
 
 (** val step :
@@ -480,10 +655,10 @@ let step_self strict s x a b d k = function
 let step strict s st tok =
   match st with
   | [] -> None
-  | o :: k ->
-    (match o with
-     | Pair (x, y, a, b, d) -> step_pair s x y a b d k tok
-     | Self (x, a, b, d) -> step_self strict s x a b d k tok)
+  | o0 :: k ->
+    (match o0 with
+     | Pair (x, y, o, a, b, d) -> step_pair s x y o a b d k tok
+     | Self (x, o, a, b, d) -> step_self strict s x o a b d k tok)
 
 (** val run :
     bool -> scene -> obligation list -> token list -> obligation list option **)
@@ -499,10 +674,15 @@ let rec run strict s st = function
 
 let start s g =
   if (&&)
-       ((&&) ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero s.ncell))
-         (Zint.leq Zint.zero s.eta)) (covers s.ncell g)
+       ((&&)
+         ((&&) ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero s.ncell))
+           (Zint.leq Zint.zero s.eta)) (Zint.lt Zint.zero s.ring))
+       (covers s.ncell g)
   then (match build s g with
-        | Some x -> Some ((Self (x, s.tbeg, s.tend, Zint.one)) :: [])
+        | Some x ->
+          Some ((Self (x,
+            (if Zint.lt Zint.zero s.eta then Distance else Disjoint), s.tbeg,
+            s.tend, Zint.one)) :: [])
         | None -> None)
   else None
 

@@ -13,6 +13,8 @@ type token =
 | TLeft
 | TRight
 | TDrop of Zint.t
+| TRing of Zint.t * (Zint.t * Zint.t) list
+| TFar
 | TPlane of halfspace * Zint.t
 | TDirection of vec
 | TExcluded
@@ -24,7 +26,26 @@ val reaches : Zint.t -> Zint.t -> traj -> bool
 
 val wf_traj : Zint.t -> Zint.t -> traj -> bool
 
-val since : Zint.t -> Zint.t -> traj -> traj
+val equal_traj : traj -> traj -> bool
+
+type 'a search =
+| Found of 'a
+| Choose of Zint.t * 'a search * 'a search
+
+val find : (Zint.t -> bool) -> 'a1 search -> 'a1
+
+val join_pairs :
+  (Zint.t * 'a1 search) list -> (Zint.t * 'a1 search) list -> (Zint.t * 'a1
+  search) list
+
+val join_all : 'a2 list -> (Zint.t * 'a1 search) list -> 'a1 search option
+
+val suffixes :
+  traj -> (Zint.t * traj search) list -> (Zint.t * traj search) list
+
+val index : traj -> traj search
+
+val since : Zint.t -> Zint.t -> traj search -> traj
 
 val dot : vec -> vec -> Zint.t
 
@@ -42,7 +63,7 @@ val segment_positive :
 val inside_from :
   halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> traj -> bool
 
-val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj -> bool
+val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj search -> bool
 
 type rat = Zint.t * Zint.t
 
@@ -59,12 +80,13 @@ val along :
   list -> rat list -> rat list option
 
 val values :
-  vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj -> rat list option
+  vec -> Zint.t -> Zint.t -> Zint.t -> Zint.t list -> traj search -> rat list
+  option
 
 val times_until :
   Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list -> Zint.t list
 
-val times : Zint.t -> Zint.t -> Zint.t -> traj -> Zint.t list
+val times : Zint.t -> Zint.t -> Zint.t -> traj search -> Zint.t list
 
 val union_acc :
   ('a1 -> Zint.t) -> 'a1 list -> 'a1 list -> 'a1 list -> 'a1 list
@@ -77,7 +99,7 @@ val lower : rat list option -> rat list option -> rat list option
 
 val all_less : Zint.t -> rat list -> rat list -> bool
 
-type vertex = Zint.t * traj
+type vertex = Zint.t * traj search
 
 val separated :
   Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
@@ -93,7 +115,21 @@ val label_of : tree -> Zint.t option
 
 val common_label : tree -> tree -> Zint.t option
 
-val leaf : scene -> Zint.t -> vertex list
+val cell_ids : (Zint.t -> Zint.t) -> scene -> Zint.t -> Zint.t list
+
+val group_ids : (Zint.t -> Zint.t) -> scene -> group -> Zint.t list
+
+val wf_vertex : scene -> Zint.t -> bool
+
+val vertices :
+  scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex
+  search) list
+
+val look_up : vertex search -> Zint.t -> vertex option
+
+val look_up_all : vertex search -> Zint.t list -> vertex list option
+
+val build_from : vertex search -> scene -> group -> tree option
 
 val build : scene -> group -> tree option
 
@@ -115,17 +151,29 @@ val without : Zint.t -> vertex list -> vertex list
 
 val nth_id : Zint.t -> vertex list -> Zint.t option
 
+val in_cell : scene -> Zint.t -> Zint.t -> bool
+
+val way_end :
+  scene -> Zint.t -> Zint.t -> (Zint.t * Zint.t) list -> Zint.t option
+
+type mode =
+| Distance
+| Far
+| Disjoint
+
 type obligation =
-| Pair of tree * tree * Zint.t * Zint.t * Zint.t
-| Self of tree * Zint.t * Zint.t * Zint.t
+| Pair of tree * tree * mode * Zint.t * Zint.t * Zint.t
+| Self of tree * mode * Zint.t * Zint.t * Zint.t
+
+val least : scene -> mode -> Zint.t
 
 val step_pair :
-  scene -> tree -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-  token -> obligation list option
+  scene -> tree -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+  list -> token -> obligation list option
 
 val step_self :
-  bool -> scene -> tree -> Zint.t -> Zint.t -> Zint.t -> obligation list ->
-  token -> obligation list option
+  bool -> scene -> tree -> mode -> Zint.t -> Zint.t -> Zint.t -> obligation
+  list -> token -> obligation list option
 
 val step : bool -> scene -> obligation list -> token -> obligation list option
 

@@ -1,26 +1,52 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
 (* Extracted from Hit.v by build.sh --renew: not to be edited. *)
 open Checker
+open Poly
 open Spec
 
-type witness = { wc : Zint.t; wd : Zint.t; wi : Zint.t; wj : Zint.t;
-                 wp : (Zint.t * Zint.t) list; wq : (Zint.t * Zint.t) list }
+type witness = { wi : Zint.t; wj : Zint.t; wp : (Zint.t * poly) list;
+                 wq : (Zint.t * poly) list; wg : poly; wl : Zint.t;
+                 wu : Zint.t; wd : Zint.t }
 
-val value_at : vec -> Zint.t -> Zint.t -> traj -> rat option
+type segment = { time0 : Zint.t; place0 : vec; time1 : Zint.t; place1 : vec }
 
-val rat_add : rat -> rat -> rat
+val segment_of : Zint.t -> Zint.t -> Zint.t -> traj -> segment option
 
-val total : (Zint.t * Zint.t) list -> Zint.t
+type side = (poly * segment) list
 
-val moment :
-  scene -> vec -> Zint.t -> Zint.t -> (Zint.t * Zint.t) list -> rat option
+val side_of :
+  scene -> Zint.t -> Zint.t -> Zint.t -> (Zint.t * poly) list -> side option
 
-val square_in : scene -> witness -> vec -> rat option
+val line : vec -> segment -> poly
 
-val near : scene -> witness -> bool
+val duration : segment -> Zint.t
+
+val durations : side -> Zint.t
+
+val total : side -> poly
+
+val moment : vec -> side -> poly
+
+val difference : vec -> side -> side -> poly
+
+val meet : poly -> side -> side -> bool
+
+val nearness : Zint.t -> side -> side -> poly
+
+val nonnegative_at : Zint.t -> Zint.t -> Zint.t -> poly -> poly -> bool
 
 val member : Zint.t -> Zint.t list -> bool
 
-val side_ok : scene -> Zint.t -> (Zint.t * Zint.t) list -> bool
+val side_ok :
+  scene -> Zint.t -> Zint.t -> Zint.t -> poly -> Zint.t -> (Zint.t * poly)
+  list -> bool
+
+val grown : scene -> Zint.t list -> Zint.t list
+
+val merged : scene -> (Zint.t * poly) list -> Zint.t list
+
+val disjoint : Zint.t list -> Zint.t list -> bool
+
+val far_apart : scene -> Zint.t list -> Zint.t list -> bool
 
 val check_hit : bool -> scene -> witness -> bool

@@ -6,6 +6,7 @@ type vec = { vx : Zint.t; vy : Zint.t; vz : Zint.t }
 type traj = (Zint.t * vec) list
 
 type scene = { tbeg : Zint.t; tend : Zint.t; path : (Zint.t -> traj);
-               ncell : Zint.t; cell : (Zint.t -> Zint.t list);
-               label : (Zint.t -> Zint.t); excluded : (Zint.t * Zint.t) list;
-               eta : Zint.t }
+               same : (Zint.t -> Zint.t); ncell : Zint.t;
+               cell : (Zint.t -> Zint.t list); label : (Zint.t -> Zint.t);
+               excluded : (Zint.t * Zint.t) list; eta : Zint.t; ring : 
+               Zint.t }
