@@ -15,7 +15,7 @@
     breakpoints in the interval; of [start], all breakpoints once, and the sorting of ids.
 
     Not here: reading bytes, and bounds for the lengths of what is read.  The tree
-    is recursed over, so that a reader has to bound its depth; and the length of a way, by the ring. *)
+    is recursed over, so that a reader has to bound its depth. *)
 Require Import ZArith List Bool.
 From Noli Require Import Spec.
 Import ListNotations.
@@ -29,12 +29,15 @@ Inductive group := Cell (i : Z) | Join (l r : group).
 (** The half of space-time where  n.p + nt t - nd > 0, for a position p at time t. *)
 Record halfspace := HalfSpace { normal : vec; nt : Z; nd : Z }.
 
+(** A way from one vertex to another over edges: each step is a cell, and the next vertex in it. *)
+Definition way : Type := list (Z * Z).
+
 Inductive token :=
 | THalve                            (* T  any:  both halves of the interval                          *)
 | TLeft                             (* L  pair: each of the two parts of the first group             *)
 | TRight                            (* R  pair: each of the two parts of the second group            *)
 | TDrop (k : Z)                     (* D  two cells: without their k-th common vertex, first, second *)
-| TRing (v : Z) (w : list (Z * Z))  (* W  two cells: without an end of a short way, and disjoint     *)
+| TRing (v : Z) (ws : list way)     (* W  two cells: without v, without the ends of ways from v      *)
 | TFar                              (* G  pair: far first, disjoint second                           *)
 | TPlane (h : halfspace) (w : Z)    (* P  pair: the first group is in h, the second w behind it      *)
 | TDirection (n : vec)              (* S  pair: the first group is always further in direction n     *)
@@ -450,12 +453,27 @@ Fixpoint nth_id (k : Z) (l : list vertex) : option Z :=
 Definition in_cell (s : scene) (i v : Z) : bool :=
   (0 <=? i) && (i <? ncell s) && existsb (fun u => same s u =? v) (cell s i).
 
-(** Where the way [w] leads from [v] in at most [n] steps: a step is a cell, and the next vertex in it. *)
-Fixpoint way_end (s : scene) (n v : Z) (w : list (Z * Z)) : option Z :=
+(** Where the way [w] leads from [v] in at most [n] steps. *)
+Fixpoint way_end (s : scene) (n v : Z) (w : way) : option Z :=
   match w with
   | [] => Some v
   | (i, u) :: r => if (0 <? n) && in_cell s i v && in_cell s i u then way_end s (n - 1) u r else None
   end.
+
+(** Where several ways lead from [v]. *)
+Fixpoint way_ends (s : scene) (n v : Z) (ws : list way) : option (list Z) :=
+  match ws with
+  | [] => Some []
+  | w :: r =>
+      match way_end s n v w, way_ends s n v r with
+      | Some u, Some l => Some (u :: l)
+      | _, _ => None
+      end
+  end.
+
+(** A list without several vertices. *)
+Definition without_all (us : list Z) (l : list vertex) : list vertex :=
+  filter (fun w => negb (existsb (fun u => u =? fst w) us)) l.
 
 (** ** The stack *)
 
@@ -519,14 +537,14 @@ Definition step_pair (x y : tree) (o : mode) (a b d : Z) (k : list obligation) (
           end
       | _, _ => None
       end
-  | TRing v w =>
+  | TRing v ws =>
       match x, y with
       | Leaf l p, Leaf m q =>
-          match way_end s (ring s - 1) v w with
-          | Some u =>
-              if has v p && has u q then
+          match way_ends s (ring s - 1) v ws with
+          | Some us =>
+              if has v p && forallb (fun u => has u q) us then
                 let x' := Leaf l (without v p) in
-                let y' := Leaf m (without u q) in
+                let y' := Leaf m (without_all us q) in
                 match o with
                 | Distance => Some (Pair x' y o a b d :: Pair x y' o a b d :: Pair x y Disjoint a b d :: k)
                 | Far => Some (Pair x' y o a b d :: Pair x y' o a b d :: k)

@@ -110,7 +110,8 @@ Lemma no_cross_second : lax (cross 2) tri_first (close (TDirection down)) = fals
 Definition zigzag : traj := [(0, V3 0 0 0); (1, V3 0 0 9); (2, V3 0 0 0); (3, V3 0 0 9)].
 Definition values_of a b cs := values up a b 1 cs (index zigzag).
 Lemma ok_values : values_of 0 3 [0; 1; 2; 3] = Some [(0, 1); (9, 1); (0, 1); (9, 1)]. Proof. computed. Qed.
-Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] (index zigzag) = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
+Lemma ok_values_between : values up 1 5 2 [1; 2; 3; 4; 5] (index zigzag)
+  = Some [(9, 2); (9, 1); (9, 2); (0, 1); (9, 2)].
 Proof. computed. Qed.
 Lemma no_values_breakpoint : values_of 0 3 [0; 1; 3] = None. Proof. computed. Qed.
 Lemma no_values_order : values_of 0 3 [0; 1; 0; 1; 2; 3] = None. Proof. computed. Qed.
@@ -280,16 +281,16 @@ Definition root := Leaf 0 [(0, index (at_rest (V3 0 0 0)))].
 Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) Distance 0 4 1].
 Definition on_self := step false row [Self (Node None [] root root) Distance 0 4 1].
 Definition refused (o : option (list obligation)) := match o with None => true | Some _ => false end.
-Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0; TRing 0 []] = true.
+Lemma no_token_on_pair : forallb (fun tok => refused (on_pair tok)) [TParts; TOne; TBoth; TDrop 0; TRing 0 [[]]] = true.
 Proof. computed. Qed.
 Lemma no_token_on_self :
   forallb (fun tok => refused (on_self tok))
-  [TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 0; TDirection up] = true.
+  [TLeft; TRight; TDrop 0; TRing 0 [[]]; TFar; above 0; TDirection up] = true.
 Proof. computed. Qed.
 
 (** The stack: tokens after the last obligation, and obligations after the last token. *)
 Lemma no_more_tokens : forallb (fun tok => negb (lax (fall 2) point_first (close (above 1) ++ [tok])))
-  [THalve; TLeft; TRight; TDrop 0; TRing 0 []; TFar; above 1; TDirection up; TExcluded; TParts; TOne; TBoth] = true.
+  [THalve; TLeft; TRight; TDrop 0; TRing 0 [[]]; TFar; above 1; TDirection up; TExcluded; TParts; TOne; TBoth] = true.
 Proof. computed. Qed.
 Lemma no_tokens : lax (fall 2) point_first [] = false. Proof. computed. Qed.
 Lemma no_token_less : lax (fall 2) point_first [TParts; TOne; above 1] = false. Proof. computed. Qed.
@@ -559,8 +560,8 @@ Definition links_with next far :=
   [TParts; TParts; TOne] ++ next 0 ++ [TOne; TLeft] ++ far ++ next 1 ++ [TOne].
 (** Of neighbouring cells, the vertices i and i+2 are at distance 6; of the two others, 0 and 2, and 1 and 3. *)
 Definition next i :=
-  [TDrop 0; TRing i [(i, i + 1)]; nothing; west; west; TRing (i + 1) [(i + 1, i + 2)]; west; nothing; west].
-Definition other := [TRing 1 [(1, 2)]; west; west; west].
+  [TDrop 0; TRing i [[(i, i + 1)]]; nothing; west; west; TRing (i + 1) [[(i + 1, i + 2)]]; west; nothing; west].
+Definition other := [TRing 1 [[(1, 2)]]; west; west; west].
 Definition linked e k := lax (links e k) row_left (links_with next other).
 Lemma ok_ring : linked 5 2 = true. Proof. computed. Qed.
 Theorem safe_ring : never_touch false (links 5 2).
@@ -573,22 +574,30 @@ Lemma no_ring_0 : start (links 5 0) row_left = None. Proof. computed. Qed.
 Lemma no_ring_negative : start (links 0 (-1)) row_left = None. Proof. computed. Qed.
 (** A way of no steps does what D does. *)
 Definition next_by_none i :=
-  [TRing (i + 1) []; TRing i [(i, i + 1)]; nothing; west; west; TRing (i + 1) [(i + 1, i + 2)]; west; nothing; west;
-   TDrop 0; west; west].
+  [TRing (i + 1) [[]]; TRing i [[(i, i + 1)]]; nothing; west; west; TRing (i + 1) [[(i + 1, i + 2)]]; west; nothing;
+   west; TDrop 0; west; west].
 Lemma ok_ring_none : lax (links 5 2) row_left (links_with next_by_none other) = true. Proof. computed. Qed.
 (** Ways of two steps: nothing of neighbouring cells is far, and of the others only 0 and 3.  What is
     disjoint is shown once, after G. *)
 Definition next_two i :=
-  [TFar; TRing i [(i, i + 1); (i + 1, i + 2)];
-   TRing (i + 1) []; nothing; TRing (i + 1) [(i + 1, i + 2)]; nothing; nothing;
-   TRing (i + 1) []; TRing i [(i, i + 1)]; nothing; nothing; nothing; TDrop 0; west; west].
+  [TFar; TRing i [[(i, i + 1); (i + 1, i + 2)]];
+   TRing (i + 1) [[]]; nothing; TRing (i + 1) [[(i + 1, i + 2)]]; nothing; nothing;
+   TRing (i + 1) [[]]; TRing i [[(i, i + 1)]]; nothing; nothing; nothing; TDrop 0; west; west].
 Definition other_two :=
-  [TFar; TRing 1 [(1, 2)]; TRing 0 [(0, 1); (1, 2)]; nothing; west; TRing 1 [(1, 2); (2, 3)]; west; nothing; west].
+  [TFar; TRing 1 [[(1, 2)]]; TRing 0 [[(0, 1); (1, 2)]]; nothing; west; TRing 1 [[(1, 2); (2, 3)]]; west;
+   nothing; west].
 Definition linked_two e k := lax (links e k) row_left (links_with next_two other_two).
 Lemma ok_ring_two : linked_two 8 3 = true. Proof. computed. Qed.
 Lemma no_ring_two_eta : linked_two 9 3 = false. Proof. computed. Qed.
 Lemma no_ring_two_eta_0 : linked_two 0 3 = false. Proof. computed. Qed.
 Lemma no_ring_two : linked_two 8 2 = false. Proof. computed. Qed.
+(** Several ways from one vertex at once. *)
+Definition next_ways i :=
+  [TFar; TRing i [[(i, i + 1)]; [(i, i + 1); (i + 1, i + 2)]];
+   TRing (i + 1) [[]; [(i + 1, i + 2)]]; nothing; nothing; nothing; TDrop 0; west; west].
+Lemma ok_ways : lax (links 8 3) row_left (links_with next_ways other_two) = true. Proof. computed. Qed.
+Lemma no_ways_too_long : lax (links 5 2) row_left (links_with next_ways other) = false. Proof. computed. Qed.
+Lemma no_ways_eta : lax (links 9 3) row_left (links_with next_ways other_two) = false. Proof. computed. Qed.
 (** However near neighbours may be, they are to be disjoint. *)
 Definition folded k :=
   let s := links 5 k in
@@ -597,7 +606,7 @@ Lemma no_ring_folded : forallb (fun t => negb (lax (folded 4) row_left t))
   [links_with next other; links_with next_two other_two] = true. Proof. computed. Qed.
 
 (** Each condition of W alone. *)
-Definition by_way k v w := lax (links 5 k) row_left (links_with next [TRing v w; west; west; west]).
+Definition by_way k v w := lax (links 5 k) row_left (links_with next [TRing v [w]; west; west; west]).
 Lemma ok_way : by_way 2 1 [(1, 2)] = true. Proof. computed. Qed.
 Lemma ok_way_longer : by_way 3 1 [(0, 1); (1, 2)] = true. Proof. computed. Qed.
 Lemma ok_way_back : by_way 4 1 [(0, 0); (0, 1); (1, 2)] = true. Proof. computed. Qed.
@@ -610,17 +619,23 @@ Lemma no_way_cell_negative : way_end (links 5 9) 5 1 [(0, 0); (-1, -1)] = None. 
 Definition on_cells o tok := step false (links 5 9)
   [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 [(2, index []); (3, index [])]) o 0 4 1] tok.
 Definition left_over (o : option (list obligation)) := match o with None => -1 | Some l => Z.of_nat (length l) end.
-Lemma ok_modes : map (fun o => (left_over (on_cells o (TRing 1 [(1, 2)])), left_over (on_cells o TFar)))
+Lemma ok_modes : map (fun o => (left_over (on_cells o (TRing 1 [[(1, 2)]])), left_over (on_cells o TFar)))
   [Distance; Far; Disjoint] = [(3, 2); (2, -1); (-1, -1)]. Proof. computed. Qed.
-Lemma no_way_begin : on_cells Far (TRing 2 []) = None. Proof. computed. Qed.
-Lemma no_way_end : on_cells Far (TRing 1 []) = None. Proof. computed. Qed.
-Lemma no_way_leaf : forallb (fun o => refused (step false (links 5 9) [o] (TRing 0 [])))
+Lemma no_way_begin : on_cells Far (TRing 2 [[]]) = None. Proof. computed. Qed.
+Lemma no_way_end : on_cells Far (TRing 1 [[]]) = None. Proof. computed. Qed.
+Lemma ok_way_ends : on_cells Far (TRing 1 [[(1, 2)]; [(1, 2); (2, 3)]]) = Some
+  [Pair (Leaf 0 [(0, index [])]) (Leaf 2 [(2, index []); (3, index [])]) Far 0 4 1;
+   Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 []) Far 0 4 1]. Proof. computed. Qed.
+Lemma no_way_end_among : on_cells Far (TRing 1 [[(1, 2)]; [(0, 0)]]) = None. Proof. computed. Qed.
+Lemma no_way_among : on_cells Far (TRing 1 [[(1, 2)]; [(1, 2); (1, 3)]]) = None. Proof. computed. Qed.
+Lemma ok_way_no_end : left_over (on_cells Far (TRing 1 [])) = 2. Proof. computed. Qed.
+Lemma no_way_leaf : forallb (fun o => refused (step false (links 5 9) [o] (TRing 0 [[]])))
   [Pair (Node None [] root root) root Distance 0 4 1; Pair root (Node None [] root root) Distance 0 4 1] = true.
 Proof. computed. Qed.
 (** A way leads through merged vertices: 1 and 11, 2 and 12 at the seam are one each. *)
 Definition by_seam f w := step false (let s := seam f (path hinge 2) in
     Scene 0 4 (path s) (same s) 2 (cell s) (label s) [] 5 3)
-  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 1 [(3, index [])]) Far 0 4 1] (TRing 0 w).
+  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 1 [(3, index [])]) Far 0 4 1] (TRing 0 [w]).
 Lemma ok_way_same : left_over (by_seam to_first [(0, 1); (1, 3)]) = 2. Proof. computed. Qed.
 Lemma no_way_same : by_seam (fun v => v) [(0, 1); (1, 3)] = None. Proof. computed. Qed.
 Lemma no_way_same_other : by_seam to_first [(0, 11); (1, 3)] = None. Proof. computed. Qed.

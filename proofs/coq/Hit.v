@@ -14,6 +14,9 @@
     Notation: the interval is [l/d, u/d], and [l], [u], [d] are the witness's [wl], [wu],
     [wd]; a side is a list of weights with the segments of their vertices' trajectories.
 
+    Cost: polynomials are of the degree of the weights and some more; [far_apart] goes through
+    all cells [ring]-1 times, so that a reader has to bound the ring.
+
     Not here: that a contact is the first, and that [g] has one root only: all that is shown
     is true at each of its roots in the interval. *)
 Require Import ZArith List Bool Reals Lra Lia.

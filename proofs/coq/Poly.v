@@ -171,7 +171,8 @@ Proof.
   rewrite A1, A2, B1, B3, B4, form_scale, V2. repeat split; try lia.
   - unfold scale. rewrite map_length. lia.
   - replace (_ * (_ + _)) with
-      (IZR d * (IZR c * IZR d ^ length p) + (IZR l * x + IZR u * y) * (IZR d * form x y (fst fe))) by ring. rewrite V1, <- T. ring.
+      (IZR d * (IZR c * IZR d ^ length p) + (IZR l * x + IZR u * y) * (IZR d * form x y (fst fe)))
+      by ring. rewrite V1, <- T. ring.
   - replace (_ + _) with (IZR d * (x + y)) by ring. rewrite X. ring.
 Qed.
 

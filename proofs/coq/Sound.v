@@ -2,9 +2,9 @@
 (** * The checker is right: what it accepts never touches
 
     The theorems: [check_sound] and [check_well_formed], at the end, and for streams
-    [run_app].  The way there: a trajectory from a time on (1), half
-    spaces (2), directions (3), hulls (4), obligations (5), one token (6), the tree
-    over the cells (7).
+    [run_app].  The way there: a trajectory from a time on, and the search for it (1), half
+    spaces (2), directions (3), hulls (4), obligations, and what is near (5), one token (6),
+    the tree over the cells, and the vertices in it (7).
 
     Notation: [t] is a real time; [D] is the real number of the denominator [d], so
     that [a/d <= t] is written [IZR a <= t * D]; [f] and [g] are real functions of
@@ -838,15 +838,17 @@ Proof.
      destruct (H2 t A B S U IS (incl_filter _ _ _ IU V) x y HS HU)]; auto.
 Qed.
 
-(** W: of two features that are far, one does not have an end of a short way. *)
-Lemma Apart_ring a b d u v P Q : within s (Z.to_nat (ring s - 1)) v u ->
+(** W: of two features that are far, one does not have [v], or the other no end of a way from [v]. *)
+Lemma Apart_ring a b d us v P Q : (forall u, In u us -> within s (Z.to_nat (ring s - 1)) v u) ->
   Apart Far a b d (filter (fun w => negb (w =? v)%Z) P) Q ->
-  Apart Far a b d P (filter (fun w => negb (w =? u)%Z) Q) -> Apart Far a b d P Q.
+  Apart Far a b d P (filter (fun w => negb (existsb (fun u => (u =? w)%Z) us)) Q) -> Apart Far a b d P Q.
 Proof.
   intros W H1 H2 t A B S U IS IU x y HS HU. split; intros N F; [contradiction|].
   destruct (in_dec Z.eq_dec v S) as [V|V].
-  - assert (~ In u U) as V' by (intros V'; now apply (F v u)).
-    destruct (H2 t A B S U IS (incl_filter _ _ _ IU V') x y HS HU); auto.
+  - assert (incl U (filter (fun w => negb (existsb (fun u => (u =? w)%Z) us)) Q)) as I.
+    { intros w Hw. apply filter_In. split; auto. destruct (existsb _ us) eqn:E; auto. exfalso.
+      apply existsb_exists in E as (u & Hu & E). apply Z.eqb_eq in E as ->. apply (F v w); auto. }
+    destruct (H2 t A B S U IS I x y HS HU); auto.
   - destruct (H1 t A B S U (incl_filter _ _ _ IS V) IU x y HS HU); auto.
 Qed.
 
@@ -882,16 +884,33 @@ Proof.
     now exists i.
 Qed.
 
+Lemma way_ends_sound ws n v : forall us, way_ends s n v ws = Some us ->
+  forall u, In u us -> within s (Z.to_nat n) v u.
+Proof.
+  induction ws as [|w ws IH]; cbn [way_ends]; intros us.
+  - intros [= <-]. easy.
+  - destruct (way_end s n v w) as [u|] eqn:E; [|discriminate].
+    destruct (way_ends s n v ws) as [l|]; [|discriminate]. intros [= <-] u' [<-|H]; eauto.
+    now apply way_end_sound with w.
+Qed.
+
 Lemma without_ids v p : map fst (without v p) = filter (fun u => negb (u =? v)%Z) (map fst p).
 Proof.
   unfold without; induction p as [|w p IH]; cbn; auto.
   destruct (fst w =? v)%Z; cbn; now rewrite IH.
 Qed.
 
+Lemma without_all_ids us p :
+  map fst (without_all us p) = filter (fun w => negb (existsb (fun u => (u =? w)%Z) us)) (map fst p).
+Proof.
+  unfold without_all; induction p as [|w p IH]; cbn; auto.
+  destruct (existsb _ us); cbn; now rewrite IH.
+Qed.
+
 Lemma inv_verts x : inv x -> Forall resolved (verts x).
 Proof. destruct x; cbn; tauto. Qed.
 
-Lemma inv_without v p : Forall resolved p -> Forall resolved (without v p).
+Lemma inv_filter f p : Forall resolved p -> Forall resolved (filter f p).
 Proof. rewrite !Forall_forall; intros H w I; apply filter_In in I; now apply H. Qed.
 
 (** A node has the vertices of its cells. *)
@@ -1020,7 +1039,7 @@ Ltac on_forallb l F := match goal with
 Lemma step_pair_sound x y o a b d k tok st' :
   step_pair s x y o a b d k tok = Some st' -> Forall holds st' -> Forall holds (Pair x y o a b d :: k).
 Proof.
-  destruct tok as [| | |i|v w| |h w|n| | | |]; cbn [step_pair]; try discriminate.
+  destruct tok as [| | |i|v ws| |h w|n| | | |]; cbn [step_pair]; try discriminate.
   - (* THalve *)
     destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D Ix Iy P Q HP HQ. apply Claimed_halves; [apply H|apply H0]; auto; lia.
@@ -1037,20 +1056,23 @@ Proof.
     destruct (nth_id _ _) as [v|]; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn in *. intros D Ix Iy P Q [<-|[]] [<-|[]] E. cbn in *.
     apply Apart_drop with v; rewrite <- without_ids.
-    + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
-    + apply (H0 D Ix (inv_without v q Iy) (l, vids p) (m, vids (without v q))); cbn; auto.
+    + apply (H D (inv_filter _ p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
+    + apply (H0 D Ix (inv_filter _ q Iy) (l, vids p) (m, vids (without v q))); cbn; auto.
   - (* TRing *)
     destruct x as [l p|]; [|discriminate]. destruct y as [m q|]; [|discriminate].
-    destruct (way_end _ _ _ _) as [u|] eqn:W; [|discriminate]. apply way_end_sound in W.
+    destruct (way_ends _ _ _ _) as [us|] eqn:W; [|discriminate].
     destruct (_ && _)%bool; [|discriminate]. cbn zeta.
     assert (Forall resolved p -> Forall resolved q -> (0 < d)%Z ->
       holds (Pair (Leaf l (without v p)) (Leaf m q) Far a b d) ->
-      holds (Pair (Leaf l p) (Leaf m (without u q)) Far a b d) ->
+      holds (Pair (Leaf l p) (Leaf m (without_all us q)) Far a b d) ->
       PairApart Far a b d (Leaf l p) (Leaf m q)) as R.
     { intros Ix Iy D H H0. cbn in *. intros P Q [<-|[]] [<-|[]] E. cbn in *.
-      apply Apart_ring with u v; auto; rewrite <- without_ids.
-      + apply (H D (inv_without v p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
-      + apply (H0 D Ix (inv_without u q Iy) (l, vids p) (m, vids (without u q))); cbn; auto. }
+      apply Apart_ring with us v.
+      + intros u Hu. now apply (way_ends_sound ws _ _ us).
+      + rewrite <- without_ids.
+        apply (H D (inv_filter _ p Ix) Iy (l, vids (without v p)) (m, vids q)); cbn; auto.
+      + rewrite <- without_all_ids.
+        apply (H0 D Ix (inv_filter _ q Iy) (l, vids p) (m, vids (without_all us q))); cbn; auto. }
     assert (forall x y, holds (Pair x y Distance a b d) -> holds (Pair x y Far a b d)) as R'.
     { intros x y H D Ix Iy P Q HP HQ E. apply Apart_far. now apply H. }
     destruct o; [| |discriminate]; intros [= <-] F; heads F; constructor; auto; intros D Ix Iy.
@@ -1073,7 +1095,7 @@ Qed.
 Lemma step_self_sound x o a b d k tok st' :
   step_self strict s x o a b d k tok = Some st' -> Forall holds st' -> Forall holds (Self x o a b d :: k).
 Proof.
-  destruct tok as [| | |i|v w| |h w|n| | | |]; cbn [step_self]; try discriminate.
+  destruct tok as [| | |i|v ws| |h w|n| | | |]; cbn [step_self]; try discriminate.
   - (* THalve *)
     destruct (d <? d_max)%Z; [|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D I. apply self_halves; [apply H|apply H0]; auto; lia.

@@ -23,7 +23,7 @@ Definition traj := list (Z * vec).
     has a label, and [excluded] lists the unordered pairs of labels about which nothing is
     claimed.  Vertices that are always at one place may be merged: [same] gives for each the one
     that stands for it.  Things are to be more than [eta] apart; [eta] = 0 says that they do not
-    touch.  Of things with less than [ring] edges between them, only that is claimed in any case. *)
+    touch, and of things with fewer than [ring] edges between them only that is said. *)
 Record scene := Scene {
   tbeg     : Z;              (* the claim begins here    *)
   tend     : Z;              (* and ends here            *)
@@ -34,7 +34,7 @@ Record scene := Scene {
   label    : Z -> Z;         (* label of a cell          *)
   excluded : list (Z * Z);   (* unordered pairs          *)
   eta      : Z;              (* least distance, or 0     *)
-  ring     : Z               (* edges from where it does *)
+  ring     : Z               (* as many edges, then eta  *)
 }.
 
 (** ** Scenes that make sense: a claim is proved of no other *)
@@ -67,7 +67,7 @@ Definition well_formed (s : scene) : Prop :=
 (** Two lists of vertex ids have none in common. *)
 Definition disjoint_ids (P Q : list Z) : Prop := forall v, In v P -> ~ In v Q.
 
-(** Two vertices are joined by an edge if there is a cell that has both. *)
+(** Two vertices are joined by an edge if there is a cell that has both, after merging. *)
 Definition joined (s : scene) (u v : Z) : Prop :=
   exists i, 0 <= i < ncell s /\ In u (map (same s) (cell s i)) /\ In v (map (same s) (cell s i)).
 
@@ -137,8 +137,8 @@ Definition dist2 (p q : pt) : R := (px p - px q) ^ 2 + (py p - py q) ^ 2 + (pz p
 Definition is_excluded (s : scene) (l m : Z) : Prop := In (l, m) (excluded s) \/ In (m, l) (excluded s).
 
 (** At all times of the interval, a feature of a cell [i] and a feature of a cell [j] that share
-    no vertex, after merging, have no point in common, and if there are at least [ring] edges
-    between them, they are more than [eta] apart; if the labels of [i] and [j] are not excluded.
+    no vertex, after merging, have no point in common; and if there are at least [ring] edges
+    between them, they are more than [eta] apart; unless the labels of [i] and [j] are excluded.
     This is said of two different cells and, if [strict], also of two features of one cell. *)
 Definition never_touch (strict : bool) (s : scene) : Prop :=
   forall t, IZR (tbeg s) <= t <= IZR (tend s) ->

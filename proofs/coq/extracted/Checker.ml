@@ -8,12 +8,14 @@ type group =
 
 type halfspace = { normal : vec; nt : Zint.t; nd : Zint.t }
 
+type way = (Zint.t * Zint.t) list
+
 type token =
 | THalve
 | TLeft
 | TRight
 | TDrop of Zint.t
-| TRing of Zint.t * (Zint.t * Zint.t) list
+| TRing of Zint.t * way list
 | TFar
 | TPlane of halfspace * Zint.t
 | TDirection of vec
@@ -516,8 +518,7 @@ let in_cell s i v =
   (&&) ((&&) (Zint.leq Zint.zero i) (Zint.lt i s.ncell))
     (List.exists (fun u -> Zint.equal (s.same u) v) (s.cell i))
 
-(** val way_end :
-    scene -> Zint.t -> Zint.t -> (Zint.t * Zint.t) list -> Zint.t option **)
+(** val way_end : scene -> Zint.t -> Zint.t -> way -> Zint.t option **)
 
 let rec way_end s n v = function
 | [] -> Some v
@@ -526,6 +527,25 @@ let rec way_end s n v = function
   if (&&) ((&&) (Zint.lt Zint.zero n) (in_cell s i v)) (in_cell s i u)
   then way_end s (Zint.sub n Zint.one) u r
   else None
+
+(** val way_ends :
+    scene -> Zint.t -> Zint.t -> way list -> Zint.t list option **)
+
+let rec way_ends s n v = function
+| [] -> Some []
+| w :: r ->
+  (match way_end s n v w with
+   | Some u ->
+     (match way_ends s n v r with
+      | Some l -> Some (u :: l)
+      | None -> None)
+   | None -> None)
+
+(** val without_all : Zint.t list -> vertex list -> vertex list **)
+
+let without_all us l =
+  List.filter (fun w -> not (List.exists (fun u -> Zint.equal u (fst w)) us))
+    l
 
 type mode =
 | Distance
@@ -576,16 +596,16 @@ let step_pair s x y o a b d k = function
          | None -> None)
       | Node (_, _, _, _) -> None)
    | Node (_, _, _, _) -> None)
-| TRing (v, w) ->
+| TRing (v, ws) ->
   (match x with
    | Leaf (l, p) ->
      (match y with
       | Leaf (m, q) ->
-        (match way_end s (Zint.sub s.ring Zint.one) v w with
-         | Some u ->
-           if (&&) (has v p) (has u q)
+        (match way_ends s (Zint.sub s.ring Zint.one) v ws with
+         | Some us ->
+           if (&&) (has v p) (List.for_all (fun u -> has u q) us)
            then let x' = Leaf (l, (without v p)) in
-                let y' = Leaf (m, (without u q)) in
+                let y' = Leaf (m, (without_all us q)) in
                 (match o with
                  | Distance ->
                    Some ((Pair (x', y, o, a, b, d)) :: ((Pair (x, y', o, a,

@@ -8,12 +8,14 @@ type group =
 
 type halfspace = { normal : vec; nt : Zint.t; nd : Zint.t }
 
+type way = (Zint.t * Zint.t) list
+
 type token =
 | THalve
 | TLeft
 | TRight
 | TDrop of Zint.t
-| TRing of Zint.t * (Zint.t * Zint.t) list
+| TRing of Zint.t * way list
 | TFar
 | TPlane of halfspace * Zint.t
 | TDirection of vec
@@ -153,8 +155,11 @@ val nth_id : Zint.t -> vertex list -> Zint.t option
 
 val in_cell : scene -> Zint.t -> Zint.t -> bool
 
-val way_end :
-  scene -> Zint.t -> Zint.t -> (Zint.t * Zint.t) list -> Zint.t option
+val way_end : scene -> Zint.t -> Zint.t -> way -> Zint.t option
+
+val way_ends : scene -> Zint.t -> Zint.t -> way list -> Zint.t list option
+
+val without_all : Zint.t list -> vertex list -> vertex list
 
 type mode =
 | Distance
