@@ -17,6 +17,7 @@ struct Command {
 };
 
 Command add_verify(CLI::App& app);
+Command add_check(CLI::App& app);
 Command add_ccd(CLI::App& app);
 Command add_simulate(CLI::App& app);
 Command add_explain(CLI::App& app);

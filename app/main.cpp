@@ -26,6 +26,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  noli verify before.ply after.ply       did anything touch between these frames?\n"
     "  noli verify frames/*.ply --json out.json\n"
+    "  noli check proof.noli frames/*.ply     does a proof hold?\n"
     "  noli ccd edge-edge-queries.csv         decide queries, compare with their labels\n"
     "  noli simulate scene.json -o run        run a scene, certified window by window\n"
     "  noli info frame.obj                    what is in a file\n"
@@ -49,8 +50,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.footer(footer);
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
-  const std::vector<Command> commands = {add_verify(app),  add_ccd(app),    add_info(app),        add_simulate(app),
-                                         add_explain(app), add_export(app), add_fuzz_queries(app)};
+  const std::vector<Command> commands = {add_verify(app),   add_check(app),   add_ccd(app),    add_info(app),
+                                         add_simulate(app), add_explain(app), add_export(app), add_fuzz_queries(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -2,6 +2,7 @@
 #include "noli/app/prove_frames.h"
 
 #include "noli/proofs/prover/hierarchy.h"
+#include "noli/proofs/prover/witness.h"
 
 namespace noli::app {
 namespace {
@@ -40,14 +41,17 @@ ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mes
 
 FrameProof::FrameProof(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
                        std::span<const Position> x_t0, std::span<const Position> x_t1)
-    : rest_(request.constant_motion),
+    : mesh_(mesh),
+      dimension_(dimension),
+      strict_(request.strict),
+      rest_(request.constant_motion),
       prover_(make_prover(request, dimension, mesh, x_t0, x_t1)),
       file_(make_file(request, dimension, mesh, classes)) {}
 
 bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                        const VerifyOptions& options) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  file_.begin_step(step, ProofFile::Kind::proof, lines, rest_ ? 0 : static_cast<double>(step));
+  begin(step, ProofFile::Kind::proof, lines);
   if (!tree_written_) file_.tree(prover_.tree().encoded());
   const bool whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
   if (!whole) {
@@ -56,6 +60,26 @@ bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::sp
   }
   file_.commit();
   tree_written_ = true;
+  return true;
+}
+
+void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines) {
+  file_.begin_step(step, kind, lines, rest_ ? 0 : static_cast<double>(step));
+}
+
+bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                        const VerifyResult& result) {
+  const WitnessStep what{mesh_, x_t0, x_t1, dimension_, strict_, rest_ ? 0 : step};
+  std::optional<std::string> witness;
+  if (result.first) witness = witness_of(what, *result.first);
+  for (std::size_t i = 0; i < result.initial_reports.size() && !witness; ++i) {
+    witness = witness_of(what, result.initial_reports[i]);
+  }
+  for (std::size_t i = 0; i < result.reports.size() && !witness; ++i) witness = witness_of(what, result.reports[i]);
+  if (!witness) return false;
+  begin(step, ProofFile::Kind::witness, WorldLines::from_frames(x_t0, x_t1));
+  file_.witness(*witness);
+  file_.commit();
   return true;
 }
 

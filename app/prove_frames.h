@@ -24,7 +24,16 @@ class FrameProof {
   bool prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
              const VerifyOptions& options);
 
+  /// Writes a witness for a step that has a contact, and commits it. False if none was found.
+  bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+              const VerifyResult& result);
+
  private:
+  void begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines);
+
+  const Mesh& mesh_;
+  int dimension_;
+  bool strict_;
   bool rest_;
   bool tree_written_ = false;
   StepProver prover_;

@@ -3,6 +3,7 @@
 
 #include "noli/proofs/prover/features.h"
 #include "noli/proofs/prover/forest.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -45,8 +46,7 @@ StepProver make_prover(const RunScene& scene, std::span<const Position> x, bool 
   return StepProver(scene.mesh, order, ends, labels, {dimension, strict, excluded_pairs(scene, labels)});
 }
 
-ProofFile make_file(std::unique_ptr<Sink> sink, const RunScene& scene, bool strict,
-                    const std::vector<std::uint32_t>& labels) {
+ProofHeader header_of(const RunScene& scene, bool strict, const std::vector<std::uint32_t>& labels) {
   ProofHeader header;
   header.source = ProofSource::run;
   header.dimension = static_cast<int>(scene.header.dimension);
@@ -55,29 +55,63 @@ ProofFile make_file(std::unique_ptr<Sink> sink, const RunScene& scene, bool stri
   header.mesh = &scene.mesh;
   header.labels = labels;
   header.excluded = excluded_pairs(scene, labels);
-  return {std::move(sink), header};
+  return header;
+}
+
+/// The end of the last group of a proof, or of that number if it has more.
+CommitPoint last_commit(const std::filesystem::path& file, std::uint64_t groups) {
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) < block_format::file_header_size || error) return {};
+  BlockReader reader(file, ProofFile::content);
+  while (reader.committed().groups < groups && reader.next()) {
+  }
+  return reader.committed();
 }
 
 }  // namespace
 
-RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, bool strict)
-    : RunProof(std::move(sink), scene, x, strict, labels_of(scene)) {}
+std::filesystem::path proof_path(const std::filesystem::path& run_folder) { return run_folder / "proof.blocks"; }
 
-RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, bool strict,
-                   const std::vector<std::uint32_t>& labels)
-    : prover_(make_prover(scene, x, strict, labels)), file_(make_file(std::move(sink), scene, strict, labels)) {}
+RunProof::RunProof(const std::filesystem::path& file, const RunScene& scene, std::span<const Position> x, bool strict)
+    : RunProof(scene, x, strict, labels_of(scene), [&](const ProofHeader& header) {
+        return ProofFile(std::make_unique<FileSink>(file, FileSink::Open::create), header);
+      }) {}
+
+RunProof::RunProof(const RunScene& scene, std::span<const Position> x, bool strict,
+                   const std::vector<std::uint32_t>& labels, const std::function<ProofFile(const ProofHeader&)>& open)
+    : prover_(make_prover(scene, x, strict, labels)), file_(open(header_of(scene, strict, labels))) {}
+
+std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_folder, std::uint64_t windows,
+                                           const RunScene& scene, std::span<const Position> x,
+                                           const VerifyOptions& options) {
+  const std::filesystem::path file = proof_path(run_folder);
+  const CommitPoint committed = last_commit(file, windows + 1);
+  if (committed.groups == 0) std::filesystem::remove(file);  // there is none, or not even its claim was written
+  auto sink =
+      std::make_unique<FileSink>(file, committed.groups == 0 ? FileSink::Open::create : FileSink::Open::existing);
+  std::unique_ptr<RunProof> proof(new RunProof(scene, x, false, labels_of(scene), [&](const ProofHeader& header) {
+    return committed.groups == 0 ? ProofFile(std::move(sink), header)
+                                 : ProofFile(std::move(sink), committed, header.dimension);
+  }));
+  const std::uint64_t proved = std::max<std::uint64_t>(committed.groups, 1) - 1;
+  RunReader reader(run_folder);
+  for (std::uint64_t i = 0; i < windows && proved < windows; ++i) {
+    const auto window = reader.next_window();
+    if (i < proved) continue;
+    if (!proof->prove(i, *window->lines, options)) throw ReadInterrupted(file.string());
+    proof->commit();
+  }
+  return proof;
+}
 
 bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const VerifyOptions& options) {
   file_.begin_step(window, ProofFile::Kind::proof, lines, 0);
-  if (!tree_written_) file_.tree(prover_.tree().encoded());
+  if (file_.committed().groups == 1) file_.tree(prover_.tree().encoded());
   const bool whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
-  if (!whole) {
-    file_.discard();
-    return false;
-  }
-  file_.commit();
-  tree_written_ = true;
-  return true;
+  if (!whole) file_.discard();
+  return whole;
 }
+
+void RunProof::commit() { file_.commit(); }
 
 }  // namespace noli::app

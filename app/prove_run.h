@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -13,20 +14,29 @@
 
 namespace noli::app {
 
+/// The file in the folder of a run.
+std::filesystem::path proof_path(const std::filesystem::path& run_folder);
+
 class RunProof {
  public:
-  /// `x`: positions at the beginning of the run, by which cells are put into a tree. The scene has to outlive this.
-  RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, bool strict);
+  /// A new file, which must not be there yet. `x`: positions at the beginning of the run, by which cells are put into a
+  /// tree.
+  RunProof(const std::filesystem::path& file, const RunScene& scene, std::span<const Position> x, bool strict);
+  /// Goes on with the proof of a run of which so many windows are committed: cuts off what is about others, and proves
+  /// those that it lacks. Throws InputError when the proof cannot be read.
+  static std::unique_ptr<RunProof> resume(const std::filesystem::path& run_folder, std::uint64_t windows,
+                                          const RunScene& scene, std::span<const Position> x,
+                                          const VerifyOptions& options);
 
-  /// Writes the proof of a window in which nothing touches and commits it. False if it was stopped, which leaves the
-  /// file as it was.
+  /// Writes the proof of a window in which nothing touches; it does not count before commit(). False if it was stopped,
+  /// which leaves the file as it was.
   bool prove(std::uint64_t window, const WorldLines& lines, const VerifyOptions& options);
+  void commit();
 
  private:
-  RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, bool strict,
-           const std::vector<std::uint32_t>& labels);
+  RunProof(const RunScene& scene, std::span<const Position> x, bool strict, const std::vector<std::uint32_t>& labels,
+           const std::function<ProofFile(const ProofHeader&)>& open);
 
-  bool tree_written_ = false;
   StepProver prover_;
   ProofFile file_;
 };

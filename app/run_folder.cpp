@@ -21,8 +21,8 @@ std::string text_of(const Json& scene) { return scene.dump(2) + "\n"; }
 /// Whether a folder holds nothing but what a run is made of, or nothing at all: what may be removed with --force. What
 /// a run begins with is trajectory.blocks; a lonely scene.json is somebody's scene.
 bool is_run(const fs::path& folder) {
-  static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks", "log.jsonl",
-                                              "series.h5"};
+  static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks",
+                                              "proof.blocks",  "log.jsonl",  "series.h5"};
   std::error_code error;
   fs::directory_iterator entries(folder, error);
   if (error) return false;

@@ -17,6 +17,7 @@
 #include "noli/app/model_facts.h"
 #include "noli/app/model_run.h"
 #include "noli/app/progress.h"
+#include "noli/app/prove_run.h"
 #include "noli/app/retries.h"
 #include "noli/app/run_extent.h"
 #include "noli/app/run_folder.h"
@@ -131,6 +132,14 @@ class Run {
     return options;
   }
 
+  VerifyOptions proof_options() const {
+    VerifyOptions options;
+    options.threads = request_.threads;
+    options.stop = &interrupted();
+    options.deadline = deadline_;
+    return options;
+  }
+
   /// A run to be gone on with may have no window yet.
   void refuse_contact_at_start() const {
     const std::string found = contact_at_start(verifier_, positions_of<Dim>(built_.model.x), window_options(), names_);
@@ -166,6 +175,10 @@ class Run {
       folder_.make(request_.force || request_.resume);
       writer_.emplace(folder_.path(), run_scene(scene));
       folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
+      if (record_ == RecordMode::full && request_.prove) {
+        proof_ = std::make_unique<RunProof>(proof_path(folder_.path()), run_scene(scene),
+                                            positions_of<Dim>(built_.model.x), false);
+      }
       go_on_with(Simulation<double, Dim>(built_.model));
       return;
     }
@@ -187,6 +200,11 @@ class Run {
                                    last.windows, last.windows - outcome_.windows_total));
     }
     writer_.emplace(folder_.path(), reader);
+    const bool proved = std::filesystem::exists(proof_path(folder_.path())) || last.windows == 0;
+    if (record_ == RecordMode::full && request_.prove && proved) {
+      proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), positions_of<Dim>(built_.model.x),
+                                proof_options());
+    }
     outcome_.windows_before = last.windows;
     go_on_with(simulation_at<Dim>(built_.model, last, retries_.halvings()));
   }
@@ -235,9 +253,12 @@ class Run {
 
   void verify(Candidate<Dim> next) {
     candidate_ = std::move(next);
-    const auto look = [lines = candidate_->lines.get(), options = window_options(), this] {
+    const auto look = [lines = candidate_->lines.get(), index = candidate_->index, options = window_options(), this] {
       const Stopwatch watch;
       WindowResult result = verifier_.verify(*lines, options);
+      if (proof_ && result.complete && result.contact_count() == 0) {
+        result.complete = proof_->prove(index, *lines, proof_options());
+      }
       outcome_.verifying_seconds += watch.seconds();
       return result;
     };
@@ -299,6 +320,7 @@ class Run {
     const Doing writing(activity_, Phase::writing);
     const std::vector<RunFrame> frames = frames_of(window);
     writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
+    if (proof_) proof_->commit();
     writer_->commit();
     outcome_.events += window.row.events_in_all();
     outcome_.breakpoints += window.row.breakpoints;
@@ -377,6 +399,7 @@ class Run {
   RecordMode record_;
   double frame_rate_;
   std::optional<RunWriter> writer_;
+  std::unique_ptr<RunProof> proof_;  ///< with record full
   integrator::Activity activity_;
   std::optional<Simulation<double, Dim>> simulation_;
   std::optional<std::chrono::steady_clock::time_point> deadline_;

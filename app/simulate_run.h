@@ -35,6 +35,7 @@ struct SimulateRequest {
   bool brief = false;           ///< the scene's short form
   bool resume = false;          ///< go on with a run that is there
   bool force = false;           ///< replace a run that is there
+  bool prove = true;            ///< with record full, write proof.blocks
   std::optional<double> until;  ///< simulated time to stop at [s]; else the scene's duration
   int threads = 0;              ///< 0: all there are
   std::optional<std::chrono::nanoseconds> time_limit;

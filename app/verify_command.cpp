@@ -2,8 +2,10 @@
 #include <memory>
 #include <string>
 
+#include "noli/app/checker.h"
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/machine.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/run_folder.h"
@@ -17,7 +19,8 @@ namespace {
 constexpr const char* footer =
     "Every step from one frame to the next is decided exactly. The first step that has a contact is counted to its "
     "end, then the run\n"
-    "stops. Standard output begins with the verdict line; verdicts: no_contact (exit 0), contact (1), undecided (2).\n"
+    "stops. Standard output begins with the verdict line; verdicts: no_contact or,\n"
+    "if a checker has accepted the proof of it, proved (exit 0), contact (1), undecided (2).\n"
     "Steps are counted from 1 (for a run they are its windows): `steps` were looked at, `steps_total` there are; times "
     "are in [0, 1] of their step (for a run, in "
     "seconds). `first_time` is of the first pair of features that "
@@ -28,6 +31,8 @@ constexpr const char* footer =
     "  noli verify frames/*.obj --keep-going --json result.json\n"
     "  noli verify rest.ply --static --strict        does this mesh intersect itself?\n"
     "  noli verify a.ply b.ply --json - | jq .first\n"
+    "  noli verify a.ply b.ply --proof ab.noli       and a proof that anybody can check: noli check ab.noli a.ply "
+    "b.ply\n"
     "  noli verify a.ply b.ply --time-limit 10s --threads 1\n"
     "  noli verify runs/cloth                        a run of `noli simulate` again, from its files alone";
 
@@ -39,11 +44,35 @@ struct VerifyArguments {
 
 ExitCode exit_code(Verdict verdict) {
   switch (verdict) {
-    case Verdict::no_contact: return ExitCode::holds;
+    case Verdict::no_contact:
+    case Verdict::proved: return ExitCode::holds;
     case Verdict::contact: return ExitCode::refuted;
     case Verdict::undecided: return ExitCode::undecided;
   }
   return ExitCode::failure;
+}
+
+/// The proof is made anew; it may not be one of the files that are read.
+void require_place_of_proof(const std::filesystem::path& proof, const std::vector<std::filesystem::path>& frames) {
+  require_other_file(proof, with_files_of_runs(frames), "--proof");
+  require_writable_file(proof, "--proof");
+}
+
+/// Has the checker look at a proof that is complete. What it refuses is an error of this program.
+void check(const VerifyRequest& request, VerifyOutcome& outcome) {
+  const bool whole =
+      outcome.verdict == Verdict::no_contact || (outcome.verdict == Verdict::contact && outcome.witnesses > 0);
+  if (!whole) return;
+  const Stopwatch watch;
+  const CheckerVerdict verdict = run_checker(Checker::plain, *request.proof, trajectory_for_checker(request.frames));
+  outcome.check_seconds = watch.seconds();
+  outcome.checked = verdict.words.substr(0, verdict.words.find('\n'));
+  const int expected = outcome.verdict == Verdict::no_contact ? 0 : 1;
+  if (verdict.code != expected) {
+    throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
+                             *outcome.checked);
+  }
+  if (expected == 0) outcome.verdict = Verdict::proved;
 }
 
 /// Before anything else is said about a single one.
@@ -59,7 +88,9 @@ ExitCode run(VerifyArguments& arguments) {
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   const Output output(arguments.json, with_files_of_runs(request.frames));
-  const VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
+  if (request.proof) require_place_of_proof(*request.proof, request.frames);
+  VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
+  if (request.proof && request.check) check(request, outcome);
   output.write(verify_text(request, outcome), verify_json(request, outcome));
   return exit_code(outcome.verdict);
 }
@@ -95,8 +126,7 @@ void add_flags(CLI::App& command, VerifyRequest& request) {
   command.add_flag("--static", request.constant_motion, "Each frame by itself, at rest");
   command.add_flag("--merge-identical", request.merge_identical,
                    "Make one vertex of those whose coordinates are equal in all frames (reads them twice)");
-  // Accepted from the beginning, so that scripts need no change when a checker exists.
-  command.add_flag("--no-check")->description("Do without the check of the proof (there is none yet)");
+  command.add_flag("!--no-check", request.check, "Do without the check of the proof: the verdict stays no_contact");
 }
 
 }  // namespace

@@ -103,14 +103,14 @@ class MotionRun {
     const Stopwatch watch;
     if (!proof_) {
       std::filesystem::remove(*request_.proof);
-      proof_ = std::make_unique<RunProof>(std::make_unique<FileSink>(*request_.proof, FileSink::Open::create),
-                                          reader_.scene(), beginning(window), request_.strict);
+      proof_ = std::make_unique<RunProof>(*request_.proof, reader_.scene(), beginning(window), request_.strict);
     }
     VerifyOptions options;
     options.threads = request_.threads;
     options.stop = &interrupted();
     options.deadline = deadline_;
     outcome_.complete = proof_->prove(window.index, *window.lines, options);
+    if (outcome_.complete) proof_->commit();
     outcome_.proof_seconds += watch.seconds();
   }
 

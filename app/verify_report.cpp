@@ -139,6 +139,7 @@ class Text {
   void answer() {
     switch (outcome_.verdict) {
       case Verdict::no_contact:
+      case Verdict::proved:
         line("Nothing touches in {} {}(s).", outcome_.steps_total, request_.run ? "window" : "step");
         break;
       case Verdict::contact:
@@ -146,11 +147,22 @@ class Text {
         break;
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
     }
+    proof();
     if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
       line("What is said is of what was settled so far ({}): there may be more contacts, and earlier ones.",
            why_incomplete(outcome_));
     }
+  }
+
+  void proof() {
+    if (!request_.proof) return;
+    if (outcome_.checked) line("The checker says of {}: {}.", request_.proof->string(), *outcome_.checked);
+    if (outcome_.verdict == Verdict::contact && outcome_.witnesses == 0)
+      line("No witness was found for {}: it proves nothing.", request_.proof->string());
+    if (outcome_.verdict == Verdict::no_contact) line("The proof in {} was not checked.", request_.proof->string());
+    if (outcome_.verdict == Verdict::undecided)
+      line("{} is not complete, and proves nothing.", request_.proof->string());
   }
 
   std::size_t touching_steps() const {
@@ -200,6 +212,9 @@ class Text {
     line("");
     line("Time: {:.3f} s, and {:.3f} s of reading; {} thread(s); {:.0f} MB.", outcome_.seconds, outcome_.read_seconds,
          threads_used(request_), static_cast<double>(peak_memory_bytes()) / 1e6);
+    if (request_.proof)
+      line("Of it, {:.3f} s of making the proof; then {:.3f} s of checking it.", outcome_.proof_seconds,
+           outcome_.check_seconds);
   }
 
   const VerifyRequest& request_;
@@ -226,8 +241,15 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   json["edges"] = outcome.edges;
   json["points"] = outcome.points;
   json["stages"] = work_json(outcome);
+  if (request.proof) {
+    json["proof"] = {{"file", request.proof->string()},
+                     {"witnesses", outcome.witnesses},
+                     {"checked", outcome.checked ? Json(*outcome.checked) : Json(nullptr)}};
+  }
   json["timing"] = {{"seconds", outcome.seconds},
                     {"read_seconds", outcome.read_seconds},
+                    {"proof_seconds", outcome.proof_seconds},
+                    {"check_seconds", outcome.check_seconds},
                     {"threads", threads_used(request)},
                     {"peak_memory_bytes", peak_memory_bytes()}};
   return json;

@@ -148,17 +148,21 @@ class Run {
     add_counts(result);
     add_reports(result);
     if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
-    if (request_.proof && result.complete) prove(asked);
+    if (request_.proof && result.complete) prove(asked, result);
   }
 
-  void prove(const VerifyOptions& options) {
-    if (outcome_.touches()) return;
+  void prove(const VerifyOptions& options, const VerifyResult& result) {
     const Stopwatch watch;
     if (!proof_) {
       proof_.emplace(request_, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr, sequence_.x_t0(),
                      sequence_.x_t1());
     }
-    outcome_.complete = proof_->prove(sequence_.step(), sequence_.x_t0(), sequence_.x_t1(), options);
+    const auto step = sequence_.step();
+    if (result.contact_count() + result.initial_intersections > 0) {
+      if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
+    } else if (outcome_.witnesses == 0) {
+      outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
+    }
     outcome_.proof_seconds += watch.seconds();
   }
 

@@ -36,14 +36,17 @@ struct VerifyRequest {
   bool merge_identical = false;
   std::optional<std::chrono::nanoseconds> time_limit;
   std::optional<std::filesystem::path> proof;  ///< where the proof is written to
+  bool check = true;                           ///< have the checker look at the proof
 };
 
-enum class Verdict { no_contact, contact, undecided };
+/// `proved`: no contact, and the checker has accepted the proof of it.
+enum class Verdict { no_contact, proved, contact, undecided };
 
-/// The name used in JSON: "no_contact", "contact", "undecided".
+/// The name used in JSON: "no_contact", "proved", "contact", "undecided".
 constexpr std::string_view name(Verdict verdict) {
   switch (verdict) {
     case Verdict::no_contact: return "no_contact";
+    case Verdict::proved: return "proved";
     case Verdict::contact: return "contact";
     case Verdict::undecided: return "undecided";
   }
@@ -96,9 +99,12 @@ struct VerifyOutcome {
   StageCounters stages;
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
-  double seconds = 0;        ///< wall clock without reading
-  double read_seconds = 0;   ///< wall clock of reading
-  double proof_seconds = 0;  ///< wall clock of making the proof
+  double seconds = 0;                  ///< wall clock without reading
+  std::optional<std::string> checked;  ///< what the checker said of the proof
+  double read_seconds = 0;             ///< wall clock of reading
+  std::size_t witnesses = 0;           ///< written to the proof
+  double proof_seconds = 0;            ///< wall clock of making the proof
+  double check_seconds = 0;            ///< wall clock of the checker
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }

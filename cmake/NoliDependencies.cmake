@@ -2,6 +2,9 @@
 find_package(Threads REQUIRED)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL REQUIRED QUIET)  # brings GMP, MPFR and Boost
+find_path(NOLI_GMPXX_INCLUDE gmpxx.h REQUIRED)
+find_library(NOLI_GMPXX gmpxx REQUIRED)
+find_library(NOLI_GMP gmp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)

@@ -9,8 +9,6 @@ namespace noli {
 
 namespace {
 
-constexpr FourLetters content = four_letters("PROF");
-
 /// The vertices of a cell as the mesh has them.
 Sha256Digest cells_hash(const ProofHeader& header) {
   std::string bytes;

@@ -30,6 +30,8 @@ struct ProofHeader {
 
 class ProofFile {
  public:
+  static constexpr FourLetters content = four_letters("PROF");
+
   /// Writes the header. Throws what the sink throws, here and below.
   ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header);
   /// Goes on behind a commit, as BlockWriter.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Witnesses of contact: the payload of block WITN (proofs/FORMAT.md, section 5), for steps between frames.
+//
+// Notation
+//   g          the polynomial one of whose roots is the time, in integer time
+//   weights    of the vertices of two features, as polynomials in the time, such that g divides the difference of the
+//              two points that they give
+//
+// Where the features span just a plane (in 2D a line) at the time of contact, g is the factor of their determinant that
+// vanishes then, and the weights are those of the nearest points of the plane (the line). Elsewhere (motion within a
+// plane, degenerate features, contact from the beginning) cells are looked at, at rest, at some times that are fractions
+// with a power of two below.
+//
+// What this does not do: it does not find contacts, and for degenerate ones that last for a moment it finds no witness.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "noli/proofs/prover/verifier.h"
+
+namespace noli {
+
+/// A step in which something meets. In two dimensions third coordinates count as 0.
+struct WitnessStep {
+  const Mesh& mesh;  ///< after merging
+  std::span<const Position> x_t0, x_t1;
+  int dimension;
+  bool strict;
+  std::uint64_t begin;  ///< T0, an integer; T1 is one more
+};
+
+/// The payload for a pair of features that meets; nothing if none was found.
+std::optional<std::string> witness_of(const WitnessStep& step, const FeatureContact& contact);
+
+/// The same for two cells that meet at the beginning.
+std::optional<std::string> witness_of(const WitnessStep& step, const InitialIntersection& pair);
+
+}  // namespace noli
