@@ -98,14 +98,15 @@ std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_fold
   for (std::uint64_t i = 0; i < windows && proved < windows; ++i) {
     const auto window = reader.next_window();
     if (i < proved) continue;
-    if (!proof->prove(i, *window->lines, options)) throw ReadInterrupted(file.string());
+    if (!proof->prove(i, *window->lines, window->group_hash, options)) throw ReadInterrupted(file.string());
     proof->commit();
   }
   return proof;
 }
 
-bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const VerifyOptions& options) {
-  file_.begin_step(window, ProofFile::Kind::proof, lines, 0);
+bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
+                     const VerifyOptions& options) {
+  file_.begin_step(window, ProofFile::Kind::proof, lines, 0, hash);
   if (file_.committed().groups == 1) file_.tree(prover_.tree().encoded());
   const bool whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
   if (!whole) file_.discard();

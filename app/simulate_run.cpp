@@ -251,13 +251,16 @@ class Run {
     return next;
   }
 
+  /// The window is written before its verdict, because its proof names the hash of what was written; it is not
+  /// committed before.
   void verify(Candidate<Dim> next) {
     candidate_ = std::move(next);
+    write(*candidate_);
     const auto look = [lines = candidate_->lines.get(), index = candidate_->index, options = window_options(), this] {
       const Stopwatch watch;
       WindowResult result = verifier_.verify(*lines, options);
       if (proof_ && result.complete && result.contact_count() == 0) {
-        result.complete = proof_->prove(index, *lines, proof_options());
+        result.complete = proof_->prove(index, *lines, writer_->open_window_hash(), proof_options());
       }
       outcome_.verifying_seconds += watch.seconds();
       return result;
@@ -275,6 +278,7 @@ class Run {
     Candidate<Dim> window = std::move(*candidate_);
     candidate_.reset();
     WindowResult result = verdict_of(window);
+    if (!result.complete || result.contact_count() > 0) writer_->discard_window();
     if (!result.complete) {
       if (!stopped()) throw std::logic_error("a window was not verified to its end");
       return Settled::yes;
@@ -316,10 +320,14 @@ class Run {
     return window.verdict.get();
   }
 
-  void commit(const Candidate<Dim>& window) {
+  void write(const Candidate<Dim>& window) {
     const Doing writing(activity_, Phase::writing);
     const std::vector<RunFrame> frames = frames_of(window);
     writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
+  }
+
+  void commit(const Candidate<Dim>& window) {
+    const Doing writing(activity_, Phase::writing);
     if (proof_) proof_->commit();
     writer_->commit();
     outcome_.events += window.row.events_in_all();

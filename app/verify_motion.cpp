@@ -109,7 +109,7 @@ class MotionRun {
     options.threads = request_.threads;
     options.stop = &interrupted();
     options.deadline = deadline_;
-    outcome_.complete = proof_->prove(window.index, *window.lines, options);
+    outcome_.complete = proof_->prove(window.index, *window.lines, window.group_hash, options);
     if (outcome_.complete) proof_->commit();
     outcome_.proof_seconds += watch.seconds();
   }

@@ -68,6 +68,7 @@ struct CommitPoint {
   std::uint64_t offset = 0;  ///< of the first byte after its commit block
   std::uint64_t groups = 0;  ///< how many groups are committed
   Sha256Digest running{};    ///< the running hash; zeros before the first commit
+  Sha256Digest group{};      ///< the hash of the last group; zeros before the first commit
 
   friend bool operator==(const CommitPoint&, const CommitPoint&) = default;
 };
@@ -93,6 +94,8 @@ class BlockWriter {
   void discard();
 
   const CommitPoint& committed() const { return committed_; }
+  /// The hash that commit() would write for the open group.
+  Sha256Digest open_group_hash() const { return hash_.digest(); }
 
  private:
   void write(std::string_view bytes);

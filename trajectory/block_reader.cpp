@@ -149,7 +149,7 @@ void BlockReader::check_commit(const Block& block) {
   if (digest_at(block.payload, 40) != running) {
     fail(block.payload_offset() + 40, "the running hash does not fit the commits before");
   }
-  committed_ = {at_, committed_.groups + 1, running};
+  committed_ = {at_, committed_.groups + 1, running, group};
   hash_ = {};
 }
 

@@ -72,7 +72,7 @@ void BlockWriter::commit() {
   sink_->sync();
   append(block_format::commit, payload);
   sink_->sync();
-  committed_ = {size_, committed_.groups + 1, running};
+  committed_ = {size_, committed_.groups + 1, running, group};
   hash_ = {};
 }
 

@@ -79,6 +79,7 @@ struct RunWindow {
   std::vector<Position> positions;  ///< at its end
   std::vector<Position> velocities;
   std::string state;
+  Sha256Digest group_hash{};  ///< of its group in the file
 };
 
 /// Where a window leaves everything.
@@ -120,6 +121,8 @@ class RunWriter {
   void append_window(const WindowToWrite& window);
   /// Commits the window written last; after this it survives a loss of power.
   void commit();
+  /// The hash that commit() will write for the window that was written.
+  Sha256Digest open_window_hash() const { return blocks_.open_group_hash(); }
   /// Takes back the window that was written and not committed.
   void discard_window();
 

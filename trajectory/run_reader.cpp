@@ -142,6 +142,7 @@ std::optional<RunWindow> RunReader::next_window() {
   window.velocities = run_block::decode_vectors({blocks_.name(), (*blocks)[blocks->size() - 2]},
                                                 scene_.header.dimension, scene_.mesh.vertex_count);
   window.state = std::move(blocks->back().payload);
+  window.group_hash = blocks_.committed().group;
   last_ = WindowEnd{window.end, window.positions};
   return window;
 }

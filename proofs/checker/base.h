@@ -199,14 +199,17 @@ class Sha256 {
       const std::uint32_t s1 = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ (w[i - 2] >> 10);
       w[i] = w[i - 16] + s0 + w[i - 7] + s1;
     }
-    auto [a, b, c, d, e, f, g, h] = state_;
+    std::array<std::uint32_t, 8> v = state_;
+#pragma GCC unroll 64
     for (std::size_t i = 0; i < 64; ++i) {
-      const std::uint32_t t1 =
-          h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + ((e & f) ^ (~e & g)) + k[i] + w[i];
-      const std::uint32_t t2 = (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
-      h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
+      // What the standard calls a to h is v from place -i on, so that nothing has to be moved.
+      const auto at = [&](std::size_t place) -> std::uint32_t& { return v[(64 + place - i) % 8]; };
+      const std::uint32_t a = at(0), e = at(4);
+      const std::uint32_t t1 = at(7) + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
+                               (at(6) ^ (e & (at(5) ^ at(6)))) + k[i] + w[i];
+      at(3) += t1;
+      at(7) = t1 + (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & at(1)) | (at(2) & (a | at(1))));
     }
-    const std::array<std::uint32_t, 8> v = {a, b, c, d, e, f, g, h};
     for (std::size_t i = 0; i < 8; ++i) state_[i] += v[i];
     used_ = 0;
   }

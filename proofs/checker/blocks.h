@@ -75,7 +75,8 @@ class BlockFile {
     if (next() || ended_) fail(at_, "expected a commit");
   }
   bool ended() const { return ended_; }
-  std::uint64_t groups() const { return groups_; }
+  /// Of the last group that was committed.
+  const Sha256::Digest& group_hash() const { return last_; }
 
  private:
   [[noreturn]] void fail(std::uint64_t offset, const std::string& why) const { reject(place(offset), why); }
@@ -92,7 +93,7 @@ class BlockFile {
   void commit(const Block& block) {
     Cursor c(block.payload, name_, block.offset);
     if (c.left() != 72 || c.u64() != groups_) fail(block.offset, "a commit has the wrong length or number");
-    const Sha256::Digest found = group_.digest();
+    const Sha256::Digest found = last_ = group_.digest();
     Sha256 both;
     both.add_raw(running_);
     both.add_raw(found);
@@ -110,7 +111,7 @@ class BlockFile {
   std::uint64_t size_ = 0, at_ = 0, groups_ = 0, blocks_ = 0, committed_ = 0;
   bool ended_ = false;
   Sha256 group_;
-  Sha256::Digest running_{};
+  Sha256::Digest running_{}, last_{};
 };
 
 }  // namespace noli::checker

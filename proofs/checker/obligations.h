@@ -75,6 +75,8 @@ class Obligations {
       case 0x10: return direction(top, packed(c), c);
       case 0x11: {
         const mpz_class x = read_sint(c), y = read_sint(c), z = read_sint(c);
+        const mpz_class most = std::max({abs(x), abs(y), abs(z)});
+        if (most < Enclosures::limit) return direction(top, std::array<long, 3>{x.get_si(), y.get_si(), z.get_si()}, c);
         return direction(top, Direction{x, y, z}, c);
       }
       case 0x12: return half_space(top, c);

@@ -16,8 +16,10 @@ struct Motion {
   std::vector<std::uint64_t> begin;
   std::vector<double> times;
   std::vector<std::array<double, 3>> x;
+  std::optional<Sha256::Digest> group_hash;  ///< of a window in its file
 
   Sha256::Digest hash() const {
+    if (group_hash) return *group_hash;
     Sha256 hash;
     std::string buffer;
     const auto put = [&](const auto& value) { buffer.append(reinterpret_cast<const char*>(&value), sizeof value); };
@@ -140,6 +142,7 @@ class Run : public Trajectory {
     file_.expect("VELO");
     file_.expect("STAT");
     file_.expect_commit();
+    motion.group_hash = file_.group_hash();
     return true;
   }
 

@@ -46,16 +46,18 @@ inline mpz_class value(const Poly& f, const mpz_class& at, unsigned long e) {
   return sum;
 }
 
-/// The least sign of its Bernstein coefficients on [l / 2^e, u / 2^e]: those of f((l + u z) / (2^e (1 + z))) (1 + z)^n.
-inline int least_sign(const Poly& f, const mpz_class& l, const mpz_class& u, unsigned long e) {
+/// The least sign of its Bernstein coefficients on [l / 2^e, u / 2^e]: those of f((l + u z) / (2^e (1 + z))) (1 + z)^n,
+/// n being its degree. Of 0 it is 0.
+inline int least_sign(Poly f, const mpz_class& l, const mpz_class& u, unsigned long e) {
+  while (!f.empty() && f.back() == 0) f.pop_back();
   Poly sum(f.size(), 0), power = {1};  // power: (l + u z)^k
   for (std::size_t k = 0; k < f.size(); ++k) {
-    Poly term = (f[k] << (e * (f.size() - 1 - k))) * power;
+    Poly term = mpz_class(f[k] << (e * (f.size() - 1 - k))) * power;
     for (std::size_t i = k + 1; i < f.size(); ++i) term = term * Poly{1, 1};
     sum = sum + term;
     power = power * Poly{l, u};
   }
-  int least = 1;
+  int least = f.empty() ? 0 : 1;
   for (const mpz_class& k : sum) least = std::min(least, sgn(k));
   return least;
 }
@@ -95,7 +97,6 @@ class Witness {
       for (const auto& [v, w] : side) text += (text.empty() ? "" : " ") + std::to_string(v);
       return text;
     };
-    const mpq_class at(l_, mpz_class(1) << e_);
     return "vertices {" + names(sides_[0]) + "} of cell " + std::to_string(cell_[0]) + " and {" + names(sides_[1]) +
            "} of cell " + std::to_string(cell_[1]) + " meet";
   }
@@ -140,16 +141,17 @@ class Witness {
     mpz_class duration;
   };
 
+  /// On the segment from the last breakpoint at or before l on; at the last of all it rests.
   Position position(std::uint32_t v) const {
-    const auto path = motion_.path(v);
-    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-      const auto &p = path[k], &q = path[k + 1];
-      if ((p.t << e_) > l_ || (q.t << e_) < u_) continue;
-      Position at{{}, q.t - p.t};
-      for (std::size_t i = 0; i < 3; ++i) at.x[i] = {p.x[i] * q.t - q.x[i] * p.t, q.x[i] - p.x[i]};
-      return at;
-    }
-    c_.fail("the witness does not hold: a vertex has no segment with all of [l, u]");
+    const Path path = motion_.path(v);
+    std::size_t k = path.size() - 1;
+    while (k > 0 && (path[k].t << e_) > l_) --k;
+    const Breakpoint& p = path[k];
+    const Breakpoint q = k + 1 < path.size() ? path[k + 1] : Breakpoint{p.t + 1, p.x};
+    require(u_ <= ((k + 1 < path.size() ? q : p).t << e_), "a vertex has a breakpoint between l and u");
+    Position at{{}, q.t - p.t};
+    for (std::size_t i = 0; i < 3; ++i) at.x[i] = {p.x[i] * q.t - q.x[i] * p.t, q.x[i] - p.x[i]};
+    return at;
   }
 
   /// The sum of weight times position, over `duration`, and the sum of the weights.

@@ -46,31 +46,39 @@ std::string claim_payload(const ProofHeader& header) {
   return bytes;
 }
 
-/// The hash of a step's breakpoints, and the units of its numbers.
-struct StepFacts {
+/// Of the breakpoints of a step.
+Sha256Digest breakpoints_hash(const WorldLines& lines, int dimension, double shift) {
   Sha256 hash;
+  std::string bytes;
+  for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
+    const auto times = lines.times(static_cast<VertexId>(v));
+    const auto positions = lines.positions(static_cast<VertexId>(v));
+    put(bytes, std::uint64_t{times.size()});
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      put(bytes, times[i] + shift + 0.0);  // -0 becomes +0
+      for (std::size_t k = 0; k < 3; ++k) {
+        put(bytes, k < static_cast<std::size_t>(dimension) ? positions[i][k] + 0.0 : 0.0);
+      }
+    }
+    if (bytes.size() < 1 << 16) continue;
+    hash.update(bytes);
+    bytes.clear();
+  }
+  hash.update(bytes);
+  return hash.digest();
+}
+
+/// The units of a step's numbers.
+struct StepUnits {
   exact::ExponentRange space, time;
 
-  StepFacts(const WorldLines& lines, int dimension, double shift) {
-    std::string bytes;
+  StepUnits(const WorldLines& lines, int dimension, double shift) {
     for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
-      const auto times = lines.times(static_cast<VertexId>(v));
-      const auto positions = lines.positions(static_cast<VertexId>(v));
-      put(bytes, std::uint64_t{times.size()});
-      for (std::size_t i = 0; i < times.size(); ++i) {
-        put(bytes, times[i] + shift + 0.0);  // -0 becomes +0
-        time.add(times[i] + shift);
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double x = k < static_cast<std::size_t>(dimension) ? positions[i][k] + 0.0 : 0.0;
-          put(bytes, x);
-          space.add(x);
-        }
+      for (const double t : lines.times(static_cast<VertexId>(v))) time.add(t + shift);
+      for (const Position& x : lines.positions(static_cast<VertexId>(v))) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) space.add(x[k]);
       }
-      if (bytes.size() < 1 << 16) continue;
-      hash.update(bytes);
-      bytes.clear();
     }
-    hash.update(bytes);
   }
 };
 
@@ -88,15 +96,20 @@ ProofFile::ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, i
     : blocks_(std::move(sink), committed), dimension_(dimension) {}
 
 void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift) {
-  const StepFacts facts(lines, dimension_, shift);
+  begin_step(number, kind, lines, shift, breakpoints_hash(lines, dimension_, shift));
+}
+
+void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
+                           const Sha256Digest& hash) {
+  const StepUnits units(lines, dimension_, shift);
   std::string bytes;
   put(bytes, number);
   put(bytes, lines.first_time() + shift);
   put(bytes, lines.last_time() + shift);
-  put(bytes, static_cast<std::uint32_t>(unit(facts.space)));
-  put(bytes, static_cast<std::uint32_t>(unit(facts.time)));
+  put(bytes, static_cast<std::uint32_t>(unit(units.space)));
+  put(bytes, static_cast<std::uint32_t>(unit(units.time)));
   put(bytes, static_cast<std::uint8_t>(kind));
-  bytes.append(bytes_of(facts.hash.digest()));
+  bytes.append(bytes_of(hash));
   blocks_.append(four_letters("STEP"), bytes);
 }
 

@@ -42,6 +42,8 @@ class ProofFile {
   /// Begins step `number`, whose times are those of `lines` and `shift` more. In two dimensions third coordinates count
   /// as 0.
   void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift);
+  /// The same for a window of a run, with the hash of its group.
+  void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift, const Sha256Digest& hash);
   void tree(std::string_view payload) { blocks_.append(four_letters("TREE"), payload); }
   void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
   void witness(std::string_view payload) { blocks_.append(four_letters("WITN"), payload); }
