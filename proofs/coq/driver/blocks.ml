@@ -149,7 +149,7 @@ let digest h =
 type file = {
   name : string; channel : in_channel; size : int; mutable read : int;
   mutable commits : int; mutable blocks : int;  (* so far; of the open group *)
-  mutable group : hash; mutable running : string;
+  mutable group : hash; mutable last : string; mutable running : string;  (* hashes, last that of the group before *)
 }
 type block = { kind : string; payload : string; offset : int }
 type next = Block of block | Commit | End
@@ -163,19 +163,21 @@ let read f n =
 
 let open_file name content =
   let channel = open_in_bin name in
-  let group = hash () and running = String.make 32 '\000' in
-  let f = { name; channel; size = in_channel_length channel; read = 0; commits = 0; blocks = 0; group; running } in
+  let running = String.make 32 '\000' in
+  let f = { name; channel; size = in_channel_length channel; read = 0; commits = 0; blocks = 0; group = hash ();
+            last = ""; running } in
   let head = read f 16 in
   if head <> "\x89NOLI\r\n\x1a\001\000\000\000" ^ content then refuse f ("expected a block file, version 1, " ^ content);
   add f.group head;
   f
 
 let commit f c =
-  let group = digest f.group and running = hash () in
-  add running (f.running ^ group);
+  let running = hash () in
+  f.last <- digest f.group;
+  add running (f.running ^ f.last);
   f.running <- digest running;
   check c (left c = 72 && u64 c = f.commits) "a commit has the wrong length or number";
-  check c (take c 64 = group ^ f.running) "a hash of the group is wrong";
+  check c (take c 64 = f.last ^ f.running) "a hash of the group is wrong";
   f.group <- hash ();
   f.blocks <- 0;
   f.commits <- f.commits + 1

@@ -179,7 +179,7 @@ let refute file claim scene step =
     let n = u8 c in
     check c (n >= 1 && n <= most) "a number of coefficients or vertices is out of range";
     Array.to_list (many n part c) in
-  let side () = list 3 (fun c -> let v = below (Array.length claim.same) in (v, list 32 sint)) in
+  let side () = list 3 (fun _ -> let v = below (Array.length claim.same) in (v, list 32 sint)) in
   let cells = many 2 (fun _ -> below (Array.length claim.cells)) c in
   let wp = side () in
   let wq = side () in
@@ -193,7 +193,7 @@ let refute file claim scene step =
   check c (Hit.check_hit claim.strict scene w) "the witness does not hold";
   expect_commit file;
   let names side = String.concat " " (List.map (fun (v, _) -> Z.to_string v) side) in
-  Printf.sprintf "in step %d, vertices {%s} of cell %s and {%s} of cell %s meet" step (names wp)
+  Printf.sprintf "in step %d, vertices {%s} of cell %s and {%s} of cell %s meet" (step + 1) (names wp)
     (Z.to_string cells.(0)) (names wq) (Z.to_string cells.(1))
 
 (* How many steps the proof knows of, and the first witness if there is one. seen is how many of the trajectory's
@@ -215,7 +215,7 @@ let rec check_steps file claim next_motion seen tree words =
     let p = units.(0) and q = units.(1) and kind = u8 c in
     check c (t.(0) = m.t0 && t.(1) = m.t1 && m.t0 < m.t1) "the trajectory's step has another time";
     check c (abs p <= 1200 && abs q <= 1200 && kind <= 1) "a field of the step has an impossible value";
-    check c (take c 32 = motion_hash m) "the step is about another motion than that of the trajectory";
+    check c (take c 32 = Lazy.force m.hash) "the step is about another motion than that of the trajectory";
     finish c;
     require_merged c claim m;
     if kind = 0 then

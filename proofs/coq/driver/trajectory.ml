@@ -3,20 +3,20 @@
 open Blocks
 
 (* The breakpoints of vertex v are those from first.(v) to before first.(v + 1); x has three coordinates each. *)
-type motion = { t0 : float; t1 : float; first : int array; times : float array; x : float array }
+type motion = { t0 : float; t1 : float; first : int array; times : float array; x : float array; hash : string Lazy.t }
 
 (* Labels are one a cell; of a run, there are the pairs of them that have to be excluded, just these. *)
 type trajectory = { dimension : int; mesh : Frames.mesh; labels : int array; excluded : (int * int) list option;
                     next : unit -> motion option }
 
-let motion_hash m =
+let breakpoints_hash first times coordinates =
   let h = hash () in
   let put x = Buffer.add_int64_le h.waits (Int64.bits_of_float (x +. 0.0)) in  (* -0 becomes +0 *)
-  for v = 0 to Array.length m.first - 2 do
-    Buffer.add_int64_le h.waits (Int64.of_int (m.first.(v + 1) - m.first.(v)));
-    for i = m.first.(v) to m.first.(v + 1) - 1 do
-      put m.times.(i);
-      for k = 3 * i to (3 * i) + 2 do put m.x.(k) done
+  for v = 0 to Array.length first - 2 do
+    Buffer.add_int64_le h.waits (Int64.of_int (first.(v + 1) - first.(v)));
+    for i = first.(v) to first.(v + 1) - 1 do
+      put times.(i);
+      for k = 3 * i to (3 * i) + 2 do put coordinates.(k) done
     done;
     add h ""
   done;
@@ -39,8 +39,9 @@ let of_frames paths at_rest =
       end;
       let place i = (if at_rest || i mod 6 > 2 then !now else before).((i / 6 * 3) + (i mod 3)) in
       incr step;
-      Some { t0; t1 = t0 +. 1.0; first = Array.init (n + 1) (fun v -> 2 * v); x = Array.init (6 * n) place;
-             times = Array.init (2 * n) (fun i -> t0 +. float_of_int (i land 1)) }
+      let first = Array.init (n + 1) (fun v -> 2 * v) and x = Array.init (6 * n) place in
+      let times = Array.init (2 * n) (fun i -> t0 +. float_of_int (i land 1)) in
+      Some { t0; t1 = t0 +. 1.0; first; times; x; hash = lazy (breakpoints_hash first times x) }
     end in
   { dimension = 3; mesh; labels = Array.make (Array.length mesh.cells) 0; excluded = None; next }
 
@@ -102,7 +103,7 @@ let read_lines c dimension vertices t0 t1 =
     for k = i + 1 to last do check c (times.(k - 1) < times.(k)) "times do not ascend" done;
     check c (same_bits times.(i) t0 && same_bits times.(last) t1) "a world line does not begin and end with its window"
   done;
-  { t0; t1; first; times; x }
+  { t0; t1; first; times; x; hash = lazy "" }
 
 (* Each vertex begins where it was at the end of the window before. *)
 let follows before now =
@@ -134,7 +135,7 @@ let of_run path =
     ignore (expect file "VELO");
     ignore (expect file "STAT");
     expect_commit file;
-    Some now in
+    Some { now with hash = (let last = file.last in lazy last) } in
   let next () =
     match Blocks.next file with
     | End -> None
