@@ -149,7 +149,7 @@ let digest h =
 type file = {
   name : string; channel : in_channel; size : int; mutable read : int;
   mutable commits : int; mutable blocks : int;  (* so far; of the open group *)
-  mutable group : hash; mutable last : string; mutable running : string;  (* hashes, last that of the group before *)
+  mutable group : hash; mutable last : string; mutable running : string;  (* of the open group, the last, all *)
 }
 type block = { kind : string; payload : string; offset : int }
 type next = Block of block | Commit | End
@@ -167,7 +167,7 @@ let open_file name content =
   let f = { name; channel; size = in_channel_length channel; read = 0; commits = 0; blocks = 0; group = hash ();
             last = ""; running } in
   let head = read f 16 in
-  if head <> "\x89NOLI\r\n\x1a\001\000\000\000" ^ content then refuse f ("expected a block file, version 1, " ^ content);
+  if head <> "\x89NOLI\r\n\x1a\001\000\000\000" ^ content then refuse f ("expected version 1, content " ^ content);
   add f.group head;
   f
 

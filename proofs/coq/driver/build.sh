@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Compiles the extracted checker and its driver into OUT/noli_check_verified. Needs ocamlfind, ocamlopt and Zarith, not Coq.
+# Compiles the extracted checker and its driver into OUT/noli_check_verified.
+# Needs ocamlfind, ocamlopt and Zarith, not Coq.
 #   proofs/coq/driver/build.sh OUT
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -75,7 +75,8 @@ let decimal t single word =
   if not complete || b - first <= (if b > a then 1 else 0) then wrong t "expected a number";
   let m = String.concat "" (String.split_on_char '.' (String.sub s first (b - first))) and x = float_of_string s in
   let over () =
-    let n, e = split x and tens = (if is b "eE" then int_of_string (String.sub s (b + 1) (n - b - 1)) else 0) - max 0 (b - a - 1) in
+    let exponent = if is b "eE" then int_of_string (String.sub s (b + 1) (n - b - 1)) else 0 in
+    let n, e = split x and tens = exponent - max 0 (b - a - 1) in
     let power base k = Z.pow (Z.of_int base) (max 0 k) in
     let left = Z.mul (Z.of_string m) (Z.mul (power 10 tens) (power 2 (-e))) in
     Z.compare left (Z.mul (Z.of_int n) (Z.mul (power 10 (-tens)) (power 2 e))) in
@@ -87,8 +88,8 @@ let decimal t single word =
 
 (* OBJ *)
 
-let skipped = ["vt"; "vn"; "vp"; "g"; "o"; "s"; "mg"; "usemtl"; "mtllib"; "usemap"; "maplib"; "lod"; "bevel"; "c_interp";
-               "d_interp"; "shadow_obj"; "trace_obj"]
+let skipped = ["vt"; "vn"; "vp"; "g"; "o"; "s"; "mg"; "usemtl"; "mtllib"; "usemap"; "maplib"; "lod"; "bevel";
+               "c_interp"; "d_interp"; "shadow_obj"; "trace_obj"]
 
 let two n = Z.shift_left Z.one n
 
@@ -115,7 +116,7 @@ let read_obj t =
     | Some l -> Some (String.concat " " (List.rev (l :: before))) in
   let vertex numbers =
     let n = List.length numbers in
-    if n < 2 || n = 5 || n > 7 || known () = mask then wrong t "a vertex has the wrong number of numbers, or is too much";
+    if n < 2 || n = 5 || n > 7 || known () = mask then wrong t "one vertex too many, or not 2, 3, 4, 6, 7 numbers";
     let put i v = if i < 3 then Buffer.add_int64_le x (Int64.bits_of_float v) in
     List.iteri put (List.map (decimal t false) numbers @ [0.0]) in
   let take = function
@@ -169,7 +170,8 @@ let property t title length kind label =
 
 let complete t e =
   let uses = List.filter (( <> ) Nothing) (List.map (fun p -> p.use) e.properties) in
-  let wanted = match e.title with "vertex" -> if List.mem (Axis 2) uses then 3 else 2 | "face" -> 1 | "edge" -> 2 | _ -> 0 in
+  let of_vertex = if List.mem (Axis 2) uses then 3 else 2 in
+  let wanted = match e.title with "vertex" -> of_vertex | "face" -> 1 | "edge" -> 2 | _ -> 0 in
   if e.count > 0 && (e.properties = [] || e.title = "tristrips" || List.length uses <> wanted) then
     wrong t ("element " ^ e.title ^ " is not read, or has not just the properties that it needs");
   { e with properties = List.rev e.properties }
@@ -208,8 +210,8 @@ let read_ply t =
     from 0 Z.zero in
   let integer kind =
     let n = 8 * size kind and is_signed = Char.lowercase_ascii kind = kind in
-    let half = two (n - 1) in
-    if ascii then whole t (if is_signed then Z.neg half else Z.zero) (Z.pred (if is_signed then half else two n)) (word ())
+    let low, above = if is_signed then (Z.neg (two (n - 1)), two (n - 1)) else (Z.zero, two n) in
+    if ascii then whole t low (Z.pred above) (word ())
     else if is_signed then Z.signed_extract (bits (n / 8)) 0 n else bits (n / 8) in
   let real kind =
     let v =

@@ -1,9 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
 (* noli_check_verified PROOF FRAME... | noli_check_verified PROOF TRAJECTORY
-   Checks a proof that nothing touches, or that something does (proofs/FORMAT.md); its exit codes are in section 6 there.
+   Checks a proof that nothing touches, or that something does (proofs/FORMAT.md); for its exit codes see section 6.
 
-   What this does: it reads the files, compares hashes, and turns numbers into integers. Whether a token may be used and
-   a witness holds, the functions decide that are extracted from Coq: Checker.start, Checker.step, Hit.check_hit.
+   What this does: it reads the files, compares hashes, and turns numbers into integers. Whether a token may be used
+   and a witness holds, the functions decide that are extracted from Coq: Checker.start, Checker.step, Hit.check_hit.
    What it does not do: it finds nothing by itself, and shares nothing with the other checker but the document. *)
 open Blocks
 open Trajectory
@@ -33,7 +33,8 @@ let cells_of (mesh : Frames.mesh) same points =
   List.iter (Array.iter (fun v -> used.(v) <- true)) all;
   let unused = List.filter (fun c -> not used.(c.(0))) (List.init mesh.vertices (fun v -> [| v |])) in
   let of_size n = List.filter (fun c -> Array.length c = n) all in
-  Frames.irredundant mesh.vertices (fun v -> same.(v)) (of_size 3, of_size 2, List.rev_append (List.rev (of_size 1)) unused)
+  let points = List.rev_append (List.rev (of_size 1)) unused in
+  Frames.irredundant mesh.vertices (fun v -> same.(v)) (of_size 3, of_size 2, points)
 
 let cells_hash claim =
   let h = hash () in
@@ -69,7 +70,8 @@ let read_claim file paths =
   need c n 8;
   let excluded = pairs n u32 c in
   finish c;
-  check c (Option.value trajectory.excluded ~default:excluded = excluded) "other pairs are excluded than those of the run";
+  let right = Option.value trajectory.excluded ~default:excluded in
+  check c (excluded = right) "other pairs are excluded than those of the run";
   let cells = if is_run then mesh.cells else cells_of mesh same (flags >= 2) in
   let labels = if is_run then trajectory.labels else Array.make (Array.length cells) 0 in
   let claim = { strict = flags land 1 = 1; ring; eta; same; cells; labels; excluded } in
@@ -222,7 +224,7 @@ let rec check_steps file claim next_motion seen tree words =
       let tree = prove file claim tree c (scene_of c claim m p q claim.ring Fun.id) in
       check_steps file claim next_motion (number + 1) (Some tree) words
     else
-      (* A witness names vertices after merging. Its paths are searched: no shortest one has as many edges as vertices. *)
+      (* A witness names vertices after merging. Paths are searched: no shortest one has as many edges as vertices. *)
       let ring = min claim.ring (Array.length claim.same) and merged = Array.map (fun v -> claim.same.(v)) in
       let found = refute file claim (scene_of c claim m p q ring merged) number in
       check_steps file claim next_motion (number + 1) tree (if words = None then Some found else words)
@@ -230,7 +232,8 @@ let rec check_steps file claim next_motion seen tree words =
 
 let print_claim claim steps =
   Printf.printf "%d steps; %d cells of %d vertices; features of %s.\n" steps (Array.length claim.cells)
-    (Array.length claim.same) (if claim.strict then "one cell are compared too" else "two different cells are compared");
+    (Array.length claim.same)
+    (if claim.strict then "one cell are compared too" else "two different cells are compared");
   if claim.eta > 0.0 then Printf.printf "Least distance %.17g, ring %d.\n" claim.eta claim.ring;
   if claim.excluded <> [] then print_string "Not compared, pairs of labels:";
   List.iter (fun (a, b) -> Printf.printf " %d-%d" a b) claim.excluded;

@@ -34,7 +34,8 @@ def blocks_of(data):
 
 def block_file(content, blocks):
     """The file with these blocks; commits are made anew."""
-    out, group_begin, running, commits = bytearray(b"\x89NOLI\r\n\x1a" + struct.pack("<I", 1) + content), 0, bytes(32), 0
+    out = bytearray(b"\x89NOLI\r\n\x1a" + struct.pack("<I", 1) + content)
+    group_begin, running, commits = 0, bytes(32), 0
     for kind, payload in blocks:
         if kind == "CMIT":
             group = hashlib.sha256(out[group_begin:]).digest()
@@ -76,8 +77,8 @@ def write(name, data):
 # Meshes in all the forms that a file may have
 
 CELLS = [(0, 1, 2), (2, 1, 3), (4, 5, 6), (4, 6, 7)]
-FLOATS = ["1.00000005960464477539062500001", "1.000000059604644775390625", "1.00000017881393432617187499999", "7.1e-46",
-          "7.0064923216240853546186479164495806564013097093825788587854e-46", "1.17549432e-38", "-0", "+3.25", ".5", "5.",
+FLOATS = ["1.00000005960464477539062500001", "1.000000059604644775390625", "1.00000017881393432617187499999",
+          "7.1e-46", "7.0064923216240853546186479164495806564013097093825788587854e-46", "1.17549432e-38", "-0", "+3.25", ".5", "5.",
           "1e+2", "0e999", "0.0000000000000000000000000000000000000000000000001e10", "16777217", "-16777217.000001"]
 
 
@@ -106,9 +107,10 @@ def obj(xs, style=0):
     n, out = len(xs), []
     for k, x in enumerate(xs):
         numbers = [("+" if style and i >= 0 else "") + format(i, ".17e" if style else ".17g") for i in x]
-        out.append("v " + " ".join(numbers[:2]) + (" \\\n " if style else " ") + numbers[2] + (" 1" if style and k % 2 else ""))
+        more = " 1" if style and k % 2 else ""
+        out.append("v " + " ".join(numbers[:2]) + (" \\\n " if style else " ") + numbers[2] + more)
     for c in CELLS:
-        out.append("f " + " ".join(f"{i - n}//1" if style else str(i + 1) for i in c) + (" # a face" if style else ""))
+        out.append("f " + " ".join(f"{i - n}//1" if style else str(i + 1) for i in c) + (" # x" if style else ""))
     return ("\r\n" if style else "\n").join((["# made", "g a", "vt 1 2"] if style else []) + out) + "\n"
 
 
@@ -134,15 +136,19 @@ for name, files in same.items():
     agree(name + ", the proof of a", work / "a.noli", files, 0)
 prove("strict", same["a"], 0, "--strict")
 prove("rest", same["b"], 0, "--static")
-prove("merged", [write(f"m{k}.ply", ply("ascii", positions(k)[:4] + positions(k), cells=[(0, 1, 2), (6, 5, 3), (8, 9, 10, 11)]))
-                 for k in range(2)], 0, "--merge-identical")
-prove("points", [write(f"p{k}.ply", ply("ascii", positions(k), cells=CELLS[:3] + [(0, 1), (3,)])) for k in range(2)], 0, "--points")
-prove("plane", [write(f"q{k}.ply", ply("ascii", [(x, y + (k if v > 3 else 0), 0) for v, (x, y, z) in enumerate(positions(0))],
-                                       cells=[(0, 1), (1, 3), (4, 5)])) for k in range(2)], 1)
-prove("contact", [same["a"][0], write("z.ply", ply("ascii", [(x, y, z - (4 if v < 4 else 0)) for v, (x, y, z) in
-                                                             enumerate(positions(1))]))], 1)
+two = range(2)
+doubled = [(0, 1, 2), (6, 5, 3), (8, 9, 10, 11)]
+prove("merged", [write(f"m{k}.ply", ply("ascii", positions(k)[:4] + positions(k), cells=doubled)) for k in two], 0,
+      "--merge-identical")
+mixed = CELLS[:3] + [(0, 1), (3,)]
+prove("points", [write(f"p{k}.ply", ply("ascii", positions(k), cells=mixed)) for k in two], 0, "--points")
+flat = [[(x, y + (k if v > 3 else 0), 0) for v, (x, y, z) in enumerate(positions(0))] for k in two]
+prove("plane", [write(f"q{k}.ply", ply("ascii", flat[k], cells=[(0, 1), (1, 3), (4, 5)])) for k in two], 1)
+through = [(x, y, z - (4 if v < 4 else 0)) for v, (x, y, z) in enumerate(positions(1))]
+prove("contact", [same["a"][0], write("z.ply", ply("ascii", through))], 1)
 texts = [[FLOATS[(3 * v + k) % len(FLOATS)] for k in range(3)] for v in range(8)]
-prove("rounding", [write("r.ply", ply("ascii", positions(0), real="float", texts=texts, cells=[(0, 1)]))], 0, "--static")
+rounded = ply("ascii", positions(0), real="float", texts=texts, cells=[(0, 1)])
+prove("rounding", [write("r.ply", rounded)], 0, "--static")
 for scene, until in (("bounce", "0.5"), ("plane_curtain", "0.02"), ("swinging_cloth", "0.1"), ("ring_in_box", "0.1")):
     text = json.loads((scenes / f"{scene}.json").read_text())
     text["record"] = "full"
@@ -155,7 +161,8 @@ def by_hand():
     """At a distance: two edges with a common end, and W."""
     files = [write(f"w{k}.obj", f"v 0 0\nv 1 {k}\nv 2 0\nl 1 2 3\n") for k in range(2)]
     claim = b"\0\2\0\0" + struct.pack("<Id", 2, 0.5)
-    claim += hashlib.sha256(struct.pack("<QQ", 3, 2) + b"".join(struct.pack("<BIII", 2, a, a + 1, 0) for a in (0, 1))).digest()
+    cells = b"".join(struct.pack("<BIII", 2, a, a + 1, 0) for a in (0, 1))
+    claim += hashlib.sha256(struct.pack("<QQ", 3, 2) + cells).digest()
     motion = b""
     for x, y in ((0, (0, 0)), (1, (0, 1)), (2, (0, 0))):
         motion += struct.pack("<Q8d", 2, 0, x, y[0], 0, 1, x, y[1], 0)
@@ -165,7 +172,8 @@ def by_hand():
     right = b"\x30\1\1\1\2" + apart + b"\x0e" + apart      # {0 1}, {2}: {0}, {2}; less 2; disjoint
     meets = b"\x20" + apart + apart                        # disjoint, but for their common end
     tokens = b"\x03\x04" + b"\x30\0\1" + left + right + meets + b"\x04"
-    blocks = [("CLAM", claim + bytes(8)), ("CMIT", b""), ("STEP", step), ("TREE", b"\0\1\2"), ("TOKS", tokens), ("CMIT", b"")]
+    blocks = [("CLAM", claim + bytes(8)), ("CMIT", b""),
+              ("STEP", step), ("TREE", b"\0\1\2"), ("TOKS", tokens), ("CMIT", b"")]
     good.append(("ring", write("ring.noli", block_file(b"PROF", blocks)), files, 0))
 
 
@@ -189,7 +197,8 @@ def changed(payload):
     at = rng.randrange(len(payload))
     if how == 0: return payload + bytes([rng.randrange(256)])
     if how == 1: return payload[:-1]
-    if how == 2: return payload[:at] + bytes([rng.choice([0, 1, 3, 4, 6, 8, 0x0e, 0x12, 0x20, 0x30, 0x7f, 0x80, 0xff])]) + payload[at + 1:]
+    telling = [0, 1, 3, 4, 6, 8, 0x0e, 0x12, 0x20, 0x30, 0x7f, 0x80, 0xff]
+    if how == 2: return payload[:at] + bytes([rng.choice(telling)]) + payload[at + 1:]
     if how == 3: return payload[:at] + payload[at + 1:]
     return flipped(payload)
 
@@ -197,12 +206,15 @@ def changed(payload):
 def field(payload, at, value): return payload[:at] + value + payload[at + len(value):]
 
 
-STEP_FIELDS = {"T0 = T1": (8, struct.pack("<dd", 1, 1)), "T0 > T1": (8, struct.pack("<dd", 1, 0)), "nan": (8, b"\xff" * 8),
-               "p": (24, struct.pack("<i", 1201)), "coarse p": (24, struct.pack("<i", 60)), "q": (28, struct.pack("<i", 7)),
-               "kind": (32, b"\2"), "number": (0, b"\1"), "large number": (0, b"\xff" * 8)}
-CLAIM_FIELDS = {"source": (0, b"\3"), "other source": (0, b"\1"), "dimension": (1, b"\4"), "strict": (2, b"\1"), "flags": (2, b"\4"),
-                "points": (2, b"\2"), "zero": (3, b"\1"), "ring": (4, b"\0"), "ring without distance": (4, b"\2"),
-                "-0": (15, b"\x80"), "distance": (8, struct.pack("<d", 1e-9)), "far": (8, struct.pack("<d", 64)), "nan": (14, b"\xf8\x7f")}
+STEP_FIELDS = {
+    "T0 = T1": (8, struct.pack("<dd", 1, 1)), "T0 > T1": (8, struct.pack("<dd", 1, 0)), "nan": (8, b"\xff" * 8),
+    "p": (24, struct.pack("<i", 1201)), "coarse p": (24, struct.pack("<i", 60)), "q": (28, struct.pack("<i", 7)),
+    "kind": (32, b"\2"), "number": (0, b"\1"), "large number": (0, b"\xff" * 8)}
+CLAIM_FIELDS = {
+    "source": (0, b"\3"), "other source": (0, b"\1"), "dimension": (1, b"\4"), "strict": (2, b"\1"),
+    "flags": (2, b"\4"), "points": (2, b"\2"), "zero": (3, b"\1"), "ring": (4, b"\0"),
+    "ring without distance": (4, b"\2"), "-0": (15, b"\x80"), "distance": (8, struct.pack("<d", 1e-9)),
+    "far": (8, struct.pack("<d", 64)), "nan": (14, b"\xf8\x7f")}
 
 for name, proof, files, code in good:
     data = proof.read_bytes()
@@ -216,15 +228,18 @@ for name, proof, files, code in good:
     broken(f"{name}, content", data[:12] + b"TRAJ" + data[16:], files, 3)
     others = {"swapped": files[::-1] if len(files) > 1 else [], "one less": files[:-1], "one more": files + files[-1:],
               "others": [work / "d0.obj", work / "r.ply"], "missing": [work / "nothing.ply"], "a folder": [work]}
-    for what, changed_files in others.items(): agree(f"{name}, {what}", proof, changed_files, None if what == "one more" and code == 1 else 3)
+    for what, changed_files in others.items():
+        agree(f"{name}, {what}", proof, changed_files, None if what == "one more" and code == 1 else 3)
     if not small: continue
     if block_file(b"PROF", blocks) != data: sys.exit(f"{name}: not the same again")
     for i in sorted(rng.sample(range(len(blocks)), min(8, len(blocks)))):
         kind, payload = blocks[i]
-        for what, now in (("without", []), ("twice", [blocks[i]] * 2), ("kind", [("TOKZ", payload)]), ("trailing", [(kind, payload + b"\0")])):
-            if kind != "CMIT": broken(f"{name}, {what} {i} {kind}", block_file(b"PROF", blocks[:i] + now + blocks[i + 1:]), files)
-    fields = [(1 + 1, STEP_FIELDS)] + [(0, CLAIM_FIELDS)]
-    for i, table in fields:
+        ways = {"without": [], "twice": [blocks[i]] * 2, "kind": [("TOKZ", payload)],
+                "trailing": [(kind, payload + b"\0")]}
+        for what, now in ways.items():
+            if kind == "CMIT": continue
+            broken(f"{name}, {what} {i} {kind}", block_file(b"PROF", blocks[:i] + now + blocks[i + 1:]), files)
+    for i, table in ((2, STEP_FIELDS), (0, CLAIM_FIELDS)):
         for what, (at, value) in table.items():
             now = blocks[:i] + [(blocks[i][0], field(blocks[i][1], at, value))] + blocks[i + 1:]
             broken(f"{name}, {blocks[i][0]} {what}", block_file(b"PROF", now), files)
@@ -250,9 +265,26 @@ for k in range(150):
     path = same[kind][0]
     text = path.read_bytes()
     at = rng.randrange(len(text))
-    by = rng.choice([b"", b"\0", b" ", b"\n", b"\r", b"0", b"-", b"+", b"_", b"x", b"nan", b"0x", b"e", b"#", b"\\", b"/", b"1e999", b"1e-999", b"\t"])
+    by = rng.choice([b"", b"\0", b" ", b"\n", b"\r", b"0", b"-", b"+", b"_", b"x", b"nan", b"0x", b"e", b"#", b"\\",
+                     b"/", b"1e999", b"1e-999", b"\t"])
     agree(f"text {k} {kind} {at} {by}", work / "a.noli",
           [write("text" + path.suffix, text[:at] + by + text[at + rng.randrange(2):])] + same[kind][1:])
+
+# A window, and its step, that end when they begin: all sums and hashes are right.
+for end in (0, -1):
+    path = work / "bounce" / "trajectory.blocks"
+    blocks = [list(b) for b in blocks_of(path.read_bytes())]
+    first = next(i for i, b in enumerate(blocks) if b[0] == "WIND")
+    begin, = struct.unpack_from("<d", blocks[first][1], 8)
+    after = begin + end
+    blocks[first][1] = field(blocks[first][1], 16, struct.pack("<d", after))
+    made = block_file(b"TRAJ", blocks[:first + 5])
+    proof = [list(b) for b in blocks_of((work / "bounce" / "proof.blocks").read_bytes())]
+    number = next(i for i, b in enumerate(proof) if b[0] == "STEP")
+    group_hash = blocks_of(made)[-1][1][8:40]
+    proof[number][1] = field(field(proof[number][1], 16, struct.pack("<d", after)), 33, group_hash)
+    stop = next(i for i in range(number, len(proof)) if proof[i][0] == "CMIT")
+    broken(f"a window that ends at {end}", block_file(b"PROF", proof[:stop + 1]), [write("short.blocks", made)], 3)
 
 print(f"exit codes: {dict(sorted(seen.items()))}; {len(failures)} disagreements")
 sys.exit(1 if failures or set(seen) != {0, 1, 3} else 0)

@@ -129,7 +129,8 @@ let of_run path =
     finish c;
     check c (t.(0) < t.(1)) "a window ends before it begins";
     let now = read_lines (expect file "LINE") dimension run.mesh.vertices t.(0) t.(1) in
-    check c (Option.fold ~none:true ~some:(fun b -> follows b now) !before) "a window does not go on from the one before";
+    let goes_on = match !before with Some b -> follows b now | None -> true in
+    check c goes_on "a window does not go on from the one before";
     before := Some now;
     incr windows;
     ignore (expect file "VELO");
