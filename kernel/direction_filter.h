@@ -30,6 +30,13 @@ using formula::Vec;
 
 constexpr double u = 0x1p-53;
 
+// All but greatest_size, which is against overflow, are in theorems of proofs/gappa; a test compares with Constants.v.
+constexpr double least_normal = 0x1p-600;  // of |n|
+constexpr double least_size = 0x1p-300;    // of m
+constexpr double greatest_size = 0x1p300;
+constexpr double vertex_face_units = 16;
+constexpr double edge_edge_units = 60;
+
 // --- Stage: comparison ---------------------------------------------------------------------------------------------
 
 /// Whether on some axis the two features are in the same strict order at both ends. Exact: nothing is computed.
@@ -98,7 +105,7 @@ struct Separation {
 /// Whether all values between low and high, at both ends, are on one side of zero by more than their error.
 inline bool on_one_side(BothEnds low, BothEnds high, BothEnds sizes, const Vec<double, 3>& normal, double units) {
   const double n = magnitude(normal), m = std::max(sizes.at_t0(), sizes.at_t1());
-  if (!(n > 0x1p-600 && m > 0x1p-300 && m < 0x1p300)) return false;
+  if (!(n > least_normal && m > least_size && m < greatest_size)) return false;
   const double bound = units * u * n * m;
   return std::min(low.at_t0(), low.at_t1()) > bound || std::max(high.at_t0(), high.at_t1()) < -bound;
 }
@@ -112,7 +119,8 @@ inline Separation separate(const VertexFace3& q) {
   const EndVectors n = constant(normal);
   const BothEnds s0 = dot(n, d0), s1 = dot(n, d1), s2 = dot(n, d2);
   const BothEnds sizes = max(max(magnitude(d0), magnitude(d1)), magnitude(d2));
-  return {{d0, d1, d2}, normal, on_one_side(min(min(s0, s1), s2), max(max(s0, s1), s2), sizes, normal, 16)};
+  return {
+      {d0, d1, d2}, normal, on_one_side(min(min(s0, s1), s2), max(max(s0, s1), s2), sizes, normal, vertex_face_units)};
 }
 
 /// The common normal of the edges at mid-time. With w from the one edge to the other, the differences between them are
@@ -124,7 +132,7 @@ inline Separation separate(const EdgeEdge3& q) {
   const BothEnds nu = dot(n, du), nv = dot(n, dv), nw = dot(n, dw), zero(0.0);
   const BothEnds low = (nw - max(nu, zero)) + min(nv, zero), high = (nw - min(nu, zero)) + max(nv, zero);
   const BothEnds sizes = max(max(magnitude(du), magnitude(dv)), magnitude(dw));
-  return {{du, dv, dw}, normal, on_one_side(low, high, sizes, normal, 60)};
+  return {{du, dv, dw}, normal, on_one_side(low, high, sizes, normal, edge_edge_units)};
 }
 
 }  // namespace noli::filter

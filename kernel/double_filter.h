@@ -43,6 +43,14 @@ namespace noli::filter {
 using bernstein::Verdict;
 using formula::Moving;
 
+// The bounds, in units of u and of the product of the m_x concerned; proved in proofs/gappa, whose Constants.v has the
+// same numbers. A test compares.
+constexpr double coplanarity_units = 176;        // of a scaled coefficient of f
+constexpr double coplanarity_level_units = 168;  // added by de Casteljau
+constexpr double inside_units = 21;
+constexpr double inside_difference_units = 25;  // of each of the two products of an inside c - w x u
+constexpr double inside_level_units = 25;
+
 /// Certain signs of doubles with known error bounds (see bernstein.h for what is asked of it).
 template <std::size_t Insides>
 struct DoubleSigns {
@@ -108,7 +116,7 @@ inline double largest_magnitude(const EndVectors& x) {
 
 /// Whether the error bounds hold: nothing overflows or underflows. False too for what is not a number.
 inline bool in_range(const std::array<double, 3>& m) {
-  return std::min({m[0], m[1], m[2]}) > 0x1p-300 && std::max({m[0], m[1], m[2]}) < 0x1p300;
+  return std::min({m[0], m[1], m[2]}) > least_size && std::max({m[0], m[1], m[2]}) < greatest_size;
 }
 
 inline std::size_t largest_component(const Vec<double, 3>& n) {
@@ -201,7 +209,10 @@ class VertexFaceFilter {
   DoubleSigns<3> signs() const {
     const double v = volume() * u;
     const std::array<double, 3> area = {m_[0] * m_[1] * u, m_[1] * m_[2] * u, m_[2] * m_[0] * u};
-    return {176 * v, 168 * v, {21 * area[0], 21 * area[1], 21 * area[2]}, {25 * area[0], 25 * area[1], 25 * area[2]}};
+    return {coplanarity_units * v,
+            coplanarity_level_units * v,
+            {inside_units * area[0], inside_units * area[1], inside_units * area[2]},
+            {inside_level_units * area[0], inside_level_units * area[1], inside_level_units * area[2]}};
   }
 
  private:
@@ -252,10 +263,12 @@ class EdgeEdgeFilter {
 
   DoubleSigns<4> signs() const {
     const double v = volume() * u, wu = mw_ * mu_ * u, wv = mw_ * mv_ * u, uv = mu_ * mv_ * u;
-    return {176 * v,
-            168 * v,
-            {21 * wu, 25 * (uv + wu), 21 * wv, 25 * (uv + wv)},
-            {25 * wu, 25 * (uv + wu), 25 * wv, 25 * (uv + wv)}};
+    return {coplanarity_units * v,
+            coplanarity_level_units * v,
+            {inside_units * wu, inside_difference_units * (uv + wu), inside_units * wv,
+             inside_difference_units * (uv + wv)},
+            {inside_level_units * wu, inside_level_units * (uv + wu), inside_level_units * wv,
+             inside_level_units * (uv + wv)}};
   }
 
  private:
@@ -274,7 +287,7 @@ constexpr int subdivision_depth = 3;
 template <class Filter>
 Decision search_roots(const Filter& filter, bool& near_border) {
   const double volume = filter.volume() * u;
-  const RoundedCubic cubic{filter.coplanarity(), 176 * volume, 168 * volume};
+  const RoundedCubic cubic{filter.coplanarity(), coplanarity_units * volume, coplanarity_level_units * volume};
   const auto inside = [&filter](double low, double high, int) { return filter.inside(low, high); };
   RootSearch search(cubic, inside);
   const Decision decision = search.run(subdivision_depth);

@@ -15,14 +15,17 @@ namespace {
 
 int sign_of(double x) { return (x > 0) - (x < 0); }
 
+// Proved in proofs/gappa for rounding to nearest; a test compares these numbers with its Constants.v.
 constexpr double error_2d = 2 * (3 + 16 * 0x1p-53) * 0x1p-53;
 constexpr double error_3d = 2 * (7 + 56 * 0x1p-53) * 0x1p-53;
+constexpr double underflow_2d = 0x1p-1000;
+constexpr double underflow_3d = 0x1p-1060;
 
 /// The sign, or 0 if it is not certain.
 int filtered(const Point2& a, const Point2& b, const Point2& c) {
   const double left = (b[0] - a[0]) * (c[1] - a[1]), right = (b[1] - a[1]) * (c[0] - a[0]);
   const double det = left - right;
-  const double error = error_2d * (std::abs(left) + std::abs(right)) + 0x1p-1000;
+  const double error = error_2d * (std::abs(left) + std::abs(right)) + underflow_2d;
   return std::abs(det) > error ? sign_of(det) : 0;
 }
 
@@ -35,7 +38,7 @@ int filtered(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
   const double size = std::abs(uz) * (std::abs(vw) + std::abs(wv)) + std::abs(vz) * (std::abs(wu) + std::abs(uw)) +
                       std::abs(wz) * (std::abs(uv) + std::abs(vu));
   // An inner product that underflows is off by 2^-1074 at most, and then multiplied by a height.
-  const double underflow = (std::abs(uz) + std::abs(vz) + std::abs(wz)) * 0x1p-1060 + 0x1p-1060;
+  const double underflow = (std::abs(uz) + std::abs(vz) + std::abs(wz)) * underflow_3d + underflow_3d;
   return std::abs(det) > error_3d * size + underflow ? sign_of(det) : 0;
 }
 

@@ -30,7 +30,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "noli/proofs/prover/moving_cell.h"
@@ -62,6 +61,11 @@ struct PartPair {
 };
 
 namespace detail {
+
+// The right side of the claim is error_share (4 |n|_1 reach) + error_least. Proved in proofs/gappa, whose Constants.v
+// has the same numbers; a test compares.
+constexpr double error_share = 0x1p-49;
+constexpr double error_least = 0x1p-1022;  // the least normal double
 
 /// Four corners of the part, by number: those in the mask, the last one repeated.
 inline const std::array<std::uint8_t, 4>& lanes_of(CornerMask mask) {
@@ -137,7 +141,7 @@ template <int Dim>
 double error_bound(const Direction<Dim>& n, double reach) {
   double size = std::abs(n[0]) + std::abs(n[1]);
   if constexpr (Dim == 3) size += std::abs(n[2]);
-  return 0x1p-49 * (4 * size * reach) + std::numeric_limits<double>::min();
+  return detail::error_share * (4 * size * reach) + detail::error_least;
 }
 
 /// How far the first part is above the second at one end (negative: the parts overlap along n).

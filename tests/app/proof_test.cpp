@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Proofs of frames from end to end: `noli verify --proof` writes them, `noli check` has the checker look at them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+#include "noli/tests/app/sequences.h"
+#include "noli/tests/app/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+class Proof : public testing::Test {
+ protected:
+  std::vector<std::string> write(const Sequence& sequence) const {
+    return write_frames(sequence,
+                        [this](const std::string& name, const std::string& text) { return folder.write(name, text); });
+  }
+  std::vector<std::string> triangles(const std::vector<double>& heights) const {
+    std::vector<std::string> paths;
+    for (const double height : heights)
+      paths.push_back(folder.write(std::to_string(paths.size()) + ".ply", two_triangles(height)));
+    return paths;
+  }
+  static Process verify(const std::vector<std::string>& frames, std::vector<std::string> more) {
+    more.insert(more.begin(), "verify");
+    more.insert(more.end(), frames.begin(), frames.end());
+    return run_noli(more);
+  }
+  Process prove(const std::vector<std::string>& frames, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> options = {"--proof", proof()};
+    options.insert(options.end(), more.begin(), more.end());
+    return verify(frames, options);
+  }
+  Process check(const std::vector<std::string>& frames) const {
+    std::vector<std::string> arguments = {"check", proof()};
+    arguments.insert(arguments.end(), frames.begin(), frames.end());
+    return run_noli(arguments);
+  }
+  std::string proof() const { return folder.path("proof.noli"); }
+
+  Folder folder;
+};
+
+TEST_F(Proof, SequencesWithoutContactAreProved) {
+  const auto sequences = untouched_sequences();
+  EXPECT_GE(sequences.size(), 30U);
+  for (const Sequence& sequence : sequences) {
+    const Folder own;
+    const auto frames =
+        write_frames(sequence, [&](const std::string& name, const std::string& text) { return own.write(name, text); });
+    const Process process = prove(frames, sequence.options);
+    EXPECT_EQ(process.exit_code, 0) << sequence.name << ": " << process.out.substr(0, 300) << process.err;
+    EXPECT_EQ(process.verdict_line().substr(0, 15), "verdict proved ") << sequence.name;
+    const Process checked = check(frames);
+    EXPECT_EQ(checked.exit_code, 0) << sequence.name << ": " << checked.out;
+    EXPECT_EQ(checked.verdict_line(), "verdict accepted") << sequence.name;
+  }
+}
+
+TEST_F(Proof, AContactHasAWitness) {
+  const auto frames = triangles({1, 0.5, -2});
+  const Process process = prove(frames);
+  EXPECT_EQ(process.exit_code, 1) << process.err;
+  EXPECT_NE(process.out.find("The checker says of"), std::string::npos) << process.out;
+  const Process checked = check(frames);
+  EXPECT_EQ(checked.exit_code, 1);
+  EXPECT_EQ(checked.verdict_line(), "verdict refuted");
+  EXPECT_NE(checked.out.find("refuted: in step 2, vertices {3} of cell 1 and {0 1 2} of cell 0 meet"),
+            std::string::npos)
+      << checked.out;
+}
+
+TEST_F(Proof, CellsThatIntersectFromTheBeginningHaveAWitness) {
+  const auto deck = folder.write("deck.ply", sail_through_deck());
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--static"}}) {
+    const std::vector<std::string> frames =
+        more.empty() ? std::vector<std::string>{deck, deck} : std::vector<std::string>{deck};
+    EXPECT_EQ(prove(frames, more).exit_code, 1);
+    const Process checked = check(frames);
+    EXPECT_EQ(checked.exit_code, 1) << checked.out;
+  }
+}
+
+TEST_F(Proof, IsOfItsFramesInTheirOrderAlone) {
+  const auto frames = triangles({1, 0.5, 0.25});
+  ASSERT_EQ(prove(frames).exit_code, 0);
+  EXPECT_EQ(check(frames).exit_code, 0);
+  const std::vector<std::vector<std::string>> others = {
+      {frames[1], frames[0], frames[2]},
+      {frames[0], frames[1]},
+      {frames[0], frames[1], frames[2], frames[2]},
+      {frames[2], frames[1], frames[0]},
+      {frames[0], frames[1], folder.write("other.ply", two_triangles(0.3))}};
+  for (const auto& other : others) {
+    const Process checked = check(other);
+    EXPECT_EQ(checked.exit_code, 3) << checked.out;
+    EXPECT_EQ(checked.verdict_line(), "verdict rejected");
+  }
+}
+
+TEST_F(Proof, TheSameMotionFromAnotherFormatHasTheSameProof) {
+  const auto ply = triangles({1, 0.5});
+  std::vector<std::string> obj;
+  for (const std::string height : {"1", "5e-1"}) {
+    obj.push_back(folder.write("frame" + height + ".obj", "v 0 0 0\nv 4 0 -0\nv 0 4 0\nv 1 1 " + height + "\nv 1.5 1 " +
+                                                              height + "\nv 1 1.5 " + height + "\nf 1 2 3\nf 4 5 6\n"));
+  }
+  ASSERT_EQ(prove(ply).exit_code, 0);
+  EXPECT_EQ(check(obj).exit_code, 0);
+  const std::string bytes = bytes_of(proof());
+  ASSERT_EQ(prove(obj).exit_code, 0);
+  EXPECT_EQ(bytes_of(proof()) == bytes, true);
+}
+
+TEST_F(Proof, SameBytesForAnyNumberOfThreads) {
+  const auto frames = write(large_sequence(4000));
+  std::string first;
+  for (const char* threads : {"1", "2", "5"}) {
+    ASSERT_EQ(prove(frames, {"--threads", threads, "--no-check"}).exit_code, 0);
+    const std::string bytes = bytes_of(proof());
+    if (first.empty()) first = bytes;
+    EXPECT_EQ(bytes == first, true) << threads;
+  }
+}
+
+TEST_F(Proof, WithoutTheCheckTheVerdictIsNoContact) {
+  const auto frames = triangles({1, 0.5});
+  EXPECT_EQ(prove(frames, {"--no-check"}).verdict_line().substr(0, 19), "verdict no_contact ");
+  EXPECT_EQ(prove(frames).verdict_line().substr(0, 15), "verdict proved ");
+}
+
+TEST_F(Proof, IsNotWrittenOverAFrame) {
+  const auto frames = triangles({1, 0.5});
+  const std::string before = bytes_of(frames[1]);
+  const Process process = verify(frames, {"--proof", frames[1]});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_EQ(bytes_of(frames[1]), before);
+  EXPECT_EQ(verify(frames, {"--proof", folder.path("no/such/folder.noli")}).exit_code, 3);
+}
+
+TEST_F(Proof, CutOffItIsRejected) {
+  const auto frames = triangles({1, 0.5, 0.25});
+  ASSERT_EQ(prove(frames).exit_code, 0);
+  const std::string whole = bytes_of(proof());
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
+    folder.write("proof.noli", whole.substr(0, size));
+    EXPECT_EQ(check(frames).exit_code, 3) << size;
+  }
+  folder.write("proof.noli", whole + std::string(1, '\0'));
+  EXPECT_EQ(check(frames).exit_code, 3);
+}
+
+TEST_F(Proof, CheckSaysWhatItNeeds) {
+  EXPECT_EQ(run_noli({"check", folder.path("nothing"), folder.path("a.ply")}).exit_code, 3);
+  EXPECT_EQ(run_noli({"check", folder.path("nothing")}).exit_code, 3);
+  const Process process = run_noli({"check", folder.write("empty", ""), folder.write("a.ply", two_triangles(1))});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_EQ(process.verdict_line(), "verdict rejected");
+}
+
+TEST_F(Proof, RealFramesThatTouchHaveWitnesses) {
+  for (const char* name : {"cloth-ball", "cloth-funnel", "armadillo-rollers"}) {
+    const auto data = real_data(std::string("frames/") + name);
+    if (!data) continue;
+    std::vector<std::string> frames;
+    for (const auto& entry : fs::directory_iterator(*data)) frames.push_back(entry.path());
+    std::sort(frames.begin(), frames.end());
+    EXPECT_EQ(prove(frames).exit_code, 1) << name;
+    EXPECT_EQ(check(frames).exit_code, 1) << name;
+  }
+}
+
+TEST_F(Proof, ARealRodTwistIsProved) {
+  const auto data = real_data("frames/rod-twist-clean");
+  if (!data) return;
+  const std::vector<std::string> frames = {(*data / "0.ply").string(), (*data / "1.ply").string()};
+  EXPECT_EQ(prove(frames).verdict_line().substr(0, 15), "verdict proved ");
+}
+
+using ProofOfRun = Simulate;
+
+TEST_F(ProofOfRun, EachWindowIsProvedAsItIsWritten) {
+  const std::string file = scene(hanging_sheet());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run")}).exit_code, 0);
+  const Process checked = run_noli({"check", run_path("run")});
+  EXPECT_EQ(checked.exit_code, 0) << checked.out;
+  EXPECT_NE(checked.out.find("25 steps"), std::string::npos) << checked.out;
+  ASSERT_EQ(run_noli({"verify", run_path("run"), "--proof", folder.path("again.noli")}).exit_code, 0);
+  EXPECT_EQ(bytes_of(folder.path("again.noli")) == bytes_of(run_path("run") + "/proof.blocks"), true);
+}
+
+TEST_F(ProofOfRun, GoesOnWithTheRun) {
+  const std::string file = scene(hanging_sheet());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  const std::string whole = bytes_of(run_path("whole") + "/proof.blocks");
+  // Stopped at the same window, the proof ends there, or lacks windows, or is not there at all.
+  for (const std::uintmax_t size : {whole.size(), whole.size() / 2, std::size_t{100}, std::size_t{3}}) {
+    ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("part"), "--until", "0.1", "--force"}).exit_code, 0);
+    EXPECT_EQ(run_noli({"check", run_path("part")}).exit_code, 0);
+    const fs::path proof = run_path("part") + "/proof.blocks";
+    fs::resize_file(proof, std::min(size, fs::file_size(proof)));
+    ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("part"), "--resume"}).exit_code, 0);
+    EXPECT_EQ(bytes_of(proof) == whole, true) << size;
+    EXPECT_EQ(run_noli({"check", run_path("part")}).exit_code, 0);
+  }
+}
+
+TEST_F(ProofOfRun, IsOfItsRunAlone) {
+  Json one = hanging_sheet(), other = hanging_sheet();
+  other["gravity"] = {0, 0, -9.8};
+  ASSERT_EQ(run_noli({"simulate", folder.write("one.json", one.dump()), "-o", run_path("one")}).exit_code, 0);
+  ASSERT_EQ(run_noli({"simulate", folder.write("other.json", other.dump()), "-o", run_path("other")}).exit_code, 0);
+  EXPECT_EQ(run_noli({"check", run_path("one") + "/proof.blocks", run_path("one")}).exit_code, 0);
+  EXPECT_EQ(run_noli({"check", run_path("one") + "/proof.blocks", run_path("other")}).exit_code, 3);
+}
+
+TEST_F(ProofOfRun, IsNotThereWithoutWorldLinesOrIfNotWanted) {
+  Json frames = hanging_sheet();
+  frames["record"] = "frames";
+  ASSERT_EQ(run_noli({"simulate", scene(frames), "-o", run_path("frames")}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(run_path("frames") + "/proof.blocks"));
+  EXPECT_EQ(run_noli({"check", run_path("frames")}).exit_code, 3);
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("none"), "--no-proof"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(run_path("none") + "/proof.blocks"));
+}
+
+}  // namespace
+}  // namespace noli::app_tests
