@@ -17,6 +17,25 @@
 
 namespace noli::app_tests {
 
+/// Starts `noli` with these arguments and kills it after a pause, unless it has ended. Whether it ended well.
+inline bool run_and_kill(std::vector<std::string> arguments, std::chrono::microseconds pause) {
+  arguments.insert(arguments.begin(), "noli");
+  std::vector<char*> argv;
+  for (std::string& word : arguments) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::freopen("/dev/null", "w", stdout);
+    ::execv(NOLI_COMMAND, argv.data());
+    ::_exit(127);
+  }
+  std::this_thread::sleep_for(pause);
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
 /// Starts `simulate` with these arguments and kills it after pause(), again and again, `most` times; then lets it end.
 /// Returns how often it killed it, or -1 if it did not end well.
 inline int kill_until_done(const std::vector<std::string>& arguments, const std::string& run, int most,

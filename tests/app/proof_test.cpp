@@ -3,8 +3,10 @@
 // Proofs of frames from end to end: `noli verify --proof` writes them, `noli check` has the checker look at them.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 
+#include "noli/tests/app/killer.h"
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 #include "noli/tests/app/sequences.h"
@@ -35,10 +37,24 @@ class Proof : public testing::Test {
     options.insert(options.end(), more.begin(), more.end());
     return verify(frames, options);
   }
-  Process check(const std::vector<std::string>& frames) const {
-    std::vector<std::string> arguments = {"check", proof()};
+  Process check_by(std::vector<std::string> arguments, const std::vector<std::string>& frames) const {
+    arguments.insert(arguments.begin(), {"check", proof()});
     arguments.insert(arguments.end(), frames.begin(), frames.end());
     return run_noli(arguments);
+  }
+  /// What the checkers that are there say of the proof: all the same.
+  Process check(const std::vector<std::string>& frames) const {
+    const Process plain = check_by({}, frames);
+    if (!verified_is_there()) return plain;
+    const Process verified = check_by({"--verified"}, frames);
+    EXPECT_EQ(verified.exit_code, plain.exit_code) << plain.out << verified.out;
+    EXPECT_EQ(verified.verdict_line(), plain.verdict_line());
+    return plain;
+  }
+  static bool verified_is_there() {
+    const bool there = fs::exists(fs::path(NOLI_COMMAND).parent_path() / "noli_check_verified");
+    if (!there) std::fputs("skipped: the verified checker, which is not built\n", stderr);
+    return there;
   }
   std::string proof() const { return folder.path("proof.noli"); }
 
@@ -208,6 +224,41 @@ TEST_F(Proof, ARealRodTwistIsProved) {
   if (!data) return;
   const std::vector<std::string> frames = {(*data / "0.ply").string(), (*data / "1.ply").string()};
   EXPECT_EQ(prove(frames).verdict_line().substr(0, 15), "verdict proved ");
+}
+
+TEST_F(Proof, AFullDiskIsNoVerdict) {
+  const auto frames = write(large_sequence(4000));
+  ProcessOptions limit;
+  limit.file_size = 100'000;
+  std::vector<std::string> arguments = {"verify", "--proof", proof()};
+  arguments.insert(arguments.end(), frames.begin(), frames.end());
+  const Process process = run_noli(arguments, limit);
+  EXPECT_EQ(process.exit_code, 4) << process.out << process.err;
+  EXPECT_EQ(process.out, "");
+  EXPECT_EQ(check(frames).exit_code, 3);
+}
+
+TEST_F(Proof, SlowKilledItIsNeverAcceptedAsWhole) {
+  Sequence sequence = large_sequence(6000);
+  for (int f = 0; f < 4; ++f) sequence.frames.push_back(sequence.frames[f % 2]);
+  const auto frames = write(sequence);
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(prove(frames, {"--no-check"}).exit_code, 0);
+  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+  const std::string bytes = bytes_of(proof());
+  std::vector<std::string> arguments = {"verify", "--no-check", "--proof", proof()};
+  arguments.insert(arguments.end(), frames.begin(), frames.end());
+  int rejected = 0, accepted = 0;
+  for (int i = 0; i < 200; ++i) {
+    fs::remove(proof());
+    run_and_kill(arguments, whole * i / 200);
+    if (!fs::exists(proof())) continue;
+    const Process checked = check_by({}, frames);
+    EXPECT_EQ(checked.exit_code, bytes_of(proof()) == bytes ? 0 : 3) << checked.out;
+    (checked.exit_code == 0 ? accepted : rejected) += 1;
+  }
+  std::printf("rejected %d, whole before the kill %d\n", rejected, accepted);
+  EXPECT_GE(rejected, 20);
 }
 
 using ProofOfRun = Simulate;

@@ -231,15 +231,18 @@ TEST(CertificatesReplayed, SlowTheLiteralAlgorithmIsNeverLateInAMillionKicks) {
 }
 
 /// Were they a little late, it would show.
-TEST(CertificatesReplayed, WhatIsLateIsFound) {
-  for (const Fault fault : {Fault::late, Fault::thin, Fault::forgetful}) {
-    const Sum cells = dances<Cells>(0, 10, 3000, fault), literal = dances<EveryPair>(0, 10, 3000, fault);
-    std::printf("fault %d: found in %d and %d of %d dances\n", static_cast<int>(fault), static_cast<int>(cells.late),
-                static_cast<int>(literal.late), 10);
-    EXPECT_GE(cells.late, 3U) << static_cast<int>(fault);
-    EXPECT_GE(literal.late, 3U) << static_cast<int>(fault);
-  }
+class CertificatesWithAFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(CertificatesWithAFault, AreFoundLate) {
+  const Fault fault = GetParam();
+  const Sum cells = dances<Cells>(0, 10, 3000, fault), literal = dances<EveryPair>(0, 10, 3000, fault);
+  std::printf("fault %d: found in %d and %d of %d dances\n", static_cast<int>(fault), static_cast<int>(cells.late),
+              static_cast<int>(literal.late), 10);
+  EXPECT_GE(cells.late, 3U);
+  EXPECT_GE(literal.late, 3U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Faults, CertificatesWithAFault, testing::Values(Fault::late, Fault::thin, Fault::forgetful));
 
 }  // namespace
 }  // namespace noli::certificates
