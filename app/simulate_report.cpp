@@ -53,9 +53,7 @@ Json too_near_json(const SimulateOutcome& outcome) {
 
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
-    case RunEnd::done:
-      return outcome.excluded.empty() ? "Nothing touches from beginning to end."
-                                      : "Nothing that is compared touches from beginning to end.";
+    case RunEnd::done: return nothing_touches(outcome.not_compared, "from beginning to end");
     case RunEnd::contact: {
       const FirstInWindow& first = *outcome.contact->first;
       return fmt::format(
@@ -93,9 +91,7 @@ std::string statement(const SimulateOutcome& outcome) {
       "are "
       "all scripted or pinned",
       outcome.time);
-  for (const auto& [a, b] : outcome.excluded) {
-    text += fmt::format("; two cells of {}", a == b ? on_one_line(a) : on_one_line(a) + " and " + on_one_line(b));
-  }
+  for (const auto& pair : outcome.not_compared.excluded) text += "; two cells of " + pair_text(pair);
   return text + ".";
 }
 
@@ -131,7 +127,8 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   Json json = {{"verdict", verdict(outcome)}, {"end", name(outcome.end)}};
   json["title"] = outcome.title;
   json["statement"] = statement(outcome);
-  json["excluded"] = outcome.excluded;
+  json["scripted_or_pinned"] = outcome.not_compared.held;
+  json["excluded"] = outcome.not_compared.excluded;
   json["windows"] = outcome.windows;
   json["windows_total"] = outcome.windows_total;
   json["window_length"] = outcome.window_length;

@@ -75,9 +75,7 @@ class Run {
     outcome_.vertices = built_.model.x.size();
     outcome_.cells = built_.model.mesh.cell_count();
     outcome_.window_length = scene.window;
-    for (const auto& [a, b] : exclusions_.pairs) {
-      outcome_.excluded.push_back({built_.bodies[a].name, built_.bodies[b].name});
-    }
+    outcome_.not_compared = not_compared(built_.model.mesh, labels_, exclusions_, names_);
     outcome_.windows_total = windows_of(request, scene);
     require_cells();
     require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);

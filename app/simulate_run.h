@@ -13,7 +13,6 @@
 // What this does not do: it prints nothing (simulate_report.h).
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/not_compared.h"
 #include "noli/app/phase_clock.h"
 #include "noli/app/run_series_file.h"
 #include "noli/integrator/contact_limit.h"
@@ -64,7 +64,7 @@ struct SimulateOutcome {
   double time = 0;                                   ///< of the last commit [s]
   std::uint64_t events = 0, breakpoints = 0;         ///< of this call
   std::optional<WindowResult> contact;               ///< of the window that was refused
-  std::vector<std::array<std::string, 2>> excluded;  ///< bodies that the scene lets pass through each other
+  NotCompared not_compared;
   std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
   std::optional<integrator::ContactLimit> limit;
   std::optional<integrator::NotFinite> not_finite;

@@ -27,14 +27,15 @@ class MotionRun {
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
-    require_all_windows(request.frames[0], read_log(request.frames[0]), outcome_.steps_total);
-    outcome_.excluded = reader_.scene().exclusions.pairs;
+    const LogFacts log = read_log(request.frames[0]);
+    require_all_windows(request.frames[0], log, outcome_.steps_total);
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
     for (const std::uint8_t label : reader_.scene().labels) scripted_.push_back(label & scripted_vertex);
+    outcome_.not_compared = not_compared(mesh, scripted_, reader_.scene().exclusions, log.names);
     if (mesh.cell_count() == 0) {
       throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
     }

@@ -20,9 +20,9 @@ const char* motion(const VerifyRequest& request) {
 
 Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json list = Json::array();
-  if (request.run) list.push_back("pairs of cells all of whose vertices are scripted");
-  for (const auto& [a, b] : outcome.excluded) {
-    list.push_back(fmt::format("pairs of cells of groups {} and {}, which the run's scene excludes", a, b));
+  if (request.run) list.push_back(held_text(outcome.not_compared));
+  for (const auto& pair : outcome.not_compared.excluded) {
+    list.push_back(fmt::format("two cells of {}, which the run's scene excludes", pair_text(pair)));
   }
   return list;
 }
@@ -30,7 +30,7 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return {
       {"claim", "no two features of two different cells that share no vertex meet at any time of a step"},
-      {"frames", request.frames.size()},
+      {request.run ? "windows" : "frames", request.run ? outcome.steps_total : request.frames.size()},
       {"motion", motion(request)},
       {"time", request.run ? "seconds; each window, both ends included" : "[0, 1] in each step, both ends included"},
       {"numbers", "the doubles that the files give, taken exactly; real arithmetic on them, no tolerance"},
@@ -142,7 +142,8 @@ class Text {
     switch (outcome_.verdict) {
       case Verdict::no_contact:
       case Verdict::proved:
-        line("Nothing touches in {} {}(s).", outcome_.steps_total, request_.run ? "window" : "step");
+        line("{}", nothing_touches(outcome_.not_compared,
+                                   fmt::format("in {} {}(s)", outcome_.steps_total, request_.run ? "window" : "step")));
         break;
       case Verdict::contact:
         line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());

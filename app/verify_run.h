@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "noli/app/contact_report.h"
+#include "noli/app/not_compared.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/exclusions.h"
 
 namespace noli::app {
 
@@ -93,8 +93,8 @@ struct VerifyOutcome {
   int dimension = 3;
   std::size_t vertices = 0, faces = 0, edges = 0, points = 0;
   std::size_t merged_vertices = 0;
-  std::vector<Exclusions::Pair> excluded;  ///< groups of a run's vertices whose cells are not compared
-  std::size_t unreferenced_vertices = 0;   ///< that are left out
+  NotCompared not_compared;               ///< of a run
+  std::size_t unreferenced_vertices = 0;  ///< that are left out
   std::size_t steps_total = 0;             ///< of the frames or the run, looked at or not
   std::vector<StepCounts> steps;           ///< of the steps that were begun, in order
   bool complete = true;                    ///< all that was asked for was decided; else the counts are lower bounds

@@ -347,6 +347,28 @@ TEST_F(Simulate, WhatIsNotComparedIsPartOfTheStatement) {
   json["scripts"] = Json::parse(R"([{"body": "b", "path": [{"t": 0, "move": [0, 0]}, {"t": 1, "move": [0, -0.75]}]}])");
   const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 0);
   EXPECT_NE(result["statement"].get<std::string>().find("all scripted or pinned"), std::string::npos);
+  EXPECT_EQ(result["scripted_or_pinned"], Json::parse(R"(["a", "b"])"));
+  const std::string headline = "Not compared: two cells of a and b whose vertices are all scripted or pinned.\n";
+  const Process told = run_noli({"simulate", scene(json), "-o", run_path("told")});
+  EXPECT_NE(told.out.find("\nNothing that is compared touches from beginning to end. " + headline), std::string::npos)
+      << told.out;
+  const Process verified = run_noli({"verify", run_path("run")});
+  EXPECT_NE(verified.out.find("\nNothing that is compared touches in "), std::string::npos) << verified.out;
+  EXPECT_NE(verified.out.find(headline), std::string::npos) << verified.out;
+  const Json statement = json_of({"verify", run_path("run")}, 0)["statement"];
+  EXPECT_EQ(statement["excluded"][0], "two cells of a and b whose vertices are all scripted or pinned");
+  EXPECT_EQ(statement["windows"], result["windows"]);
+  EXPECT_FALSE(statement.contains("frames"));
+  // Without the log bodies have no names.
+  fs::remove(run_path("run/log.jsonl"));
+  EXPECT_NE(run_noli({"verify", run_path("run")}).out.find("Nothing that is compared touches"), std::string::npos);
+}
+
+TEST_F(Simulate, WhereOneBodyIsScriptedOrPinnedNothingTouches) {
+  const Process told = run_noli({"simulate", scene(falling_triangle()), "-o", run_path("run"), "--until", "0.3"});
+  EXPECT_NE(told.out.find("\nNothing touches from beginning to end.\n"), std::string::npos) << told.out;
+  const Process verified = run_noli({"verify", run_path("run")});
+  EXPECT_NE(verified.out.find("\nNothing touches in 39 window(s).\n"), std::string::npos) << verified.out;
 }
 
 TEST_F(Simulate, WithoutCellsThereIsNothingToCertify) {

@@ -362,6 +362,12 @@ TEST(ExplainContact, DefaultsThatDependOnOthersAreListed) {
   EXPECT_TRUE(left_out(e, "restitution", "it is 1 everywhere"));
 }
 
+/// Those of them that speak of what comes to touch.
+std::vector<std::string> of_pinches(std::vector<std::string> warnings) {
+  std::erase_if(warnings, [](const std::string& w) { return w.find(" come to touch ") == w.npos; });
+  return warnings;
+}
+
 /// A ring between two walls; where the upper one goes within the first second.
 std::vector<std::string> warnings_of_walls(double move, double start = 1) {
   Json scene = loop();
@@ -382,11 +388,12 @@ std::vector<std::string> warnings_of_walls(double move, double start = 1) {
 }
 
 TEST(ExplainContact, WarnsOfScriptsThatPinch) {
-  EXPECT_TRUE(warnings_of_walls(-1.9).empty());
-  const std::vector<std::string> warnings = warnings_of_walls(-2.5);
+  EXPECT_TRUE(of_pinches(warnings_of_walls(-1.9)).empty());
+  const std::vector<std::string> warnings = of_pinches(warnings_of_walls(-2.5));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].starts_with("anvil and hammer come to touch each other at about 0.8 s: ")) << warnings[0];
-  EXPECT_TRUE(warnings_of_walls(1, -1).empty()) << "they touch from the start: walls that slide along others";
+  EXPECT_TRUE(of_pinches(warnings_of_walls(1, -1)).empty())
+      << "they touch from the start: walls that slide along others";
 }
 
 TEST(ExplainContact, WarnsOfScriptsThatPinchInSpace) {
@@ -407,6 +414,20 @@ TEST(ExplainContact, WarnsOfScriptsThatPinchInSpace) {
   const auto far = warnings(-2.9), through = warnings(-6);
   EXPECT_FALSE(std::any_of(far.begin(), far.end(), [](auto& w) { return w.find(" touch ") != w.npos; }));
   EXPECT_EQ(std::count_if(through.begin(), through.end(), pinches), 1);
+}
+
+TEST(ExplainContact, NotesWhatIsNotCompared) {
+  Json scene = sheets(Json::object());
+  const std::string note =
+      "cells of low and floor whose vertices are all scripted or pinned are not compared with each other: they may go "
+      "through each other";
+  EXPECT_FALSE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "the floor alone is pinned";
+  scene["bodies"][0]["pin"] = {"left"};
+  EXPECT_FALSE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "a row of vertices is no cell";
+  scene["scripts"] = R"([{"body": "low", "vertices": [1, 4], "path": [{"t": 0, "move": [0, 0, 0]}]}])"_json;
+  EXPECT_TRUE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "two pinned, one scripted";
+  scene.erase("contact");
+  EXPECT_TRUE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "that is so without contact too";
 }
 
 TEST(ExplainContact, NothingToMove) {
