@@ -86,6 +86,7 @@ std::string end_text(const SimulateOutcome& outcome) {
 
 /// What has been verified.
 std::string statement(const SimulateOutcome& outcome) {
+  if (outcome.windows == 0) return "no window was committed: nothing is claimed.";
   std::string text = fmt::format(
       "no two features that share no vertex meet at any time from 0 to {} s. Not compared: two cells whose vertices "
       "are "
@@ -93,6 +94,13 @@ std::string statement(const SimulateOutcome& outcome) {
       outcome.time);
   for (const auto& pair : outcome.not_compared.excluded) text += "; two cells of " + pair_text(pair);
   return text + ".";
+}
+
+std::string committed_text(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  const std::string run = on_one_line(request.run.string());
+  if (outcome.windows == 0) return fmt::format("No window was committed to {}: nothing is claimed.", run);
+  return fmt::format("{} windows of {} s committed to {}, each verified exactly: {}", outcome.windows,
+                     outcome.window_length, run, statement(outcome));
 }
 
 double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
@@ -165,8 +173,7 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
                   outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none"));
   text += end_text(outcome) + "\n";
   if (!outcome.title.empty()) text += on_one_line(outcome.title) + ": ";
-  text += fmt::format("{} windows of {} s committed to {}, each verified exactly: {}\n", outcome.windows,
-                      outcome.window_length, request.run.string(), statement(outcome));
+  text += committed_text(request, outcome) + "\n";
   if (outcome.series == SeriesEnd::stopped) {
     text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
   }

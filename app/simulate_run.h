@@ -59,11 +59,11 @@ struct SimulateOutcome {
   int dimension = 3;
   std::size_t vertices = 0, cells = 0;
   double window_length = 0;
-  std::uint64_t windows = 0, windows_total = 0;      ///< committed, and those of the whole run
-  std::uint64_t windows_before = 0;                  ///< of those committed, by earlier calls (--resume)
-  double time = 0;                                   ///< of the last commit [s]
-  std::uint64_t events = 0, breakpoints = 0;         ///< of this call
-  std::optional<WindowResult> contact;               ///< of the window that was refused
+  std::uint64_t windows = 0, windows_total = 0;  ///< committed, and those of the whole run
+  std::uint64_t windows_before = 0;              ///< of those committed, by earlier calls (--resume)
+  double time = 0;                               ///< of the last commit [s]
+  std::uint64_t events = 0, breakpoints = 0;     ///< of this call
+  std::optional<WindowResult> contact;           ///< of the window that was refused
   NotCompared not_compared;
   std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
   std::optional<integrator::ContactLimit> limit;

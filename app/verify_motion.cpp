@@ -8,6 +8,7 @@
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
 #include "noli/app/prove_run.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/verify_run.h"
 #include "noli/proofs/prover/window_verifier.h"
@@ -16,6 +17,14 @@
 
 namespace noli::app {
 namespace {
+
+RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
+  RunEnding ending;
+  if (!log.going_on && !log.last_end.empty()) ending.why = log.last_end;
+  ending.going_on = log.going_on;
+  ending.duration = duration_of(run);
+  return ending;
+}
 
 class MotionRun {
  public:
@@ -29,6 +38,7 @@ class MotionRun {
     outcome_.steps_total = reader_.count_windows();
     const LogFacts log = read_log(request.frames[0]);
     require_all_windows(request.frames[0], log, outcome_.steps_total);
+    outcome_.ending = ending_of(request.frames[0], log);
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
@@ -159,6 +169,7 @@ class MotionRun {
     stopped();
     const bool enough = outcome_.touches() && !request_.keep_going;
     if (ended_) outcome_.steps_total = reader_.windows();
+    outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
     outcome_.open_window = ended_ && reader_.open_window().has_value();
     outcome_.complete = outcome_.complete && (ended_ || enough);
     // A run of which nothing was committed yet proves nothing.

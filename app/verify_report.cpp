@@ -8,6 +8,7 @@
 #include "noli/app/contact_report.h"
 #include "noli/app/machine.h"
 #include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -99,10 +100,28 @@ Json work_json(const VerifyOutcome& outcome) {
   return json;
 }
 
+Json run_json(const RunEnding& ending) {
+  return {{"end", ending.why ? Json(*ending.why) : Json(nullptr)},
+          {"time", ending.time},
+          {"duration", ending.duration ? Json(*ending.duration) : Json(nullptr)}};
+}
+
+/// Why a run has not come to the end of its scene.
+std::string why_ended(const RunEnding& ending) {
+  if (ending.going_on) return "it may still be going on, or was killed";
+  if (!ending.why) return "its log does not say why";
+  if (*ending.why == "done") return "no more was asked for";
+  if (*ending.why == "too_near") return "too near";
+  if (*ending.why == "not_finite") return "numbers ran out";
+  if (*ending.why == "time_limit") return "time limit";
+  return on_one_line(*ending.why);
+}
+
 int threads_used(const VerifyRequest& request) { return request.threads > 0 ? request.threads : hardware_threads(); }
 
 const char* why_incomplete(const VerifyOutcome& outcome) {
   if (outcome.interrupted) return "interrupted";
+  if (outcome.steps_total == 0) return "no window was committed";
   return outcome.out_of_time ? "time limit" : "first contact only";
 }
 
@@ -156,11 +175,19 @@ class Text {
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
     }
     proof();
+    ending();
     if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
       line("What is said is of what was settled so far ({}): there may be more contacts, and earlier ones.",
            why_incomplete(outcome_));
     }
+  }
+
+  void ending() {
+    if (!outcome_.ending || outcome_.ending->whole()) return;
+    const RunEnding& ending = *outcome_.ending;
+    const std::string of = ending.duration ? fmt::format(" of {} s", *ending.duration) : "";
+    line("The run ends at {} s{} ({}).", ending.time, of, why_ended(ending));
   }
 
   void proof() {
@@ -241,6 +268,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   json["first"] = first_json(outcome);
   json["reports"] = reports_json(outcome);
   json["initial_reports"] = initial_reports_json(outcome);
+  if (outcome.ending) json["run"] = run_json(*outcome.ending);
   json["steps"] = outcome.steps.size();
   json["steps_total"] = outcome.steps_total;
   json["per_step"] = steps_json(outcome);

@@ -88,6 +88,16 @@ struct StepCounts {
   std::uint64_t initial_intersections = 0;
 };
 
+/// How a run ended, as its log and its scene say. Nothing else follows from it.
+struct RunEnding {
+  std::optional<std::string> why;  ///< of the last part that ended, if none began after it: "done", "contact", ...
+  bool going_on = false;           ///< the last part has not ended, or was killed
+  double time = 0;                 ///< of the last window [s]
+  std::optional<double> duration;  ///< of the scene [s]
+
+  bool whole() const { return duration && time >= *duration; }
+};
+
 struct VerifyOutcome {
   Verdict verdict = Verdict::undecided;
   int dimension = 3;
@@ -95,12 +105,13 @@ struct VerifyOutcome {
   std::size_t merged_vertices = 0;
   NotCompared not_compared;               ///< of a run
   std::size_t unreferenced_vertices = 0;  ///< that are left out
-  std::size_t steps_total = 0;             ///< of the frames or the run, looked at or not
-  std::vector<StepCounts> steps;           ///< of the steps that were begun, in order
-  bool complete = true;                    ///< all that was asked for was decided; else the counts are lower bounds
-  bool interrupted = false;                ///< by the user
+  std::size_t steps_total = 0;            ///< of the frames or the run, looked at or not
+  std::vector<StepCounts> steps;          ///< of the steps that were begun, in order
+  bool complete = true;                   ///< all that was asked for was decided; else the counts are lower bounds
+  bool interrupted = false;               ///< by the user
   bool out_of_time = false;
-  bool open_window = false;  ///< a run that ends in a window which was never committed
+  bool open_window = false;         ///< a run that ends in a window which was never committed
+  std::optional<RunEnding> ending;  ///< of a run
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
   std::optional<First> first;
