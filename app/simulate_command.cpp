@@ -21,6 +21,8 @@ constexpr const char* footer =
     "contains a contact. Where one comes, the run ends (exit 1) with the features, the kind and the exact first time; "
     "the\n"
     "windows before it stay. Interrupted runs (Ctrl-C, exit 2) go on with --resume, and end with the same bytes.\n"
+    "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), not_finite\n"
+    "(numbers run out) (1); undecided (interrupted, or out of time: 2).\n"
     "Examples:\n"
     "  noli simulate scenes/swinging_cloth.json -o runs/cloth\n"
     "  noli simulate scenes/swinging_cloth.json --short -o runs/short\n"

@@ -15,9 +15,13 @@ namespace {
 const char* verdict(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return "no_contact";
-    case RunEnd::contact: return "contact";
-    default: return "undecided";
+    case RunEnd::contact:
+    case RunEnd::too_near:
+    case RunEnd::not_finite: return name(outcome.end);
+    case RunEnd::interrupted:
+    case RunEnd::out_of_time: return "undecided";
   }
+  return "";
 }
 
 /// Nothing if there was no contact.
@@ -53,7 +57,9 @@ Json too_near_json(const SimulateOutcome& outcome) {
 
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
-    case RunEnd::done: return nothing_touches(outcome.not_compared, "from beginning to end");
+    case RunEnd::done:
+      if (outcome.windows == 0) return "No window was asked for.";
+      return nothing_touches(outcome.not_compared, "from beginning to end");
     case RunEnd::contact: {
       const FirstInWindow& first = *outcome.contact->first;
       return fmt::format(

@@ -98,13 +98,14 @@ TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
       {"scripts", {{{"body", "press"}, {"path", {{{"t", 0}, {"move", {0, 0}}}, {{"t", 1}, {"move", {0, -1}}}}}}}},
       {"contact", {{"thickness", 0.1}, {"stiffness", 100}, {"most_layers", 200}}}};
   const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
-  EXPECT_EQ(result["verdict"], "undecided");
+  EXPECT_EQ(result["verdict"], "too_near");
   EXPECT_EQ(result["end"], "too_near");
   EXPECT_EQ(result["too_near"]["pair"], "vertex_edge");
   EXPECT_GT(result["too_near"]["time"], 0.9);
   EXPECT_LT(result["too_near"]["time"], 1);
   EXPECT_EQ(result["too_near"]["names"], "vertex point[0] and edge floor[0]-floor[1]");
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+  EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 2 s (too near).\n"), std::string::npos);
 }
 
 }  // namespace

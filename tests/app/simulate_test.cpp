@@ -177,6 +177,7 @@ TEST_F(Simulate, NumbersThatRunOutAreNamed) {
                   "material": {"edge_stiffness": 1e6, "mass_per_vertex": 1}, "velocity": [0, 0], "spin": 1,
                   "steps": {"stretch": 0.01}}]})");
   const Json blown = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
+  EXPECT_EQ(blown["verdict"], "not_finite");
   EXPECT_EQ(blown["end"], "not_finite");
   EXPECT_EQ(blown["not_finite"]["force"], "edge_spring");
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
