@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
@@ -12,6 +15,8 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/simulate_report.h"
 #include "noli/app/simulate_run.h"
+#include "noli/integrator/scene/explain.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -37,6 +42,18 @@ struct SimulateArguments {
   std::string time_limit;
   std::optional<std::string> json;
 };
+
+constexpr std::size_t most_notes = 10;
+
+/// What explain notes of the scene, so that whoever did not ask it knows too.
+void tell_notes(const integrator::Scene& scene) {
+  const std::vector<std::string> notes = integrator::notes(integrator::explain(scene));
+  for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) {
+    std::fputs(fmt::format("noli: note: {}.\n", on_one_line(notes[i])).c_str(), stderr);
+  }
+  if (notes.size() <= most_notes) return;
+  std::fputs(fmt::format("noli: note: {} more: noli explain tells them.\n", notes.size() - most_notes).c_str(), stderr);
+}
 
 /// The words of --reproduce.
 ExitCode reproduce(const SimulateArguments& arguments) {
@@ -65,6 +82,7 @@ ExitCode run(SimulateArguments& arguments) {
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.json, with_files_of_runs({request.scene, request.run}));
+  request.begun = tell_notes;
   const SimulateOutcome outcome = run_simulate(request);
   output.write(simulate_text(request, outcome), simulate_json(request, outcome));
   return exit_code(outcome);

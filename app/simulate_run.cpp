@@ -82,6 +82,7 @@ class Run {
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     refuse_contact_at_start();
     open(scene);
+    if (request.begun) request.begun(scene);
   }
 
   SimulateOutcome operator()() {

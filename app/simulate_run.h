@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "noli/app/phase_clock.h"
 #include "noli/app/run_series_file.h"
 #include "noli/integrator/contact_limit.h"
+#include "noli/integrator/scene/scene.h"
 #include "noli/integrator/simulation.h"
 #include "noli/proofs/prover/window_verifier.h"
 
@@ -39,6 +41,8 @@ struct SimulateRequest {
   std::optional<double> until;  ///< simulated time to stop at [s]; else the scene's duration
   int threads = 0;              ///< 0: all there are
   std::optional<std::chrono::nanoseconds> time_limit;
+  /// Called once nothing stands against the run any more, before anything is integrated.
+  std::function<void(const integrator::Scene&)> begun;
 };
 
 enum class RunEnd {

@@ -131,6 +131,12 @@ void write_defaults(Text& out, const Explanation& e) {
 
 }  // namespace
 
+std::vector<std::string> notes(const Explanation& e) {
+  std::vector<std::string> all = e.warnings;
+  for (const ResonanceWarning& w : e.resonances) all.push_back(resonance_text(w));
+  return all;
+}
+
 std::string to_text(const Explanation& e) {
   Text out;
   out.line("{} (dimension {})", e.title, e.dimension);

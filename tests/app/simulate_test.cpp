@@ -201,6 +201,24 @@ TEST_F(Simulate, ExplainSaysWhatIsActive) {
   EXPECT_EQ(json["bodies"][0]["vertices"], 49);
 }
 
+TEST_F(Simulate, WhatExplainNotesIsToldBeforeTheRun) {
+  Json json = beam(0.1);
+  const std::string calm = scene(json);
+  ASSERT_EQ(run_noli({"explain", calm}).out.find("Note: "), std::string::npos);
+  EXPECT_EQ(run_noli({"simulate", calm, "-o", run_path("calm")}).err, "");
+  json["allow_unstable"] = true;
+  const std::string unstable = scene(json);
+  const std::string note = "steps above the limit of stability are accepted (\"allow_unstable\").\n";
+  EXPECT_NE(run_noli({"explain", unstable}).out.find("Note: " + note), std::string::npos);
+  const Process told = run_noli({"simulate", unstable, "-o", run_path("run"), "--json", "-"});
+  EXPECT_EQ(told.err, "noli: note: " + note);
+  EXPECT_EQ(Json::parse(told.out)["end"], "done");
+  // What is refused is told in one line.
+  const Process refused = run_noli({"simulate", unstable, "-o", run_path("run")});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(refused.err.find("note"), std::string::npos) << refused.err;
+}
+
 TEST_F(Simulate, FramesAreExported) {
   EXPECT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run_path("run"), "--until", "0.25"}).exit_code, 0);
   const Process process = run_noli({"export", run_path("run"), "--fps", "8", "-o", run_path("frames/%03d.ply")});

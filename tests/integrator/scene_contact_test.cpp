@@ -436,6 +436,10 @@ TEST(ExplainContact, NothingToMove) {
   const Explanation e = explain(parse_scene(scene.dump(), "s.json"));
   EXPECT_TRUE(left_out(e, "contact forces", "nothing can move, or all that can is excluded"));
   EXPECT_EQ(to_text(e).find("Contact: "), std::string::npos);
+  const std::string note = "there are no layers of contact: nothing can move, or all that can is excluded";
+  EXPECT_TRUE(has(e.warnings, note));
+  scene["bodies"][0].erase("pin");
+  EXPECT_FALSE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note));
 }
 
 }  // namespace
