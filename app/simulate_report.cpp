@@ -44,6 +44,13 @@ Json not_finite_json(const SimulateOutcome& outcome) {
           {"vertex", found.vertex}};
 }
 
+Json start_gap_json(const SimulateOutcome& outcome) {
+  if (!outcome.start_gap) return nullptr;
+  return {{"gap", outcome.start_gap->gap},
+          {"thickness", outcome.start_gap->thickness},
+          {"last_thickness", outcome.start_gap->last}};
+}
+
 Json too_near_json(const SimulateOutcome& outcome) {
   if (!outcome.limit) return nullptr;
   const certificates::Stencil& pair = outcome.limit->pair;
@@ -52,7 +59,27 @@ Json too_near_json(const SimulateOutcome& outcome) {
   return {{"time", outcome.limit->time},
           {"pair", noli::name(pair.kind)},
           {"vertices", vertices},
-          {"names", outcome.first_names}};
+          {"names", outcome.first_names},
+          {"start", start_gap_json(outcome)}};
+}
+
+/// What begins within all layers is no matter of the motion.
+std::string too_near_text(const SimulateOutcome& outcome) {
+  const std::string names = on_one_line(outcome.first_names);
+  const std::optional<StartGap>& start = outcome.start_gap;
+  const std::string begins = start ? fmt::format(
+                                         "the scene begins with them {:.6g} m apart, within the thickness of "
+                                         "contact, {:.6g} m, whose last layer has {:.6g} m",
+                                         start->gap, start->thickness, start->last)
+                                   : "";
+  if (start && outcome.limit->time == 0) {
+    return fmt::format("Too near at the start: {} need more layers of contact than \"most_layers\" allows: {}.", names,
+                       begins);
+  }
+  return fmt::format(
+      "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s{}. The "
+      "window is not part of the run.",
+      outcome.windows, names, digits17(outcome.limit->time), start ? "; " + begins : "");
 }
 
 std::string end_text(const SimulateOutcome& outcome) {
@@ -68,12 +95,7 @@ std::string end_text(const SimulateOutcome& outcome) {
           outcome.windows, contact_text(first.contact), on_one_line(outcome.first_names), noli::name(first.kind),
           digits17(first.lower()), outcome.contact->contact_count());
     }
-    case RunEnd::too_near:
-      return fmt::format(
-          "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s. The window is "
-          "not "
-          "part of the run.",
-          outcome.windows, on_one_line(outcome.first_names), digits17(outcome.limit->time));
+    case RunEnd::too_near: return too_near_text(outcome);
     case RunEnd::not_finite: {
       const integrator::NotFinite& found = *outcome.not_finite;
       const std::string force =

@@ -57,6 +57,13 @@ enum class RunEnd {
 /// As in the JSON and the log.
 const char* name(RunEnd end);
 
+/// How a pair that came too near in the first window stood where the scene begins.
+struct StartGap {
+  double gap = 0;        ///< [m], rounded up
+  double thickness = 0;  ///< of the first layer [m]; above the gap
+  double last = 0;       ///< thickness of the last layer that the scene allows [m]
+};
+
 struct SimulateOutcome {
   RunEnd end = RunEnd::done;
   std::string title;
@@ -71,6 +78,7 @@ struct SimulateOutcome {
   NotCompared not_compared;
   std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
   std::optional<integrator::ContactLimit> limit;
+  std::optional<StartGap> start_gap;  ///< of its pair, if that begins within a layer and ends the first window
   std::optional<integrator::NotFinite> not_finite;
   std::uint64_t roll_backs = 0;           ///< of windows that were run again
   std::uint64_t certificate_defects = 0;  ///< of them, such that more layers from the start were enough

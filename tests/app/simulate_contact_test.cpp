@@ -79,6 +79,33 @@ TEST_F(Simulate, WhatASceneExcludesPassesThroughAndIsPartOfTheStatement) {
   EXPECT_GE(third["timing"]["certificates"]["deepest"], 1);
 }
 
+TEST_F(Simulate, AGapWithinAllLayersAtTheStartIsTold) {
+  Json json = {{"noli_scene", 1}, {"dimension", 2}, {"duration", 1}, {"window", 0.01}};
+  json["bodies"] = Json::parse(R"([
+      {"name": "floor", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}}, "pin": ["all"],
+       "material": {"edge_stiffness": 0, "mass_per_length": 1}},
+      {"name": "point", "mesh": {"points": {"at": [[0.1, 0.0078125]]}},
+       "material": {"edge_stiffness": 0, "mass_per_vertex": 1}}])");
+  json["contact"] = {{"thickness", 0.1}, {"stiffness", 100}, {"most_layers", 16}};
+  const std::string file = scene(json);
+  const Json result = json_of({"simulate", file, "-o", run_path("run")}, 1);
+  EXPECT_EQ(result["verdict"], "too_near");
+  EXPECT_EQ(result["too_near"]["time"], 0);
+  EXPECT_EQ(result["too_near"]["start"]["gap"], 0.0078125);
+  EXPECT_EQ(result["too_near"]["start"]["thickness"], 0.1);
+  EXPECT_GT(result["too_near"]["start"]["last_thickness"], 0.0078125);
+  const Process told = run_noli({"simulate", file, "-o", run_path("told")});
+  EXPECT_NE(told.out.find("\nToo near at the start: vertex point[0] and edge floor[0]-floor[1] need more layers"),
+            std::string::npos)
+      << told.out;
+  EXPECT_NE(told.out.find("the scene begins with them 0.0078125 m apart, within the thickness of contact, 0.1 m"),
+            std::string::npos)
+      << told.out;
+  // Half as far within the first layer it has room.
+  json["bodies"][1]["mesh"]["points"]["at"][0][1] = 0.09;
+  EXPECT_EQ(json_of({"simulate", scene(json), "-o", run_path("far")}, 0)["too_near"], nullptr);
+}
+
 /// In the plane: a point between a floor and an edge that a script puts onto it.
 TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
   const Json wall = {{"chain", {{"points", {{-1, 0}, {1, 0}}}, {"segments", 1}}}};
@@ -104,6 +131,7 @@ TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
   EXPECT_GT(result["too_near"]["time"], 0.9);
   EXPECT_LT(result["too_near"]["time"], 1);
   EXPECT_EQ(result["too_near"]["names"], "vertex point[0] and edge floor[0]-floor[1]");
+  EXPECT_EQ(result["too_near"]["start"], nullptr);
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
   EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 2 s (too near).\n"), std::string::npos);
 }

@@ -61,6 +61,25 @@ TEST_F(Simulate, ABeginningInContactIsRefusedWithItsPairs) {
   EXPECT_FALSE(fs::exists(folder.path("run")));
 }
 
+TEST_F(Simulate, CellsThatIntersectAtTheBeginningAreNamed) {
+  // Like a sail through a deck: no vertex meets a face, no edge an edge.
+  folder.write("deck.obj", "v 0 0 0\nv 8 0 0\nv 0 8 0\nf 1 2 3\n");
+  folder.write("sail.obj", "v 2 2 -1\nv 2 2 1\nv 3 2 2\nf 1 2 3\n");
+  Json json = falling_triangle();
+  for (const char* name : {"deck", "sail"}) {
+    Json& body = json["bodies"][name == std::string("sail") ? 1 : 0];
+    body["name"] = name;
+    body["mesh"]["file"] = name + std::string(".obj");
+  }
+  json.erase("scripts");
+  const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("begins in contact: face deck[0]-deck[1]-deck[2] intersects face sail[0]-sail[1]-sail[2]; "
+                             "0 pair(s) of features meet, 1 pair(s) of cells intersect"),
+            std::string::npos)
+      << process.err;
+}
+
 TEST_F(Simulate, ABeginningInContactIsRefusedWhenResumedToo) {
   Json json = falling_triangle();
   json["bodies"][1]["transform"] = {{"translate", {0, 0, -0.3125}}};
