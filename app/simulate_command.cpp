@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/notes.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/reproduce_run.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/simulate_report.h"
 #include "noli/app/simulate_run.h"
-#include "noli/integrator/scene/explain.h"
-#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -42,18 +38,6 @@ struct SimulateArguments {
   std::string time_limit;
   std::optional<std::string> json;
 };
-
-constexpr std::size_t most_notes = 10;
-
-/// What explain notes of the scene, so that whoever did not ask it knows too.
-void tell_notes(const integrator::Scene& scene) {
-  const std::vector<std::string> notes = integrator::notes(integrator::explain(scene));
-  for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) {
-    std::fputs(fmt::format("noli: note: {}.\n", on_one_line(notes[i])).c_str(), stderr);
-  }
-  if (notes.size() <= most_notes) return;
-  std::fputs(fmt::format("noli: note: {} more: noli explain tells them.\n", notes.size() - most_notes).c_str(), stderr);
-}
 
 /// The words of --reproduce.
 ExitCode reproduce(const SimulateArguments& arguments) {
@@ -82,7 +66,10 @@ ExitCode run(SimulateArguments& arguments) {
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.json, with_files_of_runs({request.scene, request.run}));
-  request.begun = tell_notes;
+  request.begun = [&request](const integrator::Scene& scene) {
+    if (request.brief) note_missing_short_form(scene);
+    tell_notes(scene);
+  };
   const SimulateOutcome outcome = run_simulate(request);
   output.write(simulate_text(request, outcome), simulate_json(request, outcome));
   return exit_code(outcome);
@@ -120,7 +107,10 @@ Command add_simulate(CLI::App& app) {
                           ->excludes(resume)
                           ->excludes(force)
                           ->excludes(until);
-  command->add_option("--window", arguments->window, "Which window, from 0")->needs(again)->type_name("K");
+  command->add_option("--window", arguments->window, "Which window, from 0")
+      ->check(is_count())
+      ->needs(again)
+      ->type_name("K");
   command
       ->add_option(
           "--time-limit", arguments->time_limit,

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "noli/integrator/scene/explain.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::integrator {
 namespace {
@@ -77,8 +77,7 @@ class Text {
  public:
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-    text += '\n';
+    text += on_one_line(fmt::format(format, std::forward<Args>(args)...)) + "\n";
   }
   std::string text;
 };

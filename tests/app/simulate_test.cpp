@@ -490,6 +490,61 @@ TEST_F(Simulate, ExportWantsAFiniteRate) {
   }
 }
 
+TEST_F(Simulate, AMissingShortFormIsNoted) {
+  const std::string note = "noli: note: --short changes nothing: the scene has no \"short\".\n";
+  Json json = beam(0.1);
+  for (const char* where : {"with", "without"}) {
+    const bool expected = where == std::string("without");
+    if (expected)
+      json.erase("short");
+    else
+      json["short"] = {{"/duration", 0.05}};
+    const std::string file = scene(json);
+    EXPECT_EQ(run_noli({"explain", file, "--short"}).err, expected ? note : "");
+    EXPECT_EQ(run_noli({"simulate", file, "--short", "-o", run_path(where)}).err, expected ? note : "");
+    EXPECT_EQ(run_noli({"explain", file}).err, "");
+  }
+}
+
+TEST_F(Simulate, AFolderThatIsNoRunIsCalledThat) {
+  const std::string none = fs::path(scene(hanging_sheet())).parent_path();
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", none},
+                                                    {"explain", none},
+                                                    {"info", none},
+                                                    {"export", none, "-o", run_path("%d.ply")},
+                                                    {"export", run_path("nosuch"), "-o", run_path("%d.ply")}}) {
+    const Process process = run_noli(arguments);
+    EXPECT_EQ(process.exit_code, 3) << arguments[0];
+    EXPECT_NE(process.err.find(": is no run; expected a folder with a trajectory.blocks in it"), std::string::npos)
+        << process.err;
+  }
+}
+
+TEST_F(Simulate, WindowsToReproduceAreCountedFromZero) {
+  const std::string file = scene(beam(0.1));
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run")}).exit_code, 0);
+  for (const char* window : {"-1", "1.5", "one", "99999999999999999999"}) {
+    const Process process =
+        run_noli({"simulate", file, "--reproduce", run_path("run"), "--window", window, "-o", run_path("block")});
+    EXPECT_EQ(process.exit_code, 3) << window;
+    EXPECT_NE(process.err.find(std::string("--window: ") + window + ": expected a whole number from 0"),
+              std::string::npos)
+        << process.err;
+  }
+}
+
+TEST_F(Simulate, NamesOfBodiesAreToldOnOneLine) {
+  Json json = falling_triangle();
+  json["bodies"][0]["name"] = "a\x1b[31m\nb";
+  const std::string file = scene(json);
+  const Process explained = run_noli({"explain", file});
+  EXPECT_EQ(explained.out.find('\x1b'), std::string::npos) << explained.out;
+  EXPECT_NE(explained.out.find("\n  a\\x1b[31m\\nb: 3 vertices"), std::string::npos) << explained.out;
+  const Process simulated = run_noli({"simulate", file, "-o", run_path("run")});
+  EXPECT_EQ(simulated.out.find('\x1b'), std::string::npos) << simulated.out;
+  EXPECT_EQ(simulated.err.find('\x1b'), std::string::npos) << simulated.err;
+}
+
 TEST_F(Simulate, ShortFormsNameTheirBadPointer) {
   Json json = hanging_sheet();
   json["short"] = {{"/bodies/99999999999999999999", Json::object()}};
