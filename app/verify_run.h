@@ -42,7 +42,8 @@ struct VerifyRequest {
   bool check = true;                           ///< have the checker look at the proof
 };
 
-/// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the checker has accepted the proof of it.
+/// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the
+/// checker has accepted the proof of it.
 enum class Verdict { no_contact, proved, contact, too_near, undecided };
 
 /// The name used in JSON: "no_contact", "proved", "contact", "too_near", "undecided".

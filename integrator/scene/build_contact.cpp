@@ -297,7 +297,7 @@ class Materials {
       at["thickness"].fail(fmt::format(
           "expected less than {} [m], half the least height at rest of the cells with a free vertex of {}, found {}; "
           "the largest that works is {}",
-          bound.below, a == b ? a : a + " and " + b, thickness, std::nextafter(bound.below, 0.0)));
+          bound.below, a == b ? a : fmt::format("{} and {}", a, b), thickness, std::nextafter(bound.below, 0.0)));
     }
   }
 
