@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace noli::app {
 namespace {
 
@@ -29,6 +31,17 @@ Json BodyNames::to_json() const {
     json.push_back({{"name", body.name}, {"first", body.first}, {"vertices", body.vertices}});
   }
   return json;
+}
+
+std::vector<std::string> BodyNames::bodies_of(std::span<const VertexId> vertices) const {
+  std::vector<VertexId> sorted(vertices.begin(), vertices.end());
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::string> names;
+  for (const Body& body : bodies_) {
+    const auto least = std::lower_bound(sorted.begin(), sorted.end(), body.first);
+    if (least != sorted.end() && *least - body.first < body.vertices) names.push_back(body.name);
+  }
+  return names;
 }
 
 std::string BodyNames::vertex(VertexId v) const {

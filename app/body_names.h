@@ -28,6 +28,10 @@ class BodyNames {
   static BodyNames from_json(const Json& json);
   Json to_json() const;
 
+  /// Whether there are any.
+  bool known() const { return !bodies_.empty(); }
+  /// The bodies that have any of these vertices, in the order of bodies; of vertices without a body nothing.
+  std::vector<std::string> bodies_of(std::span<const VertexId> vertices) const;
   /// A vertex by its body and its number there.
   std::string vertex(VertexId v) const;
   /// "vertex a[0]", "edge a[0]-a[1]" or the like. Precondition: one to three vertices.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "noli/app/commands.h"
+#include "noli/app/notes.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/run_explanation.h"
@@ -45,7 +46,9 @@ ExitCode run(const ExplainArguments& arguments) {
   if (std::filesystem::is_directory(arguments.scene)) return explain_folder(arguments);
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const Output output(arguments.json, {arguments.scene});
-  const integrator::Explanation explanation = integrator::explain(integrator::read_scene(arguments.scene, form));
+  const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
+  const integrator::Explanation explanation = integrator::explain(scene);
+  if (arguments.brief) note_missing_short_form(scene);
   output.write(integrator::to_text(explanation), integrator::to_json(explanation));
   return ExitCode::holds;
 }

@@ -90,7 +90,9 @@ Command add_export(CLI::App& app) {
   figure->excludes(fps)->type_name("NAME");
   auto* const at = command->add_option("--at", arguments->at, "A picture of this time, in seconds (.png)");
   at->excludes(fps)->excludes(figure);
-  command->add_option("--from", arguments->from, "Direction in which the eye is, for --at: x y z")->needs(at);
+  command->add_option("--from", arguments->from, "Direction in which the eye is, for --at: x y z, or x,y,z")
+      ->delimiter(',')
+      ->needs(at);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace noli::app {
 
@@ -26,6 +27,17 @@ CLI::Validator is_positive() {
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         const bool whole = error == std::errc() && end == text.data() + text.size();
         return whole && number > 0 && std::isfinite(number) ? "" : text + ": expected a number above 0";
+      },
+      "");
+}
+
+CLI::Validator is_count() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        std::uint64_t number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        return whole ? "" : text + ": expected a whole number from 0";
       },
       "");
 }

@@ -132,6 +132,16 @@ std::string title_of(const fs::path& run) {
                                                                                     : "";
 }
 
+std::optional<double> duration_of(const fs::path& run) {
+  try {
+    const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
+    if (scene.is_object() && scene.contains("duration") && scene["duration"].is_number()) return scene["duration"];
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 std::vector<fs::path> with_files_of_runs(std::vector<fs::path> paths) {
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {

@@ -53,6 +53,9 @@ class RunFolder {
 /// Of the scene of a run. Throws InputError when its manifest or its scene is not there or damaged.
 std::string title_of(const std::filesystem::path& run);
 
+/// Of the scene of a run [s]; nothing where that is not there or damaged.
+std::optional<double> duration_of(const std::filesystem::path& run);
+
 /// The same paths, and what is in those that are folders of runs.
 std::vector<std::filesystem::path> with_files_of_runs(std::vector<std::filesystem::path> paths);
 

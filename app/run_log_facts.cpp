@@ -38,7 +38,10 @@ class Reader {
     }
     const auto is = [&](const char* name) { return event.get_ref<const std::string&>() == name; };
     if (is("begin")) begin(entry);
-    if (is("begin") || is("resume")) ++facts_.parts;
+    if (is("begin") || is("resume")) {
+      ++facts_.parts;
+      facts_.going_on = true;
+    }
     if (is("window")) window(entry);
     if (is("roll_back")) facts_.roll_backs.push_back(entry);
     if (is("end")) end(entry);
@@ -76,6 +79,7 @@ class Reader {
 
   void end(const Json& entry) {
     ++facts_.parts_ended;
+    facts_.going_on = false;
     const Json& why = member(entry, "end");
     facts_.last_end = why.is_string() ? why.get<std::string>() : "";
     const Json& timing = member(entry, "timing");

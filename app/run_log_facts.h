@@ -29,7 +29,8 @@ struct LogFacts {
   std::uint64_t bad_lines = 0;
   std::uint32_t deepest = 0;  ///< layer that was active in any of these windows
   std::vector<Json> roll_backs;
-  std::string last_end;  ///< of the last part that ended: "done", "interrupted", ...
+  std::string last_end;   ///< of the last part that ended: "done", "interrupted", ...
+  bool going_on = false;  ///< the last part has no line of its end: it goes on still, or was killed
   PhaseSeconds phases{};
   double verifying_seconds = 0;
   certificates::CertificateCounts certificates;

@@ -6,6 +6,7 @@
 
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/notes.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/reproduce_run.h"
@@ -21,6 +22,8 @@ constexpr const char* footer =
     "contains a contact. Where one comes, the run ends (exit 1) with the features, the kind and the exact first time; "
     "the\n"
     "windows before it stay. Interrupted runs (Ctrl-C, exit 2) go on with --resume, and end with the same bytes.\n"
+    "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), not_finite\n"
+    "(numbers run out) (1); undecided (interrupted, or out of time: 2).\n"
     "Examples:\n"
     "  noli simulate scenes/swinging_cloth.json -o runs/cloth\n"
     "  noli simulate scenes/swinging_cloth.json --short -o runs/short\n"
@@ -63,6 +66,10 @@ ExitCode run(SimulateArguments& arguments) {
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.json, with_files_of_runs({request.scene, request.run}));
+  request.begun = [&request](const integrator::Scene& scene) {
+    if (request.brief) note_missing_short_form(scene);
+    tell_notes(scene);
+  };
   const SimulateOutcome outcome = run_simulate(request);
   output.write(simulate_text(request, outcome), simulate_json(request, outcome));
   return exit_code(outcome);
@@ -100,7 +107,10 @@ Command add_simulate(CLI::App& app) {
                           ->excludes(resume)
                           ->excludes(force)
                           ->excludes(until);
-  command->add_option("--window", arguments->window, "Which window, from 0")->needs(again)->type_name("K");
+  command->add_option("--window", arguments->window, "Which window, from 0")
+      ->check(is_count())
+      ->needs(again)
+      ->type_name("K");
   command
       ->add_option(
           "--time-limit", arguments->time_limit,

@@ -15,9 +15,13 @@ namespace {
 const char* verdict(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return "no_contact";
-    case RunEnd::contact: return "contact";
-    default: return "undecided";
+    case RunEnd::contact:
+    case RunEnd::too_near:
+    case RunEnd::not_finite: return name(outcome.end);
+    case RunEnd::interrupted:
+    case RunEnd::out_of_time: return "undecided";
   }
+  return "";
 }
 
 /// Nothing if there was no contact.
@@ -40,6 +44,13 @@ Json not_finite_json(const SimulateOutcome& outcome) {
           {"vertex", found.vertex}};
 }
 
+Json start_gap_json(const SimulateOutcome& outcome) {
+  if (!outcome.start_gap) return nullptr;
+  return {{"gap", outcome.start_gap->gap},
+          {"thickness", outcome.start_gap->thickness},
+          {"last_thickness", outcome.start_gap->last}};
+}
+
 Json too_near_json(const SimulateOutcome& outcome) {
   if (!outcome.limit) return nullptr;
   const certificates::Stencil& pair = outcome.limit->pair;
@@ -48,14 +59,34 @@ Json too_near_json(const SimulateOutcome& outcome) {
   return {{"time", outcome.limit->time},
           {"pair", noli::name(pair.kind)},
           {"vertices", vertices},
-          {"names", outcome.first_names}};
+          {"names", outcome.first_names},
+          {"start", start_gap_json(outcome)}};
+}
+
+/// What begins within all layers is no matter of the motion.
+std::string too_near_text(const SimulateOutcome& outcome) {
+  const std::string names = on_one_line(outcome.first_names);
+  const std::optional<StartGap>& start = outcome.start_gap;
+  const std::string begins = start ? fmt::format(
+                                         "the scene begins with them {:.6g} m apart, within the thickness of "
+                                         "contact, {:.6g} m, whose last layer has {:.6g} m",
+                                         start->gap, start->thickness, start->last)
+                                   : "";
+  if (start && outcome.limit->time == 0) {
+    return fmt::format("Too near at the start: {} need more layers of contact than \"most_layers\" allows: {}.", names,
+                       begins);
+  }
+  return fmt::format(
+      "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s{}. The "
+      "window is not part of the run.",
+      outcome.windows, names, digits17(outcome.limit->time), start ? "; " + begins : "");
 }
 
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done:
-      return outcome.excluded.empty() ? "Nothing touches from beginning to end."
-                                      : "Nothing that is compared touches from beginning to end.";
+      if (outcome.windows == 0) return "No window was asked for.";
+      return nothing_touches(outcome.not_compared, "from beginning to end");
     case RunEnd::contact: {
       const FirstInWindow& first = *outcome.contact->first;
       return fmt::format(
@@ -64,12 +95,7 @@ std::string end_text(const SimulateOutcome& outcome) {
           outcome.windows, contact_text(first.contact), on_one_line(outcome.first_names), noli::name(first.kind),
           digits17(first.lower()), outcome.contact->contact_count());
     }
-    case RunEnd::too_near:
-      return fmt::format(
-          "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s. The window is "
-          "not "
-          "part of the run.",
-          outcome.windows, on_one_line(outcome.first_names), digits17(outcome.limit->time));
+    case RunEnd::too_near: return too_near_text(outcome);
     case RunEnd::not_finite: {
       const integrator::NotFinite& found = *outcome.not_finite;
       const std::string force =
@@ -88,15 +114,21 @@ std::string end_text(const SimulateOutcome& outcome) {
 
 /// What has been verified.
 std::string statement(const SimulateOutcome& outcome) {
+  if (outcome.windows == 0) return "no window was committed: nothing is claimed.";
   std::string text = fmt::format(
       "no two features that share no vertex meet at any time from 0 to {} s. Not compared: two cells whose vertices "
       "are "
       "all scripted or pinned",
       outcome.time);
-  for (const auto& [a, b] : outcome.excluded) {
-    text += fmt::format("; two cells of {}", a == b ? on_one_line(a) : on_one_line(a) + " and " + on_one_line(b));
-  }
+  for (const auto& pair : outcome.not_compared.excluded) text += "; two cells of " + pair_text(pair);
   return text + ".";
+}
+
+std::string committed_text(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  const std::string run = on_one_line(request.run.string());
+  if (outcome.windows == 0) return fmt::format("No window was committed to {}: nothing is claimed.", run);
+  return fmt::format("{} windows of {} s committed to {}, each verified exactly: {}", outcome.windows,
+                     outcome.window_length, run, statement(outcome));
 }
 
 double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
@@ -131,7 +163,8 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   Json json = {{"verdict", verdict(outcome)}, {"end", name(outcome.end)}};
   json["title"] = outcome.title;
   json["statement"] = statement(outcome);
-  json["excluded"] = outcome.excluded;
+  json["scripted_or_pinned"] = outcome.not_compared.held;
+  json["excluded"] = outcome.not_compared.excluded;
   json["windows"] = outcome.windows;
   json["windows_total"] = outcome.windows_total;
   json["window_length"] = outcome.window_length;
@@ -168,8 +201,7 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
                   outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none"));
   text += end_text(outcome) + "\n";
   if (!outcome.title.empty()) text += on_one_line(outcome.title) + ": ";
-  text += fmt::format("{} windows of {} s committed to {}, each verified exactly: {}\n", outcome.windows,
-                      outcome.window_length, request.run.string(), statement(outcome));
+  text += committed_text(request, outcome) + "\n";
   if (outcome.series == SeriesEnd::stopped) {
     text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
   }

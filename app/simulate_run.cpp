@@ -10,6 +10,7 @@
 
 #include "noli/app/body_names.h"
 #include "noli/app/contact_report.h"
+#include "noli/app/exact_gap.h"
 #include "noli/app/exit_code.h"
 #include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
@@ -75,15 +76,14 @@ class Run {
     outcome_.vertices = built_.model.x.size();
     outcome_.cells = built_.model.mesh.cell_count();
     outcome_.window_length = scene.window;
-    for (const auto& [a, b] : exclusions_.pairs) {
-      outcome_.excluded.push_back({built_.bodies[a].name, built_.bodies[b].name});
-    }
+    outcome_.not_compared = not_compared(built_.model.mesh, labels_, exclusions_, names_);
     outcome_.windows_total = windows_of(request, scene);
     require_cells();
     require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     refuse_contact_at_start();
     open(scene);
+    if (request.begun) request.begun(scene);
   }
 
   SimulateOutcome operator()() {
@@ -142,7 +142,8 @@ class Run {
 
   /// A run to be gone on with may have no window yet.
   void refuse_contact_at_start() const {
-    const std::string found = contact_at_start(verifier_, positions_of<Dim>(built_.model.x), window_options(), names_);
+    const std::string found =
+        contact_at_start(verifier_, built_.model.mesh, positions_of<Dim>(built_.model.x), window_options(), names_);
     if (!found.empty()) throw InputError(request_.scene.string(), "/bodies", "the scene begins in contact: " + found);
   }
 
@@ -354,12 +355,23 @@ class Run {
     if (limit_) {
       outcome_.end = RunEnd::too_near;
       outcome_.limit = limit_;
+      if (before_.windows == 0) outcome_.start_gap = start_gap(limit_->pair);
       outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "and");
     } else if (!finite_) {
       outcome_.not_finite =
           simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] { return stopped(); });
       if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
     }
+  }
+
+  std::optional<StartGap> start_gap(const certificates::Stencil& pair) const {
+    const integrator::ContactSettings& settings = *built_.model.contact;
+    const std::span<const VertexId> all(pair.vertices.data(), pair.size());
+    const auto& material = settings.materials[settings.material(all.first(pair.first()), all.subspan(pair.first()))];
+    const std::vector<Position> x = positions_of<Dim>(built_.model.x);
+    const double gap = exact_gap(WorldLines::from_frames(x, x), Dim, pair.kind, pair.vertices).up_to;
+    if (gap >= material.thickness) return std::nullopt;
+    return StartGap{gap, material.thickness, layer_thickness(material, settings.schedule, settings.most_layers)};
   }
 
   void conclude(PhaseClock& clock) {

@@ -13,17 +13,19 @@
 // What this does not do: it prints nothing (simulate_report.h).
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "noli/app/not_compared.h"
 #include "noli/app/phase_clock.h"
 #include "noli/app/run_series_file.h"
 #include "noli/integrator/contact_limit.h"
+#include "noli/integrator/scene/scene.h"
 #include "noli/integrator/simulation.h"
 #include "noli/proofs/prover/window_verifier.h"
 
@@ -39,6 +41,8 @@ struct SimulateRequest {
   std::optional<double> until;  ///< simulated time to stop at [s]; else the scene's duration
   int threads = 0;              ///< 0: all there are
   std::optional<std::chrono::nanoseconds> time_limit;
+  /// Called once nothing stands against the run any more, before anything is integrated.
+  std::function<void(const integrator::Scene&)> begun;
 };
 
 enum class RunEnd {
@@ -53,20 +57,28 @@ enum class RunEnd {
 /// As in the JSON and the log.
 const char* name(RunEnd end);
 
+/// How a pair that came too near in the first window stood where the scene begins.
+struct StartGap {
+  double gap = 0;        ///< [m], rounded up
+  double thickness = 0;  ///< of the first layer [m]; above the gap
+  double last = 0;       ///< thickness of the last layer that the scene allows [m]
+};
+
 struct SimulateOutcome {
   RunEnd end = RunEnd::done;
   std::string title;
   int dimension = 3;
   std::size_t vertices = 0, cells = 0;
   double window_length = 0;
-  std::uint64_t windows = 0, windows_total = 0;      ///< committed, and those of the whole run
-  std::uint64_t windows_before = 0;                  ///< of those committed, by earlier calls (--resume)
-  double time = 0;                                   ///< of the last commit [s]
-  std::uint64_t events = 0, breakpoints = 0;         ///< of this call
-  std::optional<WindowResult> contact;               ///< of the window that was refused
-  std::vector<std::array<std::string, 2>> excluded;  ///< bodies that the scene lets pass through each other
+  std::uint64_t windows = 0, windows_total = 0;  ///< committed, and those of the whole run
+  std::uint64_t windows_before = 0;              ///< of those committed, by earlier calls (--resume)
+  double time = 0;                               ///< of the last commit [s]
+  std::uint64_t events = 0, breakpoints = 0;     ///< of this call
+  std::optional<WindowResult> contact;           ///< of the window that was refused
+  NotCompared not_compared;
   std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
   std::optional<integrator::ContactLimit> limit;
+  std::optional<StartGap> start_gap;  ///< of its pair, if that begins within a layer and ends the first window
   std::optional<integrator::NotFinite> not_finite;
   std::uint64_t roll_backs = 0;           ///< of windows that were run again
   std::uint64_t certificate_defects = 0;  ///< of them, such that more layers from the start were enough

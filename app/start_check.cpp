@@ -5,8 +5,20 @@
 
 namespace noli::app {
 
-std::string contact_at_start(const WindowVerifier& verifier, const std::vector<Position>& x, WindowOptions options,
-                             const BodyNames& names) {
+namespace {
+
+/// "face cloth[0]-cloth[1]-cloth[2]". Cells are numbered as in trajectory/mesh.h.
+std::string cell_name(const Mesh& mesh, std::size_t cell, const BodyNames& names) {
+  if (cell < mesh.faces.size()) return names.feature(mesh.faces[cell]);
+  cell -= mesh.faces.size();
+  if (cell < mesh.edges.size()) return names.feature(mesh.edges[cell]);
+  return names.feature({&mesh.points[cell - mesh.edges.size()], 1});
+}
+
+}  // namespace
+
+std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, const std::vector<Position>& x,
+                             WindowOptions options, const BodyNames& names) {
   options.initial = true;
   options.stop = nullptr;
   options.deadline.reset();
@@ -18,7 +30,8 @@ std::string contact_at_start(const WindowVerifier& verifier, const std::vector<P
     pairs += fmt::format("{}{}", pairs.empty() ? "" : ", ", names.pair(contact.pair, contact.vertices, "meets"));
   }
   for (const auto& cells : result.initial_reports) {
-    pairs += fmt::format("{}cells {} and {}", pairs.empty() ? "" : ", ", cells.first_cell, cells.second_cell);
+    pairs += fmt::format("{}{} intersects {}", pairs.empty() ? "" : ", ", cell_name(mesh, cells.first_cell, names),
+                         cell_name(mesh, cells.second_cell, names));
   }
   return fmt::format("{}; {} pair(s) of features meet, {} pair(s) of cells intersect; expected none", pairs,
                      result.contact_count(), result.initial_intersections);

@@ -9,9 +9,9 @@
 
 namespace noli::app {
 
-/// What meets where a scene begins, everything being at rest there, decided exactly; "" if nothing does. `options`: as
-/// for a window.
-std::string contact_at_start(const WindowVerifier& verifier, const std::vector<Position>& x, WindowOptions options,
-                             const BodyNames& names);
+/// What meets where a scene begins, everything being at rest there, decided exactly; "" if nothing does. `mesh`: the
+/// one of the verifier; `options`: as for a window.
+std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, const std::vector<Position>& x,
+                             WindowOptions options, const BodyNames& names);
 
 }  // namespace noli::app

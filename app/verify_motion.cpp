@@ -8,6 +8,7 @@
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
 #include "noli/app/prove_run.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/verify_run.h"
 #include "noli/proofs/prover/window_verifier.h"
@@ -16,6 +17,14 @@
 
 namespace noli::app {
 namespace {
+
+RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
+  RunEnding ending;
+  if (!log.going_on && !log.last_end.empty()) ending.why = log.last_end;
+  ending.going_on = log.going_on;
+  ending.duration = duration_of(run);
+  return ending;
+}
 
 class MotionRun {
  public:
@@ -27,14 +36,16 @@ class MotionRun {
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
-    require_all_windows(request.frames[0], read_log(request.frames[0]), outcome_.steps_total);
-    outcome_.excluded = reader_.scene().exclusions.pairs;
+    const LogFacts log = read_log(request.frames[0]);
+    require_all_windows(request.frames[0], log, outcome_.steps_total);
+    outcome_.ending = ending_of(request.frames[0], log);
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
     for (const std::uint8_t label : reader_.scene().labels) scripted_.push_back(label & scripted_vertex);
+    outcome_.not_compared = not_compared(mesh, scripted_, reader_.scene().exclusions, log.names);
     if (mesh.cell_count() == 0) {
       throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
     }
@@ -158,6 +169,7 @@ class MotionRun {
     stopped();
     const bool enough = outcome_.touches() && !request_.keep_going;
     if (ended_) outcome_.steps_total = reader_.windows();
+    outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
     outcome_.open_window = ended_ && reader_.open_window().has_value();
     outcome_.complete = outcome_.complete && (ended_ || enough);
     // A run of which nothing was committed yet proves nothing.

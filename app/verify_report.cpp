@@ -8,6 +8,7 @@
 #include "noli/app/contact_report.h"
 #include "noli/app/machine.h"
 #include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -20,9 +21,9 @@ const char* motion(const VerifyRequest& request) {
 
 Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json list = Json::array();
-  if (request.run) list.push_back("pairs of cells all of whose vertices are scripted");
-  for (const auto& [a, b] : outcome.excluded) {
-    list.push_back(fmt::format("pairs of cells of groups {} and {}, which the run's scene excludes", a, b));
+  if (request.run) list.push_back(held_text(outcome.not_compared));
+  for (const auto& pair : outcome.not_compared.excluded) {
+    list.push_back(fmt::format("two cells of {}, which the run's scene excludes", pair_text(pair)));
   }
   return list;
 }
@@ -30,7 +31,7 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return {
       {"claim", "no two features of two different cells that share no vertex meet at any time of a step"},
-      {"frames", request.frames.size()},
+      {request.run ? "windows" : "frames", request.run ? outcome.steps_total : request.frames.size()},
       {"motion", motion(request)},
       {"time", request.run ? "seconds; each window, both ends included" : "[0, 1] in each step, both ends included"},
       {"numbers", "the doubles that the files give, taken exactly; real arithmetic on them, no tolerance"},
@@ -99,10 +100,28 @@ Json work_json(const VerifyOutcome& outcome) {
   return json;
 }
 
+Json run_json(const RunEnding& ending) {
+  return {{"end", ending.why ? Json(*ending.why) : Json(nullptr)},
+          {"time", ending.time},
+          {"duration", ending.duration ? Json(*ending.duration) : Json(nullptr)}};
+}
+
+/// Why a run has not come to the end of its scene.
+std::string why_ended(const RunEnding& ending) {
+  if (ending.going_on) return "it may still be going on, or was killed";
+  if (!ending.why) return "its log does not say why";
+  if (*ending.why == "done") return "no more was asked for";
+  if (*ending.why == "too_near") return "too near";
+  if (*ending.why == "not_finite") return "numbers ran out";
+  if (*ending.why == "time_limit") return "time limit";
+  return on_one_line(*ending.why);
+}
+
 int threads_used(const VerifyRequest& request) { return request.threads > 0 ? request.threads : hardware_threads(); }
 
 const char* why_incomplete(const VerifyOutcome& outcome) {
   if (outcome.interrupted) return "interrupted";
+  if (outcome.steps_total == 0) return "no window was committed";
   return outcome.out_of_time ? "time limit" : "first contact only";
 }
 
@@ -142,7 +161,8 @@ class Text {
     switch (outcome_.verdict) {
       case Verdict::no_contact:
       case Verdict::proved:
-        line("Nothing touches in {} {}(s).", outcome_.steps_total, request_.run ? "window" : "step");
+        line("{}", nothing_touches(outcome_.not_compared,
+                                   fmt::format("in {} {}(s)", outcome_.steps_total, request_.run ? "window" : "step")));
         break;
       case Verdict::contact:
         line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());
@@ -155,11 +175,19 @@ class Text {
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
     }
     proof();
+    ending();
     if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
       line("What is said is of what was settled so far ({}): there may be more contacts, and earlier ones.",
            why_incomplete(outcome_));
     }
+  }
+
+  void ending() {
+    if (!outcome_.ending || outcome_.ending->whole()) return;
+    const RunEnding& ending = *outcome_.ending;
+    const std::string of = ending.duration ? fmt::format(" of {} s", *ending.duration) : "";
+    line("The run ends at {} s{} ({}).", ending.time, of, why_ended(ending));
   }
 
   void proof() {
@@ -240,6 +268,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   json["first"] = first_json(outcome);
   json["reports"] = reports_json(outcome);
   json["initial_reports"] = initial_reports_json(outcome);
+  if (outcome.ending) json["run"] = run_json(*outcome.ending);
   json["steps"] = outcome.steps.size();
   json["steps_total"] = outcome.steps_total;
   json["per_step"] = steps_json(outcome);

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "noli/app/contact_report.h"
+#include "noli/app/not_compared.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/exclusions.h"
 
 namespace noli::app {
 
@@ -42,7 +42,8 @@ struct VerifyRequest {
   bool check = true;                           ///< have the checker look at the proof
 };
 
-/// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the checker has accepted the proof of it.
+/// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the
+/// checker has accepted the proof of it.
 enum class Verdict { no_contact, proved, contact, too_near, undecided };
 
 /// The name used in JSON: "no_contact", "proved", "contact", "too_near", "undecided".
@@ -88,19 +89,30 @@ struct StepCounts {
   std::uint64_t initial_intersections = 0;
 };
 
+/// How a run ended, as its log and its scene say. Nothing else follows from it.
+struct RunEnding {
+  std::optional<std::string> why;  ///< of the last part that ended, if none began after it: "done", "contact", ...
+  bool going_on = false;           ///< the last part has not ended, or was killed
+  double time = 0;                 ///< of the last window [s]
+  std::optional<double> duration;  ///< of the scene [s]
+
+  bool whole() const { return duration && time >= *duration; }
+};
+
 struct VerifyOutcome {
   Verdict verdict = Verdict::undecided;
   int dimension = 3;
   std::size_t vertices = 0, faces = 0, edges = 0, points = 0;
   std::size_t merged_vertices = 0;
-  std::vector<Exclusions::Pair> excluded;  ///< groups of a run's vertices whose cells are not compared
-  std::size_t unreferenced_vertices = 0;   ///< that are left out
-  std::size_t steps_total = 0;             ///< of the frames or the run, looked at or not
-  std::vector<StepCounts> steps;           ///< of the steps that were begun, in order
-  bool complete = true;                    ///< all that was asked for was decided; else the counts are lower bounds
-  bool interrupted = false;                ///< by the user
+  NotCompared not_compared;               ///< of a run
+  std::size_t unreferenced_vertices = 0;  ///< that are left out
+  std::size_t steps_total = 0;            ///< of the frames or the run, looked at or not
+  std::vector<StepCounts> steps;          ///< of the steps that were begun, in order
+  bool complete = true;                   ///< all that was asked for was decided; else the counts are lower bounds
+  bool interrupted = false;               ///< by the user
   bool out_of_time = false;
-  bool open_window = false;  ///< a run that ends in a window which was never committed
+  bool open_window = false;         ///< a run that ends in a window which was never committed
+  std::optional<RunEnding> ending;  ///< of a run
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
   std::optional<First> first;

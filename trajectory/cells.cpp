@@ -2,6 +2,7 @@
 #include "noli/trajectory/cells.h"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_set>
 
 namespace noli {
@@ -59,6 +60,20 @@ std::vector<VertexId> unreferenced_vertices(const Mesh& mesh) {
     if (!used[v]) result.push_back(static_cast<VertexId>(v));
   }
   return result;
+}
+
+std::vector<VertexId> held_cells(const Mesh& mesh, std::span<const std::uint8_t> held) {
+  std::vector<VertexId> first;
+  const auto look = [&](const auto& cells) {
+    for (const auto& cell : cells) {
+      if (std::all_of(cell.begin(), cell.end(), [&](VertexId v) { return held[v] != 0; })) first.push_back(cell[0]);
+    }
+  };
+  look(mesh.faces);
+  look(mesh.edges);
+  std::copy_if(mesh.points.begin(), mesh.points.end(), std::back_inserter(first),
+               [&](VertexId v) { return held[v] != 0; });
+  return first;
 }
 
 }  // namespace noli

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/error.h"
@@ -41,9 +42,17 @@ bool spans(const WorldLines& lines, double begin, double end) {
   return true;
 }
 
+/// Where the motion is. What has none was never a run, so no name of a file within helps.
+std::filesystem::path require_trajectory(const std::filesystem::path& folder) {
+  std::filesystem::path path = trajectory_path(folder);
+  std::error_code error;
+  if (std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found) return path;
+  throw InputError(folder.string(), "", "is no run; expected a folder with a trajectory.blocks in it");
+}
+
 }  // namespace
 
-RunReader::RunReader(const std::filesystem::path& folder) : blocks_(trajectory_path(folder), run_kind::content) {
+RunReader::RunReader(const std::filesystem::path& folder) : blocks_(require_trajectory(folder), run_kind::content) {
   read_scene();
 }
 

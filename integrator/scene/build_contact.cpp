@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "noli/integrator/scene/curve.h"
 
@@ -172,13 +173,19 @@ class PairContact {
     if (!(m.stiffness > 0 && std::isfinite(m.stiffness))) {
       at("stiffness").fail(fmt::format("expected a stiffness; the default, {} [N/m], cannot be used", m.stiffness));
     }
-    m.step = step(m.stiffness);
+    m.step = step(m);
     m.restitution = value(&ContactValues::restitution).value_or(1);
     m.friction = value(&ContactValues::friction).value_or(0);
     return m;
   }
 
   double bound() const { return part_.height / 2; }
+
+  /// Where a thickness is said: 0 for all, 1 + k in pair k.
+  std::optional<std::size_t> said_thickness() const {
+    if (pair_ != nullptr && pair_->values.thickness) return 1 + index_;
+    return scene_.contact->values.thickness ? std::optional<std::size_t>(0) : std::nullopt;
+  }
 
  private:
   using Value = std::optional<double> ContactValues::*;
@@ -199,15 +206,7 @@ class PairContact {
     if (!given && !(std::isfinite(bound()) && bound() > 0)) {
       at("thickness").fail("expected a thickness, as no cell with a free vertex has a height to take it from");
     }
-    const double thickness = given.value_or(bound() / 2);
-    if (!(thickness < bound())) {
-      at("thickness")
-          .fail(fmt::format(
-              "expected less than {} [m], half the least height at rest of the cells with a free vertex, found {}; the "
-              "largest that works is {}",
-              bound(), thickness, std::nextafter(bound(), 0.0)));
-    }
-    return thickness;
+    return given.value_or(bound() / 2);
   }
 
   double default_stiffness(double thickness) const {
@@ -215,15 +214,27 @@ class PairContact {
     return part_.greatest_mass * rate * rate;
   }
 
-  double step(double stiffness) const {
-    const double limit = std::sqrt(part_.least_mass / (2 * stiffness));
+  /// Where a stiffness comes from that is not said.
+  std::string stiffness_text(const ContactMaterial& m) const {
+    if (value(&ContactValues::stiffness)) return "";
+    const bool by_speed = speed_ / m.thickness > 1 / scene_.window;
+    const std::string time =
+        by_speed ? fmt::format("in which {:.6g} m/s pass a thickness of {:.6g} m", speed_, m.thickness) : "of a window";
+    return fmt::format(
+        "; no stiffness is given, and its default, {:.6g} [N/m], is the greatest mass of a vertex, {:.6g} "
+        "kg, over the square of the time, {:.6g} s, {}",
+        m.stiffness, part_.greatest_mass, std::min(m.thickness / speed_, scene_.window), time);
+  }
+
+  double step(const ContactMaterial& m) const {
+    const double limit = std::sqrt(part_.least_mass / (2 * m.stiffness));
     const double stability = own_stability().value_or(default_stability);
     const double step = own_step().value_or(std::min(stability * limit, scene_.window));
     if (!(step * 0x1p50 > scene_.duration)) {
       at("stiffness")
-          .fail(fmt::format(
-              "expected a step of contact that can be counted over the duration, found {} [s]: too stiff, or too light",
-              step));
+          .fail(fmt::format("expected a step of contact that can be counted over the duration, found {} [s]: too "
+                            "stiff, or too light{}",
+                            step, stiffness_text(m)));
     }
     if (step > greatest_stability * limit && !scene_.allow_unstable) {
       at("step").fail(
@@ -260,18 +271,59 @@ class Materials {
   }
 
   void add(const BodyPair& pair, const Parts& first, const Parts& second) {
+    for_each_way(pair, first, second, [&](const std::array<std::size_t, 2>& classes, const Free& part) {
+      add(pair, classes, part, first, second);
+    });
+  }
+
+  /// Notes what the pair asks of a thickness that is said: it may be said of many.
+  void bound(const BodyPair& pair, const Parts& first, const Parts& second) {
+    for_each_way(pair, first, second, [&](const std::array<std::size_t, 2>& /*classes*/, const Free& part) {
+      const PairContact contact(scene_, pair, part, speed_);
+      const std::optional<std::size_t> place = contact.said_thickness();
+      if (!place) return;
+      const auto [bound, is_new] = bounds_.insert({*place, {contact.bound(), pair}});
+      if (contact.bound() < bound->second.below) bound->second = {contact.bound(), pair};
+    });
+  }
+
+  /// Refuses a thickness that is too great for any of the pairs that it is said of.
+  void require_bounds() const {
+    for (const auto& [place, bound] : bounds_) {
+      const Field at = place == 0 ? contact_field() : contact_field()["pairs"][place - 1];
+      const double thickness = at["thickness"].number();
+      if (thickness < bound.below) continue;
+      const std::string &a = scene_.bodies[bound.bodies[0]].name, &b = scene_.bodies[bound.bodies[1]].name;
+      at["thickness"].fail(fmt::format(
+          "expected less than {} [m], half the least height at rest of the cells with a free vertex of {}, found {}; "
+          "the largest that works is {}",
+          bound.below, a == b ? a : fmt::format("{} and {}", a, b), thickness, std::nextafter(bound.below, 0.0)));
+    }
+  }
+
+ private:
+  struct Bound {
+    double below;
+    BodyPair bodies;
+  };
+
+  /// Calls each(classes, what of them counts) for all ways in which two bodies meet.
+  template <class Each>
+  void for_each_way(const BodyPair& pair, const Parts& first, const Parts& second, const Each& each) const {
     const std::vector<BodyPair>& excluded = scene_.contact->excluded;
     if (!(first.all | second.all).any()) return;
     if (std::find(excluded.begin(), excluded.end(), pair) != excluded.end()) return;
     for (std::size_t a = 0; a < first.of_class.size(); ++a) {
       const std::size_t begin = pair[0] == pair[1] ? a : 0;
-      for (std::size_t b = begin; b < second.of_class.size(); ++b) add(pair, {a, b}, first, second);
+      for (std::size_t b = begin; b < second.of_class.size(); ++b) {
+        const std::array<std::size_t, 2> classes{a, b};
+        each(classes, together(first.of_class[a], second.of_class[b], classes));
+      }
     }
   }
 
- private:
-  void add(const BodyPair& pair, const std::array<std::size_t, 2>& classes, const Parts& first, const Parts& second) {
-    const Free part = together(first.of_class[classes[0]], second.of_class[classes[1]], classes);
+  void add(const BodyPair& pair, const std::array<std::size_t, 2>& classes, const Free& part, const Parts& first,
+           const Parts& second) {
     const PairContact contact(scene_, pair, part, speed_);
     const std::uint16_t id = find(contact.material());
     BuiltContact& use = built_.contact[id];
@@ -310,6 +362,7 @@ class Materials {
   const Scene& scene_;
   BuiltScene<Dim>& built_;
   double speed_;
+  std::map<std::size_t, Bound> bounds_;  ///< by where a thickness is said
 };
 
 std::vector<std::uint16_t> groups_of(const std::vector<BuiltBody>& bodies) {
@@ -360,9 +413,14 @@ void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const 
   for (std::size_t b = 0; b < bodies.size(); ++b) parts.push_back(parts_of(bodies[b], built.bodies[b], inverse_mass));
   add_classes(parts, *built.model.contact);
   Materials<Dim> materials(scene, built);
-  for (std::size_t a = 0; a < bodies.size(); ++a) {
-    for (std::size_t b = a; b < bodies.size(); ++b) materials.add({a, b}, parts[a], parts[b]);
-  }
+  const auto for_each_pair = [&](auto&& each) {
+    for (std::size_t a = 0; a < bodies.size(); ++a) {
+      for (std::size_t b = a; b < bodies.size(); ++b) each(BodyPair{a, b}, parts[a], parts[b]);
+    }
+  };
+  for_each_pair([&](const auto&... pair) { materials.bound(pair...); });
+  materials.require_bounds();
+  for_each_pair([&](const auto&... pair) { materials.add(pair...); });
   require_digits(scene, built.model);
 }
 

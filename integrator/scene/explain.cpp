@@ -2,6 +2,7 @@
 #include "noli/integrator/scene/explain.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "noli/integrator/scene/field.h"
 #include "noli/integrator/scene/pinch.h"
 #include "noli/integrator/scene/predict.h"
+#include "noli/trajectory/cells.h"
 
 namespace noli::integrator {
 namespace {
@@ -129,6 +131,9 @@ void warn(const Scene& scene, Explanation& e) {
                                      e.breakpoints_a_window, scene.window * most_breakpoints / e.breakpoints_a_window,
                                      most_breakpoints));
   }
+  if (scene.contact && e.contact.empty()) {
+    e.warnings.emplace_back("there are no layers of contact: nothing can move, or all that can is excluded");
+  }
   const bool clips =
       std::any_of(e.groups.begin(), e.groups.end(), [&](const auto& g) { return g.longest >= scene.window; });
   if (clips) e.warnings.emplace_back("some steps are as long as the window and could be longer with a longer one");
@@ -143,6 +148,37 @@ void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation&
                     "which no number of layers is enough",
                     built.bodies[pinch.bodies[0]].name, built.bodies[pinch.bodies[1]].name, pinch.time));
   }
+}
+
+template <int Dim>
+std::vector<std::uint8_t> held_vertices(const Model<double, Dim>& model) {
+  std::vector<std::uint8_t> held(model.x.size(), 0);
+  for (const VertexId i : model.pinned) held[i] = 1;
+  for (const auto& script : model.scripts) held[script.vertex] = 1;
+  return held;
+}
+
+/// Bodies that have cells which only the scene moves, as verification knows them.
+template <int Dim>
+std::vector<std::string> bodies_with_held_cells(const BuiltScene<Dim>& built) {
+  std::vector<VertexId> cells = held_cells(built.model.mesh, held_vertices<Dim>(built.model));
+  std::sort(cells.begin(), cells.end());
+  std::vector<std::string> names;
+  for (const BuiltBody& body : built.bodies) {
+    const auto least = std::lower_bound(cells.begin(), cells.end(), body.first);
+    if (least != cells.end() && *least - body.first < body.vertices) names.push_back(body.name);
+  }
+  return names;
+}
+
+template <int Dim>
+void warn_of_what_is_not_compared(const BuiltScene<Dim>& built, Explanation& e) {
+  const std::vector<std::string> names = bodies_with_held_cells(built);
+  if (names.size() < 2) return;
+  e.warnings.push_back(
+      fmt::format("cells of {} and {} whose vertices are all scripted or pinned are not compared with each other: they "
+                  "may go through each other",
+                  fmt::join(names.begin(), names.end() - 1, ", "), names.back()));
 }
 
 /// Fields that the schema gives no default, because it depends on others: what stands for those that are absent.
@@ -197,6 +233,7 @@ template <int Dim>
 void explain(const Scene& scene, Explanation& explanation) {
   BuiltScene<Dim> built = build_model<Dim>(scene);
   add_contact(built, explanation);
+  warn_of_what_is_not_compared(built, explanation);
   if (built.model.contact) warn_of_pinches(built, scene.duration, explanation);
   explanation.bodies = std::move(built.bodies);
   Survey survey(scene, explanation);

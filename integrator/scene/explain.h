@@ -76,6 +76,9 @@ struct Explanation {
 /// Throws InputError as build_model does.
 Explanation explain(const Scene& scene);
 
+/// What whoever runs the scene should know beforehand, each without a full stop: the warnings, then resonances.
+std::vector<std::string> notes(const Explanation& explanation);
+
 /// For people: several lines, a newline at the end.
 std::string to_text(const Explanation& explanation);
 

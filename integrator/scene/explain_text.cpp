@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "noli/integrator/scene/explain.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::integrator {
 namespace {
@@ -77,8 +77,7 @@ class Text {
  public:
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-    text += '\n';
+    text += on_one_line(fmt::format(format, std::forward<Args>(args)...)) + "\n";
   }
   std::string text;
 };
@@ -130,6 +129,12 @@ void write_defaults(Text& out, const Explanation& e) {
 }
 
 }  // namespace
+
+std::vector<std::string> notes(const Explanation& e) {
+  std::vector<std::string> all = e.warnings;
+  for (const ResonanceWarning& w : e.resonances) all.push_back(resonance_text(w));
+  return all;
+}
 
 std::string to_text(const Explanation& e) {
   Text out;

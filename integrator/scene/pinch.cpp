@@ -8,6 +8,7 @@
 
 #include "noli/integrator/scene/connectivity.h"
 #include "noli/kernel/contact.h"
+#include "noli/kernel/first_contact.h"
 #include "noli/kernel/static_predicates.h"
 
 namespace noli::integrator {
@@ -188,7 +189,10 @@ class Search {
         std::copy(a.end.begin(), a.end.end(), query.x_t1.begin());
         std::copy(b.end.begin(), b.end.end(), query.x_t1.begin() + N);
         const std::optional<TimeEnclosure> found = contact(query);
-        if (found && (!earliest || found->begin < *earliest)) earliest = found->begin;
+        // What stays in contact may have an enclosure as long as the step.
+        if (!found || (earliest && found->begin >= *earliest)) continue;
+        const double first = first_contact(query)->time.lower();
+        if (!earliest || first < *earliest) earliest = first;
       }
     }
   }

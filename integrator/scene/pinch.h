@@ -16,7 +16,7 @@ namespace noli::integrator {
 
 struct Pinch {
   std::array<std::size_t, 2> bodies{};
-  double time = 0;  ///< about [s]
+  double time = 0;  ///< of the first contact, but for rounding [s]
 };
 
 /// Pairs of bodies, no vertex of which is free, that are apart at the start and meet before `duration`; the first time

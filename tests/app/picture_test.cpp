@@ -115,6 +115,8 @@ TEST_F(ExportPicture, IsWrittenOfATimeOfTheRun) {
     EXPECT_EQ(big_endian(png, 16), 640U);
     EXPECT_NE(export_at({"--at", "0.2", "-o", run_path("p.png")}).exit_code, 0) << "it is there already";
     EXPECT_EQ(export_at({"--at", "0.2", "--from", "1", "0", "0", "-o", run_path("q.png"), "--force"}).exit_code, 0);
+    EXPECT_EQ(export_at({"--at", "0.2", "--from", "1,0,0", "-o", run_path("commas.png"), "--force"}).exit_code, 0);
+    EXPECT_EQ(bytes_of(run_path("commas.png")), bytes_of(run_path("q.png")));
     EXPECT_NE(bytes_of(run_path("q.png")), png);
   }
 }
@@ -131,6 +133,7 @@ TEST_F(ExportPicture, BadInputIsNamed) {
   expect_refused({"--at", "0.1", "-o", run_path("p.jpg")}, ".png");
   expect_refused({"--at", "0.1", "--from", "0", "0", "0", "-o", run_path("p.png")}, "--from");
   expect_refused({"--at", "0.1", "--fps", "3", "-o", run_path("p.png")}, "--fps");
+  expect_refused({"--at", "0.1", "--from", "1,0", "-o", run_path("p.png")}, "--from");
   expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "--at");
 }
 

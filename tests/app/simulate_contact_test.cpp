@@ -68,13 +68,42 @@ TEST_F(Simulate, WhatASceneExcludesPassesThroughAndIsPartOfTheStatement) {
   EXPECT_NE(result["statement"].get<std::string>().find("two cells of falling and lying"), std::string::npos);
   EXPECT_EQ(result["timing"]["certificates"]["deepest"], 0);
   const Json verified = json_of({"verify", run_path("run")}, 0);
-  EXPECT_NE(verified["statement"]["excluded"].dump().find("groups 0 and 1"), std::string::npos);
+  EXPECT_EQ(verified["statement"]["excluded"][1], "two cells of falling and lying, which the run's scene excludes");
+  const Process told = run_noli({"verify", run_path("run")});
+  EXPECT_NE(told.out.find("Not compared: two cells of falling and lying (excluded).\n"), std::string::npos) << told.out;
   // A third cloth is not excluded.
   json["bodies"].push_back(json["bodies"][1]);
   json["bodies"][2]["name"] = "third";
   json["bodies"][2]["transform"]["translate"] = {0, 0, -0.1};
   const Json third = json_of({"simulate", scene(json), "-o", run_path("third")}, 0);
   EXPECT_GE(third["timing"]["certificates"]["deepest"], 1);
+}
+
+TEST_F(Simulate, AGapWithinAllLayersAtTheStartIsTold) {
+  Json json = {{"noli_scene", 1}, {"dimension", 2}, {"duration", 1}, {"window", 0.01}};
+  json["bodies"] = Json::parse(R"([
+      {"name": "floor", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}}, "pin": ["all"],
+       "material": {"edge_stiffness": 0, "mass_per_length": 1}},
+      {"name": "point", "mesh": {"points": {"at": [[0.1, 0.0078125]]}},
+       "material": {"edge_stiffness": 0, "mass_per_vertex": 1}}])");
+  json["contact"] = {{"thickness", 0.1}, {"stiffness", 100}, {"most_layers", 16}};
+  const std::string file = scene(json);
+  const Json result = json_of({"simulate", file, "-o", run_path("run")}, 1);
+  EXPECT_EQ(result["verdict"], "too_near");
+  EXPECT_EQ(result["too_near"]["time"], 0);
+  EXPECT_EQ(result["too_near"]["start"]["gap"], 0.0078125);
+  EXPECT_EQ(result["too_near"]["start"]["thickness"], 0.1);
+  EXPECT_GT(result["too_near"]["start"]["last_thickness"], 0.0078125);
+  const Process told = run_noli({"simulate", file, "-o", run_path("told")});
+  EXPECT_NE(told.out.find("\nToo near at the start: vertex point[0] and edge floor[0]-floor[1] need more layers"),
+            std::string::npos)
+      << told.out;
+  EXPECT_NE(told.out.find("the scene begins with them 0.0078125 m apart, within the thickness of contact, 0.1 m"),
+            std::string::npos)
+      << told.out;
+  // Half as far within the first layer it has room.
+  json["bodies"][1]["mesh"]["points"]["at"][0][1] = 0.09;
+  EXPECT_EQ(json_of({"simulate", scene(json), "-o", run_path("far")}, 0)["too_near"], nullptr);
 }
 
 /// In the plane: a point between a floor and an edge that a script puts onto it.
@@ -96,13 +125,15 @@ TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
       {"scripts", {{{"body", "press"}, {"path", {{{"t", 0}, {"move", {0, 0}}}, {{"t", 1}, {"move", {0, -1}}}}}}}},
       {"contact", {{"thickness", 0.1}, {"stiffness", 100}, {"most_layers", 200}}}};
   const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
-  EXPECT_EQ(result["verdict"], "undecided");
+  EXPECT_EQ(result["verdict"], "too_near");
   EXPECT_EQ(result["end"], "too_near");
   EXPECT_EQ(result["too_near"]["pair"], "vertex_edge");
   EXPECT_GT(result["too_near"]["time"], 0.9);
   EXPECT_LT(result["too_near"]["time"], 1);
   EXPECT_EQ(result["too_near"]["names"], "vertex point[0] and edge floor[0]-floor[1]");
+  EXPECT_EQ(result["too_near"]["start"], nullptr);
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+  EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 2 s (too near).\n"), std::string::npos);
 }
 
 }  // namespace

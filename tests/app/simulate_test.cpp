@@ -61,6 +61,25 @@ TEST_F(Simulate, ABeginningInContactIsRefusedWithItsPairs) {
   EXPECT_FALSE(fs::exists(folder.path("run")));
 }
 
+TEST_F(Simulate, CellsThatIntersectAtTheBeginningAreNamed) {
+  // Like a sail through a deck: no vertex meets a face, no edge an edge.
+  folder.write("deck.obj", "v 0 0 0\nv 8 0 0\nv 0 8 0\nf 1 2 3\n");
+  folder.write("sail.obj", "v 2 2 -1\nv 2 2 1\nv 3 2 2\nf 1 2 3\n");
+  Json json = falling_triangle();
+  for (const char* name : {"deck", "sail"}) {
+    Json& body = json["bodies"][name == std::string("sail") ? 1 : 0];
+    body["name"] = name;
+    body["mesh"]["file"] = name + std::string(".obj");
+  }
+  json.erase("scripts");
+  const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("begins in contact: face deck[0]-deck[1]-deck[2] intersects face sail[0]-sail[1]-sail[2]; "
+                             "0 pair(s) of features meet, 1 pair(s) of cells intersect"),
+            std::string::npos)
+      << process.err;
+}
+
 TEST_F(Simulate, ABeginningInContactIsRefusedWhenResumedToo) {
   Json json = falling_triangle();
   json["bodies"][1]["transform"] = {{"translate", {0, 0, -0.3125}}};
@@ -177,6 +196,7 @@ TEST_F(Simulate, NumbersThatRunOutAreNamed) {
                   "material": {"edge_stiffness": 1e6, "mass_per_vertex": 1}, "velocity": [0, 0], "spin": 1,
                   "steps": {"stretch": 0.01}}]})");
   const Json blown = json_of({"simulate", scene(json), "-o", run_path("run")}, 1);
+  EXPECT_EQ(blown["verdict"], "not_finite");
   EXPECT_EQ(blown["end"], "not_finite");
   EXPECT_EQ(blown["not_finite"]["force"], "edge_spring");
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
@@ -198,6 +218,24 @@ TEST_F(Simulate, ExplainSaysWhatIsActive) {
   EXPECT_NE(process.out.find("hinge"), std::string::npos);
   const Json json = json_of({"explain", scene(hanging_sheet())}, 0);
   EXPECT_EQ(json["bodies"][0]["vertices"], 49);
+}
+
+TEST_F(Simulate, WhatExplainNotesIsToldBeforeTheRun) {
+  Json json = beam(0.1);
+  const std::string calm = scene(json);
+  ASSERT_EQ(run_noli({"explain", calm}).out.find("Note: "), std::string::npos);
+  EXPECT_EQ(run_noli({"simulate", calm, "-o", run_path("calm")}).err, "");
+  json["allow_unstable"] = true;
+  const std::string unstable = scene(json);
+  const std::string note = "steps above the limit of stability are accepted (\"allow_unstable\").\n";
+  EXPECT_NE(run_noli({"explain", unstable}).out.find("Note: " + note), std::string::npos);
+  const Process told = run_noli({"simulate", unstable, "-o", run_path("run"), "--json", "-"});
+  EXPECT_EQ(told.err, "noli: note: " + note);
+  EXPECT_EQ(Json::parse(told.out)["end"], "done");
+  // What is refused is told in one line.
+  const Process refused = run_noli({"simulate", unstable, "-o", run_path("run")});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(refused.err.find("note"), std::string::npos) << refused.err;
 }
 
 TEST_F(Simulate, FramesAreExported) {
@@ -347,6 +385,28 @@ TEST_F(Simulate, WhatIsNotComparedIsPartOfTheStatement) {
   json["scripts"] = Json::parse(R"([{"body": "b", "path": [{"t": 0, "move": [0, 0]}, {"t": 1, "move": [0, -0.75]}]}])");
   const Json result = json_of({"simulate", scene(json), "-o", run_path("run")}, 0);
   EXPECT_NE(result["statement"].get<std::string>().find("all scripted or pinned"), std::string::npos);
+  EXPECT_EQ(result["scripted_or_pinned"], Json::parse(R"(["a", "b"])"));
+  const std::string headline = "Not compared: two cells of a and b whose vertices are all scripted or pinned.\n";
+  const Process told = run_noli({"simulate", scene(json), "-o", run_path("told")});
+  EXPECT_NE(told.out.find("\nNothing that is compared touches from beginning to end. " + headline), std::string::npos)
+      << told.out;
+  const Process verified = run_noli({"verify", run_path("run")});
+  EXPECT_NE(verified.out.find("\nNothing that is compared touches in "), std::string::npos) << verified.out;
+  EXPECT_NE(verified.out.find(headline), std::string::npos) << verified.out;
+  const Json statement = json_of({"verify", run_path("run")}, 0)["statement"];
+  EXPECT_EQ(statement["excluded"][0], "two cells of a and b whose vertices are all scripted or pinned");
+  EXPECT_EQ(statement["windows"], result["windows"]);
+  EXPECT_FALSE(statement.contains("frames"));
+  // Without the log bodies have no names.
+  fs::remove(run_path("run/log.jsonl"));
+  EXPECT_NE(run_noli({"verify", run_path("run")}).out.find("Nothing that is compared touches"), std::string::npos);
+}
+
+TEST_F(Simulate, WhereOneBodyIsScriptedOrPinnedNothingTouches) {
+  const Process told = run_noli({"simulate", scene(falling_triangle()), "-o", run_path("run"), "--until", "0.3"});
+  EXPECT_NE(told.out.find("\nNothing touches from beginning to end.\n"), std::string::npos) << told.out;
+  const Process verified = run_noli({"verify", run_path("run")});
+  EXPECT_NE(verified.out.find("\nNothing touches in 39 window(s).\n"), std::string::npos) << verified.out;
 }
 
 TEST_F(Simulate, WithoutCellsThereIsNothingToCertify) {
@@ -428,6 +488,61 @@ TEST_F(Simulate, ExportWantsAFiniteRate) {
   for (const char* fps : {"nan", "inf", "0", "-1", "1e999"}) {
     EXPECT_EQ(run_noli({"export", run_path("run"), "--fps", fps, "-o", run_path("%d.ply")}).exit_code, 3) << fps;
   }
+}
+
+TEST_F(Simulate, AMissingShortFormIsNoted) {
+  const std::string note = "noli: note: --short changes nothing: the scene has no \"short\".\n";
+  Json json = beam(0.1);
+  for (const char* where : {"with", "without"}) {
+    const bool expected = where == std::string("without");
+    if (expected)
+      json.erase("short");
+    else
+      json["short"] = {{"/duration", 0.05}};
+    const std::string file = scene(json);
+    EXPECT_EQ(run_noli({"explain", file, "--short"}).err, expected ? note : "");
+    EXPECT_EQ(run_noli({"simulate", file, "--short", "-o", run_path(where)}).err, expected ? note : "");
+    EXPECT_EQ(run_noli({"explain", file}).err, "");
+  }
+}
+
+TEST_F(Simulate, AFolderThatIsNoRunIsCalledThat) {
+  const std::string none = fs::path(scene(hanging_sheet())).parent_path();
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", none},
+                                                    {"explain", none},
+                                                    {"info", none},
+                                                    {"export", none, "-o", run_path("%d.ply")},
+                                                    {"export", run_path("nosuch"), "-o", run_path("%d.ply")}}) {
+    const Process process = run_noli(arguments);
+    EXPECT_EQ(process.exit_code, 3) << arguments[0];
+    EXPECT_NE(process.err.find(": is no run; expected a folder with a trajectory.blocks in it"), std::string::npos)
+        << process.err;
+  }
+}
+
+TEST_F(Simulate, WindowsToReproduceAreCountedFromZero) {
+  const std::string file = scene(beam(0.1));
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run")}).exit_code, 0);
+  for (const char* window : {"-1", "1.5", "one", "99999999999999999999"}) {
+    const Process process =
+        run_noli({"simulate", file, "--reproduce", run_path("run"), "--window", window, "-o", run_path("block")});
+    EXPECT_EQ(process.exit_code, 3) << window;
+    EXPECT_NE(process.err.find(std::string("--window: ") + window + ": expected a whole number from 0"),
+              std::string::npos)
+        << process.err;
+  }
+}
+
+TEST_F(Simulate, NamesOfBodiesAreToldOnOneLine) {
+  Json json = falling_triangle();
+  json["bodies"][0]["name"] = "a\x1b[31m\nb";
+  const std::string file = scene(json);
+  const Process explained = run_noli({"explain", file});
+  EXPECT_EQ(explained.out.find('\x1b'), std::string::npos) << explained.out;
+  EXPECT_NE(explained.out.find("\n  a\\x1b[31m\\nb: 3 vertices"), std::string::npos) << explained.out;
+  const Process simulated = run_noli({"simulate", file, "-o", run_path("run")});
+  EXPECT_EQ(simulated.out.find('\x1b'), std::string::npos) << simulated.out;
+  EXPECT_EQ(simulated.err.find('\x1b'), std::string::npos) << simulated.err;
 }
 
 TEST_F(Simulate, ShortFormsNameTheirBadPointer) {

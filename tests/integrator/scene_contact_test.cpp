@@ -229,13 +229,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{R"({"thickness": 0})", "/thickness: expected a number greater than 0 [m], found 0"},
         Bad{R"({"thickness": 0.2})",
             "/thickness: expected less than 0.17677669529663687 [m], half the least height at rest of the cells with a "
-            "free vertex, found 0.2; the largest that works is 0.17677669529663684"},
+            "free vertex of low, found 0.2; the largest that works is 0.17677669529663684"},
         Bad{R"({"thickness": 0.17677669529663687})",
             "/thickness: expected less than 0.17677669529663687 [m], half the least height at rest of the cells with a "
-            "free vertex, found 0.17677669529663687; the largest that works is 0.17677669529663684"},
+            "free vertex of low, found 0.17677669529663687; the largest that works is 0.17677669529663684"},
         Bad{R"({"pairs": [{"bodies": ["low", "floor"], "thickness": 1}]})",
             "/pairs/0/thickness: expected less than 0.17677669529663687 [m], half the least height at rest of the "
-            "cells with a free vertex, found 1; the largest that works is 0.17677669529663684"},
+            "cells with a free vertex of low and floor, found 1; the largest that works is 0.17677669529663684"},
         Bad{R"({"stiffness": 0})", "/stiffness: expected a number greater than 0 [N/m], found 0"},
         Bad{R"({"stiffness": 1e90})",
             "/stiffness: expected a step of contact that can be counted over the duration, found "
@@ -293,6 +293,48 @@ TEST(SceneContact, IsRefusedWhereNumbersAreTooCoarseForIt) {
 
 TEST(SceneContact, TheLargestThicknessThatIsNamedWorks) {
   EXPECT_EQ(settings(sheets(R"({"thickness": 0.17677669529663684})"_json)).materials[0].thickness, 0.17677669529663684);
+}
+
+TEST(SceneContact, TheLargestThicknessThatIsNamedWorksForAllPairs) {
+  Json scene = sheets(R"({"thickness": 10, "pairs": [{"bodies": ["low", "high"], "thickness": 0.1}]})"_json);
+  scene["bodies"][0]["mesh"]["grid"]["cells"] = {4, 4};
+  scene["bodies"][1]["mesh"]["grid"]["cells"] = {8, 8};
+  const auto refused = [&scene]() -> std::string {
+    try {
+      settings(scene);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto named = [](const std::string& error) { return std::stod(error.substr(error.rfind(' '))); };
+  const std::string all = refused();
+  EXPECT_NE(all.find("/contact/thickness: expected less than 0.044"), std::string::npos) << all;
+  EXPECT_NE(all.find(" of high, found 10;"), std::string::npos) << "the pair of low with itself allows more: " << all;
+  scene["contact"]["thickness"] = named(all);
+  const std::string pair = refused();
+  EXPECT_NE(pair.find("/contact/pairs/0/thickness: expected less than 0.044"), std::string::npos) << pair;
+  EXPECT_NE(pair.find(" of low and high, found 0.1;"), std::string::npos) << pair;
+  scene["contact"]["pairs"][0]["thickness"] = named(pair);
+  EXPECT_EQ(refused(), "");
+}
+
+TEST(SceneContact, ADefaultStiffnessThatCannotBeUsedSaysWhereItIsFrom) {
+  Json scene = sheets(R"({"thickness": 0.01})"_json);
+  scene["bodies"][0]["velocity"] = {0, 0, 1e60};
+  try {
+    settings(scene);
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("/contact/stiffness: expected a step of contact that can be counted"), std::string::npos)
+        << said;
+    EXPECT_NE(
+        said.find("no stiffness is given, and its default, 3.33333e+124 [N/m], is the greatest mass of a vertex, "
+                  "3.33333 kg, over the square of the time, 1e-62 s, in which 1e+60 m/s pass a thickness of 0.01 m"),
+        std::string::npos)
+        << said;
+  }
 }
 
 TEST(SceneContact, TheEdgesOfWhatIsAllowed) {
@@ -362,6 +404,12 @@ TEST(ExplainContact, DefaultsThatDependOnOthersAreListed) {
   EXPECT_TRUE(left_out(e, "restitution", "it is 1 everywhere"));
 }
 
+/// Those of them that speak of what comes to touch.
+std::vector<std::string> of_pinches(std::vector<std::string> warnings) {
+  std::erase_if(warnings, [](const std::string& w) { return w.find(" come to touch ") == w.npos; });
+  return warnings;
+}
+
 /// A ring between two walls; where the upper one goes within the first second.
 std::vector<std::string> warnings_of_walls(double move, double start = 1) {
   Json scene = loop();
@@ -382,11 +430,12 @@ std::vector<std::string> warnings_of_walls(double move, double start = 1) {
 }
 
 TEST(ExplainContact, WarnsOfScriptsThatPinch) {
-  EXPECT_TRUE(warnings_of_walls(-1.9).empty());
-  const std::vector<std::string> warnings = warnings_of_walls(-2.5);
+  EXPECT_TRUE(of_pinches(warnings_of_walls(-1.9)).empty());
+  const std::vector<std::string> warnings = of_pinches(warnings_of_walls(-2.5));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].starts_with("anvil and hammer come to touch each other at about 0.8 s: ")) << warnings[0];
-  EXPECT_TRUE(warnings_of_walls(1, -1).empty()) << "they touch from the start: walls that slide along others";
+  EXPECT_TRUE(of_pinches(warnings_of_walls(1, -1)).empty())
+      << "they touch from the start: walls that slide along others";
 }
 
 TEST(ExplainContact, WarnsOfScriptsThatPinchInSpace) {
@@ -409,12 +458,49 @@ TEST(ExplainContact, WarnsOfScriptsThatPinchInSpace) {
   EXPECT_EQ(std::count_if(through.begin(), through.end(), pinches), 1);
 }
 
+/// Two plates, each 0.1 m from the middle and of the same outline, move to and through it: every contact is degenerate.
+TEST(ExplainContact, PlatesOfOneOutlinePinchWhenTheyMeet) {
+  Json scene = sheets(Json::object());
+  scene["bodies"].push_back(scene["bodies"][2]);
+  scene["bodies"][3]["name"] = "top";
+  scene["bodies"][2]["name"] = "bottom";
+  scene["bodies"][0]["transform"]["translate"] = {0, 0, -3};
+  for (const int plate : {2, 3}) {
+    scene["bodies"][plate]["pin"] = Json::array();
+    scene["bodies"][plate]["transform"]["translate"] = {0, 0, plate == 2 ? -0.125 : 0.125};
+  }
+  scene["scripts"] = R"([
+      {"body": "top", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 1, "move": [0, 0, -0.25]}]},
+      {"body": "bottom", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 1, "move": [0, 0, 0.25]}]}])"_json;
+  const auto warnings = of_pinches(explain(parse_scene(scene.dump(), "s.json")).warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].starts_with("bottom and top come to touch each other at about 0.5 s: ")) << warnings[0];
+}
+
+TEST(ExplainContact, NotesWhatIsNotCompared) {
+  Json scene = sheets(Json::object());
+  const std::string note =
+      "cells of low and floor whose vertices are all scripted or pinned are not compared with each other: they may go "
+      "through each other";
+  EXPECT_FALSE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "the floor alone is pinned";
+  scene["bodies"][0]["pin"] = {"left"};
+  EXPECT_FALSE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "a row of vertices is no cell";
+  scene["scripts"] = R"([{"body": "low", "vertices": [1, 4], "path": [{"t": 0, "move": [0, 0, 0]}]}])"_json;
+  EXPECT_TRUE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "two pinned, one scripted";
+  scene.erase("contact");
+  EXPECT_TRUE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note)) << "that is so without contact too";
+}
+
 TEST(ExplainContact, NothingToMove) {
   Json scene = changed(sheet(), "/contact", Json::object());
   scene["bodies"][0]["pin"] = {"all"};
   const Explanation e = explain(parse_scene(scene.dump(), "s.json"));
   EXPECT_TRUE(left_out(e, "contact forces", "nothing can move, or all that can is excluded"));
   EXPECT_EQ(to_text(e).find("Contact: "), std::string::npos);
+  const std::string note = "there are no layers of contact: nothing can move, or all that can is excluded";
+  EXPECT_TRUE(has(e.warnings, note));
+  scene["bodies"][0].erase("pin");
+  EXPECT_FALSE(has(explain(parse_scene(scene.dump(), "s.json")).warnings, note));
 }
 
 }  // namespace

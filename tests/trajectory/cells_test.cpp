@@ -53,5 +53,11 @@ TEST(Cells, UnreferencedVertices) {
   EXPECT_TRUE(unreferenced_vertices(Mesh{.vertex_count = 1, .faces = {}, .edges = {}, .points = {0}}).empty());
 }
 
+TEST(Cells, HeldAreThoseOfHeldVerticesOnly) {
+  const Mesh mesh{.vertex_count = 7, .faces = {{2, 0, 1}, {1, 2, 3}}, .edges = {{4, 5}, {3, 4}}, .points = {6, 3}};
+  EXPECT_EQ(held_cells(mesh, std::vector<std::uint8_t>{1, 1, 1, 0, 1, 1, 1}), (Points{2, 4, 6}));
+  EXPECT_EQ(held_cells(mesh, std::vector<std::uint8_t>{1, 1, 0, 0, 1, 0, 0}), Points{});
+}
+
 }  // namespace
 }  // namespace noli

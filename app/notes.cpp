@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "noli/integrator/scene/explain.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+constexpr std::size_t most_notes = 10;
+
+void tell(const std::string& note) { std::fputs(fmt::format("noli: note: {}.\n", on_one_line(note)).c_str(), stderr); }
+
+}  // namespace
+
+void tell_notes(const integrator::Scene& scene) {
+  const std::vector<std::string> notes = integrator::notes(integrator::explain(scene));
+  for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) tell(notes[i]);
+  if (notes.size() > most_notes) tell(fmt::format("there are {} more, which explain tells", notes.size() - most_notes));
+}
+
+void note_missing_short_form(const integrator::Scene& scene) {
+  const auto brief = scene.document.find("short");
+  if (brief != scene.document.end() && !brief->empty()) return;
+  tell("--short changes nothing: the scene has no \"short\"");
+}
+
+}  // namespace noli::app
