@@ -32,12 +32,16 @@ struct Rejected {
   std::string where, why;
 };
 
+inline void require(bool condition, const std::string& where, const char* why) {
+  if (!condition) throw Rejected{where, why};
+}
+
 /// A file, or with the name - the standard input, read once from its beginning to its end.
 class Input {
  public:
   explicit Input(const std::string& name)
       : name_(name), file_(name == "-" ? stdin : std::fopen(name.c_str(), "rb"), std::fclose) {
-    if (!file_) throw Rejected{name, "cannot be opened"};
+    checker::require(file_ != nullptr, name, "cannot be opened");
   }
   /// So many bytes, or all up to the end. No length is believed: memory grows with what has come.
   std::string read(std::uint64_t bytes) {
@@ -48,7 +52,7 @@ class Input {
       got = std::fread(result.data() + have, 1, part, file_.get());
       result.resize(have + got);
     }
-    if (std::ferror(file_.get()) != 0) throw Rejected{name_, "cannot be read"};
+    checker::require(std::ferror(file_.get()) == 0, name_, "cannot be read");
     return result;
   }
 

@@ -45,8 +45,8 @@ class Check {
     for (std::uint64_t read = 0;; ++read) {
       auto block = proof_.next();
       if (proof_.ended()) {
-        if (!refuted_ && trajectory_->next(motion_))
-          throw Rejected{"the proof", "it ends after " + std::to_string(steps_) + " steps, but the trajectory goes on"};
+        const bool all = refuted_ || !trajectory_->next(motion_);
+        require(all, "the proof, after " + std::to_string(steps_) + " steps", "it ends, but the trajectory goes on");
         return refuted_;
       }
       step(proof_.as("STEP", std::move(block)), read);

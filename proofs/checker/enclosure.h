@@ -51,7 +51,10 @@ class Enclosures {
     void add(std::uint32_t v, bool above) {
       halvings_ == 0 ? add(all_.whole_step_[v], above) : add(all_.bound(v, k_, halvings_), above);
     }
-    bool open() const { return high_[0] < low_[0] && high_[1] < low_[1]; }
+    bool open() const {
+      const bool apart = high_[0] < low_[0] && high_[1] < low_[1];
+      return apart;
+    }
 
    private:
     void add(const Bound& b, bool above) {
@@ -73,7 +76,9 @@ class Enclosures {
 
   static constexpr long limit = 1L << 40;
   bool usable(const std::array<long, 3>& n, unsigned long halvings) const {
-    return usable_ && halvings <= 30 && std::ranges::all_of(n, [](long c) { return -limit < c && c < limit; });
+    const bool usable =
+        usable_ && halvings <= 30 && std::ranges::all_of(n, [](long c) { return -limit < c && c < limit; });
+    return usable;
   }
 
  private:

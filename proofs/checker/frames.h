@@ -263,7 +263,7 @@ class PlyReader {
 inline Frame read_frame(const std::string& path) {
   std::string end = path.substr(std::max<std::size_t>(path.size(), 4) - 4);
   for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  if (end != ".ply" && end != ".obj") throw Rejected{path, "expected a name that ends in .ply or .obj"};
+  require(end == ".ply" || end == ".obj", path, "expected a name that ends in .ply or .obj");
   Reader text(Input(path).read(std::numeric_limits<std::uint64_t>::max()), path);
   text.require(text.left() > 0, "expected a file that is not empty");
   return end == ".ply" ? PlyReader(std::move(text)).read() : read_obj(std::move(text));

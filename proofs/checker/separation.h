@@ -70,7 +70,8 @@ inline bool separated(const Vector& n, const Interval& i, const mpz_class& eta2,
     for (std::size_t k = 0; k < low.size(); ++k) {
       const mpz_class h = low[k].denominator * values[k].denominator,
                       g = low[k].numerator * values[k].denominator - values[k].numerator * low[k].denominator;
-      if (g <= 0 || g * g <= least * h * h) return false;
+      const bool apart = g > 0 && g * g > least * h * h;
+      if (!apart) return false;
     }
   }
   return true;
@@ -82,7 +83,8 @@ inline bool positive(const Vector& n, const mpz_class& nt, const mpz_class& nd, 
     const auto p = q - 1;
     const mpz_class f = dot(n, p->x) + nt * p->t - nd, g = dot(n, q->x) + nt * q->t - nd;
     const mpz_class s = p->t * i.d, t = q->t * i.d, from = std::max(s, i.a), to = std::min(t, i.b);
-    if (f * (t - from) + g * (from - s) <= 0 || f * (t - to) + g * (to - s) <= 0) return false;
+    const bool apart = f * (t - from) + g * (from - s) > 0 && f * (t - to) + g * (to - s) > 0;
+    if (!apart) return false;
     if (t >= i.b) return true;
   }
 }
@@ -91,9 +93,10 @@ inline bool positive(const Vector& n, const mpz_class& nt, const mpz_class& nd, 
 inline bool separated(const Vector& n, const mpz_class& nt, const mpz_class& nd, const mpz_class& w, const Interval& i,
                       const mpz_class& eta2, const std::vector<Path>& x, const std::vector<Path>& y) {
   const Vector back = {-n[0], -n[1], -n[2]};
-  return w >= 0 && eta2 * dot(n, n) <= w * w &&
-         std::ranges::all_of(x, [&](const Path& path) { return positive(n, nt, nd, i, path); }) &&
-         std::ranges::all_of(y, [&](const Path& path) { return positive(back, -nt, w - nd, i, path); });
+  const bool apart = w >= 0 && eta2 * dot(n, n) <= w * w &&
+                     std::ranges::all_of(x, [&](const Path& path) { return positive(n, nt, nd, i, path); }) &&
+                     std::ranges::all_of(y, [&](const Path& path) { return positive(back, -nt, w - nd, i, path); });
+  return apart;
 }
 
 }  // namespace noli::checker

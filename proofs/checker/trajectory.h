@@ -52,7 +52,7 @@ class Trajectory {
 class Frames : public Trajectory {
  public:
   Frames(std::vector<std::string> paths, bool rest) : paths_(std::move(paths)), rest_(rest) {
-    if (paths_.size() < (rest ? 1 : 2)) throw Rejected{"the command line", "expected more frames"};
+    require(paths_.size() >= (rest ? 1 : 2), "the command line", "expected more frames");
     now_ = read_frame(paths_[0]);
   }
   Scene scene() override { return {3, now_.x.size(), now_.cells, {}, {}}; }
@@ -62,8 +62,8 @@ class Frames : public Trajectory {
     if (!rest_ || step_ > 0) {
       const std::string& path = paths_[rest_ ? step_ : step_ + 1];
       Frame frame = read_frame(path);
-      if (frame.x.size() != now_.x.size() || frame.cells != now_.cells)
-        throw Rejected{path, "has another mesh than the frame before"};
+      require(frame.x.size() == now_.x.size() && frame.cells == now_.cells, path,
+              "has another mesh than the frame before");
       now_ = std::move(frame);
     }
     motion.t0 = rest_ ? 0 : static_cast<double>(step_);
