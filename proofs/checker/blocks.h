@@ -47,7 +47,7 @@ class BlockFile {
     return std::move(block->data);
   }
   Reader expect(const std::string& kind) { return as(kind, next()); }
-  void expect_commit() { require(!next() && !ended_, block_at_, "expected a commit"); }
+  void expect_commit() { require(!next(), block_at_, "expected a commit"); }
   bool ended() const { return ended_; }
   /// Of the last group that was committed.
   const Sha256::Digest& group_hash() const { return last_; }

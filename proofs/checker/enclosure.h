@@ -98,7 +98,8 @@ class Enclosures {
       const std::uint64_t middle = (low + e) / 2;
       (time(middle) - blur >= ends[1] ? e : low) = middle;
     }
-    const std::int64_t begin = time(s), span = std::max<std::int64_t>(time(e) - begin, 1);
+    const bool straight = last - first == 1;  // its times are those of the step, so nothing is blurred
+    const std::int64_t begin = straight ? 0 : time(s), span = straight ? 1 : std::max<std::int64_t>(time(e) - begin, 1);
     const auto slope = [&](Wide t) { return static_cast<std::int64_t>(((t - begin) << 40) / span); };
     Point start, way;
     Bound b;
@@ -106,7 +107,7 @@ class Enclosures {
       start[i] = whole(motion_.x[s][i], scale_);
       way[i] = whole(motion_.x[e][i], scale_) - start[i];
     }
-    for (std::size_t i = 0; i < 2; ++i) b.ends[i] = at(start, way, slope(ends[i]));
+    for (int i = 0; i < 2; ++i) b.ends[i] = at(start, way, straight ? (k + i) << (40 - halvings) : slope(ends[i]));
     for (std::uint64_t j = s + 1; j < e; ++j) {
       const Point chord = at(start, way, slope(time(j)));
       for (std::size_t i = 0; i < 3; ++i) {
@@ -116,7 +117,8 @@ class Enclosures {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t size = std::abs(way[i]),
-                         slack = 6 + (size >> 38) + static_cast<std::int64_t>(Wide{4 * blur} * size / span);
+                         slack = 6 + (size >> 38) +
+                                 (straight ? 0 : static_cast<std::int64_t>(Wide{4 * blur} * size / span));
       b.stray[i][0] -= slack;
       b.stray[i][1] += slack;
     }

@@ -19,7 +19,7 @@ struct Group {
 struct Obligation {
   Group x, y;
   bool self = false, distance = false;
-  std::size_t interval = 0;  ///< its number; from the bottom of the stack to its top these numbers do not fall
+  std::uint32_t interval = 0;  ///< its number; from the bottom of the stack to its top these numbers do not fall
 };
 
 /// The interval number k of the 2^halvings into which the step is cut; d = 2^halvings.
@@ -109,7 +109,7 @@ class Obligations {
   }
   /// With a leaf less a vertex that it has.
   Obligation less(Obligation o, Side side, std::uint64_t v) const {
-    const auto& own = node(o.*side).own;
+    const auto own = tree_.own((o.*side).node);
     (o.*side).dropped |= 1u << (std::ranges::find(own, v) - own.begin());
     return o;
   }
@@ -121,8 +121,8 @@ class Obligations {
     pieces_.push_back({2 * whole.k + 1, whole.halvings + 1});
     pieces_.push_back({2 * whole.k, whole.halvings + 1});
     Obligation first = top, second = top;
-    second.interval = pieces_.size() - 2;
-    first.interval = pieces_.size() - 1;
+    second.interval = top.interval + 1;
+    first.interval = top.interval + 2;
     push({first, second});
   }
 

@@ -7,6 +7,8 @@
 //   vertices     ids after merging, each once; those of a leaf ascending
 #pragma once
 
+#include <span>
+
 #include "trajectory.h"
 
 namespace noli::checker {
@@ -97,7 +99,8 @@ class Tree {
     std::uint32_t left = 0, right = 0;  ///< of an inner node; a leaf has 0, 0
     std::uint32_t larger = 0;           ///< the child that has most of its vertices
     std::int64_t label = -1;            ///< that all cells below have, or -1
-    std::vector<std::uint32_t> own;     ///< the vertices that `larger` has not
+    std::uint32_t count = 0;            ///< of vertices that `larger` has not
+    std::uint64_t first = 0;            ///< where they begin
     bool leaf() const { return left == 0; }
   };
 
@@ -108,11 +111,14 @@ class Tree {
   }
 
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
+  std::span<const std::uint32_t> own(std::uint32_t i) const {
+    return {vertices_.data() + nodes_[i].first, nodes_[i].count};
+  }
   /// Calls take(v) for each vertex of a node.
   template <class Take>
   void each(std::uint32_t i, const Take& take) const {
     for (;; i = nodes_[i].larger) {
-      for (const std::uint32_t v : nodes_[i].own) take(v);
+      for (const std::uint32_t v : own(i)) take(v);
       if (nodes_[i].leaf()) return;
     }
   }
@@ -131,8 +137,9 @@ class Tree {
       ++leaves_;
       const std::set<std::uint32_t> vertices(claim_.cells[code - 1].begin(), claim_.cells[code - 1].end());
       nodes_[i].label = claim_.labels[code - 1];
-      nodes_[i].own.assign(vertices.begin(), vertices.end());
-      return nodes_[i].own;
+      const Vertices own(vertices.begin(), vertices.end());
+      keep(nodes_[i], own);
+      return own;
     }
     c.require(depth < 255, "the tree is too deep");
     std::array<std::uint32_t, 2> child;
@@ -147,16 +154,23 @@ class Tree {
     node.right = child[1];
     node.larger = child[most];
     if (nodes_[child[0]].label == nodes_[child[1]].label) node.label = nodes_[child[0]].label;
-    std::ranges::set_difference(has[1 - most], has[most], std::back_inserter(node.own));
-    Vertices all;
-    std::ranges::merge(has[most], node.own, std::back_inserter(all));
+    Vertices rest, all;
+    std::ranges::set_difference(has[1 - most], has[most], std::back_inserter(rest));
+    std::ranges::merge(has[most], rest, std::back_inserter(all));
+    keep(node, rest);
     return all;
+  }
+  void keep(Node& node, const Vertices& own) {
+    node.first = vertices_.size();
+    node.count = static_cast<std::uint32_t>(own.size());
+    vertices_.insert(vertices_.end(), own.begin(), own.end());
   }
 
   const Claim& claim_;
   std::vector<bool> seen_;
   std::size_t leaves_ = 0;
   std::vector<Node> nodes_;
+  Vertices vertices_;
 };
 
 }  // namespace noli::checker

@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "proof_writer.h"
+#include "support.h"
 
 namespace noli::checker::test {
 namespace {
@@ -40,6 +40,7 @@ TEST(Claims, EachField) {
   EXPECT_REJECTED(with_claim([](auto& c) { c.flags = 4; }).check(), "flag");
   EXPECT_REJECTED(with_claim([](auto& c) { c.zero = 1; }).check(), "expected 0");
   EXPECT_REJECTED(with_claim([](auto& c) { c.ring = 0; }).check(), "ring");
+  EXPECT_REJECTED(with_claim([](auto& c) { c.ring = 0, c.eta = 1; }).check(), "ring");
   EXPECT_REJECTED(with_claim([](auto& c) { c.ring = 2; }).check(), "ring");
   EXPECT_REJECTED(with_claim([](auto& c) { c.eta = -1; }).check(), "negative");
   EXPECT_REJECTED(with_claim([](auto& c) { c.eta = -0.0; }).check(), "negative");

@@ -4,7 +4,7 @@
 // scales of places and times.
 #include <random>
 
-#include "proof_writer.h"
+#include "support.h"
 
 namespace noli::checker::test {
 namespace {

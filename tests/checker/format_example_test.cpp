@@ -3,7 +3,7 @@
 // The worked example of proofs/FORMAT.md is what the writer here writes, and is accepted.
 #include <regex>
 
-#include "proof_writer.h"
+#include "support.h"
 
 namespace noli::checker::test {
 namespace {

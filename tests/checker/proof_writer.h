@@ -3,7 +3,6 @@
 // Writes proofs (proofs/FORMAT.md) and runs (trajectory/FORMAT.md), right ones and such as nobody should write, and asks the checker.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -94,7 +93,6 @@ struct Verdict {
   int code;
   std::string words;
 };
-inline void PrintTo(const Verdict& v, std::ostream* out) { *out << "exit " << v.code << ": " << v.words; }
 
 inline Verdict verdict(const std::string& proof, const std::vector<std::string>& paths) {
   try {
@@ -105,16 +103,6 @@ inline Verdict verdict(const std::string& proof, const std::vector<std::string>&
     return {3, r.where + ": " + r.why};
   }
 }
-
-/// A verdict with this code, words that contain this.
-#define EXPECT_VERDICT(expression, expected, contains)                         \
-  do {                                                                         \
-    const Verdict found_ = (expression);                                       \
-    EXPECT_EQ(found_.code, expected) << found_.words;                          \
-    EXPECT_NE(found_.words.find(contains), std::string::npos) << found_.words; \
-  } while (false)
-#define EXPECT_ACCEPTED(expression) EXPECT_VERDICT(expression, 0, "")
-#define EXPECT_REJECTED(expression, why) EXPECT_VERDICT(expression, 3, why)
 
 /// A folder that goes with the test.
 class Folder {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Each token where it may be used, and where one of its conditions does not hold (proofs/FORMAT.md, section 3).
-#include "proof_writer.h"
+#include "support.h"
 
 namespace noli::checker::test {
 namespace {

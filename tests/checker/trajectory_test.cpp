@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Runs: right ones, and each thing that a run must not be. Frames: PLY and OBJ (proofs/FORMAT.md, section 8).
-#include "proof_writer.h"
+#include "support.h"
 
 namespace noli::checker::test {
 namespace {
@@ -417,6 +417,7 @@ TEST(Frames, PlyHeaders) {
   expect(xyz + "\n" + face, "empty line");
   expect(face, "element vertex");
   expect("property float x\n" + xyz, "a line of a header");
+  expect(xyz + "proprety float w\n", "a line of a header");
   expect(xyz + xyz, "an element is there twice");
   expect(xyz + "property float x\n", "a property is there twice");
   expect(xyz + "property float\n", "expected a property");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Witnesses (proofs/FORMAT.md, section 5): those that hold, and one for each condition that does not.
-#include "proof_writer.h"
+#include "support.h"
 
 namespace noli::checker::test {
 namespace {
@@ -162,6 +162,8 @@ TEST(Witnesses, BehindOneStepsMayBeMissing) {
   groups.pop_back();
   groups.pop_back();
   EXPECT_VERDICT(proof.check(block_file("PROF", groups)), 1, "");
+  groups.push_back(groups[1]);
+  EXPECT_REJECTED(proof.check(block_file("PROF", groups)), "wrong number");
 }
 
 TEST(Witnesses, AreFollowedByTheirCommit) {
