@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// mutate_conditions OUT FILE...: copies sources into OUT, so that the program that includes them leaves out one of its conditions, the
-// one with the number in the environment variable NOLI_MUTANT. Prints a line for each: number, file, line, condition.
+// mutate_conditions OUT FILE...: copies sources into OUT, so that the program that includes them leaves out one of its
+// conditions, the one with the number in the environment variable NOLI_MUTANT. Prints a line for each: number, file,
+// line, condition.
 //
-// A condition is a conjunct of the first argument of `require(...)`, or of what `const bool apart` or `usable` is initialised with.
+// A condition is a conjunct of the first argument of `require(...)`, or of what `const bool apart` or `usable` is
+// initialised with.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick way to see that a direction separates two groups: bounds of where vertices are, in integers of 50 bits. If the
-// bounds are apart, so are the vertices; if not, nothing is known, and separation.h decides.
+// A quick way to see that a direction separates two groups: bounds of where vertices are, in integers of 50 bits. If
+// the bounds are apart, so are the vertices; if not, nothing is known, and separation.h decides.
 //
 // Notation
 //   unit       a power of two with which all positions of the step are below 2^50 units
@@ -10,10 +10,10 @@
 //   from, to   the ends of the interval in units of time: less than 2 too low, or less than 1 too high
 //   [s, e]     two breakpoints around the interval: the first and last of all, or at least `blur` away from it
 //   chord      from x'(s) at t'(s) to x'(e) at t'(e); way = x'(e) - x'(s), span = t'(e) - t'(s), taken for 1 if it is 0
-//   stray      of a breakpoint between s and e: x' less the chord. The vertex is within the least and the greatest of these
-//              and 0 from the chord, with a slack for what is rounded, for a breakpoint and for an end of the interval: 1
-//              for x', 1 for the chord and |way| / 2^40 for its slope, 2 |way| / span for the time. If span was 0, the
-//              vertex is within the least and the greatest of these, 0 and way from x'(s)
+//   stray      of a breakpoint between s and e: x' less the chord. The vertex is within the least and the greatest of
+//              these and 0 from the chord, with a slack for what is rounded, for a breakpoint and for an end of the
+//              interval: 1 for x', 1 for the chord and |way| / 2^40 for its slope, 2 |way| / span for the time. If
+//              span was 0, the vertex is within the least and the greatest of these, 0 and way from x'(s)
 //   n          with components below 2^40: n.x is below 2^99
 #pragma once
 

@@ -2,8 +2,8 @@
 //
 // noli_check PROOF FRAME... | noli_check PROOF TRAJECTORY
 //
-// Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What it says and its exit codes are in
-// section 6 there. A proof, or the block file of a run, that is named - is read from the standard input.
+// Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What it says and its exit codes are
+// in section 6 there. A proof, or the block file of a run, that is named - is read from the standard input.
 //
 // What this does not do: it trusts nobody but the C++ standard library and GMP, and finds nothing by itself.
 #include <exception>

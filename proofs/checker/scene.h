@@ -91,8 +91,9 @@ class Integers {
   mpz_class eta_, begin_, end_;
 };
 
-/// The tree of block TREE. An inner node keeps only those of its vertices that the child with more of them has not: a vertex
-/// is kept again only where the number of vertices around it doubles, so memory does not grow with the depth of the tree.
+/// The tree of block TREE. An inner node keeps only those of its vertices that the child with more of them has not: a
+/// vertex is kept again only where the number of vertices around it doubles, so memory does not grow with the depth of
+/// the tree.
 class Tree {
  public:
   struct Node {

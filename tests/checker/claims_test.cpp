@@ -235,8 +235,8 @@ TEST(Files, CutOffAnywhereSayNothing) {
   for (std::size_t n = 0; n < file.size(); ++n) EXPECT_EQ(two_edges().check(file.substr(0, n)).code, 3) << n;
 }
 
-/// Each bit of each payload, with checksums and hashes that fit. What may be accepted is another proof of the same claim, or of a
-/// claim that is printed.
+/// Each bit of each payload, with checksums and hashes that fit. What may be accepted is another proof of the same
+/// claim, or of a claim that is printed.
 TEST(Files, BitsThatMatter) {
   const Proof proof = two_edges();
   const auto groups = proof.groups();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What enclosure.h takes for apart is apart in exact numbers: random paths that come as near as a few units of the bounds, at all
-// scales of places and times.
+// What enclosure.h takes for apart is apart in exact numbers: random paths that come as near as a few units of the
+// bounds, at all scales of places and times.
 #include <random>
 
 #include "support.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes proofs (proofs/FORMAT.md) and runs (trajectory/FORMAT.md), right ones and such as nobody should write, and asks the checker.
+// Writes proofs (proofs/FORMAT.md) and runs (trajectory/FORMAT.md), right ones and such as nobody should write, and
+// asks the checker.
 #pragma once
 
 #include <unistd.h>
@@ -179,8 +180,8 @@ inline std::string obj(const Points& x, const Lists& cells) {
 /// A proof about frames. What is not set is what is right.
 struct Proof {
   std::vector<Points> frames;
-  Lists cells, cells_after;  ///< in the file; after merging, where they are others
-  std::string tree;          ///< none: the cells one after another, each with all that follow
+  Lists cells{}, cells_after{};  ///< in the file; after merging, where they are others
+  std::string tree{};            ///< none: the cells one after another, each with all that follow
   std::vector<std::string> tokens{""};
   std::vector<std::string> witness{};  ///< by step; empty where it has none
   ClaimFields claim{};

@@ -135,6 +135,8 @@ TEST(Tokens, P) {
   EXPECT_REJECTED(two_edges().with(of_pair(P(0, {-1, 0, 0}, 0, -2, 0))), "does not separate");   // edge 1 in the end
   EXPECT_REJECTED(two_edges().with(of_pair(P(0, {-1, 0, 0}, -4, -3, 0))), "does not separate");  // edge 0 in the end
   EXPECT_REJECTED(two_edges().with(of_pair(P(0, {-1, 0, 0}, 3, -4, 0))), "does not separate");   // edge 1 at first
+  EXPECT_REJECTED(two_edges().with(of_pair(P(0, {-1, 0, 0}, -3, -4, 0))), "does not separate");  // and only then
+  EXPECT_REJECTED(two_edges().with(of_pair(P(0, {-1, 0, 0}, 1, 0, 0))), "does not separate");    // edge 0 at first
   EXPECT_REJECTED(two_edges().with(of_pair(P(0, {-1, 0, 0}, 0, -1, -1))), "does not separate");
   EXPECT_REJECTED(two_edges().with(P(0, {-1, 0, 0}, 0, -1, 0)), "for a pair");
   EXPECT_REJECTED(two_edges().with(of_pair(P(4097, {-1, 0, 0}, 0, -1, 0))), "shift");
@@ -188,6 +190,7 @@ TEST(Tokens, W) {
   EXPECT_REJECTED(first(W({0})), "does not join");               // not in the second
   EXPECT_REJECTED(first(W({2})), "does not join");               // not in the first
   EXPECT_REJECTED(first(W({1, 3, 2})), "has not its vertices");  // no such cell
+  EXPECT_REJECTED(first(W({1, 0x7fffffff, 2})), "has not its vertices");
   EXPECT_REJECTED(first(W({1, 2, 2})), "has not its vertices");  // cell 2 has not 1
   EXPECT_REJECTED(first(W({1, 1, 3})), "has not its vertices");  // cell 1 has not 3
   EXPECT_REJECTED(first(W({1}) + W({1})), "does not join");      // it was dropped

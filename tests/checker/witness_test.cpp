@@ -25,7 +25,8 @@ struct WitnessFields {
   }
 };
 
-/// The point 0 rests in the origin; the edge 1-2 comes over it when (1 + t)^2 = 2. Its ends are at -(1 + t), -1 and 2, 1 + t.
+/// The point 0 rests in the origin; the edge 1-2 comes over it when (1 + t)^2 = 2. Its ends are at -(1 + t), -1 and 2,
+/// 1 + t.
 Proof root_two() {
   return {{{{0, 0, 0}, {-1, -1, 0}, {2, 1, 0}}, {{0, 0, 0}, {-2, -1, 0}, {2, 2, 0}}}, {{1, 2}, {0}}, {}, "", {}};
 }

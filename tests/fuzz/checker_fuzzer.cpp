@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The checker of proofs: whatever the bytes, a verdict; of what touches, never that nothing does, and of what does not, never that it does.
+// The checker of proofs: whatever the bytes, a verdict; of what touches, never that nothing does, and of what does
+// not, never that it does.
 //
 // Input, by its first byte:
 //   P       a proof file, about edges that pass each other
-//   C, c    two bytes for the length of a tree, the tree and tokens, about edges that touch; c: with a distance and a ring
+//   C, c    two bytes for the length of a tree, the tree and tokens, about edges that touch; c: with a distance and a
+//           ring
 //   W, w    a witness, about edges that pass each other; w: with a distance
 //   L, O    a frame, PLY or OBJ
 #include <sys/mman.h>
