@@ -3,112 +3,83 @@
 // Block files, one committed group after another (trajectory/FORMAT.md).
 #pragma once
 
-#include <fstream>
-#include <memory>
-#include <optional>
-
 #include "base.h"
 
 namespace noli::checker {
 
 struct Block {
-  std::string kind, payload;
-  std::uint64_t offset = 0;  ///< of the payload
+  std::string kind;
+  Reader data;  ///< the payload
 };
 
 class BlockFile {
  public:
-  BlockFile(std::string name, const std::string& content) : name_(std::move(name)), file_(name_, std::ios::binary) {
-    if (!file_) reject(name_, "cannot be opened");
-    file_.seekg(0, std::ios::end);
-    size_ = static_cast<std::uint64_t>(std::max<std::streamoff>(0, file_.tellg()));
-    file_.seekg(0);
-    const std::string head = read(16);
-    if (head.substr(0, 8) != std::string("\x89NOLI\r\n\x1a", 8)) fail(0, "is no block file");
-    if (head.substr(8, 4) != std::string("\1\0\0\0", 4)) fail(8, "expected version 1");
-    if (head.substr(12) != content) fail(12, "expected content " + content);
+  BlockFile(const std::string& name, std::string_view content) : name_(name), input_(name) {
+    const std::string head = input_.read(16);
+    require(head.starts_with(std::string_view("\x89NOLI\r\n\x1a\1\0\0\0", 12)), 0, "expected a block file, version 1");
+    require(head.substr(12) == content, 12, "the file has another content");
     group_.add(head);
   }
-
-  const std::string& name() const { return name_; }
-  std::string place(std::uint64_t offset) const { return name_ + ", byte " + std::to_string(offset); }
 
   /// The next block of the open group, but for CMIT; none at its end, and none at the end of the file, where ended() is
   /// true. What is behind the last commit is rejected, so blocks count only when their group has ended.
   std::optional<Block> next() {
-    if (at_ == size_) {
-      if (blocks_ != 0 || groups_ == 0) fail(committed_, "the last group has no commit: it is not complete");
-      ended_ = true;
-      return std::nullopt;
-    }
-    if (size_ - at_ < 16) fail(at_, "the file ends within a block");
-    const std::string head = read(12);
-    std::uint64_t length;
-    std::memcpy(&length, head.data() + 4, 8);
-    if (length > size_ - at_ - 4) fail(at_ - 8, "a length of " + std::to_string(length) + " goes beyond the file");
-    Block block{head.substr(0, 4), {}, at_};
-    block.payload = read(length);
-    Crc32c crc;
-    crc.add(head);
-    crc.add(block.payload);
-    const std::string sum = read(4);
-    if (sum != std::string(reinterpret_cast<const char*>(std::array{crc.value()}.data()), 4))
-      fail(at_ - 4, "the checksum is wrong");
-    if (block.kind == "CMIT") {
-      commit(block);
-      return std::nullopt;
-    }
-    group_.add(head);
-    group_.add(block.payload);
-    group_.add(sum);
+    block_at_ = at_;
+    const std::string head = input_.read(12);
+    ended_ = head.empty() && groups_ > 0 && blocks_ == 0;
+    if (ended_) return std::nullopt;
+    complete(head.size() == 12);
+    std::string payload = input_.read(Reader(head.substr(4), name_).u64());
+    const std::string sum = input_.read(4);
+    complete(sum.size() == 4);
+    at_ += 16 + payload.size();
+    require(Reader(sum, name_).u32() == crc32c(payload, crc32c(head)), at_ - 4, "the checksum is wrong");
+    Block block{head.substr(0, 4), Reader(std::move(payload), name_, block_at_ + 12)};
+    if (block.kind == "CMIT") return commit(block.data);
+    for (const std::string_view part : {std::string_view(head), block.data.all(), std::string_view(sum)})
+      group_.add(part);
     ++blocks_;
     return block;
   }
-  /// The next block, which has to be of that kind.
-  Block expect(const std::string& kind) {
-    auto block = next();
-    if (!block || block->kind != kind)
-      fail(block ? block->offset - 12 : at_, "expected a block " + kind + (block ? ", found " + block->kind : ""));
-    return std::move(*block);
+  /// The payload of a block, which has to be of that kind.
+  Reader as(const std::string& kind, std::optional<Block> block) const {
+    require(block && block->kind == kind, block_at_, "expected a block " + kind);
+    return std::move(block->data);
   }
-  void expect_commit() {
-    if (next() || ended_) fail(at_, "expected a commit");
-  }
+  Reader expect(const std::string& kind) { return as(kind, next()); }
+  void expect_commit() { require(!next(), block_at_, "expected a commit"); }
   bool ended() const { return ended_; }
   /// Of the last group that was committed.
   const Sha256::Digest& group_hash() const { return last_; }
 
  private:
-  [[noreturn]] void fail(std::uint64_t offset, const std::string& why) const { reject(place(offset), why); }
-
-  std::string read(std::uint64_t bytes) {
-    if (bytes > size_ - at_) fail(at_, "the file is too short");
-    std::string result(bytes, '\0');
-    file_.read(result.data(), static_cast<std::streamsize>(bytes));
-    if (static_cast<std::uint64_t>(file_.gcount()) != bytes) fail(at_, "cannot be read");
-    at_ += bytes;
-    return result;
+  void require(bool condition, std::uint64_t offset, const std::string& why) const {
+    if (!condition) throw Rejected{name_ + ", byte " + std::to_string(offset), why};
   }
-
-  void commit(const Block& block) {
-    Cursor c(block.payload, name_, block.offset);
-    if (c.left() != 72 || c.u64() != groups_) fail(block.offset, "a commit has the wrong length or number");
-    const Sha256::Digest found = last_ = group_.digest();
+  void complete(bool block) const {
+    require(block, committed_,
+            "an open group, behind " + std::to_string(groups_) + " that have a commit (the first is the head)");
+  }
+  std::nullopt_t commit(Reader& c) {
+    c.require(c.left() == 72, "expected 72 bytes");
+    c.require(c.u64() == groups_, "a commit has the wrong number");
+    last_ = group_.digest();
     Sha256 both;
     both.add_raw(running_);
-    both.add_raw(found);
+    both.add_raw(last_);
     running_ = both.digest();
-    if (c.raw<Sha256::Digest>() != found || c.raw<Sha256::Digest>() != running_)
-      fail(block.offset, "a hash of the group is wrong");
+    c.require(c.raw<Sha256::Digest>() == last_, "the hash of the group is wrong");
+    c.require(c.raw<Sha256::Digest>() == running_, "the running hash is wrong");
     group_ = {};
     blocks_ = 0;
     ++groups_;
     committed_ = at_;
+    return std::nullopt;
   }
 
   std::string name_;
-  std::ifstream file_;
-  std::uint64_t size_ = 0, at_ = 0, groups_ = 0, blocks_ = 0, committed_ = 0;
+  Input input_;
+  std::uint64_t at_ = 16, block_at_ = 16, groups_ = 0, blocks_ = 0, committed_ = 0;
   bool ended_ = false;
   Sha256 group_;
   Sha256::Digest running_{}, last_{};

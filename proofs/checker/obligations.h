@@ -14,8 +14,6 @@ namespace noli::checker {
 struct Group {
   std::uint32_t node = 0;
   std::uint32_t dropped = 0;  ///< bit i: the leaf's vertex number i was dropped
-
-  friend bool operator==(const Group&, const Group&) = default;
 };
 
 struct Obligation {
@@ -26,7 +24,7 @@ struct Obligation {
 
 /// The interval number k of the 2^halvings into which the step is cut; d = 2^halvings.
 struct Piece {
-  mpz_class k;
+  mpz_class k = 0;
   unsigned long halvings = 0;
 };
 
@@ -34,50 +32,47 @@ class Obligations {
  public:
   Obligations(const Claim& claim, const Integers& motion, const Tree& tree)
       : claim_(claim), motion_(motion), tree_(tree), enclosures_(motion.motion()) {
-    if (!(motion.begin() < motion.end())) reject("the step", "it ends before it begins");
     stack_.push_back({{}, {}, true, claim.eta > 0, 0});
-    pieces_.push_back({0, 0});
   }
 
   bool done() const { return stack_.empty(); }
 
   /// Takes all tokens of a block.
-  void take(Cursor& c) {
+  void take(Reader& c) {
     while (c.left() > 0) {
-      if (stack_.empty()) c.fail("a token, but nothing is left to show");
-      step(c);
+      const std::uint8_t code = c.u8();
+      c.require(!stack_.empty(), "a token, but nothing is left to show");
+      const Obligation top = stack_.back();
+      stack_.pop_back();
+      step(code, top, c);
     }
   }
 
  private:
-  [[noreturn]] static void refuse(const Cursor& c, const char* why) {
-    c.fail(std::string("the token before this may not be used here: ") + why);
-  }
-  static void require(bool condition, const Cursor& c, const char* why) {
-    if (!condition) refuse(c, why);
-  }
+  using Side = Group Obligation::*;
 
-  void step(Cursor& c) {
-    const std::uint8_t code = c.u8();
-    Obligation top = stack_.back();
-    stack_.pop_back();
+  void step(std::uint8_t code, const Obligation& top, Reader& c) {
     switch (code) {
       case 0x00: return halve(top, c);
-      case 0x01: return split(top, true, c);
-      case 0x02: return split(top, false, c);
+      case 0x01: return split(top, &Obligation::x, c);
+      case 0x02: return split(top, &Obligation::y, c);
       case 0x03: return parts(top, c);
-      case 0x04: return one(top, c);
-      case 0x05:
-        require(top.self, c, "B is for a group with itself");
-        top.self = false;
-        return stack_.push_back(top);
+      case 0x04:
+        c.require(top.self && leaf(top.x), "F is for one cell by itself");
+        return c.require(!claim_.strict, "F is for a claim that is not strict");
+      case 0x05: {
+        c.require(top.self, "B is for a group with itself");
+        Obligation pair = top;
+        pair.self = false;
+        return push({pair});
+      }
       case 0x06: return excluded(top, c);
-      case 0x10: return direction(top, packed(c), c);
+      case 0x10: return packed(top, c);
       case 0x11: {
-        const mpz_class x = read_sint(c), y = read_sint(c), z = read_sint(c);
-        const mpz_class most = std::max({abs(x), abs(y), abs(z)});
-        if (most < Enclosures::limit) return direction(top, std::array<long, 3>{x.get_si(), y.get_si(), z.get_si()}, c);
-        return direction(top, Direction{x, y, z}, c);
+        const mpz_class x = c.sint(), y = c.sint(), z = c.sint();
+        const bool small = std::max({abs(x), abs(y), abs(z)}) < Enclosures::limit;
+        if (small) return direction(top, std::array<long, 3>{x.get_si(), y.get_si(), z.get_si()}, c);
+        return direction(top, Vector{x, y, z}, c);
       }
       case 0x12: return half_space(top, c);
       case 0x20:
@@ -86,146 +81,121 @@ class Obligations {
       case 0x30: return ring(top, c);
       default: break;
     }
-    if (code < 0x08 || code > 0x0e) c.fail("the byte before this is no token");
+    c.require(0x08 <= code && code <= 0x0e, "the byte before this is no token");
     std::array<long, 3> n = {0, 0, 0};
     if (code < 0x0e) n[(code - 8) / 2] = code % 2 == 0 ? 1 : -1;
     direction(top, n, c);
   }
 
-  static std::array<long, 3> packed(Cursor& c) {
-    const std::uint32_t word = c.u32();
-    if (word >> 30 != 0) c.fail("the highest bits of a direction are not 0");
-    const auto part = [&](int k) { return static_cast<std::int32_t>(word << (22 - 10 * k)) >> 22; };
-    return {part(0), part(1), part(2)};
+  /// The new top first.
+  void push(std::initializer_list<Obligation> parts) {
+    stack_.insert(stack_.end(), std::rbegin(parts), std::rend(parts));
   }
-
-  void push_both(const Obligation& first, const Obligation& second) {
-    stack_.push_back(second);
-    stack_.push_back(first);
-  }
-
-  void halve(const Obligation& top, const Cursor& c) {
-    pieces_.erase(pieces_.begin() + top.interval + 1, pieces_.end());  // what nobody speaks of any more
-    const Piece whole = pieces_[top.interval];
-    require(whole.halvings < 1024, c, "the interval is too short for T");
-    Obligation first = top, second = top;
-    second.interval = static_cast<std::uint32_t>(pieces_.size());
-    first.interval = second.interval + 1;
-    pieces_.push_back({2 * whole.k + 1, whole.halvings + 1});
-    pieces_.push_back({2 * whole.k, whole.halvings + 1});
-    push_both(first, second);
-  }
-
-  void split(const Obligation& top, bool first, const Cursor& c) {
-    const Tree::Node& node = tree_.node((first ? top.x : top.y).node);
-    require(!top.self && !node.leaf(), c, "L and R are for a pair, the group of which has parts");
-    Obligation left = top, right = top;
-    (first ? left.x : left.y).node = node.left;
-    (first ? right.x : right.y).node = node.right;
-    push_both(left, right);
-  }
-
-  void parts(const Obligation& top, const Cursor& c) {
-    const Tree::Node& node = tree_.node(top.x.node);
-    require(top.self && !node.leaf(), c, "N is for a group with itself that has parts");
-    Obligation left = top, right = top, both = top;
-    left.x.node = left.y.node = both.x.node = node.left;
-    right.x.node = right.y.node = both.y.node = node.right;
-    both.self = false;
-    stack_.push_back(right);
-    push_both(left, both);
-  }
-
-  void one(const Obligation& top, const Cursor& c) const {
-    require(top.self && tree_.node(top.x.node).leaf() && !claim_.strict, c,
-            "F is for one cell by itself, of a claim that is not strict");
-  }
-
-  void excluded(const Obligation& top, const Cursor& c) const {
-    const std::int64_t a = tree_.node(top.x.node).label, b = tree_.node(top.y.node).label;
-    require(a >= 0 && b >= 0 && claim_.is_excluded(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)), c,
-            "the labels are not an excluded pair");
-  }
-
-  /// Calls take(v) for each vertex of a group, ascending.
+  const Tree::Node& node(const Group& g) const { return tree_.node(g.node); }
+  bool leaf(const Group& g) const { return node(g).leaf(); }
+  /// Calls take(v) for each vertex of a group; for a leaf, ascending.
   template <class Take>
   void each(const Group& g, const Take& take) const {
-    const auto all = tree_.vertices(g.node);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i >= 32 || (g.dropped >> i & 1) == 0) take(all[i]);
-    }
+    std::uint32_t left_out = g.dropped;
+    tree_.each(g.node, [&](std::uint32_t v) {
+      if ((left_out & 1) == 0) take(v);
+      left_out >>= 1;
+    });
   }
   std::vector<std::uint32_t> vertices(const Group& g) const {
     std::vector<std::uint32_t> result;
     each(g, [&](std::uint32_t v) { result.push_back(v); });
     return result;
   }
-  /// Without a vertex that it has.
-  Group less(Group g, std::uint32_t v) const {
-    const auto all = tree_.vertices(g.node);
-    g.dropped |= 1u << (std::ranges::find(all, v) - all.begin());
-    return g;
-  }
-  bool leaves(const Obligation& o) const {
-    return !o.self && tree_.node(o.x.node).leaf() && tree_.node(o.y.node).leaf();
+  /// With a leaf less a vertex that it has.
+  Obligation less(Obligation o, Side side, std::uint64_t v) const {
+    const auto own = tree_.own((o.*side).node);
+    (o.*side).dropped |= 1u << (std::ranges::find(own, v) - own.begin());
+    return o;
   }
 
-  void drop(const Obligation& top, std::size_t k, const Cursor& c) {
-    require(leaves(top), c, "D is for two cells");
-    const auto x = vertices(top.x), y = vertices(top.y);
-    std::vector<std::uint32_t> common;
-    std::ranges::set_intersection(x, y, std::back_inserter(common));
-    require(k < common.size(), c, "there is no such common vertex");
+  void halve(const Obligation& top, const Reader& c) {
+    pieces_.resize(top.interval + 1);  // nobody speaks of the others any more
+    const Piece whole = pieces_.back();
+    c.require(whole.halvings < 1024, "the interval is too short for T");
+    pieces_.push_back({2 * whole.k + 1, whole.halvings + 1});
+    pieces_.push_back({2 * whole.k, whole.halvings + 1});
     Obligation first = top, second = top;
-    first.x = less(top.x, common[k]);
-    second.y = less(top.y, common[k]);
-    push_both(first, second);
+    second.interval = top.interval + 1;
+    first.interval = top.interval + 2;
+    push({first, second});
   }
 
-  bool in_cell(std::uint64_t cell, std::uint64_t v) const {
-    return std::find(claim_.cells[cell].begin(), claim_.cells[cell].end(), v) != claim_.cells[cell].end();
+  void split(const Obligation& top, Side side, const Reader& c) {
+    c.require(!top.self && !leaf(top.*side), "L and R are for a pair, the group of which has parts");
+    Obligation left = top, right = top;
+    (left.*side).node = node(top.*side).left;
+    (right.*side).node = node(top.*side).right;
+    push({left, right});
   }
 
-  void ring(const Obligation& top, Cursor& c) {
-    const std::uint64_t m = c.uint(), v0 = c.uint();
-    std::uint64_t v = v0;
-    require(leaves(top) && top.distance && m < claim_.ring, c,
-            "W is for two cells at distance, and a path shorter than the ring");
+  void parts(const Obligation& top, const Reader& c) {
+    c.require(top.self && !leaf(top.x), "N is for a group with itself that has parts");
+    const Group l{node(top.x).left, 0}, r{node(top.x).right, 0};
+    push({{l, l, true, top.distance, top.interval},
+          {l, r, false, top.distance, top.interval},
+          {r, r, true, top.distance, top.interval}});
+  }
+
+  void excluded(const Obligation& top, const Reader& c) const {
+    const std::int64_t a = node(top.x).label, b = node(top.y).label;
+    c.require(a >= 0 && b >= 0, "the cells have several labels");
+    c.require(claim_.is_excluded(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)),
+              "the labels are not an excluded pair");
+  }
+
+  void drop(const Obligation& top, std::size_t k, const Reader& c) {
+    c.require(!top.self && leaf(top.x) && leaf(top.y), "D is for two cells");
+    std::vector<std::uint32_t> common;
+    std::ranges::set_intersection(vertices(top.x), vertices(top.y), std::back_inserter(common));
+    c.require(k < common.size(), "there is no such common vertex");
+    push({less(top, &Obligation::x, common[k]), less(top, &Obligation::y, common[k])});
+  }
+
+  void ring(const Obligation& top, Reader& c) {
+    const std::uint64_t m = c.uint(), first = c.uint();
+    c.require(!top.self && leaf(top.x) && leaf(top.y) && top.distance, "W is for two cells at distance");
+    c.require(m < claim_.ring && m <= 255, "a path that is not shorter than the ring, or longer than 255");
+    std::uint64_t last = first;
     for (std::uint64_t i = 0; i < m; ++i) {
       const std::uint64_t cell = c.uint(), next = c.uint();
-      require(cell < claim_.cells.size() && in_cell(cell, v) && in_cell(cell, next), c,
-              "a cell of the path has not its vertices");
-      v = next;
+      c.require(cell < claim_.cells.size() && claim_.cells[cell].has(last) && claim_.cells[cell].has(next),
+                "a cell of the path has not its vertices");
+      last = next;
     }
     const auto x = vertices(top.x), y = vertices(top.y);
-    require(std::ranges::binary_search(x, v0) && std::ranges::binary_search(y, v), c,
-            "the path does not join the cells");
-    Obligation first = top, second = top, third = top;
-    first.x = less(top.x, static_cast<std::uint32_t>(v0));
-    second.y = less(top.y, static_cast<std::uint32_t>(v));
+    c.require(std::ranges::count(x, first) == 1 && std::ranges::count(y, last) == 1,
+              "the path does not join the cells");
+    Obligation third = top;
     third.distance = false;
-    stack_.push_back(third);
-    push_both(first, second);
+    push({less(top, &Obligation::x, first), less(top, &Obligation::y, last), third});
   }
 
-  /// Asks holds(interval, eta2, x, y).
+  /// Requires holds(interval, eta2, x, y) of a pair.
   template <class Holds>
-  bool decide(const Obligation& top, const Holds& holds) const {
+  void decide(const Obligation& top, const Reader& c, const Holds& holds) const {
+    c.require(!top.self, "S and P are for a pair");
     const Piece& piece = pieces_[top.interval];
     const mpz_class duration = motion_.end() - motion_.begin(),
                     a = (motion_.begin() << piece.halvings) + piece.k * duration;
-    const Interval interval = {a, a + duration, mpz_class(1) << piece.halvings};
-    std::vector<Path> paths;
-    each(top.x, [&](std::uint32_t v) { paths.push_back(motion_.path(v)); });
-    const std::size_t n = paths.size();
-    each(top.y, [&](std::uint32_t v) { paths.push_back(motion_.path(v)); });
-    Paths x, y;
-    for (std::size_t i = 0; i < paths.size(); ++i) (i < n ? x : y).emplace_back(paths[i], interval);
-    return holds(interval, top.distance ? mpz_class(motion_.eta() * motion_.eta()) : mpz_class(0), x, y);
+    std::vector<Path> x, y;
+    each(top.x, [&](std::uint32_t v) { x.push_back(motion_.path(v)); });
+    each(top.y, [&](std::uint32_t v) { y.push_back(motion_.path(v)); });
+    const mpz_class eta = top.distance ? motion_.eta() : mpz_class(0);
+    c.require(holds(Interval{a, a + duration, mpz_class(1) << piece.halvings}, eta * eta, x, y),
+              "this does not separate the pair");
   }
 
-  /// A direction with small components, quickly if possible.
-  void direction(const Obligation& top, const std::array<long, 3>& n, const Cursor& c) const {
+  void direction(const Obligation& top, const Vector& n, const Reader& c) const {
+    decide(top, c, [&](const auto&... rest) { return separated(n, rest...); });
+  }
+  /// With small components, quickly if possible.
+  void direction(const Obligation& top, const std::array<long, 3>& n, const Reader& c) const {
     const Piece& piece = pieces_[top.interval];
     if (!top.self && !top.distance && enclosures_.usable(n, piece.halvings)) {
       Enclosures::Gap gap(enclosures_, n, piece.k.get_si(), static_cast<int>(piece.halvings));
@@ -233,24 +203,21 @@ class Obligations {
       each(top.y, [&](std::uint32_t v) { gap.add(v, false); });
       if (gap.open()) return;
     }
-    direction(top, Direction{n[0], n[1], n[2]}, c);
+    direction(top, Vector{n[0], n[1], n[2]}, c);
+  }
+  void packed(const Obligation& top, Reader& c) const {
+    const std::uint32_t word = c.u32();
+    c.require(word >> 30 == 0, "the highest bits of a direction are not 0");
+    const auto part = [&](int k) -> long { return static_cast<std::int32_t>(word << (22 - 10 * k)) >> 22; };
+    direction(top, std::array{part(0), part(1), part(2)}, c);
   }
 
-  void direction(const Obligation& top, const Direction& n, const Cursor& c) const {
-    require(!top.self, c, "S is for a pair");
-    const bool apart = decide(top, [&](const auto&... rest) { return separated(n, rest...); });
-    require(apart, c, "the direction does not separate the pair");
-  }
-
-  void half_space(const Obligation& top, Cursor& c) const {
-    const std::uint64_t s = c.uint();
-    if (s > 4096) c.fail("a shift is above 4,096");
-    Direction n;
-    for (auto& part : n) part = read_sint(c) << static_cast<unsigned long>(s);
-    const mpz_class nt = read_scaled(c), nd = read_scaled(c), w = read_scaled(c);
-    require(!top.self, c, "P is for a pair");
-    const bool apart = decide(top, [&](const auto&... rest) { return separated(n, nt, nd, w, rest...); });
-    require(apart, c, "the half space does not separate the pair");
+  void half_space(const Obligation& top, Reader& c) const {
+    const unsigned long s = c.shift();
+    Vector n;
+    for (auto& part : n) part = c.sint() << s;
+    const mpz_class nt = c.scaled(), nd = c.scaled(), w = c.scaled();
+    decide(top, c, [&](const auto&... rest) { return separated(n, nt, nd, w, rest...); });
   }
 
   const Claim& claim_;
@@ -258,7 +225,7 @@ class Obligations {
   const Tree& tree_;
   std::vector<Obligation> stack_;
   Enclosures enclosures_;
-  std::vector<Piece> pieces_;
+  std::vector<Piece> pieces_{1};
 };
 
 }  // namespace noli::checker

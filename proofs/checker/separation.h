@@ -12,111 +12,91 @@
 
 namespace noli::checker {
 
-using Direction = std::array<mpz_class, 3>;
-
 struct Interval {
   mpz_class a, b, d;
 };
-
-inline mpz_class dot(const Direction& n, const std::array<mpz_class, 3>& x) {
-  return n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
-}
-
-/// A path with the number of its first segment that does not end at or before a/d, made by search.
-struct Placed {
-  const Path* path;
-  std::size_t segment;
-
-  Placed(const Path& p, const Interval& i) : path(&p), segment(0) {
-    std::size_t high = p.size() - 1;  // the segment is in [segment, high)
-    while (high - segment > 1) {
-      const std::size_t middle = (segment + high) / 2;
-      (p[middle].t * i.d <= i.a ? segment : high) = middle;
-    }
-  }
-};
-
-/// A group over an interval.
-using Paths = std::vector<Placed>;
 
 struct Value {
   mpz_class numerator, denominator;
 };
 
-inline bool less(const Value& p, const Value& q) { return p.numerator * q.denominator < q.numerator * p.denominator; }
+inline mpz_class dot(const Vector& n, const Vector& x) { return n[0] * x[0] + n[1] * x[1] + n[2] * x[2]; }
 
-/// Whether q - p is positive, and its square above `least`.
-inline bool over(const mpz_class& least, const Value& p, const Value& q) {
-  const mpz_class g = q.numerator * p.denominator - p.numerator * q.denominator, h = p.denominator * q.denominator;
-  return g > 0 && least * h * h < g * g;
+/// The end of the segment that has the time c/d.
+inline Path::const_iterator segment_end(const Path& path, const mpz_class& c, const mpz_class& d) {
+  return std::partition_point(path.begin() + 1, path.end() - 1, [&](const Breakpoint& p) { return p.t * d < c; });
 }
 
 /// Both ends of the interval and the breakpoints between, ascending.
-inline std::set<mpz_class> times_of(const Interval& i, const Paths& x, const Paths& y) {
+inline std::set<mpz_class> times_of(const Interval& i, const std::vector<Path>& x, const std::vector<Path>& y) {
   std::set<mpz_class> times = {i.a, i.b};
-  for (const Paths* paths : {&x, &y}) {
-    for (const auto& [path, segment] : *paths) {
-      for (std::size_t k = segment + 1; k < path->size() && (*path)[k].t * i.d < i.b; ++k)
-        times.insert((*path)[k].t * i.d);
+  for (const auto* paths : {&x, &y}) {
+    for (const Path& path : *paths) {
+      for (auto p = segment_end(path, i.a, i.d); p != path.end() && p->t * i.d < i.b; ++p) times.insert(p->t * i.d);
     }
   }
   return times;
 }
 
-/// The values of a vertex at the times, which have all of its breakpoints between the first and the last of them.
-inline std::vector<Value> along(const Direction& n, const Interval& i, const Placed& vertex,
+/// The values of a vertex at the times.
+inline std::vector<Value> along(const Vector& n, const mpz_class& d, const Path& path,
                                 const std::set<mpz_class>& times) {
-  const Path& path = *vertex.path;
-  std::size_t s = vertex.segment;
   std::vector<Value> values;
+  auto end = segment_end(path, *times.begin(), d);
   for (const mpz_class& c : times) {
-    while (path[s + 1].t * i.d < c) ++s;
-    const mpz_class s0 = path[s].t * i.d, s1 = path[s + 1].t * i.d;
-    values.push_back({dot(n, path[s].x) * (s1 - c) + dot(n, path[s + 1].x) * (c - s0), s1 - s0});
+    while (end->t * d < c) ++end;
+    const mpz_class s = (end - 1)->t * d, t = end->t * d;
+    values.push_back({dot(n, (end - 1)->x) * (t - c) + dot(n, end->x) * (c - s), t - s});
   }
   return values;
 }
 
 /// S: eta2 is the square of the distance asked for.
-inline bool separated(const Direction& n, const Interval& i, const mpz_class& eta2, const Paths& x, const Paths& y) {
+inline bool separated(const Vector& n, const Interval& i, const mpz_class& eta2, const std::vector<Path>& x,
+                      const std::vector<Path>& y) {
   if (x.empty() || y.empty()) return true;
   const auto times = times_of(i, x, y);
-  std::vector<Value> low = along(n, i, x[0], times);
-  for (const Placed& vertex : x) {
-    const auto values = along(n, i, vertex, times);
+  std::vector<Value> low;
+  for (const Path& path : x) {
+    const auto values = along(n, i.d, path, times);
+    if (low.empty()) low = values;
     for (std::size_t k = 0; k < low.size(); ++k) {
-      if (less(values[k], low[k])) low[k] = values[k];
+      if (values[k].numerator * low[k].denominator < low[k].numerator * values[k].denominator) low[k] = values[k];
     }
   }
   const mpz_class least = eta2 * dot(n, n);
-  for (const Placed& vertex : y) {
-    const auto values = along(n, i, vertex, times);
+  for (const Path& path : y) {
+    const auto values = along(n, i.d, path, times);
     for (std::size_t k = 0; k < low.size(); ++k) {
-      if (!over(least, values[k], low[k])) return false;
+      const mpz_class h = low[k].denominator * values[k].denominator,
+                      g = low[k].numerator * values[k].denominator - values[k].numerator * low[k].denominator;
+      const bool apart = g > 0 && g * g > least * h * h;
+      if (!apart) return false;
     }
   }
   return true;
 }
 
 /// n.u + nt t - nd > 0 over the interval: at both ends of each segment cut to it.
-inline bool positive(const Direction& n, const mpz_class& nt, const mpz_class& nd, const Interval& i,
-                     const Placed& vertex) {
-  const Path& path = *vertex.path;
-  for (std::size_t s = vertex.segment; s + 1 < path.size() && (s == vertex.segment || path[s].t * i.d < i.b); ++s) {
-    const mpz_class g0 = dot(n, path[s].x) + nt * path[s].t - nd, g1 = dot(n, path[s + 1].x) + nt * path[s + 1].t - nd;
-    const mpz_class s0 = path[s].t * i.d, s1 = path[s + 1].t * i.d, from = std::max(s0, i.a), to = std::min(s1, i.b);
-    if (g0 * (s1 - from) + g1 * (from - s0) <= 0 || g0 * (s1 - to) + g1 * (to - s0) <= 0) return false;
+inline bool positive(const Vector& n, const mpz_class& nt, const mpz_class& nd, const Interval& i, const Path& path) {
+  for (auto q = segment_end(path, i.a, i.d);; ++q) {
+    const auto p = q - 1;
+    const mpz_class f = dot(n, p->x) + nt * p->t - nd, g = dot(n, q->x) + nt * q->t - nd;
+    const mpz_class s = p->t * i.d, t = q->t * i.d, from = std::max(s, i.a), to = std::min(t, i.b);
+    const bool apart = f * (t - from) + g * (from - s) > 0 && f * (t - to) + g * (to - s) > 0;
+    if (!apart) return false;
+    if (t >= i.b) return true;
   }
-  return true;
 }
 
 /// P.
-inline bool separated(const Direction& n, const mpz_class& nt, const mpz_class& nd, const mpz_class& w,
-                      const Interval& i, const mpz_class& eta2, const Paths& x, const Paths& y) {
-  const Direction back = {-n[0], -n[1], -n[2]};
-  return w >= 0 && eta2 * dot(n, n) <= w * w &&
-         std::ranges::all_of(x, [&](const Placed& vertex) { return positive(n, nt, nd, i, vertex); }) &&
-         std::ranges::all_of(y, [&](const Placed& vertex) { return positive(back, -nt, w - nd, i, vertex); });
+inline bool separated(const Vector& n, const mpz_class& nt, const mpz_class& nd, const mpz_class& w, const Interval& i,
+                      const mpz_class& eta2, const std::vector<Path>& x, const std::vector<Path>& y) {
+  const Vector back = {-n[0], -n[1], -n[2]};
+  const bool apart = w >= 0 && eta2 * dot(n, n) <= w * w &&
+                     std::ranges::all_of(x, [&](const Path& path) { return positive(n, nt, nd, i, path); }) &&
+                     std::ranges::all_of(y, [&](const Path& path) { return positive(back, -nt, w - nd, i, path); });
+  return apart;
 }
 
 }  // namespace noli::checker

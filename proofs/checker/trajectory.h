@@ -3,8 +3,6 @@
 // The motion, step by step, from frames or from the block file of a run.
 #pragma once
 
-#include <memory>
-
 #include "blocks.h"
 #include "frames.h"
 
@@ -15,25 +13,17 @@ struct Motion {
   double t0 = 0, t1 = 0;
   std::vector<std::uint64_t> begin;
   std::vector<double> times;
-  std::vector<std::array<double, 3>> x;
+  std::vector<Position> x;
   std::optional<Sha256::Digest> group_hash;  ///< of a window in its file
 
   Sha256::Digest hash() const {
     if (group_hash) return *group_hash;
     Sha256 hash;
-    std::string buffer;
-    const auto put = [&](const auto& value) { buffer.append(reinterpret_cast<const char*>(&value), sizeof value); };
     for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
-      put(begin[v + 1] - begin[v]);
-      for (std::uint64_t i = begin[v]; i < begin[v + 1]; ++i) {
-        put(times[i] + 0.0);  // -0 becomes +0
-        for (const double coordinate : x[i]) put(coordinate + 0.0);
-      }
-      if (buffer.size() < 1 << 16) continue;
-      hash.add(buffer);
-      buffer.clear();
+      hash.add_raw(begin[v + 1] - begin[v]);
+      for (std::uint64_t i = begin[v]; i < begin[v + 1]; ++i)
+        hash.add_raw(std::array{times[i] + 0.0, x[i][0] + 0.0, x[i][1] + 0.0, x[i][2] + 0.0});  // -0 becomes +0
     }
-    hash.add(buffer);
     return hash.digest();
   }
 };
@@ -44,10 +34,10 @@ using LabelPair = std::array<std::uint32_t, 2>;
 /// What does not change. Labels: one for each cell.
 struct Scene {
   int dimension = 3;
-  Mesh mesh;
+  std::uint64_t vertices = 0;
+  std::vector<Cell> cells;
   std::vector<std::uint32_t> labels;
-  /// For a run: the pairs of labels that have to be excluded, just these.
-  std::optional<std::vector<LabelPair>> excluded;
+  std::optional<std::set<LabelPair>> excluded;  ///< of a run: just these have to be
 };
 
 class Trajectory {
@@ -62,48 +52,39 @@ class Trajectory {
 class Frames : public Trajectory {
  public:
   Frames(std::vector<std::string> paths, bool rest) : paths_(std::move(paths)), rest_(rest) {
-    if (paths_.size() < (rest ? 1 : 2)) reject("the command line", "expected more frames");
+    require(paths_.size() >= (rest ? 1 : 2), "the command line", "expected more frames");
+    now_ = read_frame(paths_[0]);
   }
-  Scene scene() override {
-    read();
-    return {3, now_.mesh, std::vector<std::uint32_t>(now_.mesh.cells.size(), 0), {}};
-  }
+  Scene scene() override { return {3, now_.x.size(), now_.cells, {}, {}}; }
   bool next(Motion& motion) override {
     if (step_ + (rest_ ? 0 : 1) == paths_.size()) return false;
+    std::vector<Position> before = now_.x;
     if (!rest_ || step_ > 0) {
-      before_ = std::move(now_.x);
-      read();
+      const std::string& path = paths_[rest_ ? step_ : step_ + 1];
+      Frame frame = read_frame(path);
+      require(frame.x.size() == now_.x.size() && frame.cells == now_.cells, path,
+              "has another mesh than the frame before");
+      now_ = std::move(frame);
     }
-    const std::size_t n = now_.x.size();
     motion.t0 = rest_ ? 0 : static_cast<double>(step_);
     motion.t1 = motion.t0 + 1;
-    motion.begin.resize(n + 1);
-    motion.times.resize(2 * n);
-    motion.x.resize(2 * n);
-    for (std::size_t v = 0; v <= n; ++v) motion.begin[v] = 2 * v;
-    for (std::size_t v = 0; v < n; ++v) {
-      motion.times[2 * v] = motion.t0;
-      motion.times[2 * v + 1] = motion.t1;
-      motion.x[2 * v] = rest_ ? now_.x[v] : before_[v];
-      motion.x[2 * v + 1] = now_.x[v];
+    motion.begin = {0};
+    motion.times.clear();
+    motion.x.clear();
+    for (std::size_t v = 0; v < now_.x.size(); ++v) {
+      motion.begin.push_back(2 * v + 2);
+      motion.times.insert(motion.times.end(), {motion.t0, motion.t1});
+      motion.x.insert(motion.x.end(), {rest_ ? now_.x[v] : before[v], now_.x[v]});
     }
     ++step_;
     return true;
   }
 
  private:
-  void read() {
-    Frame frame = read_frame(paths_[read_]);
-    if (read_ > 0 && (frame.mesh.vertices != now_.mesh.vertices || frame.mesh.cells != now_.mesh.cells))
-      reject(paths_[read_], "has another mesh than the frame before");
-    now_ = std::move(frame);
-    ++read_;
-  }
   std::vector<std::string> paths_;
   bool rest_;
-  std::size_t step_ = 0, read_ = 0;
+  std::size_t step_ = 0;
   Frame now_;
-  std::vector<std::array<double, 3>> before_;
 };
 
 /// The block file of a run, recorded in full.
@@ -112,30 +93,28 @@ class Run : public Trajectory {
   explicit Run(const std::string& path) : file_(path, "TRAJ") {}
 
   Scene scene() override {
-    Block head = file_.expect("HEAD");
-    Cursor c = cursor(head);
+    Reader c = file_.expect("HEAD");
     dimension_ = c.u32();
-    if (dimension_ != 2 && dimension_ != 3) c.fail("expected dimension 2 or 3");
-    if (c.u32() != 0) c.fail("the run has recorded frames alone, which are not its motion");
-    if (!(c.f64() > 0)) c.fail("expected a window length above 0");
+    c.require(dimension_ == 2 || dimension_ == 3, "expected dimension 2 or 3");
+    c.require(c.u32() == 0, "the run has recorded frames alone, which are not its motion");
+    c.require(c.f64() > 0, "expected a window length above 0");
     c.end();
-    Scene scene{static_cast<int>(dimension_), mesh(), {}, std::vector<LabelPair>{}};
+    Scene scene{static_cast<int>(dimension_), 0, {}, {}, std::set<LabelPair>{}};
+    mesh(scene);
     label(scene);
     return scene;
   }
 
   bool next(Motion& motion) override {
-    const auto window = file_.next();
+    auto window = file_.next();
     if (file_.ended()) return false;
-    if (!window || window->kind != "WIND") reject(file_.place(window ? window->offset : 0), "expected a block WIND");
-    Cursor c = cursor(*window);
-    if (c.u64() != windows_) c.fail("a window has the wrong number");
+    Reader c = file_.as("WIND", std::move(window));
+    c.require(c.u64() == windows_, "a window has the wrong number");
     motion.t0 = c.f64();
     motion.t1 = c.f64();
     c.end();
-    if (!(motion.t0 < motion.t1)) c.fail("a window ends before it begins");
-    if (windows_ > 0 && std::bit_cast<std::uint64_t>(motion.t0) != std::bit_cast<std::uint64_t>(end_))
-      c.fail("a window does not begin where the one before ends");
+    c.require(motion.t0 < motion.t1, "a window ends before it begins");
+    c.require(windows_ == 0 || same_bits(motion.t0, end_), "a window does not begin where the one before ends");
     lines(motion);
     end_ = motion.t1;
     ++windows_;
@@ -147,78 +126,68 @@ class Run : public Trajectory {
   }
 
  private:
-  Cursor cursor(const Block& block) const { return {block.payload, file_.name(), block.offset}; }
+  template <class T>
+  static bool same_bits(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+  }
 
-  Mesh mesh() {
-    const Block block = file_.expect("MESH");
-    Cursor c = cursor(block);
-    Mesh mesh{c.u64(), {}};
-    if (mesh.vertices < 1 || mesh.vertices > std::uint64_t{1} << 32) c.fail("an impossible number of vertices");
-    vertices_ = mesh.vertices;
+  void mesh(Scene& scene) {
+    Reader c = file_.expect("MESH");
+    scene.vertices = vertices_ = c.u64();
+    c.require(vertices_ >= 1 && vertices_ <= std::uint64_t{1} << 32, "an impossible number of vertices");
     const std::array<std::uint64_t, 3> counts = {c.u64(), c.u64(), c.u64()};
-    for (std::size_t k = 0; k < 3; ++k) {
-      c.need(counts[k], 4 * (3 - k));
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      Cell cell{{}, static_cast<std::uint8_t>(3 - k)};
+      c.need(counts[k], 4u * cell.size);
       for (std::uint64_t i = 0; i < counts[k]; ++i) {
-        Cell cell(3 - k);
-        for (auto& v : cell) v = c.u32();
-        for (const auto v : cell) {
-          if (v >= mesh.vertices) c.fail("a vertex that is not there is named");
-        }
-        mesh.cells.push_back(cell);
+        for (std::size_t j = 0; j < cell.size; ++j) cell.v[j] = c.u32();
+        c.require(std::ranges::max(cell.v) < vertices_, "a vertex that is not there is named");
+        scene.cells.push_back(cell);
       }
     }
     c.end();
-    return mesh;
   }
 
   void label(Scene& scene) {
-    const Block block = file_.expect("LABL");
-    if (block.payload.size() != scene.mesh.vertices) cursor(block).fail("expected a label for each vertex");
-    for (const char l : block.payload) {
-      if (l != 0 && l != 1) cursor(block).fail("a label is not 0 or 1");
-    }
-    std::vector<std::uint16_t> groups(scene.mesh.vertices, 0);
-    std::set<std::array<std::uint16_t, 2>> pairs;
-    if (const auto exclusions = file_.next()) {
-      if (exclusions->kind != "EXCL") reject(file_.place(exclusions->offset), "expected a block EXCL");
-      Cursor c = cursor(*exclusions);
-      const std::uint32_t n = c.u32();
-      c.need(n, 4);
+    Reader c = file_.expect("LABL");
+    c.require(c.left() == vertices_, "expected a label for each vertex");
+    const std::string scripted(c.take(vertices_));
+    c.require(std::ranges::all_of(scripted, [](char l) { return l == 0 || l == 1; }), "a label is not 0 or 1");
+    std::vector<std::uint16_t> group(vertices_, 0);
+    std::set<LabelPair> pairs;
+    if (auto block = file_.next()) {
+      Reader e = file_.as("EXCL", std::move(block));
+      const std::uint32_t n = e.u32();
+      e.require(n > 0, "expected a pair");
       for (std::uint32_t i = 0; i < n; ++i) {
-        const std::array<std::uint16_t, 2> pair = {c.u16(), c.u16()};
-        if (pair[0] > pair[1] || (!pairs.empty() && pair <= *pairs.rbegin())) c.fail("pairs are not in order");
+        const LabelPair pair = {e.raw<std::uint16_t>(), e.raw<std::uint16_t>()};
+        e.require(pair[0] <= pair[1] && (i == 0 || pair > *pairs.rbegin()), "pairs are not in order");
         pairs.insert(pair);
       }
-      for (auto& g : groups) g = c.u16();
-      c.end();
-      if (n == 0) c.fail("expected a pair");
+      for (auto& g : group) g = e.raw<std::uint16_t>();
+      e.end();
       file_.expect_commit();
     }
-    std::set<std::uint32_t> labels;
-    for (const Cell& cell : scene.mesh.cells) {
-      bool scripted = true;
-      for (const auto v : cell) {
-        scripted = scripted && block.payload[v] == 1;
-        if (groups[v] != groups[cell[0]]) cursor(block).fail("a cell is of two groups");
-      }
-      scene.labels.push_back(2u * groups[cell[0]] + (scripted ? 1 : 0));
-      labels.insert(scene.labels.back());
+    for (const Cell& cell : scene.cells) {
+      const std::uint16_t g = group[cell.v[0]];
+      c.require(std::ranges::all_of(cell, [&](auto v) { return group[v] == g; }), "a cell is of two groups");
+      const bool held = std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; });
+      scene.labels.push_back(2u * g + (held ? 1 : 0));
     }
+    const std::set<std::uint32_t> labels(scene.labels.begin(), scene.labels.end());
     for (const std::uint32_t a : labels) {
       for (const std::uint32_t b : labels) {
-        const std::array<std::uint16_t, 2> g = {static_cast<std::uint16_t>(a / 2), static_cast<std::uint16_t>(b / 2)};
-        if (a <= b && ((a % 2 == 1 && b % 2 == 1) || pairs.count(g) != 0)) scene.excluded->push_back({a, b});
+        if (a <= b && ((a % 2 == 1 && b % 2 == 1) || pairs.count({a / 2, b / 2}) != 0)) scene.excluded->insert({a, b});
       }
     }
   }
 
   void lines(Motion& motion) {
-    const Block block = file_.expect("LINE");
-    Cursor c = cursor(block);
-    motion.begin.assign(1, 0);
+    Reader c = file_.expect("LINE");
+    motion.begin = {0};
     for (std::size_t v = 0; v < vertices_; ++v) {
       const std::uint32_t count = c.u32();
-      if (count < 2) c.fail("a vertex has fewer than two breakpoints");
+      c.require(count >= 2, "a vertex has fewer than two breakpoints");
       motion.begin.push_back(motion.begin.back() + count);
     }
     const std::uint64_t all = motion.begin.back();
@@ -232,25 +201,22 @@ class Run : public Trajectory {
     c.end();
     last_.resize(vertices_);
     for (std::size_t v = 0; v < vertices_; ++v) {
-      const std::uint64_t first = motion.begin[v], end = motion.begin[v + 1];
-      for (std::uint64_t i = first + 1; i < end; ++i) {
-        if (!(motion.times[i - 1] < motion.times[i])) c.fail("times do not ascend");
-      }
-      if (std::bit_cast<std::uint64_t>(motion.times[first]) != std::bit_cast<std::uint64_t>(motion.t0) ||
-          std::bit_cast<std::uint64_t>(motion.times[end - 1]) != std::bit_cast<std::uint64_t>(motion.t1))
-        c.fail("a world line does not begin and end with its window");
-      if (windows_ > 0 && std::memcmp(last_[v].data(), motion.x[first].data(), sizeof last_[v]) != 0)
-        c.fail("vertex " + std::to_string(v) + " does not begin where it was at the end of the window before");
-      last_[v] = motion.x[end - 1];
+      const std::uint64_t first = motion.begin[v], last = motion.begin[v + 1] - 1;
+      for (std::uint64_t i = first; i < last; ++i)
+        c.require(motion.times[i] < motion.times[i + 1], "times do not ascend");
+      c.require(same_bits(motion.times[first], motion.t0) && same_bits(motion.times[last], motion.t1),
+                "a world line does not begin and end with its window");
+      c.require(windows_ == 0 || same_bits(last_[v], motion.x[first]),
+                "a vertex does not begin where it was at the end of the window before");
+      last_[v] = motion.x[last];
     }
   }
 
   BlockFile file_;
   std::uint32_t dimension_ = 3;
-  std::size_t vertices_ = 0;
-  std::uint64_t windows_ = 0;
+  std::uint64_t vertices_ = 0, windows_ = 0;
   double end_ = 0;
-  std::vector<std::array<double, 3>> last_;
+  std::vector<Position> last_;
 };
 
 }  // namespace noli::checker

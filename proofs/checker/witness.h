@@ -64,96 +64,38 @@ inline int least_sign(Poly f, const mpz_class& l, const mpz_class& u, unsigned l
 
 class Witness {
  public:
-  Witness(Cursor c, const Claim& claim, const Integers& motion) : claim_(claim), motion_(motion), c_(c) {
-    cell_ = {c_.u32(), c_.u32()};
-    for (const std::uint32_t cell : cell_) require(cell < claim.cells.size(), "a cell that is not there is named");
-    for (auto& side : sides_) read(side);
+  /// Rejects what does not hold.
+  Witness(Reader c, const Claim& claim, const Integers& motion) : claim_(claim), motion_(motion), c_(std::move(c)) {
+    const std::uint32_t i = c_.u32(), j = c_.u32();
+    require(std::max(i, j) < claim.cells.size(), "a cell that is not there is named");
+    read(p_, claim.cells[i]);
+    read(q_, claim.cells[j]);
     g_ = poly();
     const std::uint64_t e = c_.uint();
     require(e <= 1024, "the denominator is too long");
     e_ = e;
-    l_ = read_sint(c_);
-    u_ = read_sint(c_);
+    l_ = c_.sint();
+    u_ = c_.sint();
     c_.end();
-  }
-
-  /// Rejects what does not hold.
-  void check() const {
-    require(cell_[0] != cell_[1] || claim_.strict, "it is about one cell, and the claim is not strict");
-    require(!claim_.is_excluded(claim_.labels[cell_[0]], claim_.labels[cell_[1]]), "the pair is excluded");
+    require(i != j || claim_.strict, "it is about one cell, and the claim is not strict");
+    require(!claim_.is_excluded(claim_.labels[i], claim_.labels[j]), "the pair is excluded");
     require((motion_.begin() << e_) <= l_ && l_ <= u_ && u_ <= (motion_.end() << e_), "the time is not in the step");
-    for (std::size_t s = 0; s < 2; ++s) check_vertices(s);
-    require(!g_.empty() && g_.back() != 0, "the last coefficient of g is 0");
+    for (const auto& [v, w] : p_) require(std::ranges::count(q_, v, &Corner::v) == 0, "a vertex is on both sides");
+    require(g_.back() != 0, "the last coefficient of g is 0");
     require(sgn(value(g_, l_, e_)) * sgn(value(g_, u_, e_)) <= 0, "g has no change of sign");
-    for (const auto& side : sides_) {
-      for (const auto& [v, w] : side) require(not_negative(w), "a weight may be negative");
-    }
-    check_points();
+    meet(centre(p_), centre(q_));
+    words_ = "vertices" + names(p_) + " of cell " + std::to_string(i) + " and" + names(q_) + " of cell " +
+             std::to_string(j) + " meet";
   }
 
-  std::string words() const {
-    const auto names = [](const Side& side) {
-      std::string text;
-      for (const auto& [v, w] : side) text += (text.empty() ? "" : " ") + std::to_string(v);
-      return text;
-    };
-    return "vertices {" + names(sides_[0]) + "} of cell " + std::to_string(cell_[0]) + " and {" + names(sides_[1]) +
-           "} of cell " + std::to_string(cell_[1]) + " meet";
-  }
+  const std::string& words() const { return words_; }
 
  private:
-  using Side = std::vector<std::pair<std::uint32_t, Poly>>;
-
-  void require(bool condition, const char* why) const {
-    if (!condition) c_.fail(std::string("the witness does not hold: ") + why);
-  }
-
-  Poly poly() {
-    const std::uint8_t n = c_.u8();
-    require(n >= 1 && n <= 32, "a polynomial has 1 to 32 coefficients");
-    Poly f;
-    for (std::uint8_t i = 0; i < n; ++i) f.push_back(read_sint(c_));
-    return f;
-  }
-
-  void read(Side& side) {
-    const std::uint8_t n = c_.u8();
-    require(n >= 1 && n <= 3, "expected 1 to 3 vertices");
-    for (std::uint8_t i = 0; i < n; ++i) {
-      const std::uint32_t v = c_.u32();
-      side.emplace_back(v, poly());
-    }
-  }
-
-  void check_vertices(std::size_t s) const {
-    const Cell& cell = claim_.cells[cell_[s]];
-    for (const auto& [v, w] : sides_[s]) {
-      require(std::find(cell.begin(), cell.end(), v) != cell.end(), "a vertex is not one of its cell");
-      for (const auto& [other, weight] : sides_[1 - s]) require(v != other, "a vertex is on both sides");
-    }
-  }
-
-  bool not_negative(const Poly& f) const { return divides(g_, f) || least_sign(f, l_, u_, e_) >= 0; }
-
-  /// The position is `x` over `duration`.
-  struct Position {
-    std::array<Poly, 3> x;
-    mpz_class duration;
+  struct Corner {
+    std::uint32_t v;
+    Poly weight;
   };
-
-  /// On the segment from the last breakpoint at or before l on; at the last of all it rests.
-  Position position(std::uint32_t v) const {
-    const Path path = motion_.path(v);
-    std::size_t k = path.size() - 1;
-    while (k > 0 && (path[k].t << e_) > l_) --k;
-    const Breakpoint& p = path[k];
-    const Breakpoint q = k + 1 < path.size() ? path[k + 1] : Breakpoint{p.t + 1, p.x};
-    require(u_ <= ((k + 1 < path.size() ? q : p).t << e_), "a vertex has a breakpoint between l and u");
-    Position at{{}, q.t - p.t};
-    for (std::size_t i = 0; i < 3; ++i) at.x[i] = {p.x[i] * q.t - q.x[i] * p.t, q.x[i] - p.x[i]};
-    return at;
-  }
-
+  using Corners = std::vector<Corner>;
   /// The sum of weight times position, over `duration`, and the sum of the weights.
   struct Centre {
     std::array<Poly, 3> x;
@@ -161,57 +103,98 @@ class Witness {
     Poly weight;
   };
 
-  Centre centre(const Side& side) const {
+  void require(bool condition, const char* why) const { c_.require(condition, why); }
+
+  Poly poly() {
+    const std::uint8_t n = c_.u8();
+    require(n >= 1 && n <= 32, "a polynomial has 1 to 32 coefficients");
+    Poly f;
+    for (std::uint8_t i = 0; i < n; ++i) f.push_back(c_.sint());
+    return f;
+  }
+  void read(Corners& corners, const Cell& cell) {
+    const std::uint8_t n = c_.u8();
+    require(n >= 1 && n <= 3, "expected 1 to 3 vertices");
+    for (std::uint8_t i = 0; i < n; ++i) {
+      const std::uint32_t v = c_.u32();
+      require(cell.has(v), "a vertex is not one of its cell");
+      corners.push_back({v, poly()});
+    }
+  }
+  static std::string names(const Corners& corners) {
+    std::string text;
+    for (const Corner& corner : corners) text += (text.empty() ? " {" : " ") + std::to_string(corner.v);
+    return text + "}";
+  }
+
+  bool not_negative(const Poly& f) const { return divides(g_, f) || least_sign(f, l_, u_, e_) >= 0; }
+
+  Centre centre(const Corners& corners) const {
     Centre sum;
-    for (const auto& [v, w] : side) {
-      const Position at = position(v);
-      for (std::size_t k = 0; k < 3; ++k) sum.x[k] = at.duration * sum.x[k] + sum.duration * (w * at.x[k]);
-      sum.duration *= at.duration;
+    for (const auto& [v, w] : corners) {
+      require(not_negative(w), "a weight may be negative");
+      // On the segment from the last breakpoint at or before l on; at the last of all it rests.
+      const Path path = motion_.path(v);
+      std::size_t k = path.size() - 1;
+      while (k > 0 && (path[k].t << e_) > l_) --k;
+      const bool last = k + 1 == path.size();
+      const Breakpoint &p = path[k], q = last ? Breakpoint{p.t + 1, p.x} : path[k + 1];
+      require(u_ <= ((last ? p : q).t << e_), "a vertex has a breakpoint between l and u");
+      const mpz_class duration = q.t - p.t;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Poly x = {p.x[i] * q.t - q.x[i] * p.t, q.x[i] - p.x[i]};
+        sum.x[i] = duration * sum.x[i] + sum.duration * (w * x);
+      }
+      sum.duration *= duration;
       sum.weight = sum.weight + w;
     }
     require(least_sign(sum.weight, l_, u_, e_) > 0, "a sum of weights may not be positive");
     return sum;
   }
 
-  void check_points() const {
-    const Centre p = centre(sides_[0]), q = centre(sides_[1]);
-    bool meet = true;
+  void meet(const Centre& p, const Centre& q) const {
+    bool same = true;
     Poly square;
     for (std::size_t k = 0; k < 3; ++k) {
       const Poly d = q.duration * (q.weight * p.x[k]) + mpz_class(-p.duration) * (p.weight * q.x[k]);
-      meet = meet && divides(g_, d);
+      same = same && divides(g_, d);
       square = square + d * d;
     }
-    if (meet) return;
-    require(claim_.eta > 0 && !near(), "the points do not meet");
+    if (same) return;
+    require(claim_.eta > 0, "the points do not meet");
+    require(!near(), "the points do not meet, and the distance of what is so near by edges does not count");
     const Poly scale = (motion_.eta() * p.duration * q.duration) * (p.weight * q.weight);
     require(not_negative(scale * scale + mpz_class(-1) * square), "the points are not as near as the least distance");
   }
 
   /// Whether a path of fewer than K edges joins the sides.
   bool near() const {
-    std::set<std::uint32_t> reached;
-    for (const auto& [v, w] : sides_[0]) reached.insert(v);
-    for (std::uint32_t k = 1; k < claim_.ring; ++k) {
-      const std::set<std::uint32_t> before = reached;
-      for (const Cell& cell : claim_.cells) {
-        if (std::any_of(cell.begin(), cell.end(), [&](auto v) { return before.count(v) != 0; }))
-          reached.insert(cell.begin(), cell.end());
-      }
-      if (reached.size() == before.size()) break;
+    std::vector<std::vector<std::uint32_t>> cells(claim_.same.size());  // by vertex
+    for (std::uint32_t i = 0; i < claim_.cells.size(); ++i) {
+      for (const std::uint32_t v : claim_.cells[i]) cells[v].push_back(i);
     }
-    return std::any_of(sides_[1].begin(), sides_[1].end(),
-                       [&](const auto& side) { return reached.count(side.first) != 0; });
+    std::set<std::uint32_t> reached, border;
+    for (const Corner& corner : p_) border.insert(corner.v);
+    for (std::uint32_t k = 1; !border.empty(); ++k) {
+      reached.insert(border.begin(), border.end());
+      std::set<std::uint32_t> next;
+      for (const std::uint32_t v : border) {
+        for (const std::uint32_t i : cells[v]) next.insert(claim_.cells[i].begin(), claim_.cells[i].end());
+      }
+      border.clear();
+      if (k < claim_.ring) std::ranges::set_difference(next, reached, std::inserter(border, border.end()));
+    }
+    return std::ranges::any_of(q_, [&](const Corner& corner) { return reached.count(corner.v) != 0; });
   }
 
   const Claim& claim_;
   const Integers& motion_;
-  Cursor c_;
-  std::array<std::uint32_t, 2> cell_{};
-  std::array<Side, 2> sides_;
+  Reader c_;
+  Corners p_, q_;
   Poly g_;
   unsigned long e_ = 0;
   mpz_class l_, u_;
+  std::string words_;
 };
 
 }  // namespace noli::checker

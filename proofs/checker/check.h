@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A proof, read from its beginning to its end beside the trajectory that it is about: proofs/FORMAT.md, section 2.
+#pragma once
+
+#include "obligations.h"
+#include "witness.h"
+
+namespace noli::checker {
+
+class Check {
+ public:
+  Check(const std::string& proof, const std::vector<std::string>& paths) : proof_(proof, "PROF") {
+    Reader c = proof_.expect("CLAM");
+    claim_.source = c.u8();
+    claim_.dimension = c.u8();
+    const int flags = c.u8();
+    c.require(claim_.source <= 2, "expected source 0, 1 or 2");
+    c.require(claim_.dimension == 2 || claim_.dimension == 3, "expected dimension 2 or 3");
+    c.require(flags <= (run() ? 1 : 3), "an impossible flag");
+    c.require(c.u8() == 0, "expected 0");
+    claim_.strict = (flags & 1) != 0;
+    claim_.points = (flags & 2) != 0;
+    claim_.ring = c.u32();
+    claim_.eta = c.f64();
+    c.require(!std::signbit(claim_.eta), "the least distance is negative");
+    c.require(claim_.ring >= 1 && (claim_.eta > 0 || claim_.ring == 1), "an impossible ring");
+    const auto hash = c.raw<Sha256::Digest>();
+    c.require(!run() || paths.size() == 1, "the proof is of a run: expected its trajectory.blocks, one file");
+    if (run()) trajectory_ = std::make_unique<Run>(paths[0]);
+    if (!run()) trajectory_ = std::make_unique<Frames>(paths, claim_.source == 1);
+    Scene scene = trajectory_->scene();
+    c.require(!run() || claim_.dimension == scene.dimension, "the run has another dimension");
+    read_merged(scene.vertices, c);
+    read_excluded(scene, c);
+    c.end();
+    make_cells(scene);
+    c.require(!claim_.cells.empty(), "a claim about no cells");
+    c.require(cells_hash() == hash, "the claim is about other cells than those of the trajectory");
+    proof_.expect_commit();
+  }
+
+  /// Step after step. What the first witness says, if there is one.
+  std::optional<std::string> go() {
+    for (std::uint64_t read = 0;; ++read) {
+      auto block = proof_.next();
+      if (proof_.ended()) {
+        const bool all = refuted_ || !trajectory_->next(motion_);
+        require(all, "the proof, after " + std::to_string(steps_) + " steps", "it ends, but the trajectory goes on");
+        return refuted_;
+      }
+      step(proof_.as("STEP", std::move(block)), read);
+    }
+  }
+
+  const Claim& claim() const { return claim_; }
+  std::uint64_t steps() const { return steps_; }
+
+ private:
+  bool run() const { return claim_.source == 2; }
+
+  void read_merged(std::uint64_t vertices, Reader& c) {
+    for (std::uint64_t v = 0; v < vertices; ++v) claim_.same.push_back(static_cast<std::uint32_t>(v));
+    claim_.merged = c.u32();
+    c.require(!run() || claim_.merged == 0, "a run has no merged vertices");
+    std::int64_t before = -1;
+    for (std::uint32_t i = 0; i < claim_.merged; ++i) {
+      const std::uint32_t v = c.u32(), s = c.u32();
+      c.require(v > before && v < vertices, "merged vertices do not ascend, or are not there");
+      c.require(s < v && claim_.same[s] == s, "a vertex is merged with a later or a merged one");
+      claim_.same[v] = s;
+      before = v;
+    }
+  }
+
+  void read_excluded(const Scene& scene, Reader& c) {
+    const std::uint32_t n = c.u32();
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const LabelPair pair = {c.u32(), c.u32()};
+      c.require(pair[0] <= pair[1] && (i == 0 || pair > *claim_.excluded.rbegin()), "excluded pairs are not in order");
+      claim_.excluded.insert(pair);
+    }
+    c.require(!scene.excluded || claim_.excluded == *scene.excluded, "other pairs are excluded than those of the run");
+  }
+
+  void make_cells(Scene& scene) {
+    claim_.cells = std::move(scene.cells);
+    claim_.labels = std::move(scene.labels);
+    if (run()) return;
+    std::vector<bool> used(scene.vertices, !claim_.points);
+    for (const Cell& cell : claim_.cells) {
+      for (const std::uint32_t v : cell) used[v] = true;
+    }
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) claim_.cells.push_back({{v}, 1});
+    }
+    for (Cell& cell : claim_.cells) {
+      for (std::size_t i = 0; i < cell.size; ++i) cell.v[i] = claim_.same[cell.v[i]];
+    }
+    claim_.cells = tidy(std::move(claim_.cells), scene.vertices);
+    claim_.labels.assign(claim_.cells.size(), 0);
+  }
+
+  Sha256::Digest cells_hash() const {
+    Sha256 hash;
+    hash.add_raw(std::uint64_t{claim_.same.size()});
+    hash.add_raw(std::uint64_t{claim_.cells.size()});
+    for (std::size_t i = 0; i < claim_.cells.size(); ++i) {
+      hash.add_raw(claim_.cells[i].size);
+      for (const std::uint32_t v : claim_.cells[i]) hash.add_raw(v);
+      hash.add_raw(claim_.labels[i]);
+    }
+    return hash.digest();
+  }
+
+  void step(Reader c, std::uint64_t read) {
+    const std::uint64_t number = c.u64();
+    c.require(number >= steps_ && (refuted_ || number == read), "a step has the wrong number");
+    for (; steps_ <= number; ++steps_) {
+      const bool there = trajectory_->next(motion_);
+      c.require(there, "the trajectory has no such step");
+    }
+    const double t0 = c.f64(), t1 = c.f64();
+    c.require(t0 == motion_.t0 && t1 == motion_.t1, "the trajectory's step has another time");
+    const auto p = c.raw<std::int32_t>(), q = c.raw<std::int32_t>();
+    c.require(-1200 <= p && p <= 1200 && -1200 <= q && q <= 1200, "an impossible unit");
+    const std::uint8_t kind = c.u8();
+    c.require(kind <= 1, "expected a proof or a witness");
+    const auto hash = c.raw<Sha256::Digest>();
+    c.end();
+    for (auto& x : motion_.x) x[2] = claim_.dimension == 2 ? 0 : x[2];
+    c.require(motion_.hash() == hash, "the step is about another motion than that of the trajectory");
+    // Merged vertices are at the same place at all times; they have the breakpoints of frames.
+    for (std::size_t v = 0; v < claim_.same.size(); ++v) {
+      const std::uint64_t i = motion_.begin[v], j = motion_.begin[claim_.same[v]];
+      const bool merged = claim_.same[v] != v;
+      c.require(!merged || (motion_.x[i] == motion_.x[j] && motion_.x[i + 1] == motion_.x[j + 1]),
+                "a merged vertex is not where the one is that stands for it");
+    }
+    const Integers motion(motion_, p, q, claim_.eta, c);
+    kind == 0 ? prove(motion, c) : refute(motion, number);
+  }
+
+  void prove(const Integers& motion, const Reader& c) {
+    auto block = proof_.next();
+    if (block && block->kind == "TREE") {
+      tree_.emplace(std::move(block->data), claim_);
+      block = proof_.next();
+    }
+    c.require(tree_.has_value(), "the first step has no tree");
+    Obligations obligations(claim_, motion, *tree_);
+    for (; block; block = proof_.next()) {
+      Reader tokens = proof_.as("TOKS", std::move(block));
+      tokens.require(tokens.left() <= 1 << 20, "expected at most 2^20 bytes");
+      obligations.take(tokens);
+    }
+    c.require(obligations.done(), "the proof of this step is not complete");
+  }
+
+  void refute(const Integers& motion, std::uint64_t number) {
+    const Witness witness(proof_.expect("WITN"), claim_, motion);
+    proof_.expect_commit();
+    if (!refuted_) refuted_ = "in step " + std::to_string(number) + ", " + witness.words();
+  }
+
+  BlockFile proof_;
+  std::unique_ptr<Trajectory> trajectory_;
+  Claim claim_;
+  std::optional<Tree> tree_;
+  Motion motion_;
+  std::uint64_t steps_ = 0;
+  std::optional<std::string> refuted_;
+};
+
+}  // namespace noli::checker

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What enclosure.h takes for apart is apart in exact numbers: random paths that come as near as a few units of the
+// bounds, at all scales of places and times.
+#include <random>
+
+#include "support.h"
+
+namespace noli::checker::test {
+namespace {
+
+struct Draw {
+  std::mt19937_64 random;
+  long number(long low, long high) { return std::uniform_int_distribution<long>(low, high)(random); }
+  bool one_in(long n) { return number(1, n) == 1; }
+};
+
+double next_after(double t, long steps) {
+  for (long i = 0; i < steps; ++i) t = std::nextafter(t, INFINITY);
+  return t;
+}
+
+/// Times of one vertex in [t0, t1], in places very near to each other or to the ends.
+std::vector<double> times(Draw& draw, double t0, double t1) {
+  std::set<double> all = {t0, t1};
+  for (long n = draw.number(0, 6); n > 0; --n) {
+    double t = t0 + (t1 - t0) * std::ldexp(static_cast<double>(draw.number(0, 1 << 16)), -16);
+    if (draw.one_in(3)) t = next_after(draw.one_in(2) ? t0 : t, draw.number(1, 9));
+    if (t0 < t && t < t1) all.insert(t);
+  }
+  return {all.begin(), all.end()};
+}
+
+Motion motion(Draw& draw) {
+  const int scale = static_cast<int>(draw.one_in(3) ? draw.number(-1074, 840) : draw.number(-60, 60)),
+            time_scale = static_cast<int>(draw.one_in(3) ? draw.number(-1000, 840) : draw.number(-20, 20));
+  Motion m;
+  m.t0 = draw.one_in(3) ? 0 : std::ldexp(static_cast<double>(draw.number(-1000, 1000)), time_scale);
+  m.t1 = draw.one_in(3) ? next_after(m.t0, draw.number(1, 40))
+                        : m.t0 + std::ldexp(static_cast<double>(draw.number(1, 1000)), time_scale);
+  if (!(m.t0 < m.t1)) m.t1 = next_after(m.t0, 3);
+  m.begin = {0};
+  const long reach = draw.one_in(2) ? 1L << 50 : 1L << draw.number(1, 50), gap = draw.number(0, 40);
+  std::vector<std::array<long, 3>> base;
+  for (std::size_t v = 0; v < 4; ++v) {
+    const bool again = v >= 2 && draw.one_in(2);  // along the vertex two before, a little away
+    const std::size_t first = again ? m.begin[v - 2] : 0, count = again ? m.begin[v - 1] - first : 0;
+    std::vector<double> t = times(draw, m.t0, m.t1);
+    if (again) t.assign(m.times.begin() + static_cast<long>(first), m.times.begin() + static_cast<long>(first + count));
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      std::array<long, 3> x;
+      for (std::size_t k = 0; k < 3; ++k)
+        x[k] = again ? base[first + i][k] - draw.number(0, gap) : draw.number(-reach, reach);
+      base.push_back(x);
+      m.times.push_back(t[i]);
+      m.x.push_back({});
+      for (std::size_t k = 0; k < 3; ++k) m.x.back()[k] = std::ldexp(static_cast<double>(x[k]), scale);
+    }
+    m.begin.push_back(m.times.size());
+  }
+  return m;
+}
+
+int compare(std::uint64_t seed) {
+  Draw draw{std::mt19937_64(seed)};
+  const Motion m = motion(draw);
+  const Integers exact(m, -1200, -1200, 0, Reader("", "motion"));
+  const Enclosures quick(m);
+  int open = 0;
+  for (int i = 0; i < 40; ++i) {
+    const int halvings = draw.one_in(3) ? 0 : static_cast<int>(draw.number(0, 30));
+    const long k = draw.number(0, (1L << halvings) - 1), most = draw.one_in(2) ? 1 : 1L << draw.number(0, 40);
+    std::array<long, 3> n{};
+    for (long& c : n) c = draw.number(-most + (most > 1 ? 1 : 0), most - (most > 1 ? 1 : 0));
+    if (!quick.usable(n, static_cast<unsigned long>(halvings))) continue;
+    Enclosures::Gap gap(quick, n, k, halvings);
+    gap.add(0, true);
+    if (draw.one_in(2)) gap.add(0, true);
+    gap.add(2, false);
+    if (!gap.open()) continue;
+    ++open;
+    const mpz_class duration = exact.end() - exact.begin(),
+                    a = (exact.begin() << static_cast<unsigned long>(halvings)) + k * duration;
+    const Vector direction = {n[0], n[1], n[2]};
+    EXPECT_TRUE(separated(direction, {a, a + duration, mpz_class(1) << static_cast<unsigned long>(halvings)}, 0,
+                          {exact.path(0)}, {exact.path(2)}))
+        << "seed " << seed << ", question " << i;
+  }
+  return open;
+}
+
+TEST(Enclosures, NeverSayApartWhatIsNot) {
+  int open = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) open += compare(seed);
+  EXPECT_GT(open, 20000);
+}
+
+TEST(Enclosures, NeverSayApartWhatIsNotSlow) {
+  for (std::uint64_t seed = 1 << 20; seed < (1 << 20) + 300000; ++seed) compare(seed);
+}
+
+TEST(Enclosures, LeaveWhatIsTooLargeToExactNumbers) {
+  Motion m;
+  m.t0 = 0;
+  m.t1 = 1;
+  m.begin = {0, 2};
+  m.times = {0, 1};
+  m.x = {{0x1p900, 0, 0}, {0, 0, 0}};
+  EXPECT_TRUE(Enclosures(m).usable({1, 0, 0}, 30));
+  EXPECT_FALSE(Enclosures(m).usable({1, 0, 0}, 31));
+  EXPECT_FALSE(Enclosures(m).usable({1, -(1L << 40), 0}, 0));
+  EXPECT_FALSE(Enclosures(m).usable({1, 0, 1L << 40}, 0));
+  m.x[0][1] = -0x1p901;
+  EXPECT_FALSE(Enclosures(m).usable({1, 0, 0}, 0));
+  m.x[0][1] = 0;
+  m.times[1] = m.t1 = 0x1p1000;
+  EXPECT_FALSE(Enclosures(m).usable({1, 0, 0}, 0));
+}
+
+}  // namespace
+}  // namespace noli::checker::test
