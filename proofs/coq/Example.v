@@ -33,6 +33,9 @@ Definition spaced t0 t1 p n c l e eta := Scene t0 t1 p (fun v => v) n c l e eta 
 (** The same in which things are not to touch. *)
 Definition touching t0 t1 p n c l e := spaced t0 t1 p n c l e 0.
 
+(** A vertex without a chord. *)
+Definition bare v tr := Vertex v (index tr) None.
+
 (** ** A triangle at rest, and a point that falls towards it *)
 
 Definition at_rest p : traj := [(0, p); (4, p)].
@@ -277,7 +280,7 @@ Lemma no_one_node : lax row row_right [TOne] = false. Proof. computed. Qed.
 Lemma no_drop_node : lax row row_right [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
 
 (** A token of the other kind of obligation. *)
-Definition root := Leaf 0 [(0, index (at_rest (V3 0 0 0)))].
+Definition root := Leaf 0 [bare 0 (at_rest (V3 0 0 0))].
 Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) Distance 0 4 1].
 Definition on_self := step false row [Self (Node None [] root root) Distance 0 4 1].
 Definition refused (o : option (list obligation)) := match o with None => true | Some _ => false end.
@@ -337,9 +340,9 @@ Lemma no_cell_negative : start row (Join (Cell (-1)) row_left) = None. Proof. co
 Lemma no_cell_negative_instead : start row (Join (Cell (-1)) (two 1 2)) = None. Proof. computed. Qed.
 
 (** A vertex that is not in the table of vertices is not found. *)
-Definition table ids := join_all ids (vertices row ids []).
+Definition table ids := join_all ids (vertices 0 row ids []).
 Lemma ok_look_up : match table [1; 4; 5; 8; 9] with
-  | Some x => map (fun v => match look_up x v with Some (w, _) => w | None => -1 end) [0; 1; 2; 4; 5; 7; 8; 9; 10]
+  | Some x => map (fun v => match look_up x v with Some w => vid w | None => -1 end) [0; 1; 2; 4; 5; 7; 8; 9; 10]
   | None => []
   end = [-1; 1; -1; 4; 5; -1; 8; 9; -1].
 Proof. computed. Qed.
@@ -617,15 +620,15 @@ Lemma no_way_cell_other : by_way 2 1 [(2, 2)] = false. Proof. computed. Qed.
 Lemma no_way_cell_beyond : way_end (links 5 9) 5 1 [(1, 2); (2, 3); (3, 4)] = None. Proof. computed. Qed.
 Lemma no_way_cell_negative : way_end (links 5 9) 5 1 [(0, 0); (-1, -1)] = None. Proof. computed. Qed.
 Definition on_cells o tok := step false (links 5 9)
-  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 [(2, index []); (3, index [])]) o 0 4 1] tok.
+  [Pair (Leaf 0 [bare 0 []; bare 1 []]) (Leaf 2 [bare 2 []; bare 3 []]) o 0 4 1] tok.
 Definition left_over (o : option (list obligation)) := match o with None => -1 | Some l => Z.of_nat (length l) end.
 Lemma ok_modes : map (fun o => (left_over (on_cells o (TRing 1 [[(1, 2)]])), left_over (on_cells o TFar)))
   [Distance; Far; Disjoint] = [(3, 2); (2, -1); (-1, -1)]. Proof. computed. Qed.
 Lemma no_way_begin : on_cells Far (TRing 2 [[]]) = None. Proof. computed. Qed.
 Lemma no_way_end : on_cells Far (TRing 1 [[]]) = None. Proof. computed. Qed.
 Lemma ok_way_ends : on_cells Far (TRing 1 [[(1, 2)]; [(1, 2); (2, 3)]]) = Some
-  [Pair (Leaf 0 [(0, index [])]) (Leaf 2 [(2, index []); (3, index [])]) Far 0 4 1;
-   Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 []) Far 0 4 1]. Proof. computed. Qed.
+  [Pair (Leaf 0 [bare 0 []]) (Leaf 2 [bare 2 []; bare 3 []]) Far 0 4 1;
+   Pair (Leaf 0 [bare 0 []; bare 1 []]) (Leaf 2 []) Far 0 4 1]. Proof. computed. Qed.
 Lemma no_way_end_among : on_cells Far (TRing 1 [[(1, 2)]; [(0, 0)]]) = None. Proof. computed. Qed.
 Lemma no_way_among : on_cells Far (TRing 1 [[(1, 2)]; [(1, 2); (1, 3)]]) = None. Proof. computed. Qed.
 Lemma ok_way_no_end : left_over (on_cells Far (TRing 1 [])) = 2. Proof. computed. Qed.
@@ -635,7 +638,7 @@ Proof. computed. Qed.
 (** A way leads through merged vertices: 1 and 11, 2 and 12 at the seam are one each. *)
 Definition by_seam f w := step false (let s := seam f (path hinge 2) in
     Scene 0 4 (path s) (same s) 2 (cell s) (label s) [] 5 3)
-  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 1 [(3, index [])]) Far 0 4 1] (TRing 0 [w]).
+  [Pair (Leaf 0 [bare 0 []; bare 1 []]) (Leaf 1 [bare 3 []]) Far 0 4 1] (TRing 0 [w]).
 Lemma ok_way_same : left_over (by_seam to_first [(0, 1); (1, 3)]) = 2. Proof. computed. Qed.
 Lemma no_way_same : by_seam (fun v => v) [(0, 1); (1, 3)] = None. Proof. computed. Qed.
 Lemma no_way_same_other : by_seam to_first [(0, 11); (1, 3)] = None. Proof. computed. Qed.
