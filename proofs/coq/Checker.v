@@ -183,7 +183,7 @@ Definition inside (h : halfspace) (a b d : Z) (x : search traj) : bool :=
     a group are linear in time, so that two ends tell.
 
     Not here: bounds from the breakpoints of a part of the time alone; trajectories that begin before
-    [T0] or end after [T1], which have no chord.  What bounds do not settle, the walk below does. *)
+    [T0] or end after [T1], which have no chord.  What bounds do not settle, a plane or the walk below do. *)
 
 (** Positions have about as many bits; [u] has as many; parts beyond this denominator are not
     looked at.  Any numbers do; with these, all numbers are below 2^62 for directions of 10 bits. *)
@@ -447,9 +447,61 @@ Definition apart_by_walk (k : Z) (n : vec) (a b d : Z) (x y : list vertex) : boo
       end
   end.
 
-(** The same, by bounds if they show it. *)
-Definition separated (T0 T1 k : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
-  if apart_by_bounds T0 T1 k n a b d x y then true else apart_by_walk k n a b d x y.
+(** ** S: a plane
+
+    In a part of the time, where vertices stray less, a plane that moves evenly mostly lies
+    between the groups, and shows it at each vertex's own breakpoints.  Any plane may be tried: this
+    one is in the middle at both ends of the interval.
+
+    Not here: groups between which there is no such plane. *)
+
+(** [x] is in [h] during [a/d, b/d] and [y] is [w] behind it, which is more than [e]. *)
+Definition apart_by_plane (e : Z) (h : halfspace) (w a b d : Z) (x y : list vertex) : bool :=
+  if wide e (normal h) w then
+    if forallb (fun v => inside h a b d (trail v)) x then
+      let h' := behind h w in forallb (fun v => inside h' a b d (trail v)) y
+    else false
+  else false.
+
+(** How far a trajectory is in direction [n] at [c/d], rounded down. *)
+Definition floor_at (n : vec) (d c : Z) (x : search traj) : Z :=
+  match since d c x with
+  | (t0, p0) :: (t1, p1) :: _ =>
+      let q := between (t0 * d) (dot n p0) (t1 * d) (dot n p1) c in fst q / snd q
+  | (_, p0) :: [] => dot n p0
+  | [] => 0
+  end.
+
+(** The least of a group. *)
+Definition least_at (n : vec) (d c : Z) (x : list vertex) : Z :=
+  match x with
+  | v :: r => fold_left (fun m v => lesser m (floor_at n d c (trail v))) r (floor_at n d c (trail v))
+  | [] => 0
+  end.
+
+(** The plane, and how far [y] has to be behind it: in direction [n], the root of [k]. *)
+Definition plane_between (k : Z) (n : vec) (a b d : Z) (x y : list vertex) : halfspace * Z :=
+  let w := if k =? 0 then 0 else Z.sqrt k + 1 in
+  let middle c := Z.shiftr (least_at n d c x - least_at (opposite n) d c y + w) 1 in
+  let f := middle a in
+  let g := middle b - f in
+  let l := b - a in
+  (HalfSpace (V3 (l * vx n) (l * vy n) (l * vz n)) (- (g * d)) (f * l - g * a), w * l).
+
+(** ** S: all of it *)
+
+(** A group without vertices. *)
+Definition empty (x : list vertex) : bool := match x with [] => true | _ :: _ => false end.
+
+(** At all times of [a/d, b/d], which are from [T0] to [T1], all of [x] is further in direction [n] than
+    all of [y], by more than [e] times the length of [n]; or all points are more than [e] apart. *)
+Definition separated (T0 T1 e : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
+  let k := e * e * dot n n in
+  if empty x || empty y then true
+  else if apart_by_bounds T0 T1 k n a b d x y then true
+  else
+    let hw := plane_between k n a b d x y in
+    if apart_by_plane e (fst hw) (snd hw) a b d x y then true else apart_by_walk k n a b d x y.
 
 (** ** Groups with their labels and vertices *)
 
@@ -647,15 +699,9 @@ Definition step_pair (x y : tree) (o : mode) (a b d : Z) (k : list obligation) (
   : option (list obligation) :=
   match tok with
   | TDirection n =>
-      let e := least s o in
-      if separated (tbeg s) (tend s) (e * e * dot n n) n a b d (verts x) (verts y) then Some k else None
+      if separated (tbeg s) (tend s) (least s o) n a b d (verts x) (verts y) then Some k else None
   | TPlane h w =>
-      if wide (least s o) (normal h) w then
-        if forallb (fun v => inside h a b d (trail v)) (verts x) then
-          let h' := behind h w in
-          if forallb (fun v => inside h' a b d (trail v)) (verts y) then Some k else None
-        else None
-      else None
+      if apart_by_plane (least s o) h w a b d (verts x) (verts y) then Some k else None
   | THalve =>
       if d <? d_max then
         let m := a + b in

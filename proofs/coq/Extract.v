@@ -27,6 +27,7 @@ Extract Inlined Constant Z.eqb => "Zint.equal".
 Extract Inlined Constant Z.abs => "Zint.abs".
 Extract Inlined Constant Z.div => "Zint.fdiv".
 Extract Inlined Constant Z.log2 => "Zint.log2".
+Extract Inlined Constant Z.sqrt => "Zint.sqrt".
 Extract Inlined Constant Z.shiftl => "Zint.shiftl".
 Extract Inlined Constant Z.shiftr => "Zint.shiftr".
 Extract Inlined Constant place_bits => "Zint.place_bits".

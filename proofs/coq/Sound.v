@@ -889,14 +889,18 @@ Proof.
   apply Rmult_lt_reg_l with (IZR d); auto. lra.
 Qed.
 
-Lemma separated_sound k m n a b d s T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z -> (0 <= s)%Z ->
+(** All ways to see that a direction separates, but for planes. *)
+Lemma further_sound k m n a b d s T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z -> (0 <= s)%Z ->
   (forall u, In u x \/ In u y -> trail u = index (path (vid u)) /\
     covers_time T0 T1 (path (vid u)) /\ line u = chord_of s T0 T1 (path (vid u))) ->
-  separated T0 T1 k n a b d x y = true -> In w x -> In v y ->
+  (empty x || empty y || apart_by_bounds T0 T1 k n a b d x y || apart_by_walk k n a b d x y)%bool = true ->
+  In w x -> In v y ->
   forall t, IZR a <= t * IZR d <= IZR b -> IZR T0 <= t <= IZR T1 ->
   far n (path (vid v)) t + m < far n (path (vid w)) t.
 Proof.
-  intros K D S C. unfold separated. destruct (apart_by_bounds T0 T1 k n a b d x y) eqn:E; intros A Hw Hv t Ht HT.
+  intros K D S C. rewrite !orb_true_iff. intros [[[E|E]|E]|E] Hw Hv t Ht HT.
+  - now destruct x.
+  - now destruct y.
   - apply (bounds_sound k m n a b d s T0 T1 path x y); auto. intros u Hu. destruct (C u Hu) as (? & ? & ?). auto.
   - apply (walk_sound k m n a b d T0 T1 path x y); auto. intros u Hu. destruct (C u Hu) as (? & ? & ?). auto.
 Qed.
@@ -1233,12 +1237,11 @@ Proof.
   now rewrite !mult_IZR, dot_IZR in B.
 Qed.
 
-Lemma plane_sound h w o a b d x y : (0 < d)%Z -> inv x -> inv y -> wide (least s o) (normal h) w = true ->
-  forallb (fun w => inside h a b d (trail w)) (verts x) = true ->
-  forallb (fun v => inside (behind h w) a b d (trail v)) (verts y) = true ->
-  PairApart o a b d x y.
+Lemma plane_sound h w o a b d x y : (0 < d)%Z -> inv x -> inv y -> 
+  apart_by_plane (least s o) h w a b d (verts x) (verts y) = true -> PairApart o a b d x y.
 Proof.
-  intros D Ix Iy W Fx Fy P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
+  unfold apart_by_plane. intros D Ix Iy. destruct (wide _ _ _) eqn:W; [|discriminate].
+  destruct (forallb _ (verts x)) eqn:Fx; [|discriminate]. intros Fy P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
   apply wide_sound in W as [W1 W2].
   pose proof (plane_side h a b d x P S t D Ix HP IS Fx A B p HS) as N1.
   pose proof (plane_side (behind h w) a b d y Q U t D Iy HQ IU Fy A B q HU) as N2.
@@ -1248,11 +1251,17 @@ Proof.
 Qed.
 
 Lemma direction_sound n o a b d x y : (0 < d)%Z -> inv x -> inv y ->
-  separated (tbeg s) (tend s) (least s o * least s o * dot n n) n a b d (verts x) (verts y) = true ->
+  separated (tbeg s) (tend s) (least s o) n a b d (verts x) (verts y) = true ->
   PairApart o a b d x y.
 Proof.
-  intros D Ix Iy F P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
-  set (e := least s o) in *. set (k := (e * e * dot n n)%Z) in *.
+  intros D Ix Iy. unfold separated. set (e := least s o) in *. set (k := (e * e * dot n n)%Z). cbv zeta.
+  set (hw := plane_between _ _ _ _ _ _ _). intros F.
+  destruct (apart_by_plane e (fst hw) (snd hw) a b d (verts x) (verts y)) eqn:E.
+  { now apply (plane_sound (fst hw) (snd hw)). }
+  assert (empty (verts x) || empty (verts y) || apart_by_bounds (tbeg s) (tend s) k n a b d (verts x) (verts y)
+    || apart_by_walk k n a b d (verts x) (verts y) = true)%bool as F'.
+  { destruct (empty _ || empty _)%bool; [reflexivity|]. now destruct (apart_by_bounds _ _ _ _ _ _ _ _ _). }
+  intros P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
   assert (0 <= IZR k)%R as K by (apply IZR_le; unfold k, dot; nia).
   assert (forall m, below_root k m -> dotR n q + m < dotR n p)%R as G.
   2:{ pose proof (G 0%R) as G0. rewrite dist2_sym. apply (dist2_direction n).
@@ -1263,7 +1272,7 @@ Proof.
   apply in_map_iff in H1 as (v1 & <- & H1), H2 as (v2 & <- & H2).
   destruct (feature_vertex y Q U v1 Iy HQ IU H1) as (w1 & I1 & <- & W1).
   destruct (feature_vertex x P S v2 Ix HP IS H2) as (w2 & I2 & <- & W2).
-  apply (separated_sound k m n a b d bits (tbeg s) (tend s) (path s) (verts x) (verts y)); auto.
+  apply (further_sound k m n a b d bits (tbeg s) (tend s) (path s) (verts x) (verts y)); auto.
   pose proof (inv_verts x Ix) as Fx. pose proof (inv_verts y Iy) as Fy.
   rewrite Forall_forall in Fx, Fy. intros u [Hu|Hu]; [apply Fx in Hu|apply Fy in Hu]; apply Hu.
 Qed.
@@ -1364,7 +1373,7 @@ Proof.
     destruct o; [|discriminate|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D Ix Iy P Q HP HQ E. apply Apart_parts; [apply H|apply H0]; auto.
   - (* TPlane *)
-    destruct (wide _ _ _) eqn:W; [|discriminate]. on_forallb (verts x) Fx. cbn zeta. on_forallb (verts y) Fy.
+    destruct (apart_by_plane _ _ _ _ _ _ _ _) eqn:E; [|discriminate].
     intros [= <-] F. constructor; auto. intros D Ix Iy. eapply plane_sound; eauto.
   - (* TDirection *)
     destruct (separated _ _ _ _ _ _ _ _ _) eqn:E; [|discriminate].

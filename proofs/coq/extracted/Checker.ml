@@ -535,14 +535,83 @@ let apart_by_walk k n a b d x y =
              | None -> false)
        else false)
 
+(** val apart_by_plane :
+    Zint.t -> halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> vertex
+    list -> vertex list -> bool **)
+
+let apart_by_plane e h w a b d x y =
+  if wide e h.normal w
+  then if List.for_all (fun v -> inside h a b d v.trail) x
+       then let h' = behind h w in
+            List.for_all (fun v -> inside h' a b d v.trail) y
+       else false
+  else false
+
+(** val floor_at : vec -> Zint.t -> Zint.t -> traj search -> Zint.t **)
+
+let floor_at n d c x =
+  match since d c x with
+  | [] -> Zint.zero
+  | p :: l ->
+    let (t0, p0) = p in
+    (match l with
+     | [] -> dot n p0
+     | p2 :: _ ->
+       let (t1, p1) = p2 in
+       let q = between (Zint.mul t0 d) (dot n p0) (Zint.mul t1 d) (dot n p1) c
+       in
+       Zint.fdiv (fst q) (snd q))
+
+(** val least_at : vec -> Zint.t -> Zint.t -> vertex list -> Zint.t **)
+
+let least_at n d c = function
+| [] -> Zint.zero
+| v :: r ->
+  (fun f l a -> List.fold_left f a l) (fun m v0 ->
+    lesser m (floor_at n d c v0.trail)) r (floor_at n d c v.trail)
+
+(** val plane_between :
+    Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
+    -> halfspace * Zint.t **)
+
+let plane_between k n a b d x y =
+  let w =
+    if Zint.equal k Zint.zero
+    then Zint.zero
+    else Zint.add (Zint.sqrt k) Zint.one
+  in
+  let middle = fun c ->
+    Zint.shiftr
+      (Zint.add (Zint.sub (least_at n d c x) (least_at (opposite n) d c y)) w)
+      Zint.one
+  in
+  let f = middle a in
+  let g = Zint.sub (middle b) f in
+  let l = Zint.sub b a in
+  ({ normal = { vx = (Zint.mul l n.vx); vy = (Zint.mul l n.vy); vz =
+  (Zint.mul l n.vz) }; nt = (Zint.neg (Zint.mul g d)); nd =
+  (Zint.sub (Zint.mul f l) (Zint.mul g a)) }, (Zint.mul w l))
+
+(** val empty : vertex list -> bool **)
+
+let empty = function
+| [] -> true
+| _ :: _ -> false
+
 (** val separated :
     Zint.t -> Zint.t -> Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex
     list -> vertex list -> bool **)
 
-let separated t0 t1 k n a b d x y =
-  if apart_by_bounds t0 t1 k n a b d x y
+let separated t0 t1 e n a b d x y =
+  let k = Zint.mul (Zint.mul e e) (dot n n) in
+  if (||) (empty x) (empty y)
   then true
-  else apart_by_walk k n a b d x y
+  else if apart_by_bounds t0 t1 k n a b d x y
+       then true
+       else let hw = plane_between k n a b d x y in
+            if apart_by_plane e (fst hw) (snd hw) a b d x y
+            then true
+            else apart_by_walk k n a b d x y
 
 type tree =
 | Leaf of Zint.t * vertex list
@@ -817,18 +886,11 @@ let step_pair s x y o a b d k = function
        d)) :: k))
    | _ -> None)
 | TPlane (h, w) ->
-  if wide (least s o) h.normal w
-  then if List.for_all (fun v -> inside h a b d v.trail) (verts x)
-       then let h' = behind h w in
-            if List.for_all (fun v -> inside h' a b d v.trail) (verts y)
-            then Some k
-            else None
-       else None
+  if apart_by_plane (least s o) h w a b d (verts x) (verts y)
+  then Some k
   else None
 | TDirection n ->
-  let e = least s o in
-  if separated s.tbeg s.tend (Zint.mul (Zint.mul e e) (dot n n)) n a b d
-       (verts x) (verts y)
+  if separated s.tbeg s.tend (least s o) n a b d (verts x) (verts y)
   then Some k
   else None
 | TExcluded ->

@@ -150,6 +150,20 @@ val apart_by_walk :
   Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
   -> bool
 
+val apart_by_plane :
+  Zint.t -> halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> vertex list
+  -> vertex list -> bool
+
+val floor_at : vec -> Zint.t -> Zint.t -> traj search -> Zint.t
+
+val least_at : vec -> Zint.t -> Zint.t -> vertex list -> Zint.t
+
+val plane_between :
+  Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
+  -> halfspace * Zint.t
+
+val empty : vertex list -> bool
+
 val separated :
   Zint.t -> Zint.t -> Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex
   list -> vertex list -> bool
