@@ -172,7 +172,148 @@ Definition inside (h : halfspace) (a b d : Z) (x : search traj) : bool :=
   | (t0, p0) :: r => inside_from h a b d t0 (value h t0 p0) r
   end.
 
-(** ** S: a direction *)
+(** ** Quick bounds for S
+
+    Nearly all groups that a direction separates are further apart than their vertices stray
+    from straight lines.  So each vertex comes with a [chord]: the straight line from where it is
+    at the scene's first time, [T0], to where it is at its last, and how far its breakpoints are away
+    from that, in integers that the machine multiplies by itself.  They are in units of 2^s, [s] being
+    one number for the scene, and rounded; [u] is the part of the time from [T0] to [T1] that has
+    gone by, in units of 2^-20.  Over [a/d, b/d], which is the [j]-th of [d] parts of that time, bounds of
+    a group are linear in time, so that two ends tell.
+
+    Not here: bounds from the breakpoints of a part of the time alone; trajectories that begin before
+    [T0] or end after [T1], which have no chord.  What bounds do not settle, a plane or the walk below do. *)
+
+(** Positions have about as many bits; [u] has as many; parts beyond this denominator are not
+    looked at.  Any numbers do; with these, all numbers are below 2^62 for directions of 10 bits. *)
+Definition place_bits : Z := 40.
+Definition time_bits : Z := 20.
+Definition d_quick : Z := 2 ^ 8.
+
+Definition lesser (a b : Z) : Z := if b <? a then b else a.
+Definition greater (a b : Z) : Z := if a <? b then b else a.
+
+(** An operation, axis by axis. *)
+Definition by_axis (f : Z -> Z -> Z) (p q : vec) : vec :=
+  V3 (f (vx p) (vx q)) (f (vy p) (vy q)) (f (vz p) (vz q)).
+
+(** In units of [grain], 2^s: a vertex goes from [origin] as far as [motion]; at each time it is
+    from [lows] to [highs] away from there. *)
+Record chord := Chord { grain : Z; origin : vec; motion : vec; lows : vec; highs : vec }.
+
+(** The number [s] of scenes in which vertices begin at these trajectories' first breakpoints. *)
+Definition scale (path : Z -> traj) (ids : list Z) : Z :=
+  let most m v := match path v with
+    | [] => m
+    | (_, p) :: _ => greater m (greater (Z.abs (vx p)) (greater (Z.abs (vy p)) (Z.abs (vz p))))
+    end in
+  greater 0 (Z.log2 (fold_left most ids 0) - place_bits).
+
+(** A position in units. *)
+Definition coarse (s : Z) (p : vec) : vec := V3 (Z.shiftr (vx p) s) (Z.shiftr (vy p) s) (Z.shiftr (vz p) s).
+
+(** The last breakpoint, if [t], [p] is the one before [r]. *)
+Fixpoint last_from (t : Z) (p : vec) (r : traj) : Z * vec :=
+  match r with [] => (t, p) | (t1, p1) :: r' => last_from t1 p1 r' end.
+
+(** How far a breakpoint is from the chord, less than [slack] too much or too little. *)
+Definition stray (s T0 W : Z) (o w : vec) (t : Z) (p : vec) : vec :=
+  let u := Z.shiftl (t - T0) time_bits / W in
+  by_axis Z.sub (coarse s p) (by_axis (fun o w => o + Z.shiftr (w * u) time_bits) o w).
+Definition slack (w : Z) : Z := Z.shiftr (Z.abs w) time_bits + 1 + 1.
+
+(** The least and the greatest of breakpoints, and of those before. *)
+Fixpoint strays (s T0 W : Z) (o w : vec) (r : traj) (l h : vec) : vec * vec :=
+  match r with
+  | [] => (l, h)
+  | (t, p) :: r' =>
+      let e := stray s T0 W o w t p in
+      strays s T0 W o w r' (by_axis lesser l e) (by_axis greater h e)
+  end.
+
+(** The chord of a trajectory that begins at [T0] and ends at [T1]. *)
+Definition chord_of (s T0 T1 : Z) (tr : traj) : option chord :=
+  match tr with
+  | [] => None
+  | (t0, p0) :: r =>
+      let e := last_from t0 p0 r in
+      if (t0 =? T0) && (fst e =? T1) && (T0 <? T1) then
+        let o := coarse s p0 in
+        let w := by_axis Z.sub (coarse s (snd e)) o in
+        let lh := strays s T0 (T1 - T0) o w r (V3 0 0 0) (V3 0 0 0) in
+        Some (Chord (Z.shiftl 1 s) o w
+          (by_axis (fun l w => l - slack w) (fst lh) w) (by_axis (fun h w => h + slack w) (snd lh) w))
+      else None
+  end.
+
+(** A vertex: its id, the search tree of its trajectory, and its chord if it has one. *)
+Record vertex := Vertex { vid : Z; trail : search traj; line : option chord }.
+
+(** What one axis, and all, contribute to the least of how far in direction [n] a vertex is. *)
+Definition least_on (n l h : Z) : Z := if 0 <=? n then n * l else n * h.
+Definition least_stray (n : vec) (c : chord) : Z :=
+  least_on (vx n) (vx (lows c)) (vx (highs c)) + least_on (vy n) (vy (lows c)) (vy (highs c))
+  + least_on (vz n) (vz (lows c)) (vz (highs c)).
+
+(** A vertex is at least so far in direction [n], in [d]-th parts of units, when the [j]-th part of
+    the time begins and when it ends. *)
+Definition least_ends (n : vec) (d j : Z) (c : chord) : Z * Z :=
+  let m := dot n (motion c) in
+  let g := d * (dot n (origin c) + least_stray n c) + j * m in
+  (g, g + m).
+
+(** The least of the vertices [x] and of what those before have, [g0] and [g1]. *)
+Fixpoint least_from (n : vec) (d j : Z) (x : list vertex) (g0 g1 : Z) : option (Z * Z) :=
+  match x with
+  | [] => Some (g0, g1)
+  | v :: r =>
+      match line v with
+      | Some c =>
+          let h := least_ends n d j c in
+          least_from n d j r (lesser g0 (fst h)) (lesser g1 (snd h))
+      | None => None
+      end
+  end.
+
+(** The same of all of a group. *)
+Definition least_of (n : vec) (d j : Z) (x : list vertex) : option (Z * Z) :=
+  match x with
+  | [] => None
+  | v :: r =>
+      match line v with
+      | Some c => let h := least_ends n d j c in least_from n d j r (fst h) (snd h)
+      | None => None
+      end
+  end.
+
+(** The unit in which a group is. *)
+Definition grain_of (x : list vertex) : option Z :=
+  match x with
+  | v :: _ => match line v with Some c => Some (grain c) | None => None end
+  | [] => None
+  end.
+
+(** Bounds show that at all times of [a/d, b/d], all of [x] is further in direction [n] than all of
+    [y], by more than the root of [k].  The greatest of [y] is the least in the other direction. *)
+Definition apart_by_bounds (T0 T1 k : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
+  if d <=? d_quick then
+    let W := T1 - T0 in
+    let j := (a - T0 * d) / W in
+    if b <=? T0 * d + (j + 1) * W then
+      match least_of n d j x, least_of (opposite n) d j y with
+      | Some g, Some h =>
+          let m := lesser (fst g + fst h) (snd g + snd h) in
+          if 0 <? m then
+            if k =? 0 then true
+            else match grain_of x with Some e => k * (d * d) <? (e * m) * (e * m) | None => false end
+          else false
+      | _, _ => false
+      end
+    else false
+  else false.
+
+(** ** S: a direction, vertex by vertex *)
 
 (** A rational number: numerator, and denominator > 0.  Where vertices have their
     breakpoints at the same times, denominators are equal and numerators compare. *)
@@ -283,19 +424,16 @@ Fixpoint all_less (k : Z) (l1 l2 : list rat) : bool :=
   | _, _ => false
   end.
 
-(** A vertex id with the search tree of its trajectory. *)
-Definition vertex : Type := Z * search traj.
-
 (** At all times of [a/d, b/d], all of [x] is further in direction [n] than all of
     [y], by more than the root of [k].  Positions are linear between the times in [cs]: both ends, and the
     breakpoints between. *)
-Definition separated (k : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
+Definition apart_by_walk (k : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
   match x with
   | [] => true
   | w :: ws =>
-      let add cs v := union (fun c => c) (times d a b (snd v)) cs in
+      let add cs v := union (fun c => c) (times d a b (trail v)) cs in
       let cs := fold_left add y (fold_left add x [a; b]) in
-      let at_times v := values n a b d cs (snd v) in
+      let at_times v := values n a b d cs (trail v) in
       match cs with
       | [] => false
       | c :: _ =>
@@ -308,6 +446,62 @@ Definition separated (k : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
           else false
       end
   end.
+
+(** ** S: a plane
+
+    In a part of the time, where vertices stray less, a plane that moves evenly mostly lies
+    between the groups, and shows it at each vertex's own breakpoints.  Any plane may be tried: this
+    one is in the middle at both ends of the interval.
+
+    Not here: groups between which there is no such plane. *)
+
+(** [x] is in [h] during [a/d, b/d] and [y] is [w] behind it, which is more than [e]. *)
+Definition apart_by_plane (e : Z) (h : halfspace) (w a b d : Z) (x y : list vertex) : bool :=
+  if wide e (normal h) w then
+    if forallb (fun v => inside h a b d (trail v)) x then
+      let h' := behind h w in forallb (fun v => inside h' a b d (trail v)) y
+    else false
+  else false.
+
+(** How far a trajectory is in direction [n] at [c/d], rounded down. *)
+Definition floor_at (n : vec) (d c : Z) (x : search traj) : Z :=
+  match since d c x with
+  | (t0, p0) :: (t1, p1) :: _ =>
+      let q := between (t0 * d) (dot n p0) (t1 * d) (dot n p1) c in fst q / snd q
+  | (_, p0) :: [] => dot n p0
+  | [] => 0
+  end.
+
+(** The least of a group. *)
+Definition least_at (n : vec) (d c : Z) (x : list vertex) : Z :=
+  match x with
+  | v :: r => fold_left (fun m v => lesser m (floor_at n d c (trail v))) r (floor_at n d c (trail v))
+  | [] => 0
+  end.
+
+(** The plane, and how far [y] has to be behind it: in direction [n], the root of [k]. *)
+Definition plane_between (k : Z) (n : vec) (a b d : Z) (x y : list vertex) : halfspace * Z :=
+  let w := if k =? 0 then 0 else Z.sqrt k + 1 in
+  let middle c := Z.shiftr (least_at n d c x - least_at (opposite n) d c y + w) 1 in
+  let f := middle a in
+  let g := middle b - f in
+  let l := b - a in
+  (HalfSpace (V3 (l * vx n) (l * vy n) (l * vz n)) (- (g * d)) (f * l - g * a), w * l).
+
+(** ** S: all of it *)
+
+(** A group without vertices. *)
+Definition empty (x : list vertex) : bool := match x with [] => true | _ :: _ => false end.
+
+(** At all times of [a/d, b/d], which are from [T0] to [T1], all of [x] is further in direction [n] than
+    all of [y], by more than [e] times the length of [n]; or all points are more than [e] apart. *)
+Definition separated (T0 T1 e : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
+  let k := e * e * dot n n in
+  if empty x || empty y then true
+  else if apart_by_bounds T0 T1 k n a b d x y then true
+  else
+    let hw := plane_between k n a b d x y in
+    if apart_by_plane e (fst hw) (snd hw) a b d x y then true else apart_by_walk k n a b d x y.
 
 (** ** Groups with their labels and vertices *)
 
@@ -348,18 +542,20 @@ Fixpoint group_ids (f : Z -> Z) (s : scene) (g : group) : list Z :=
 Definition wf_vertex (s : scene) (v : Z) : bool :=
   wf_traj (tbeg s) (tend s) (path s v) && ((same s v =? v) || equal_traj (path s (same s v)) (path s v)).
 
-(** The vertices with these ids, by their ids: each trajectory's search tree is built
-    once, however many cells the vertex is in.  [acc] has the earlier ones, last first. *)
-Fixpoint vertices (s : scene) (ids : list Z) (acc : list (Z * search vertex)) : list (Z * search vertex) :=
+(** The vertices with these ids, by their ids: each trajectory's search tree and chord are
+    made once, in units of 2^e, however many cells the vertex is in.  [acc] has the earlier ones, last first. *)
+Fixpoint vertices (e : Z) (s : scene) (ids : list Z) (acc : list (Z * search vertex)) : list (Z * search vertex) :=
   match ids with
   | [] => rev_append acc []
-  | v :: r => vertices s r ((v, Found (v, index (path s v))) :: acc)
+  | v :: r =>
+      let w := Vertex v (index (path s v)) (chord_of e (tbeg s) (tend s) (path s v)) in
+      vertices e s r ((v, Found w) :: acc)
   end.
 
 (** The vertex [v] in a search tree by ids. *)
 Definition look_up (table : search vertex) (v : Z) : option vertex :=
   let w := find (fun k => k <=? v) table in
-  if fst w =? v then Some w else None.
+  if vid w =? v then Some w else None.
 
 (** The vertices with these ids. *)
 Fixpoint look_up_all (table : search vertex) (ids : list Z) : option (list vertex) :=
@@ -382,7 +578,7 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
       end
   | Join l r =>
       match build_from table s l, build_from table s r with
-      | Some x, Some y => Some (Node (common_label x y) (union fst (verts x) (verts y)) x y)
+      | Some x, Some y => Some (Node (common_label x y) (union vid (verts x) (verts y)) x y)
       | _, _ => None
       end
   end.
@@ -392,7 +588,7 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
 Definition build (s : scene) (g : group) : option tree :=
   if forallb (wf_vertex s) (group_ids (fun v => v) s g) then
     let ids := group_ids (same s) s g in
-    match join_all ids (vertices s ids []) with
+    match join_all ids (vertices (scale (path s) ids) s ids []) with
     | Some table => build_from table s g
     | None => None
     end
@@ -435,16 +631,16 @@ Definition excluded_labels (s : scene) (o p : option Z) : bool :=
 (** ** D: common vertices *)
 
 (** The vertex [v] is in a list. *)
-Definition has (v : Z) (l : list vertex) : bool := existsb (fun w => fst w =? v) l.
+Definition has (v : Z) (l : list vertex) : bool := existsb (fun w => vid w =? v) l.
 
 (** A list without the vertex [v]. *)
-Definition without (v : Z) (l : list vertex) : list vertex := filter (fun w => negb (fst w =? v)) l.
+Definition without (v : Z) (l : list vertex) : list vertex := filter (fun w => negb (vid w =? v)) l.
 
 (** The id of the [k]-th vertex, the first being number 0. *)
 Fixpoint nth_id (k : Z) (l : list vertex) : option Z :=
   match l with
   | [] => None
-  | w :: r => if k =? 0 then Some (fst w) else nth_id (k - 1) r
+  | w :: r => if k =? 0 then Some (vid w) else nth_id (k - 1) r
   end.
 
 (** ** W: ways from vertex to vertex *)
@@ -473,7 +669,7 @@ Fixpoint way_ends (s : scene) (n v : Z) (ws : list way) : option (list Z) :=
 
 (** A list without several vertices. *)
 Definition without_all (us : list Z) (l : list vertex) : list vertex :=
-  filter (fun w => negb (existsb (fun u => u =? fst w) us)) l.
+  filter (fun w => negb (existsb (fun u => u =? vid w) us)) l.
 
 (** ** The stack *)
 
@@ -503,15 +699,9 @@ Definition step_pair (x y : tree) (o : mode) (a b d : Z) (k : list obligation) (
   : option (list obligation) :=
   match tok with
   | TDirection n =>
-      let e := least s o in
-      if separated (e * e * dot n n) n a b d (verts x) (verts y) then Some k else None
+      if separated (tbeg s) (tend s) (least s o) n a b d (verts x) (verts y) then Some k else None
   | TPlane h w =>
-      if wide (least s o) (normal h) w then
-        if forallb (fun v => inside h a b d (snd v)) (verts x) then
-          let h' := behind h w in
-          if forallb (fun v => inside h' a b d (snd v)) (verts y) then Some k else None
-        else None
-      else None
+      if apart_by_plane (least s o) h w a b d (verts x) (verts y) then Some k else None
   | THalve =>
       if d <? d_max then
         let m := a + b in
@@ -531,7 +721,7 @@ Definition step_pair (x y : tree) (o : mode) (a b d : Z) (k : list obligation) (
   | TDrop i =>
       match x, y with
       | Leaf l p, Leaf m q =>
-          match nth_id i (filter (fun w => has (fst w) q) p) with
+          match nth_id i (filter (fun w => has (vid w) q) p) with
           | Some v => Some (Pair (Leaf l (without v p)) y o a b d :: Pair x (Leaf m (without v q)) o a b d :: k)
           | None => None
           end

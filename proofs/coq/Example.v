@@ -33,6 +33,9 @@ Definition spaced t0 t1 p n c l e eta := Scene t0 t1 p (fun v => v) n c l e eta 
 (** The same in which things are not to touch. *)
 Definition touching t0 t1 p n c l e := spaced t0 t1 p n c l e 0.
 
+(** A vertex without a chord. *)
+Definition bare v tr := Vertex v (index tr) None.
+
 (** ** A triangle at rest, and a point that falls towards it *)
 
 Definition at_rest p : traj := [(0, p); (4, p)].
@@ -160,6 +163,93 @@ Definition sunk v : scene :=
 Lemma no_sunk : forallb (fun v => negb (lax (sunk v) point_first (close (TDirection up)))) [6; 7; 8] = true.
 Proof. computed. Qed.
 
+(** ** S: by bounds, by a plane, by walking *)
+
+(** Whether each of the three shows that the first of two cells is further in direction [n], over [a/d, b/d]. *)
+Definition ways_over (a b d : Z) (s : scene) (g : group) (n : vec) : list bool :=
+  match start s g with
+  | Some [Self (Node _ _ x y) o _ _ _] =>
+      let e := least s o in
+      let k := e * e * dot n n in
+      let hw := plane_between k n a b d (verts x) (verts y) in
+      [apart_by_bounds (tbeg s) (tend s) k n a b d (verts x) (verts y);
+       apart_by_plane e (fst hw) (snd hw) a b d (verts x) (verts y); apart_by_walk k n a b d (verts x) (verts y)]
+  | _ => []
+  end.
+Definition ways_of s := ways_over (tbeg s) (tend s) 1 s.
+
+(** Two points go up by 8, one [z] above the other, to be [e] apart, in units of [m], and begin at the height [m c]. *)
+Definition near_at m c z e := spaced 0 4
+  (fun v => map (fun b => (fst b, V3 0 0 (m * (c + snd b)))) (if v =? 0 then [(0, 0); (1, 5); (4, 8)]
+                                                              else [(0, z); (1, z + 2); (2, z + 1); (4, z + 8)]))
+  2 (fun i => [i]) (fun i => i) [] (m * e).
+Definition near := near_at 1 0.
+(** The lower is up to 3 above its straight line, the upper up to 3 below, and 4 is for what is rounded. *)
+Lemma ok_bounds : ways_of (near 11 0) point_first up = [true; true; true]. Proof. computed. Qed.
+Lemma no_bounds : ways_of (near 10 0) point_first up = [false; true; true]. Proof. computed. Qed.
+Lemma ok_bounds_down : ways_of (near 11 0) tri_first down = [true; true; true]. Proof. computed. Qed.
+Lemma no_bounds_down : ways_of (near 10 0) tri_first down = [false; true; true]. Proof. computed. Qed.
+Lemma ok_between_plane : ways_of (near 8 0) point_first up = [false; true; true]. Proof. computed. Qed.
+Lemma no_between_plane : ways_of (near 7 0) point_first up = [false; false; true]. Proof. computed. Qed.
+Lemma ok_walk : ways_of (near 6 0) point_first up = [false; false; true]. Proof. computed. Qed.
+Lemma no_walk : ways_of (near 5 0) point_first up = [false; false; false]. Proof. computed. Qed.
+Lemma ok_each_way : forallb (fun z => lax (near z 0) point_first (close (TDirection up))) [6; 8; 11] = true.
+Proof. computed. Qed.
+Lemma no_way : lax (near 5 0) point_first (close (TDirection up)) = false. Proof. computed. Qed.
+Theorem safe_by_bounds : never_touch false (near 11 0).
+Proof. apply (check_sound false _ point_first (close (TDirection up))). computed. Qed.
+
+(** At a distance of 2: more than that has to be left. *)
+Lemma ok_bounds_wide : ways_of (near 13 2) point_first up = [true; true; true]. Proof. computed. Qed.
+Lemma no_bounds_wide : ways_of (near 12 2) point_first up = [false; true; true]. Proof. computed. Qed.
+Lemma ok_bounds_wide_long : ways_of (near 13 2) point_first (V3 0 0 3) = [true; true; true]. Proof. computed. Qed.
+Lemma no_bounds_wide_long : ways_of (near 12 2) point_first (V3 0 0 3) = [false; true; true]. Proof. computed. Qed.
+Lemma no_between_plane_wide : ways_of (near 10 2) point_first up = [false; false; true]. Proof. computed. Qed.
+Lemma no_walk_wide : ways_of (near 7 2) point_first up = [false; false; false]. Proof. computed. Qed.
+
+(** Large numbers: units are 2^8 where the largest has 49 bits, on either side of 0. *)
+Definition large c z e := near_at 256 c z e.
+Definition chord_at s v := chord_of (scale (path s) [0; 1]) (tbeg s) (tend s) (path s v).
+Lemma ok_unit : option_map grain (chord_at (large (- 2 ^ 40) 11 0) 0) = Some 256. Proof. computed. Qed.
+Lemma ok_bounds_large : map (fun c => ways_of (large c 11 0) point_first up) [2 ^ 40; - 2 ^ 40]
+  = [[true; true; true]; [true; true; true]]. Proof. computed. Qed.
+Lemma no_bounds_large : map (fun c => ways_of (large c 10 0) point_first up) [2 ^ 40; - 2 ^ 40]
+  = [[false; true; true]; [false; true; true]]. Proof. computed. Qed.
+Lemma ok_bounds_large_wide : ways_of (large (2 ^ 40) 13 2) point_first up = [true; true; true]. Proof. computed. Qed.
+Lemma no_bounds_large_wide : ways_of (large (2 ^ 40) 12 2) point_first up = [false; true; true]. Proof. computed. Qed.
+
+(** Parts of the time: one point comes from far in the first half and passes the other in the second. *)
+Definition passing := two_points [(0, V3 0 0 0); (4, V3 0 0 0)] [(0, V3 0 0 400); (4, V3 0 0 (-100))].
+Definition part k d := hd false (ways_over (4 * k) (4 * (k + 1)) d passing point_first up).
+Lemma ok_part : map (fun k => part k 4) [0; 1; 2; 3] = [true; true; true; false]. Proof. computed. Qed.
+Lemma no_all : part 0 1 = false. Proof. computed. Qed.
+Lemma ok_part_small : part 201 256 = true. Proof. computed. Qed.
+Lemma no_part_small : part 202 256 = false. Proof. computed. Qed.
+Lemma no_part_too_small : part 0 512 = false. Proof. computed. Qed.
+Lemma no_part_across : hd false (ways_over 2 6 4 passing point_first up) = false. Proof. computed. Qed.
+
+(** A chord is from the first time to the last. *)
+Definition has_chord T0 T1 := if chord_of 0 T0 T1 zigzag then true else false.
+Lemma ok_chord : has_chord 0 3 = true. Proof. computed. Qed.
+Lemma no_chord : map (fun t => has_chord (fst t) (snd t)) [(1, 3); (0, 2); (-1, 3); (0, 4)] = [false; false; false; false].
+Proof. computed. Qed.
+Definition early := Scene 1 4 (path (near 11 0)) (fun v => v) 2 (fun i => [i]) (fun i => i) [] 0 1.
+Lemma ok_early : ways_of early point_first up = [false; true; true]. Proof. computed. Qed.
+
+(** What strays: axis by axis, down and up, and a unit or two for what is rounded. *)
+Lemma ok_strays : chord_of 0 0 4 [(0, V3 1 2 3); (1, V3 9 2 0); (2, V3 5 2 3); (4, V3 5 2 11)]
+  = Some (Chord 1 (V3 1 2 3) (V3 4 0 8) (V3 (-2) (-2) (-7)) (V3 9 2 2)). Proof. computed. Qed.
+
+(** Groups of several vertices, in which another than the first is the least: as [raised] and [sunk], by bounds. *)
+Definition groups v w : scene :=
+  touching 0 4 (fun u => at_rest (V3 u 0 (10 * (if u =? v then 6 else if u =? w then 2 else u)))) 2
+        (fun i => if i =? 0 then [0; 1; 2] else [6; 7; 8]) (fun i => i) [].
+Lemma ok_groups : hd false (ways_of (groups (-1) (-1)) point_first up) = true. Proof. computed. Qed.
+Lemma no_groups : forallb (fun v => negb (hd true (ways_of (groups v (-1)) point_first up))) [0; 1; 2] = true.
+Proof. computed. Qed.
+Lemma no_groups_second : forallb (fun w => negb (hd true (ways_of (groups (-1) w) point_first up))) [6; 7; 8] = true.
+Proof. computed. Qed.
+
 (** ** T: halves *)
 
 (** One point passes the other at a corner: a direction serves half of the time. *)
@@ -277,7 +367,7 @@ Lemma no_one_node : lax row row_right [TOne] = false. Proof. computed. Qed.
 Lemma no_drop_node : lax row row_right [TParts; TOne; TDrop 0] = false. Proof. computed. Qed.
 
 (** A token of the other kind of obligation. *)
-Definition root := Leaf 0 [(0, index (at_rest (V3 0 0 0)))].
+Definition root := Leaf 0 [bare 0 (at_rest (V3 0 0 0))].
 Definition on_pair := step false row [Pair (Node None [] root root) (Node None [] root root) Distance 0 4 1].
 Definition on_self := step false row [Self (Node None [] root root) Distance 0 4 1].
 Definition refused (o : option (list obligation)) := match o with None => true | Some _ => false end.
@@ -337,9 +427,9 @@ Lemma no_cell_negative : start row (Join (Cell (-1)) row_left) = None. Proof. co
 Lemma no_cell_negative_instead : start row (Join (Cell (-1)) (two 1 2)) = None. Proof. computed. Qed.
 
 (** A vertex that is not in the table of vertices is not found. *)
-Definition table ids := join_all ids (vertices row ids []).
+Definition table ids := join_all ids (vertices 0 row ids []).
 Lemma ok_look_up : match table [1; 4; 5; 8; 9] with
-  | Some x => map (fun v => match look_up x v with Some (w, _) => w | None => -1 end) [0; 1; 2; 4; 5; 7; 8; 9; 10]
+  | Some x => map (fun v => match look_up x v with Some w => vid w | None => -1 end) [0; 1; 2; 4; 5; 7; 8; 9; 10]
   | None => []
   end = [-1; 1; -1; 4; 5; -1; 8; 9; -1].
 Proof. computed. Qed.
@@ -617,15 +707,15 @@ Lemma no_way_cell_other : by_way 2 1 [(2, 2)] = false. Proof. computed. Qed.
 Lemma no_way_cell_beyond : way_end (links 5 9) 5 1 [(1, 2); (2, 3); (3, 4)] = None. Proof. computed. Qed.
 Lemma no_way_cell_negative : way_end (links 5 9) 5 1 [(0, 0); (-1, -1)] = None. Proof. computed. Qed.
 Definition on_cells o tok := step false (links 5 9)
-  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 [(2, index []); (3, index [])]) o 0 4 1] tok.
+  [Pair (Leaf 0 [bare 0 []; bare 1 []]) (Leaf 2 [bare 2 []; bare 3 []]) o 0 4 1] tok.
 Definition left_over (o : option (list obligation)) := match o with None => -1 | Some l => Z.of_nat (length l) end.
 Lemma ok_modes : map (fun o => (left_over (on_cells o (TRing 1 [[(1, 2)]])), left_over (on_cells o TFar)))
   [Distance; Far; Disjoint] = [(3, 2); (2, -1); (-1, -1)]. Proof. computed. Qed.
 Lemma no_way_begin : on_cells Far (TRing 2 [[]]) = None. Proof. computed. Qed.
 Lemma no_way_end : on_cells Far (TRing 1 [[]]) = None. Proof. computed. Qed.
 Lemma ok_way_ends : on_cells Far (TRing 1 [[(1, 2)]; [(1, 2); (2, 3)]]) = Some
-  [Pair (Leaf 0 [(0, index [])]) (Leaf 2 [(2, index []); (3, index [])]) Far 0 4 1;
-   Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 2 []) Far 0 4 1]. Proof. computed. Qed.
+  [Pair (Leaf 0 [bare 0 []]) (Leaf 2 [bare 2 []; bare 3 []]) Far 0 4 1;
+   Pair (Leaf 0 [bare 0 []; bare 1 []]) (Leaf 2 []) Far 0 4 1]. Proof. computed. Qed.
 Lemma no_way_end_among : on_cells Far (TRing 1 [[(1, 2)]; [(0, 0)]]) = None. Proof. computed. Qed.
 Lemma no_way_among : on_cells Far (TRing 1 [[(1, 2)]; [(1, 2); (1, 3)]]) = None. Proof. computed. Qed.
 Lemma ok_way_no_end : left_over (on_cells Far (TRing 1 [])) = 2. Proof. computed. Qed.
@@ -635,7 +725,7 @@ Proof. computed. Qed.
 (** A way leads through merged vertices: 1 and 11, 2 and 12 at the seam are one each. *)
 Definition by_seam f w := step false (let s := seam f (path hinge 2) in
     Scene 0 4 (path s) (same s) 2 (cell s) (label s) [] 5 3)
-  [Pair (Leaf 0 [(0, index []); (1, index [])]) (Leaf 1 [(3, index [])]) Far 0 4 1] (TRing 0 [w]).
+  [Pair (Leaf 0 [bare 0 []; bare 1 []]) (Leaf 1 [bare 3 []]) Far 0 4 1] (TRing 0 [w]).
 Lemma ok_way_same : left_over (by_seam to_first [(0, 1); (1, 3)]) = 2. Proof. computed. Qed.
 Lemma no_way_same : by_seam (fun v => v) [(0, 1); (1, 3)] = None. Proof. computed. Qed.
 Lemma no_way_same_other : by_seam to_first [(0, 11); (1, 3)] = None. Proof. computed. Qed.

@@ -13,7 +13,8 @@ Require Import ZArith List Bool.
 Require Import ExtrOcamlBasic.
 From Noli Require Import Spec Checker Poly Hit.
 
-(** Only 0, 1 and -1 occur as constants; numbers are never taken apart. *)
+(** Only 0, 1 and -1 occur as constants; numbers are never taken apart.  Divisors are positive;
+    shifts are by numbers that are not negative. *)
 Extract Inductive positive => "Zint.t" [ "Zint.no_xI" "Zint.no_xO" "Zint.one" ] "Zint.no_match".
 Extract Inductive Z => "Zint.t" [ "Zint.zero" "" "Zint.neg" ] "Zint.no_match".
 Extract Inlined Constant Z.add => "Zint.add".
@@ -23,6 +24,15 @@ Extract Inlined Constant Z.opp => "Zint.neg".
 Extract Inlined Constant Z.ltb => "Zint.lt".
 Extract Inlined Constant Z.leb => "Zint.leq".
 Extract Inlined Constant Z.eqb => "Zint.equal".
+Extract Inlined Constant Z.abs => "Zint.abs".
+Extract Inlined Constant Z.div => "Zint.fdiv".
+Extract Inlined Constant Z.log2 => "Zint.log2".
+Extract Inlined Constant Z.sqrt => "Zint.sqrt".
+Extract Inlined Constant Z.shiftl => "Zint.shiftl".
+Extract Inlined Constant Z.shiftr => "Zint.shiftr".
+Extract Inlined Constant place_bits => "Zint.place_bits".
+Extract Inlined Constant time_bits => "Zint.time_bits".
+Extract Inlined Constant d_quick => "Zint.d_quick".
 Extract Inlined Constant d_max => "Zint.d_max".
 Extract Inlined Constant repeatedly => "Zint.repeatedly".
 

@@ -597,30 +597,30 @@ Proof.
     + intros v [<-|V]; auto. exists l2; split; auto. eapply rat_le_trans; eauto.
 Qed.
 
-(** What [separated] computes: the lowest of [x] at each time, and that [y] is below. *)
-Lemma separated_sound k m n a b d T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z ->
-  (forall u, In u x \/ In u y -> snd u = index (path (fst u)) /\ covers_time T0 T1 (path (fst u))) ->
-  separated k n a b d x y = true -> In w x -> In v y ->
-  forall t, IZR a <= t * IZR d <= IZR b -> far n (path (fst v)) t + m < far n (path (fst w)) t.
+(** What [apart_by_walk] computes: the lowest of [x] at each time, and that [y] is below. *)
+Lemma walk_sound k m n a b d T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z ->
+  (forall u, In u x \/ In u y -> trail u = index (path (vid u)) /\ covers_time T0 T1 (path (vid u))) ->
+  apart_by_walk k n a b d x y = true -> In w x -> In v y ->
+  forall t, IZR a <= t * IZR d <= IZR b -> far n (path (vid v)) t + m < far n (path (vid w)) t.
 Proof.
-  intros K0 D C. unfold separated. destruct x as [|w0 ws]; [easy|].
+  intros K0 D C. unfold apart_by_walk. destruct x as [|w0 ws]; [easy|].
   set (cs := fold_left _ y _). generalize cs as cs'; clear cs; intros cs.
   destruct cs as [|c cs]; [discriminate|].
   destruct (c =? a)%Z eqn:E; [|discriminate]. apply Z.eqb_eq in E as ->.
   destruct (fold_left _ ws _) as [low|] eqn:F; [|discriminate].
   intros A Hw Hv t Ht.
-  assert (forall u us, In u (w0 :: ws) \/ In u y -> values n a b d (a :: cs) (snd u) = Some us ->
+  assert (forall u us, In u (w0 :: ws) \/ In u y -> values n a b d (a :: cs) (trail u) = Some us ->
           (length us = S (length cs) /\ Forall proper us) /\
-          knots (far n (path (fst u))) d a (a :: cs) us /\ IZR b <= IZR (final a (a :: cs))) as V.
+          knots (far n (path (vid u))) d a (a :: cs) us /\ IZR b <= IZR (final a (a :: cs))) as V.
   { intros u us I U. destruct (C u I) as [E W]. rewrite E in U.
     eapply values_sound in U; eauto. destruct U as [K B]. repeat split; auto.
     - now apply knots_length in K.
     - now apply knots_proper in K. }
   apply lower_fold with (n := S (length cs)) in F as (N & P & (u0 & E0 & L0) & L).
-  - assert (exists us, values n a b d (a :: cs) (snd w) = Some us /\ Forall2 rat_le low us) as (us & Ew & Lw).
+  - assert (exists us, values n a b d (a :: cs) (trail w) = Some us /\ Forall2 rat_le low us) as (us & Ew & Lw).
     { destruct Hw as [<-|Hw]; eauto. }
     pose proof (proj1 (forallb_forall _ _) A v Hv) as Av. cbn beta in Av.
-    destruct (values n a b d (a :: cs) (snd v)) as [vs|] eqn:Ev; [|discriminate].
+    destruct (values n a b d (a :: cs) (trail v)) as [vs|] eqn:Ev; [|discriminate].
     apply V in Ew as (_ & Kw & B); auto. apply V in Ev as ((_ & Pv) & Kv & _); auto.
     eapply all_less_sound in Av; eauto.
     eapply (knots_less _ _ _ d D _ a vs us); eauto; [|lra].
@@ -628,6 +628,281 @@ Proof.
     destruct Kw as (_ & _ & _ & <- & _), Kv as (_ & _ & _ & <- & _). auto.
   - intros u us Hu Eu. apply V in Eu; cbn; tauto.
   - intros us Eu. apply V in Eu; cbn; tauto.
+Qed.
+
+(** *** Quick bounds *)
+
+Lemma div_bounds x w : (0 < w)%Z -> IZR (x / w) * IZR w <= IZR x < (IZR (x / w) + 1) * IZR w.
+Proof.
+  intros W. pose proof (Z.div_mod x w) as E. pose proof (Z.mod_pos_bound x w W) as B.
+  rewrite <- plus_IZR, <- !mult_IZR. split; [apply IZR_le|apply IZR_lt]; lia.
+Qed.
+
+(** 2^s as a real number. *)
+Definition pow (s : Z) : R := IZR (2 ^ s).
+
+Lemma pow_positive s : (0 <= s)%Z -> 0 < pow s.
+Proof. intros S. apply IZR_lt. lia. Qed.
+
+Lemma shiftr_bounds x s : (0 <= s)%Z -> IZR (Z.shiftr x s) * pow s <= IZR x < (IZR (Z.shiftr x s) + 1) * pow s.
+Proof. intros S. rewrite Z.shiftr_div_pow2 by auto. apply div_bounds. lia. Qed.
+
+(** On one axis: a breakpoint at [x], a part [h] of the time after [T0], is as far from the line as [stray]
+    says, up to [slack]. *)
+Lemma stray_axis s T W o w x : (0 <= s)%Z -> (0 < W)%Z ->
+  let u := (Z.shiftl T time_bits / W)%Z in
+  let m := IZR (Z.shiftr x s - (o + Z.shiftr (w * u) time_bits)) in
+  let l := IZR o + IZR w * (IZR T / IZR W) in
+  pow s * (l + m - IZR (slack w)) <= IZR x <= pow s * (l + m + IZR (slack w)).
+Proof.
+  intros S P u m l. set (h := IZR T / IZR W) in *.
+  assert (0 <= time_bits)%Z as B by easy. pose proof (pow_positive _ B) as K0. pose proof (pow_positive s S) as S0.
+  set (K := pow time_bits) in *.
+  assert (IZR u <= K * h < IZR u + 1) as [U1 U2].
+  { apply IZR_lt in P as P'. pose proof (div_bounds (Z.shiftl T time_bits) W P) as [D1 D2]. fold u in D1, D2.
+    rewrite Z.shiftl_mul_pow2, mult_IZR in D1, D2 by auto. fold (pow time_bits) in D1, D2. fold K in D1, D2.
+    assert (h * IZR W = IZR T) as E by (unfold h; field; lra).
+    split; [apply Rmult_le_reg_r with (IZR W)|apply Rmult_lt_reg_r with (IZR W)]; nra. }
+  pose proof (shiftr_bounds (w * u) time_bits B) as [M1 M2]. fold K in M1, M2. rewrite mult_IZR in M1, M2.
+  pose proof (shiftr_bounds (Z.abs w) time_bits B) as [A1 A2]. fold K in A1, A2.
+  pose proof (shiftr_bounds x s S) as [X1 X2].
+  unfold m, l, slack. repeat (rewrite minus_IZR || rewrite plus_IZR).
+  set (q := IZR (Z.shiftr x s)) in *. set (v := IZR (Z.shiftr (w * u) time_bits)) in *.
+  set (a := IZR (Z.shiftr (Z.abs w) time_bits)) in *.
+  assert (- IZR (Z.abs w) <= IZR w <= IZR (Z.abs w)) as [W1 W2]
+    by (rewrite <- opp_IZR; split; apply IZR_le; lia).
+  assert (v - a - 1 <= IZR w * h <= v + a + 1 + 1) as [V1 V2].
+  { split; apply Rmult_le_reg_l with K; auto; nra. }
+  split.
+  - apply Rle_trans with (q * pow s); [|lra]. rewrite (Rmult_comm q). apply Rmult_le_compat_l; lra.
+  - apply Rle_trans with ((q + 1) * pow s); [lra|]. rewrite (Rmult_comm (q + 1)). apply Rmult_le_compat_l; lra.
+Qed.
+
+(** What is true of breakpoints is true between them. *)
+Lemma above_line n u v r : forall t0 p0, increasing t0 r ->
+  u + v * IZR t0 <= dotR n (inj p0) -> (forall t p, In (t, p) r -> u + v * IZR t <= dotR n (inj p)) ->
+  forall t, IZR t0 <= t <= IZR (last_time t0 r) -> u + v * t <= dotR n (pos_from t0 p0 r t).
+Proof.
+  induction r as [|(t1, p1) r IH]; cbn [increasing last_time pos_from]; intros t0 p0 W H0 H t T.
+  - replace t with (IZR t0) by lra. exact H0.
+  - assert (u + v * IZR t1 <= dotR n (inj p1)) as H1 by (apply H; now left).
+    destruct W as [L W]. apply IZR_lt in L. destruct (Rle_dec t (IZR t1)) as [T1|T1].
+    + apply Rmult_le_reg_l with (IZR t1 - IZR t0); [lra|].
+      replace (_ * dotR _ _) with (dotR n (inj p0) * (IZR t1 - t) + dotR n (inj p1) * (t - IZR t0))
+        by (unfold dotR, mix; cbn; field; lra).
+      assert ((u + v * IZR t0) * (IZR t1 - t) <= dotR n (inj p0) * (IZR t1 - t)) by (apply Rmult_le_compat_r; lra).
+      assert ((u + v * IZR t1) * (t - IZR t0) <= dotR n (inj p1) * (t - IZR t0)) by (apply Rmult_le_compat_r; lra).
+      lra.
+    + apply IH; auto; [|lra]. intros; apply H; now right.
+Qed.
+
+Definition vec_le (p q : vec) : Prop := (vx p <= vx q /\ vy p <= vy q /\ vz p <= vz q)%Z.
+
+Lemma vec_le_trans p q r : vec_le p q -> vec_le q r -> vec_le p r.
+Proof. unfold vec_le; lia. Qed.
+
+Lemma lesser_sound a b : (lesser a b <= a /\ lesser a b <= b)%Z.
+Proof. unfold lesser. destruct (Z.ltb_spec b a); lia. Qed.
+
+Lemma greater_left a b : (a <= greater a b)%Z.
+Proof. unfold greater. destruct (Z.ltb_spec a b); lia. Qed.
+
+Lemma by_axis_lesser p q : vec_le (by_axis lesser p q) p /\ vec_le (by_axis lesser p q) q.
+Proof.
+  unfold vec_le; cbn. pose proof (lesser_sound (vx p) (vx q)). pose proof (lesser_sound (vy p) (vy q)).
+  pose proof (lesser_sound (vz p) (vz q)). tauto.
+Qed.
+
+Lemma by_axis_greater p q : vec_le p (by_axis greater p q) /\ vec_le q (by_axis greater p q).
+Proof.
+  unfold vec_le, greater; cbn. destruct (Z.ltb_spec (vx p) (vx q)), (Z.ltb_spec (vy p) (vy q)),
+    (Z.ltb_spec (vz p) (vz q)); lia.
+Qed.
+
+Lemma strays_sound s T0 W o w r : forall l h, let e := strays s T0 W o w r l h in
+  vec_le (fst e) l /\ vec_le h (snd e) /\
+  forall t p, In (t, p) r -> vec_le (fst e) (stray s T0 W o w t p) /\ vec_le (stray s T0 W o w t p) (snd e).
+Proof.
+  induction r as [|(t1, p1) r IH]; intros l h e; cbn [strays] in e.
+  - unfold e, vec_le; cbn. split; [lia|]. split; [lia|easy].
+  - destruct (IH (by_axis lesser l (stray s T0 W o w t1 p1)) (by_axis greater h (stray s T0 W o w t1 p1)))
+      as (L & H & A). fold e in L, H, A.
+    destruct (by_axis_lesser l (stray s T0 W o w t1 p1)), (by_axis_greater h (stray s T0 W o w t1 p1)).
+    split; [eauto using vec_le_trans|]. split; [eauto using vec_le_trans|].
+    intros t p [[= <- <-]|I]; [eauto using vec_le_trans|now apply A].
+Qed.
+
+Lemma last_from_time r : forall t p, fst (last_from t p r) = last_time t r.
+Proof. induction r as [|(t1, p1) r IH]; cbn; auto. Qed.
+
+(** What one axis contributes is the least of it. *)
+Lemma least_on_sound n l h (G x c : R) : 0 < G -> G * (c + IZR l) <= x <= G * (c + IZR h) ->
+  G * (IZR n * c + IZR (least_on n l h)) <= IZR n * x.
+Proof.
+  intros P [L H]. unfold least_on. destruct (0 <=? n)%Z eqn:E; to_R.
+  - assert (IZR n * (G * (c + IZR l)) <= IZR n * x) by (apply Rmult_le_compat_l; auto). lra.
+  - assert (- IZR n * x <= - IZR n * (G * (c + IZR h))) by (apply Rmult_le_compat_l; lra). lra.
+Qed.
+
+(** A vertex is as its chord says. *)
+Lemma chord_sound s T0 T1 tr c : (0 <= s)%Z -> covers_time T0 T1 tr -> chord_of s T0 T1 tr = Some c ->
+  grain c = (2 ^ s)%Z /\ (T0 < T1)%Z /\ forall n t, IZR T0 <= t <= IZR T1 ->
+  pow s * (IZR (dot n (origin c) + least_stray n c)
+           + IZR (dot n (motion c)) * ((t - IZR T0) / (IZR T1 - IZR T0))) <= far n tr t.
+Proof.
+  destruct tr as [|(t0, p0) r]; [easy|]. intros S (_ & I & _). unfold chord_of. rewrite last_from_time.
+  destruct (_ && _)%bool eqn:E; [|discriminate]. rewrite !andb_true_iff, !Z.eqb_eq, Z.ltb_lt in E.
+  destruct E as [[-> E] L]. cbv zeta. set (o := coarse s p0).
+  set (w := by_axis Z.sub _ o). intros [= <-].
+  destruct (strays_sound s T0 (T1 - T0) o w r (V3 0 0 0) (V3 0 0 0)) as (SL & SH & SA).
+  set (lh := strays _ _ _ _ _ _ _ _) in *.
+  split; [cbn [grain]; now rewrite Z.shiftl_mul_pow2, Z.mul_1_l by auto|]. split; auto.
+  cbn [origin motion]. set (c := Chord _ _ _ _ _). intros n t Ht. unfold far; cbn [pos].
+  assert (0 < T1 - T0)%Z as W by lia. pose proof (pow_positive s S) as P.
+  set (g := IZR (dot n o + least_stray n c)). set (m := IZR (dot n w)).
+  assert (forall t p, vec_le (fst lh) (stray s T0 (T1 - T0) o w t p) ->
+    vec_le (stray s T0 (T1 - T0) o w t p) (snd lh) ->
+    pow s * (g + m * ((IZR t - IZR T0) / (IZR T1 - IZR T0))) <= dotR n (inj p)) as A.
+  { clear t Ht. intros t p (L1 & L2 & L3) (H1 & H2 & H3).
+    unfold stray, coarse in *; cbn [by_axis vx vy vz] in *.
+    unfold g, m, dot, least_stray, c, dotR, inj; cbn [lows highs by_axis vx vy vz px py pz].
+    repeat (rewrite plus_IZR || rewrite mult_IZR). rewrite <- !minus_IZR.
+    assert (forall n l h x o w, let q := (Z.shiftr x s - (o + Z.shiftr (w * (Z.shiftl (t - T0) time_bits / (T1 - T0))) time_bits))%Z in
+      (l <= q)%Z -> (q <= h)%Z ->
+      pow s * (IZR n * (IZR o + IZR w * (IZR (t - T0) / IZR (T1 - T0))) + IZR (least_on n (l - slack w) (h + slack w))) <= IZR n * IZR x)
+      as B.
+    { clear - S P W. intros n l h x o w q L H. apply least_on_sound; auto.
+      destruct (stray_axis s (t - T0) (T1 - T0) o w x S W) as [X1 X2]. fold q in X1, X2.
+      apply IZR_le in L, H. rewrite (minus_IZR l), (plus_IZR h).
+      split; [apply Rle_trans with (2 := X1)|apply Rle_trans with (1 := X2)];
+        apply Rmult_le_compat_l; lra. }
+    pose proof (B (vx n) _ _ _ _ _ L1 H1). pose proof (B (vy n) _ _ _ _ _ L2 H2).
+    pose proof (B (vz n) _ _ _ _ _ L3 H3). lra. }
+  apply IZR_lt in L as L'.
+  replace (pow s * _) with (pow s * (g - m * (IZR T0 / (IZR T1 - IZR T0))) + pow s * m / (IZR T1 - IZR T0) * t)
+    by (field; lra).
+  assert (forall t', pow s * (g - m * (IZR T0 / (IZR T1 - IZR T0))) + pow s * m / (IZR T1 - IZR T0) * t'
+    = pow s * (g + m * ((t' - IZR T0) / (IZR T1 - IZR T0)))) as F by (intros; field; lra).
+  apply above_line; auto.
+  - rewrite F. apply A.
+    + apply vec_le_trans with (1 := SL). unfold stray, vec_le, o, coarse. rewrite Z.sub_diag, Z.shiftl_0_l.
+      rewrite Z.div_0_l by lia. cbn [by_axis vx vy vz]. rewrite !Z.mul_0_r, Z.shiftr_0_l. lia.
+    + apply vec_le_trans with (2 := SH). unfold stray, vec_le, o, coarse. rewrite Z.sub_diag, Z.shiftl_0_l.
+      rewrite Z.div_0_l by lia. cbn [by_axis vx vy vz]. rewrite !Z.mul_0_r, Z.shiftr_0_l. lia.
+  - intros t' p' I'. rewrite F. now apply A; apply SA.
+  - rewrite E. exact Ht.
+Qed.
+
+Lemma least_from_sound n d j x : forall g0 g1 g, least_from n d j x g0 g1 = Some g ->
+  (fst g <= g0 /\ snd g <= g1)%Z /\ forall v, In v x -> exists c, line v = Some c /\
+    (fst g <= fst (least_ends n d j c) /\ snd g <= snd (least_ends n d j c))%Z.
+Proof.
+  induction x as [|v x IH]; cbn [least_from]; intros g0 g1 g.
+  - intros [= <-]. cbn. split; [lia|easy].
+  - destruct (line v) as [c|] eqn:E; [|discriminate]. cbv zeta. intros H. apply IH in H as [B H].
+    pose proof (lesser_sound g0 (fst (least_ends n d j c))). pose proof (lesser_sound g1 (snd (least_ends n d j c))).
+    split; [lia|]. intros u [<-|I]; [|now apply H]. exists c. split; auto. lia.
+Qed.
+
+Lemma least_of_sound n d j x g : least_of n d j x = Some g ->
+  forall v, In v x -> exists c, line v = Some c /\
+    (fst g <= fst (least_ends n d j c) /\ snd g <= snd (least_ends n d j c))%Z.
+Proof.
+  destruct x as [|w x]; [discriminate|]. cbn [least_of]. destruct (line w) as [c|] eqn:E; [|discriminate].
+  intros H. apply least_from_sound in H as [B H]. intros v [<-|I]; [|now apply H]. exists c; auto.
+Qed.
+
+Lemma far_opposite n tr t : far (opposite n) tr t = - far n tr t.
+Proof. unfold far, dotR, opposite; cbn. rewrite !opp_IZR. ring. Qed.
+
+(** During the [j]-th part of the time, of which [h] has gone by, bounds at its ends say where a vertex is. *)
+Lemma ends_sound s T0 T1 tr c n d j g h t : (0 <= s)%Z -> (0 < d)%Z -> covers_time T0 T1 tr ->
+  chord_of s T0 T1 tr = Some c ->
+  (fst g <= fst (least_ends n d j c) /\ snd g <= snd (least_ends n d j c))%Z ->
+  IZR T0 <= t <= IZR T1 -> 0 <= h <= 1 -> (t - IZR T0) * IZR d = (IZR j + h) * (IZR T1 - IZR T0) ->
+  pow s * ((1 - h) * IZR (fst g) + h * IZR (snd g)) <= IZR d * far n tr t.
+Proof.
+  intros S D C E [G0 G1] Ht Hh J. destruct (chord_sound s T0 T1 tr c S C E) as (_ & L & A).
+  specialize (A n t Ht). apply IZR_lt in L, D. unfold least_ends in *; cbn [fst snd] in *.
+  apply IZR_le in G0, G1. repeat (rewrite plus_IZR in G0 || rewrite mult_IZR in G0).
+  repeat (rewrite plus_IZR in G1 || rewrite mult_IZR in G1).
+  rewrite plus_IZR in A. set (f := IZR (dot n (origin c))) in *. set (m := IZR (dot n (motion c))) in *.
+  replace ((t - IZR T0) / (IZR T1 - IZR T0)) with ((IZR j + h) / IZR d) in A.
+  2:{ apply (Rmult_eq_reg_r (IZR d * (IZR T1 - IZR T0))); [|nra]. field_simplify; lra. }
+  apply Rle_trans with (IZR d * (pow s * (f + IZR (least_stray n c) + m * ((IZR j + h) / IZR d))));
+    [|apply Rmult_le_compat_l; lra].
+  replace (IZR d * _) with (pow s * (IZR d * (f + IZR (least_stray n c)) + (IZR j + h) * m)) by (field; lra).
+  apply Rmult_le_compat_l; [apply Rlt_le; now apply pow_positive|].
+  assert ((1 - h) * IZR (fst g) <= (1 - h) * (IZR d * (f + IZR (least_stray n c)) + IZR j * m))
+    by (apply Rmult_le_compat_l; lra).
+  assert (h * IZR (snd g) <= h * (IZR d * (f + IZR (least_stray n c)) + IZR j * m + m))
+    by (apply Rmult_le_compat_l; lra). lra.
+Qed.
+
+(** What [apart_by_bounds] computes: the least at both ends, and that their sum is large enough. *)
+Lemma bounds_sound k m n a b d s T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z -> (0 <= s)%Z ->
+  (forall u, In u x \/ In u y ->
+    line u = chord_of s T0 T1 (path (vid u)) /\ covers_time T0 T1 (path (vid u))) ->
+  apart_by_bounds T0 T1 k n a b d x y = true -> In w x -> In v y ->
+  forall t, IZR a <= t * IZR d <= IZR b -> IZR T0 <= t <= IZR T1 ->
+  far n (path (vid v)) t + m < far n (path (vid w)) t.
+Proof.
+  intros [M K] D S C. unfold apart_by_bounds. destruct (d <=? d_quick)%Z; [|discriminate]. cbv zeta.
+  set (j := ((a - T0 * d) / (T1 - T0))%Z). destruct (b <=? _)%Z eqn:B; [|discriminate].
+  destruct (least_of n d j x) as [g|] eqn:X; [|discriminate].
+  destruct (least_of (opposite n) d j y) as [g'|] eqn:Y; [|discriminate].
+  set (q := lesser _ _). destruct (0 <? q)%Z eqn:Q; [|discriminate]. intros A Hw Hv t Ht HT.
+  assert (match grain_of x with Some e => e = (2 ^ s)%Z | None => True end) as G.
+  { clear - C S. destruct x as [|u x]; cbn; auto. destruct (C u) as [E W]; [left; now left|].
+    destruct (line u) as [c|]; auto. symmetry in E. now apply chord_sound in E as [E _]. }
+  destruct (least_of_sound _ _ _ _ _ X w Hw) as (cw & Ew & Gw).
+  destruct (least_of_sound _ _ _ _ _ Y v Hv) as (cv & Ev & Gv).
+  destruct (C w (or_introl Hw)) as [Lw Ww], (C v (or_intror Hv)) as [Lv Wv].
+  rewrite Ew in Lw. rewrite Ev in Lv. symmetry in Lw, Lv.
+  destruct (chord_sound s T0 T1 _ cw S Ww Lw) as (_ & L & _).
+  assert (0 < T1 - T0)%Z as W by lia. pose proof (div_bounds (a - T0 * d) (T1 - T0) W) as [J _]. fold j in J.
+  apply IZR_lt in L, D as D'. apply Z.leb_le, IZR_le in B. apply Z.ltb_lt, IZR_lt in Q.
+  repeat (rewrite plus_IZR in B || rewrite mult_IZR in B || rewrite minus_IZR in B).
+  repeat (rewrite mult_IZR in J || rewrite minus_IZR in J).
+  set (h := ((t - IZR T0) * IZR d - IZR j * (IZR T1 - IZR T0)) / (IZR T1 - IZR T0)).
+  assert (h * (IZR T1 - IZR T0) = (t - IZR T0) * IZR d - IZR j * (IZR T1 - IZR T0)) as Eh by (unfold h; field; lra).
+  assert (0 <= h <= 1) as Hh.
+  { split; apply (Rmult_le_reg_r (IZR T1 - IZR T0)); lra. }
+  assert ((t - IZR T0) * IZR d = (IZR j + h) * (IZR T1 - IZR T0)) as J' by lra.
+  pose proof (ends_sound s T0 T1 _ cw n d j g h t S D Ww Lw Gw HT Hh J') as Bw.
+  pose proof (ends_sound s T0 T1 _ cv (opposite n) d j g' h t S D Wv Lv Gv HT Hh J') as Bv.
+  rewrite far_opposite in Bv.
+  destruct (lesser_sound (fst g + fst g') (snd g + snd g')) as [Q0 Q1]. fold q in Q0, Q1.
+  apply IZR_le in Q0, Q1. rewrite plus_IZR in Q0, Q1. pose proof (pow_positive s S) as P.
+  assert (pow s * IZR q <= IZR d * (far n (path (vid w)) t - far n (path (vid v)) t)) as F.
+  { apply Rle_trans with (pow s * ((1 - h) * (IZR (fst g) + IZR (fst g')) + h * (IZR (snd g) + IZR (snd g')))); [|lra].
+    apply Rmult_le_compat_l; [lra|].
+    assert ((1 - h) * IZR q <= (1 - h) * (IZR (fst g) + IZR (fst g'))) by (apply Rmult_le_compat_l; lra).
+    assert (h * IZR q <= h * (IZR (snd g) + IZR (snd g'))) by (apply Rmult_le_compat_l; lra). lra. }
+  assert (IZR d * m < pow s * IZR q) as R.
+  { assert (0 < pow s * IZR q) by (apply Rmult_lt_0_compat; lra).
+    destruct (Z.eqb_spec k 0) as [->|_].
+    - assert (m = 0) as -> by nra. lra.
+    - destruct (grain_of x) as [e|]; [|discriminate]. subst e. apply Z.ltb_lt, IZR_lt in A. rewrite !mult_IZR in A. fold (pow s) in A.
+      apply less_by_squares; auto. apply Rle_lt_trans with (2 := A).
+      assert (IZR d * IZR d * (m * m) <= IZR d * IZR d * IZR k) by (apply Rmult_le_compat_l; [nra|auto]). lra. }
+  apply Rmult_lt_reg_l with (IZR d); auto. lra.
+Qed.
+
+(** All ways to see that a direction separates, but for planes. *)
+Lemma further_sound k m n a b d s T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z -> (0 <= s)%Z ->
+  (forall u, In u x \/ In u y -> trail u = index (path (vid u)) /\
+    covers_time T0 T1 (path (vid u)) /\ line u = chord_of s T0 T1 (path (vid u))) ->
+  (empty x || empty y || apart_by_bounds T0 T1 k n a b d x y || apart_by_walk k n a b d x y)%bool = true ->
+  In w x -> In v y ->
+  forall t, IZR a <= t * IZR d <= IZR b -> IZR T0 <= t <= IZR T1 ->
+  far n (path (vid v)) t + m < far n (path (vid w)) t.
+Proof.
+  intros K D S C. rewrite !orb_true_iff. intros [[[E|E]|E]|E] Hw Hv t Ht HT.
+  - now destruct x.
+  - now destruct y.
+  - apply (bounds_sound k m n a b d s T0 T1 path x y); auto. intros u Hu. destruct (C u Hu) as (? & ? & ?). auto.
+  - apply (walk_sound k m n a b d T0 T1 path x y); auto. intros u Hu. destruct (C u Hu) as (? & ? & ?). auto.
 Qed.
 
 (** ** 4. Convex hulls *)
@@ -703,9 +978,18 @@ Qed.
 Close Scope R_scope.
 
 (** ** 5. Obligations *)
+
+(** Chords of a scene with a tree are in units of 2 to this. *)
+Definition bits_of (s : scene) (g : group) : Z := scale (path s) (group_ids (same s) s g).
+
+Lemma bits_of_least s g : (0 <= bits_of s g)%Z.
+Proof. unfold bits_of, scale. apply greater_left. Qed.
+
 Section Soundness.
 Variable s : scene.
 Variable strict : bool.
+Variable bits : Z.  (* chords are in units of 2^bits *)
+Hypothesis bits_least : (0 <= bits)%Z.
 
 (** During [a/d, b/d], and the scene's time, features of [P] and [Q] are as [o] says. *)
 Definition Apart (o : mode) (a b d : Z) (P Q : list Z) : Prop :=
@@ -718,7 +1002,7 @@ Definition Apart (o : mode) (a b d : Z) (P Q : list Z) : Prop :=
 (** The cells below a node: label and vertex ids. *)
 Fixpoint leaves (x : tree) : list (Z * list Z) :=
   match x with
-  | Leaf l vs => [(l, map fst vs)]
+  | Leaf l vs => [(l, map vid vs)]
   | Node _ _ x y => leaves x ++ leaves y
   end.
 
@@ -729,14 +1013,15 @@ Definition PairApart o a b d x y := forall P Q, In P (leaves x) -> In Q (leaves 
 
 Fixpoint SelfApart (o : mode) (a b d : Z) (x : tree) : Prop :=
   match x with
-  | Leaf l vs => strict = true -> Claimed o a b d (l, map fst vs) (l, map fst vs)
+  | Leaf l vs => strict = true -> Claimed o a b d (l, map vid vs) (l, map vid vs)
   | Node _ _ x y => SelfApart o a b d x /\ PairApart o a b d x y /\ SelfApart o a b d y
   end.
 
 Definition resolved (w : vertex) : Prop :=
-  snd w = index (path s (fst w)) /\ covers_time (tbeg s) (tend s) (path s (fst w)).
+  trail w = index (path s (vid w)) /\ covers_time (tbeg s) (tend s) (path s (vid w)) /\
+  line w = chord_of bits (tbeg s) (tend s) (path s (vid w)).
 
-Definition vids (l : list vertex) := map fst l.
+Definition vids (l : list vertex) := map vid l.
 
 (** What [build] makes true of a tree, and [step] keeps. *)
 Fixpoint inv (x : tree) : Prop :=
@@ -894,14 +1179,14 @@ Proof.
     now apply way_end_sound with w.
 Qed.
 
-Lemma without_ids v p : map fst (without v p) = filter (fun u => negb (u =? v)%Z) (map fst p).
+Lemma without_ids v p : map vid (without v p) = filter (fun u => negb (u =? v)%Z) (map vid p).
 Proof.
   unfold without; induction p as [|w p IH]; cbn; auto.
-  destruct (fst w =? v)%Z; cbn; now rewrite IH.
+  destruct (vid w =? v)%Z; cbn; now rewrite IH.
 Qed.
 
 Lemma without_all_ids us p :
-  map fst (without_all us p) = filter (fun w => negb (existsb (fun u => (u =? w)%Z) us)) (map fst p).
+  map vid (without_all us p) = filter (fun w => negb (existsb (fun u => (u =? w)%Z) us)) (map vid p).
 Proof.
   unfold without_all; induction p as [|w p IH]; cbn; auto.
   destruct (existsb _ us); cbn; now rewrite IH.
@@ -925,7 +1210,7 @@ Qed.
 
 (** The vertices of a feature of a cell below [x] are resolved vertices of [x]. *)
 Lemma feature_vertex x P S v : inv x -> In P (leaves x) -> incl S (snd P) -> In v S ->
-  exists w, In w (verts x) /\ fst w = v /\ resolved w.
+  exists w, In w (verts x) /\ vid w = v /\ resolved w.
 Proof.
   intros I L C Hv. apply C, (leaf_verts x P I L), in_map_iff in Hv as (w & <- & Hw).
   pose proof (proj1 (Forall_forall _ _) (inv_verts x I) w Hw). eauto.
@@ -934,13 +1219,13 @@ Qed.
 (** ** 6. One token *)
 
 Lemma plane_side h a b d x P S t : (0 < d)%Z -> inv x -> In P (leaves x) -> incl S (snd P) ->
-  forallb (fun w => inside h a b d (snd w)) (verts x) = true ->
+  forallb (fun w => inside h a b d (trail w)) (verts x) = true ->
   (IZR a <= t * IZR d <= IZR b)%R -> (IZR (tbeg s) <= t <= IZR (tend s))%R ->
   forall q, simplex s S t q -> (0 < valueR h t q)%R.
 Proof.
   intros D I L C F A B q. apply hull_positive. intros p Hp.
   apply in_map_iff in Hp as (v & <- & Hv).
-  destruct (feature_vertex x P S v I L C Hv) as (w & Hw & <- & E & W).
+  destruct (feature_vertex x P S v I L C Hv) as (w & Hw & <- & E & W & _).
   pose proof (proj1 (forallb_forall _ _) F w Hw) as Aw. cbn beta in Aw. rewrite E in Aw.
   apply (inside_sound h a b d _ _ _ t D W Aw); tauto.
 Qed.
@@ -952,12 +1237,11 @@ Proof.
   now rewrite !mult_IZR, dot_IZR in B.
 Qed.
 
-Lemma plane_sound h w o a b d x y : (0 < d)%Z -> inv x -> inv y -> wide (least s o) (normal h) w = true ->
-  forallb (fun w => inside h a b d (snd w)) (verts x) = true ->
-  forallb (fun v => inside (behind h w) a b d (snd v)) (verts y) = true ->
-  PairApart o a b d x y.
+Lemma plane_sound h w o a b d x y : (0 < d)%Z -> inv x -> inv y -> 
+  apart_by_plane (least s o) h w a b d (verts x) (verts y) = true -> PairApart o a b d x y.
 Proof.
-  intros D Ix Iy W Fx Fy P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
+  unfold apart_by_plane. intros D Ix Iy. destruct (wide _ _ _) eqn:W; [|discriminate].
+  destruct (forallb _ (verts x)) eqn:Fx; [|discriminate]. intros Fy P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
   apply wide_sound in W as [W1 W2].
   pose proof (plane_side h a b d x P S t D Ix HP IS Fx A B p HS) as N1.
   pose proof (plane_side (behind h w) a b d y Q U t D Iy HQ IU Fy A B q HU) as N2.
@@ -967,10 +1251,17 @@ Proof.
 Qed.
 
 Lemma direction_sound n o a b d x y : (0 < d)%Z -> inv x -> inv y ->
-  separated (least s o * least s o * dot n n) n a b d (verts x) (verts y) = true -> PairApart o a b d x y.
+  separated (tbeg s) (tend s) (least s o) n a b d (verts x) (verts y) = true ->
+  PairApart o a b d x y.
 Proof.
-  intros D Ix Iy F P Q HP HQ _. apply Apart_least. intros t A _ S U IS IU p q HS HU.
-  set (e := least s o) in *. set (k := (e * e * dot n n)%Z) in *.
+  intros D Ix Iy. unfold separated. set (e := least s o) in *. set (k := (e * e * dot n n)%Z). cbv zeta.
+  set (hw := plane_between _ _ _ _ _ _ _). intros F.
+  destruct (apart_by_plane e (fst hw) (snd hw) a b d (verts x) (verts y)) eqn:E.
+  { now apply (plane_sound (fst hw) (snd hw)). }
+  assert (empty (verts x) || empty (verts y) || apart_by_bounds (tbeg s) (tend s) k n a b d (verts x) (verts y)
+    || apart_by_walk k n a b d (verts x) (verts y) = true)%bool as F'.
+  { destruct (empty _ || empty _)%bool; [reflexivity|]. now destruct (apart_by_bounds _ _ _ _ _ _ _ _ _). }
+  intros P Q HP HQ _. apply Apart_least. intros t A B S U IS IU p q HS HU.
   assert (0 <= IZR k)%R as K by (apply IZR_le; unfold k, dot; nia).
   assert (forall m, below_root k m -> dotR n q + m < dotR n p)%R as G.
   2:{ pose proof (G 0%R) as G0. rewrite dist2_sym. apply (dist2_direction n).
@@ -981,7 +1272,7 @@ Proof.
   apply in_map_iff in H1 as (v1 & <- & H1), H2 as (v2 & <- & H2).
   destruct (feature_vertex y Q U v1 Iy HQ IU H1) as (w1 & I1 & <- & W1).
   destruct (feature_vertex x P S v2 Ix HP IS H2) as (w2 & I2 & <- & W2).
-  apply (separated_sound k m n a b d (tbeg s) (tend s) (path s) (verts x) (verts y)); auto.
+  apply (further_sound k m n a b d bits (tbeg s) (tend s) (path s) (verts x) (verts y)); auto.
   pose proof (inv_verts x Ix) as Fx. pose proof (inv_verts y Iy) as Fy.
   rewrite Forall_forall in Fx, Fy. intros u [Hu|Hu]; [apply Fx in Hu|apply Fy in Hu]; apply Hu.
 Qed.
@@ -1082,10 +1373,10 @@ Proof.
     destruct o; [|discriminate|discriminate]. intros [= <-] F. heads F. constructor; auto.
     cbn [holds] in *. intros D Ix Iy P Q HP HQ E. apply Apart_parts; [apply H|apply H0]; auto.
   - (* TPlane *)
-    destruct (wide _ _ _) eqn:W; [|discriminate]. on_forallb (verts x) Fx. cbn zeta. on_forallb (verts y) Fy.
+    destruct (apart_by_plane _ _ _ _ _ _ _ _) eqn:E; [|discriminate].
     intros [= <-] F. constructor; auto. intros D Ix Iy. eapply plane_sound; eauto.
   - (* TDirection *)
-    destruct (separated _ _ _ _ _ _ _) eqn:E; [|discriminate].
+    destruct (separated _ _ _ _ _ _ _ _ _) eqn:E; [|discriminate].
     intros [= <-] F. constructor; auto. intros D Ix Iy. eapply direction_sound; eauto.
   - (* TExcluded *)
     destruct (excluded_labels _ _ _) eqn:E; [|discriminate].
@@ -1242,7 +1533,7 @@ Proof.
 Qed.
 
 Lemma vertices_sound l : (forall v, In v l -> covers_time (tbeg s) (tend s) (path s v)) ->
-  forall acc, Forall (sorted_in resolved fst) acc -> Forall (sorted_in resolved fst) (vertices s l acc).
+  forall acc, Forall (sorted_in resolved vid) acc -> Forall (sorted_in resolved vid) (vertices bits s l acc).
 Proof.
   induction l as [|v l IH]; cbn [vertices]; intros C acc F.
   - rewrite rev_append_rev, app_nil_r. now apply Forall_rev.
@@ -1250,12 +1541,12 @@ Proof.
 Qed.
 
 Lemma look_up_all_sound table l : each resolved table -> forall vs, look_up_all table l = Some vs ->
-  map fst vs = l /\ Forall resolved vs.
+  map vid vs = l /\ Forall resolved vs.
 Proof.
   intros T; induction l as [|v l IH]; cbn [look_up_all]; intros vs.
   - intros [= <-]. auto.
   - unfold look_up. apply (find_each _ (fun k => k <=? v)%Z) in T as W. set (w := find _ _) in *.
-    destruct (Z.eqb_spec (fst w) v) as [E|]; [|discriminate].
+    destruct (Z.eqb_spec (vid w) v) as [E|]; [|discriminate].
     destruct (look_up_all table l) as [l'|]; [|discriminate]. intros [= <-].
     destruct (IH _ eq_refl). cbn. split; [congruence|auto].
 Qed.
@@ -1265,7 +1556,7 @@ Variable table : search vertex.
 Hypothesis table_resolved : each resolved table.
 
 Lemma build_cell i x : build_from table s (Cell i) = Some x ->
-  exists vs, x = Leaf (label s i) vs /\ map fst vs = cell_ids (same s) s i /\ Forall resolved vs.
+  exists vs, x = Leaf (label s i) vs /\ map vid vs = cell_ids (same s) s i /\ Forall resolved vs.
 Proof.
   cbn [build_from]. destruct (look_up_all _ _) as [vs|] eqn:E; [|discriminate]. intros [= <-].
   apply look_up_all_sound in E as [E R]; eauto.
@@ -1323,16 +1614,17 @@ Qed.
 End Table.
 
 (** A scene with a tree has vertices as they should be. *)
-Lemma build_sound g x : build s g = Some x ->
+Lemma build_sound g x : bits = bits_of s g -> build s g = Some x ->
   (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) /\
   exists table, each resolved table /\ build_from table s g = Some x.
 Proof.
-  unfold build. on_forallb (group_ids (fun v => v) s g) F. cbn zeta.
+  intros Eb. unfold build. on_forallb (group_ids (fun v => v) s g) F. cbn zeta.
+  change (scale _ _) with (bits_of s g). rewrite <- Eb.
   assert (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) as C.
   { intros i v Hi Hv. rewrite forallb_forall in F. apply wf_vertex_sound, F, (group_ids_in _ g i); auto.
     now apply (cell_ids_in (fun u => u)). }
   destruct (join_all _ _) as [table|] eqn:E; [|discriminate]. intros B. split; auto.
-  exists table. split; auto. apply (join_all_sound resolved fst) in E as [E _]; auto.
+  exists table. split; auto. apply (join_all_sound resolved vid) in E as [E _]; auto.
   apply vertices_sound; auto. intros v Hv.
   apply group_ids_from in Hv as (i & Hi & Hv). apply cell_ids_from in Hv as (u & Hu & <-).
   destruct (C i u Hi Hu) as [W ->]. exact W.
@@ -1346,13 +1638,13 @@ Proof.
   destruct (C v (I v Hv)) as [_ ->]. reflexivity.
 Qed.
 
-Lemma start_sound g st : start s g = Some st ->
+Lemma start_sound g st : bits = bits_of s g -> start s g = Some st ->
   well_formed s /\ (Forall holds st -> never_touch strict s).
 Proof.
-  unfold start. destruct (_ && _)%bool eqn:E; [|discriminate].
+  intros Eb. unfold start. destruct (_ && _)%bool eqn:E; [|discriminate].
   rewrite !andb_true_iff in E. destruct E as [[[[E0 E1] E2] E3] C].
   apply Z.ltb_lt in E0, E1, E3. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
-  apply build_sound in B as (W & table & R & B).
+  apply (build_sound _ _ Eb) in B as (W & table & R & B).
   intros [= <-]. split.
   - do 4 (split; auto). intros i v Hi Hv. apply (W i); auto. now apply covers_sound with (ncell s).
   - intros F. apply Forall_inv in F as S. cbn [holds] in S.
@@ -1381,15 +1673,15 @@ Theorem check_sound strict s g toks : check strict s g toks = true -> never_touc
 Proof.
   unfold check. destruct (start s g) as [st|] eqn:E; [|discriminate].
   destruct (run _ _ _ _) as [[|]|] eqn:R; try discriminate. intros _.
-  apply (start_sound s strict) in E as [_ H]. apply H.
-  apply (run_sound s) in R; auto.
+  apply (start_sound s strict (bits_of s g)) in E as [_ H]; auto. apply H.
+  apply (run_sound s strict (bits_of s g)) in R; auto. apply bits_of_least.
 Qed.
 
 (** It is said of no scene that makes no sense. *)
 Theorem check_well_formed strict s g toks : check strict s g toks = true -> well_formed s.
 Proof.
   unfold check. destruct (start s g) as [st|] eqn:E; [|discriminate]. intros _.
-  now apply (start_sound s strict) in E.
+  now apply (start_sound s strict (bits_of s g)) in E.
 Qed.
 
 (** What is true of strict claims is true of others. *)

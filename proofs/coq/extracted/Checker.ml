@@ -179,6 +179,188 @@ let inside h a b d x =
   | [] -> false
   | p :: r -> let (t0, p0) = p in inside_from h a b d t0 (value h t0 p0) r
 
+(** val lesser : Zint.t -> Zint.t -> Zint.t **)
+
+let lesser a b =
+  if Zint.lt b a then b else a
+
+(** val greater : Zint.t -> Zint.t -> Zint.t **)
+
+let greater a b =
+  if Zint.lt a b then b else a
+
+(** val by_axis : (Zint.t -> Zint.t -> Zint.t) -> vec -> vec -> vec **)
+
+let by_axis f p q =
+  { vx = (f p.vx q.vx); vy = (f p.vy q.vy); vz = (f p.vz q.vz) }
+
+type chord = { grain : Zint.t; origin : vec; motion : vec; lows : vec;
+               highs : vec }
+
+(** val scale : (Zint.t -> traj) -> Zint.t list -> Zint.t **)
+
+let scale path0 ids =
+  let most = fun m v ->
+    match path0 v with
+    | [] -> m
+    | p0 :: _ ->
+      let (_, p) = p0 in
+      greater m
+        (greater (Zint.abs p.vx) (greater (Zint.abs p.vy) (Zint.abs p.vz)))
+  in
+  greater Zint.zero
+    (Zint.sub
+      (Zint.log2 ((fun f l a -> List.fold_left f a l) most ids Zint.zero))
+      Zint.place_bits)
+
+(** val coarse : Zint.t -> vec -> vec **)
+
+let coarse s p =
+  { vx = (Zint.shiftr p.vx s); vy = (Zint.shiftr p.vy s); vz =
+    (Zint.shiftr p.vz s) }
+
+(** val last_from : Zint.t -> vec -> traj -> Zint.t * vec **)
+
+let rec last_from t p = function
+| [] -> (t, p)
+| p0 :: r' -> let (t1, p1) = p0 in last_from t1 p1 r'
+
+(** val stray :
+    Zint.t -> Zint.t -> Zint.t -> vec -> vec -> Zint.t -> vec -> vec **)
+
+let stray s t0 w o w0 t p =
+  let u = Zint.fdiv (Zint.shiftl (Zint.sub t t0) Zint.time_bits) w in
+  by_axis Zint.sub (coarse s p)
+    (by_axis (fun o0 w1 ->
+      Zint.add o0 (Zint.shiftr (Zint.mul w1 u) Zint.time_bits)) o w0)
+
+(** val slack : Zint.t -> Zint.t **)
+
+let slack w =
+  Zint.add (Zint.add (Zint.shiftr (Zint.abs w) Zint.time_bits) Zint.one)
+    Zint.one
+
+(** val strays :
+    Zint.t -> Zint.t -> Zint.t -> vec -> vec -> traj -> vec -> vec ->
+    vec * vec **)
+
+let rec strays s t0 w o w0 r l h =
+  match r with
+  | [] -> (l, h)
+  | p0 :: r' ->
+    let (t, p) = p0 in
+    let e = stray s t0 w o w0 t p in
+    strays s t0 w o w0 r' (by_axis lesser l e) (by_axis greater h e)
+
+(** val chord_of : Zint.t -> Zint.t -> Zint.t -> traj -> chord option **)
+
+let chord_of s t0 t1 = function
+| [] -> None
+| p :: r ->
+  let (t2, p0) = p in
+  let e = last_from t2 p0 r in
+  if (&&) ((&&) (Zint.equal t2 t0) (Zint.equal (fst e) t1)) (Zint.lt t0 t1)
+  then let o = coarse s p0 in
+       let w = by_axis Zint.sub (coarse s (snd e)) o in
+       let lh =
+         strays s t0 (Zint.sub t1 t0) o w r { vx = Zint.zero; vy = Zint.zero;
+           vz = Zint.zero } { vx = Zint.zero; vy = Zint.zero; vz = Zint.zero }
+       in
+       Some { grain = (Zint.shiftl Zint.one s); origin = o; motion = w;
+       lows = (by_axis (fun l w0 -> Zint.sub l (slack w0)) (fst lh) w);
+       highs = (by_axis (fun h w0 -> Zint.add h (slack w0)) (snd lh) w) }
+  else None
+
+type vertex = { vid : Zint.t; trail : traj search; line : chord option }
+
+(** val least_on : Zint.t -> Zint.t -> Zint.t -> Zint.t **)
+
+let least_on n l h =
+  if Zint.leq Zint.zero n then Zint.mul n l else Zint.mul n h
+
+(** val least_stray : vec -> chord -> Zint.t **)
+
+let least_stray n c =
+  Zint.add
+    (Zint.add (least_on n.vx c.lows.vx c.highs.vx)
+      (least_on n.vy c.lows.vy c.highs.vy))
+    (least_on n.vz c.lows.vz c.highs.vz)
+
+(** val least_ends : vec -> Zint.t -> Zint.t -> chord -> Zint.t * Zint.t **)
+
+let least_ends n d j c =
+  let m = dot n c.motion in
+  let g =
+    Zint.add (Zint.mul d (Zint.add (dot n c.origin) (least_stray n c)))
+      (Zint.mul j m)
+  in
+  (g, (Zint.add g m))
+
+(** val least_from :
+    vec -> Zint.t -> Zint.t -> vertex list -> Zint.t -> Zint.t ->
+    (Zint.t * Zint.t) option **)
+
+let rec least_from n d j x g0 g1 =
+  match x with
+  | [] -> Some (g0, g1)
+  | v :: r ->
+    (match v.line with
+     | Some c ->
+       let h = least_ends n d j c in
+       least_from n d j r (lesser g0 (fst h)) (lesser g1 (snd h))
+     | None -> None)
+
+(** val least_of :
+    vec -> Zint.t -> Zint.t -> vertex list -> (Zint.t * Zint.t) option **)
+
+let least_of n d j = function
+| [] -> None
+| v :: r ->
+  (match v.line with
+   | Some c ->
+     let h = least_ends n d j c in least_from n d j r (fst h) (snd h)
+   | None -> None)
+
+(** val grain_of : vertex list -> Zint.t option **)
+
+let grain_of = function
+| [] -> None
+| v :: _ -> (match v.line with
+             | Some c -> Some c.grain
+             | None -> None)
+
+(** val apart_by_bounds :
+    Zint.t -> Zint.t -> Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex
+    list -> vertex list -> bool **)
+
+let apart_by_bounds t0 t1 k n a b d x y =
+  if Zint.leq d Zint.d_quick
+  then let w = Zint.sub t1 t0 in
+       let j = Zint.fdiv (Zint.sub a (Zint.mul t0 d)) w in
+       if Zint.leq b
+            (Zint.add (Zint.mul t0 d) (Zint.mul (Zint.add j Zint.one) w))
+       then (match least_of n d j x with
+             | Some g ->
+               (match least_of (opposite n) d j y with
+                | Some h ->
+                  let m =
+                    lesser (Zint.add (fst g) (fst h))
+                      (Zint.add (snd g) (snd h))
+                  in
+                  if Zint.lt Zint.zero m
+                  then if Zint.equal k Zint.zero
+                       then true
+                       else (match grain_of x with
+                             | Some e ->
+                               Zint.lt (Zint.mul k (Zint.mul d d))
+                                 (Zint.mul (Zint.mul e m) (Zint.mul e m))
+                             | None -> false)
+                  else false
+                | None -> false)
+             | None -> false)
+       else false
+  else false
+
 type rat = Zint.t * Zint.t
 
 (** val rat_lt : rat -> rat -> bool **)
@@ -325,22 +507,20 @@ let rec all_less k l1 l2 =
      | [] -> false
      | r :: r2 -> if rat_over k q r then all_less k r1 r2 else false)
 
-type vertex = Zint.t * traj search
-
-(** val separated :
+(** val apart_by_walk :
     Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
     -> bool **)
 
-let separated k n a b d x y =
+let apart_by_walk k n a b d x y =
   match x with
   | [] -> true
   | w :: ws ->
-    let add = fun cs v -> union (fun c -> c) (times d a b (snd v)) cs in
+    let add = fun cs v -> union (fun c -> c) (times d a b v.trail) cs in
     let cs =
       (fun f l a -> List.fold_left f a l) add y
         ((fun f l a -> List.fold_left f a l) add x (a :: (b :: [])))
     in
-    let at_times = fun v -> values n a b d cs (snd v) in
+    let at_times = fun v -> values n a b d cs v.trail in
     (match cs with
      | [] -> false
      | c :: _ ->
@@ -354,6 +534,84 @@ let separated k n a b d x y =
                  | None -> false) y
              | None -> false)
        else false)
+
+(** val apart_by_plane :
+    Zint.t -> halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> vertex
+    list -> vertex list -> bool **)
+
+let apart_by_plane e h w a b d x y =
+  if wide e h.normal w
+  then if List.for_all (fun v -> inside h a b d v.trail) x
+       then let h' = behind h w in
+            List.for_all (fun v -> inside h' a b d v.trail) y
+       else false
+  else false
+
+(** val floor_at : vec -> Zint.t -> Zint.t -> traj search -> Zint.t **)
+
+let floor_at n d c x =
+  match since d c x with
+  | [] -> Zint.zero
+  | p :: l ->
+    let (t0, p0) = p in
+    (match l with
+     | [] -> dot n p0
+     | p2 :: _ ->
+       let (t1, p1) = p2 in
+       let q = between (Zint.mul t0 d) (dot n p0) (Zint.mul t1 d) (dot n p1) c
+       in
+       Zint.fdiv (fst q) (snd q))
+
+(** val least_at : vec -> Zint.t -> Zint.t -> vertex list -> Zint.t **)
+
+let least_at n d c = function
+| [] -> Zint.zero
+| v :: r ->
+  (fun f l a -> List.fold_left f a l) (fun m v0 ->
+    lesser m (floor_at n d c v0.trail)) r (floor_at n d c v.trail)
+
+(** val plane_between :
+    Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
+    -> halfspace * Zint.t **)
+
+let plane_between k n a b d x y =
+  let w =
+    if Zint.equal k Zint.zero
+    then Zint.zero
+    else Zint.add (Zint.sqrt k) Zint.one
+  in
+  let middle = fun c ->
+    Zint.shiftr
+      (Zint.add (Zint.sub (least_at n d c x) (least_at (opposite n) d c y)) w)
+      Zint.one
+  in
+  let f = middle a in
+  let g = Zint.sub (middle b) f in
+  let l = Zint.sub b a in
+  ({ normal = { vx = (Zint.mul l n.vx); vy = (Zint.mul l n.vy); vz =
+  (Zint.mul l n.vz) }; nt = (Zint.neg (Zint.mul g d)); nd =
+  (Zint.sub (Zint.mul f l) (Zint.mul g a)) }, (Zint.mul w l))
+
+(** val empty : vertex list -> bool **)
+
+let empty = function
+| [] -> true
+| _ :: _ -> false
+
+(** val separated :
+    Zint.t -> Zint.t -> Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex
+    list -> vertex list -> bool **)
+
+let separated t0 t1 e n a b d x y =
+  let k = Zint.mul (Zint.mul e e) (dot n n) in
+  if (||) (empty x) (empty y)
+  then true
+  else if apart_by_bounds t0 t1 k n a b d x y
+       then true
+       else let hw = plane_between k n a b d x y in
+            if apart_by_plane e (fst hw) (snd hw) a b d x y
+            then true
+            else apart_by_walk k n a b d x y
 
 type tree =
 | Leaf of Zint.t * vertex list
@@ -401,19 +659,23 @@ let wf_vertex s v =
       (equal_traj (s.path (s.same v)) (s.path v)))
 
 (** val vertices :
-    scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex
-    search) list **)
+    Zint.t -> scene -> Zint.t list -> (Zint.t * vertex search) list ->
+    (Zint.t * vertex search) list **)
 
-let rec vertices s ids acc =
+let rec vertices e s ids acc =
   match ids with
   | [] -> List.rev_append acc []
-  | v :: r -> vertices s r ((v, (Found (v, (index (s.path v))))) :: acc)
+  | v :: r ->
+    let w = { vid = v; trail = (index (s.path v)); line =
+      (chord_of e s.tbeg s.tend (s.path v)) }
+    in
+    vertices e s r ((v, (Found w)) :: acc)
 
 (** val look_up : vertex search -> Zint.t -> vertex option **)
 
 let look_up table v =
   let w = find (fun k -> Zint.leq k v) table in
-  if Zint.equal (fst w) v then Some w else None
+  if Zint.equal w.vid v then Some w else None
 
 (** val look_up_all : vertex search -> Zint.t list -> vertex list option **)
 
@@ -439,8 +701,8 @@ let rec build_from table s = function
    | Some x ->
      (match build_from table s r with
       | Some y ->
-        Some (Node ((common_label x y), (union fst (verts x) (verts y)), x,
-          y))
+        Some (Node ((common_label x y),
+          (union (fun v -> v.vid) (verts x) (verts y)), x, y))
       | None -> None)
    | None -> None)
 
@@ -449,7 +711,7 @@ let rec build_from table s = function
 let build s g =
   if List.for_all (wf_vertex s) (group_ids (fun v -> v) s g)
   then let ids = group_ids s.same s g in
-       (match join_all ids (vertices s ids []) with
+       (match join_all ids (vertices (scale s.path ids) s ids []) with
         | Some table -> build_from table s g
         | None -> None)
   else None
@@ -496,12 +758,12 @@ let excluded_labels s o p =
 (** val has : Zint.t -> vertex list -> bool **)
 
 let has v l =
-  List.exists (fun w -> Zint.equal (fst w) v) l
+  List.exists (fun w -> Zint.equal w.vid v) l
 
 (** val without : Zint.t -> vertex list -> vertex list **)
 
 let without v l =
-  List.filter (fun w -> not (Zint.equal (fst w) v)) l
+  List.filter (fun w -> not (Zint.equal w.vid v)) l
 
 (** val nth_id : Zint.t -> vertex list -> Zint.t option **)
 
@@ -509,7 +771,7 @@ let rec nth_id k = function
 | [] -> None
 | w :: r ->
   if Zint.equal k Zint.zero
-  then Some (fst w)
+  then Some w.vid
   else nth_id (Zint.sub k Zint.one) r
 
 (** val in_cell : scene -> Zint.t -> Zint.t -> bool **)
@@ -544,8 +806,7 @@ let rec way_ends s n v = function
 (** val without_all : Zint.t list -> vertex list -> vertex list **)
 
 let without_all us l =
-  List.filter (fun w -> not (List.exists (fun u -> Zint.equal u (fst w)) us))
-    l
+  List.filter (fun w -> not (List.exists (fun u -> Zint.equal u w.vid) us)) l
 
 type mode =
 | Distance
@@ -589,7 +850,7 @@ let step_pair s x y o a b d k = function
    | Leaf (l, p) ->
      (match y with
       | Leaf (m, q) ->
-        (match nth_id i (List.filter (fun w -> has (fst w) q) p) with
+        (match nth_id i (List.filter (fun w -> has w.vid q) p) with
          | Some v ->
            Some ((Pair ((Leaf (l, (without v p))), y, o, a, b, d)) :: ((Pair
              (x, (Leaf (m, (without v q))), o, a, b, d)) :: k))
@@ -625,17 +886,11 @@ let step_pair s x y o a b d k = function
        d)) :: k))
    | _ -> None)
 | TPlane (h, w) ->
-  if wide (least s o) h.normal w
-  then if List.for_all (fun v -> inside h a b d (snd v)) (verts x)
-       then let h' = behind h w in
-            if List.for_all (fun v -> inside h' a b d (snd v)) (verts y)
-            then Some k
-            else None
-       else None
+  if apart_by_plane (least s o) h w a b d (verts x) (verts y)
+  then Some k
   else None
 | TDirection n ->
-  let e = least s o in
-  if separated (Zint.mul (Zint.mul e e) (dot n n)) n a b d (verts x) (verts y)
+  if separated s.tbeg s.tend (least s o) n a b d (verts x) (verts y)
   then Some k
   else None
 | TExcluded ->

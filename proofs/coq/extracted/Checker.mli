@@ -67,6 +67,51 @@ val inside_from :
 
 val inside : halfspace -> Zint.t -> Zint.t -> Zint.t -> traj search -> bool
 
+val lesser : Zint.t -> Zint.t -> Zint.t
+
+val greater : Zint.t -> Zint.t -> Zint.t
+
+val by_axis : (Zint.t -> Zint.t -> Zint.t) -> vec -> vec -> vec
+
+type chord = { grain : Zint.t; origin : vec; motion : vec; lows : vec;
+               highs : vec }
+
+val scale : (Zint.t -> traj) -> Zint.t list -> Zint.t
+
+val coarse : Zint.t -> vec -> vec
+
+val last_from : Zint.t -> vec -> traj -> Zint.t * vec
+
+val stray : Zint.t -> Zint.t -> Zint.t -> vec -> vec -> Zint.t -> vec -> vec
+
+val slack : Zint.t -> Zint.t
+
+val strays :
+  Zint.t -> Zint.t -> Zint.t -> vec -> vec -> traj -> vec -> vec -> vec * vec
+
+val chord_of : Zint.t -> Zint.t -> Zint.t -> traj -> chord option
+
+type vertex = { vid : Zint.t; trail : traj search; line : chord option }
+
+val least_on : Zint.t -> Zint.t -> Zint.t -> Zint.t
+
+val least_stray : vec -> chord -> Zint.t
+
+val least_ends : vec -> Zint.t -> Zint.t -> chord -> Zint.t * Zint.t
+
+val least_from :
+  vec -> Zint.t -> Zint.t -> vertex list -> Zint.t -> Zint.t ->
+  (Zint.t * Zint.t) option
+
+val least_of :
+  vec -> Zint.t -> Zint.t -> vertex list -> (Zint.t * Zint.t) option
+
+val grain_of : vertex list -> Zint.t option
+
+val apart_by_bounds :
+  Zint.t -> Zint.t -> Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex
+  list -> vertex list -> bool
+
 type rat = Zint.t * Zint.t
 
 val rat_lt : rat -> rat -> bool
@@ -101,11 +146,27 @@ val lower : rat list option -> rat list option -> rat list option
 
 val all_less : Zint.t -> rat list -> rat list -> bool
 
-type vertex = Zint.t * traj search
-
-val separated :
+val apart_by_walk :
   Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
   -> bool
+
+val apart_by_plane :
+  Zint.t -> halfspace -> Zint.t -> Zint.t -> Zint.t -> Zint.t -> vertex list
+  -> vertex list -> bool
+
+val floor_at : vec -> Zint.t -> Zint.t -> traj search -> Zint.t
+
+val least_at : vec -> Zint.t -> Zint.t -> vertex list -> Zint.t
+
+val plane_between :
+  Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
+  -> halfspace * Zint.t
+
+val empty : vertex list -> bool
+
+val separated :
+  Zint.t -> Zint.t -> Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex
+  list -> vertex list -> bool
 
 type tree =
 | Leaf of Zint.t * vertex list
@@ -124,8 +185,8 @@ val group_ids : (Zint.t -> Zint.t) -> scene -> group -> Zint.t list
 val wf_vertex : scene -> Zint.t -> bool
 
 val vertices :
-  scene -> Zint.t list -> (Zint.t * vertex search) list -> (Zint.t * vertex
-  search) list
+  Zint.t -> scene -> Zint.t list -> (Zint.t * vertex search) list ->
+  (Zint.t * vertex search) list
 
 val look_up : vertex search -> Zint.t -> vertex option
 
