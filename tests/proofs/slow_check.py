@@ -1,0 +1,870 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""A third checker of proof files, for tests: slow, exact, the standard library alone.
+
+    slow_check.py PROOF FRAME...              frames: PLY or OBJ files
+    slow_check.py PROOF trajectory.blocks     a run
+
+It was written from proofs/FORMAT.md and trajectory/FORMAT.md and from nothing else, so that a mistake of the other checkers is not
+made here too. Numbers are int and Fraction; every rule is spelled out where it is asked for, in the order of those pages. It holds
+everything in memory and is no good for anything large. Where those pages leave something open, there is a comment that begins with
+OPEN. Exit codes and first words are those of FORMAT.md, section 6.
+"""
+import hashlib
+import math
+import re
+import struct
+import sys
+from fractions import Fraction
+
+MAGIC = b"\x89NOLI\r\n\x1a"
+
+
+class Rejected(Exception):
+    pass
+
+
+def need(condition, reason):
+    if not condition:
+        raise Rejected(reason)
+
+
+# ---- Bytes -------------------------------------------------------------------------------------------------------------------------
+
+
+def _table():
+    table = []
+    for n in range(256):
+        for _ in range(8):
+            n = (n >> 1) ^ (0x82F63B78 if n & 1 else 0)
+        table.append(n)
+    return table
+
+
+_CRC = _table()
+
+
+def crc32c(data):
+    crc, table = 0xFFFFFFFF, _CRC
+    for byte in data:
+        crc = (crc >> 8) ^ table[(crc ^ byte) & 0xFF]
+    return crc ^ 0xFFFFFFFF
+
+
+class Reader:
+    """Reads a payload from its beginning to its end."""
+
+    def __init__(self, data, what):
+        self.data, self.at, self.what = data, 0, what
+
+    def raw(self, size):
+        need(size <= len(self.data) - self.at, f"{self.what} is too short")
+        self.at += size
+        return self.data[self.at - size : self.at]
+
+    def u8(self):
+        return self.raw(1)[0]
+
+    def u16(self):
+        return int.from_bytes(self.raw(2), "little")
+
+    def u32(self):
+        return int.from_bytes(self.raw(4), "little")
+
+    def u64(self):
+        return int.from_bytes(self.raw(8), "little")
+
+    def i32(self):
+        return int.from_bytes(self.raw(4), "little", signed=True)
+
+    def f64(self):
+        value = struct.unpack("<d", self.raw(8))[0]
+        need(math.isfinite(value), f"{self.what}: a number is not finite")
+        return value
+
+    def many(self, count, letter):
+        size = struct.calcsize("<" + letter)
+        values = struct.unpack(f"<{count}{letter}", self.raw(count * size))
+        need(letter != "d" or all(map(math.isfinite, values)), f"{self.what}: a number is not finite")
+        return values
+
+    def groups_of_seven(self, most):
+        value = length = 0
+        while True:
+            need(length < most, f"{self.what}: a number is too long")
+            byte = self.u8()
+            value |= (byte & 0x7F) << 7 * length
+            length += 1
+            if byte < 0x80:
+                need(byte != 0 or length == 1, f"{self.what}: a number has more bytes than needed")
+                return value
+
+    def uint(self, below=1 << 64):
+        value = self.groups_of_seven(10)
+        need(value < below, f"{self.what}: a number is out of range")
+        return value
+
+    def sint(self):
+        value = self.groups_of_seven(1200)
+        return -(value + 1) // 2 if value & 1 else value // 2
+
+    def scaled(self):
+        shift = self.uint(4097)
+        return self.sint() << shift
+
+    def poly(self):
+        count = self.u8()
+        need(1 <= count <= 32, f"{self.what}: a polynomial of {count} coefficients")
+        return [self.sint() for _ in range(count)]
+
+    def more(self):
+        return self.at < len(self.data)
+
+    def end(self):
+        need(not self.more(), f"{self.what}: bytes behind its end")
+
+
+def block_at(data, at):
+    """(kind, payload, end), or None where the bytes are no block."""
+    if len(data) - at < 12:
+        return None
+    length = int.from_bytes(data[at + 4 : at + 12], "little")
+    if length > len(data) - at - 16:
+        return None
+    end = at + 12 + length
+    if crc32c(data[at:end]) != int.from_bytes(data[end : end + 4], "little"):
+        return None
+    return data[at : at + 4], data[at + 12 : end], end + 4
+
+
+def groups(data, content):
+    """The groups, each a list of (kind, payload) and its group hash; and whether an open group follows them."""
+    need(len(data) >= 16, "the file is too short")
+    need(data[:8] == MAGIC, "no block file")
+    need(data[8:12] == b"\1\0\0\0", "another version")
+    need(data[12:16] == content, "another content")
+    begin, at, running, found, blocks = 0, 16, bytes(32), [], []
+    while at < len(data):
+        block = block_at(data, at)
+        if block is None:
+            place = data.find(b"CMIT", at)
+            while place >= 0:
+                later = block_at(data, place)
+                need(later is None or len(later[1]) != 72, f"byte {at}: damaged")
+                place = data.find(b"CMIT", place + 1)
+            return found, True
+        kind, payload, end = block
+        if kind == b"CMIT":
+            reader = Reader(payload, "CMIT")
+            need(reader.u64() == len(found), f"byte {at}: a commit with another number")
+            group = hashlib.sha256(data[begin:at]).digest()
+            running = hashlib.sha256(running + group).digest()
+            need(reader.raw(32) == group and reader.raw(32) == running, f"byte {at}: a commit with another hash")
+            reader.end()
+            found.append((blocks, group))
+            begin, blocks = end, []
+        else:
+            blocks.append((kind, payload))
+        at = end
+    return found, at > begin
+
+
+# ---- Frames: section 8 -------------------------------------------------------------------------------------------------------------
+
+INTEGERS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "int8": "b", "uint8": "B",
+            "int16": "h", "uint16": "H", "int32": "i", "uint32": "I", "int64": "q", "uint64": "Q"}
+TYPES = {**INTEGERS, "float": "f", "float32": "f", "double": "d", "float64": "d"}
+# OPEN: which spellings are a decimal number.
+DECIMAL = re.compile(rb"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\Z")
+
+
+def decimal(word, letter="d"):
+    """A decimal number, rounded once to the type of this letter."""
+    need(DECIMAL.match(word), "no number")
+    if letter not in "fd":
+        need(re.match(rb"[+-]?\d+\Z", word), "no integer")
+        value, bits = int(word), 8 * struct.calcsize(letter)
+        low = 0 if letter.isupper() else -(1 << bits - 1)
+        need(low <= value < low + (1 << bits), "out of range")
+        return value
+    value = float(word)
+    need(math.isfinite(value), "infinite")
+    zero = not re.search(rb"[1-9]", re.split(rb"[eE]", word)[0])
+    if letter == "f" and not zero:
+        need(len(word) < 400 and abs(math.log10(abs(value)) if value else -999) < 60, "out of range")
+        exact = abs(Fraction(word.decode()))
+        exponent = max(math.frexp(exact.numerator / exact.denominator)[1] - 24, -149)
+        while exact >= Fraction(2) ** (exponent + 24):
+            exponent += 1
+        while exponent > -149 and exact < Fraction(2) ** (exponent + 23):
+            exponent -= 1
+        rounded = round(exact / Fraction(2) ** exponent) * Fraction(2) ** exponent  # round() goes to even
+        need(rounded < Fraction(2) ** 128, "infinite")
+        value = math.copysign(float(rounded), -1 if word.startswith(b"-") else 1)
+    need(zero or value != 0, "rounded to 0")
+    return value
+
+
+def add_polygon(polygon, faces, edges, points):
+    need(polygon, "a polygon without vertices")  # OPEN
+    if len(polygon) == 1:
+        points.append(tuple(polygon))
+    elif len(polygon) == 2:
+        edges.append(tuple(polygon))
+    for second, third in zip(polygon[1:], polygon[2:]):
+        faces.append((polygon[0], second, third))
+
+
+def read_ply(data):
+    lines, at = [], 0
+    while not lines or lines[-1] != [b"end_header"]:
+        end = data.find(b"\n", at)
+        need(end >= 0, "a header without end")
+        line, at = data[at:end], end + 1
+        lines.append((line[:-1] if line.endswith(b"\r") else line).replace(b"\t", b" ").split(b" "))
+        lines[-1] = [word for word in lines[-1] if word]
+    need(lines[0] == [b"ply"], "no PLY file")
+    form, elements = None, []
+    for words in lines[1:-1]:
+        text = [word.decode("latin-1") for word in words]
+        need(text, "an empty line in the header")
+        if text[0] == "format":
+            need(form is None and len(text) == 3 and text[2] == "1.0", "format")
+            form = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}.get(text[1])
+            need(form is not None, "format")
+        elif text[0] == "element":
+            need(len(text) == 3 and text[2].isdigit() and text[1] != "tristrips", "element")
+            elements.append((text[1], int(text[2]), []))
+        elif text[0] == "property":
+            need(elements, "a property before the first element")
+            listed = len(text) == 5 and text[1] == "list"
+            need(listed or len(text) == 3, "property")
+            need(all(name in TYPES for name in text[2 if listed else 1 : -1]), "a type")
+            need(not listed or text[2] in INTEGERS, "a length that is no integer")
+            elements[-1][2].append((text[-1], TYPES[text[-2]], TYPES[text[2]] if listed else None))
+        else:
+            need(text[0] in ("comment", "obj_info"), "an unknown line in the header")
+    need(form is not None, "no format")
+    words, positions, faces, edges, points = [], [], [], [], []
+    ascii_lines = iter([line for line in data[at:].replace(b"\r\n", b"\n").split(b"\n")]) if form == "" else None
+
+    def number(letter):
+        nonlocal at
+        if form == "":
+            need(words, "an entry is too short")
+            return decimal(words.pop(), letter)
+        size = struct.calcsize(form + letter)
+        need(size <= len(data) - at, "the file is too short")
+        at += size
+        value = struct.unpack(form + letter, data[at - size : at])[0]
+        need(math.isfinite(value), "a number is not finite")
+        return value
+
+    def length(letter):
+        value = number(letter)
+        need(0 <= value <= len(data), "the length of a list")
+        return value
+
+    for name, count, properties in elements:
+        for _ in range(count):
+            if form == "":
+                words = []
+                while not words:
+                    line = next(ascii_lines, None)
+                    need(line is not None, "the file is too short")
+                    words = [word for word in line.replace(b"\t", b" ").split(b" ") if word][::-1]
+            entry = {}
+            for key, letter, count_letter in properties:
+                entry[key] = number(letter) if count_letter is None else \
+                    [number(letter) for _ in range(length(count_letter))]
+            need(not words, "an entry is too long")
+            if name == "vertex":
+                need("x" in entry and "y" in entry, "a vertex without x or y")
+                positions.append(tuple(float(entry.get(key, 0)) for key in "xyz"))
+            elif name == "face":
+                polygon = entry.get("vertex_indices", entry.get("vertex_index"))
+                need(isinstance(polygon, list), "a face without vertices")
+                add_polygon(polygon, faces, edges, points)
+            elif name == "edge":
+                need("vertex1" in entry and "vertex2" in entry, "an edge without vertices")
+                edges.append((entry["vertex1"], entry["vertex2"]))
+    if form == "":
+        need(not any(line.strip(b" \t") for line in ascii_lines), "something behind the last entry")
+    else:
+        need(at == len(data), "something behind the last entry")
+    return positions, faces, edges, points
+
+
+SKIPPED = set(b"vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj".split())
+
+
+def read_obj(data):
+    positions, faces, edges, points, before = [], [], [], [], b""
+    for line in data.replace(b"\r\n", b"\n").split(b"\n"):
+        line = before + re.split(rb"(?:^|(?<=[ \t]))#", line)[0].rstrip(b" \t")
+        before = b""
+        if line.endswith(b"\\"):
+            before = line[:-1] + b" "
+            continue
+        words = line.replace(b"\t", b" ").split()
+        if not words or words[0] in SKIPPED:
+            continue
+        kind, words = words[0], words[1:]
+        if kind == b"v":
+            need(len(words) in (2, 3, 4, 6, 7), "a vertex")
+            numbers = [decimal(word) for word in words]
+            positions.append(tuple((numbers + [0.0])[:3]))
+            continue
+        need(kind in (b"f", b"l", b"p"), "an unknown statement")
+        polygon = []
+        for word in words:
+            index = decimal(word.split(b"/")[0], "q")
+            need(index != 0, "a vertex 0")
+            polygon.append(index - 1 if index > 0 else len(positions) + index)
+        need(len(polygon) >= {b"f": 3, b"l": 2, b"p": 1}[kind], "too few vertices")
+        if kind == b"f":
+            add_polygon(polygon, faces, edges, points)
+        elif kind == b"l":
+            edges.extend(zip(polygon, polygon[1:]))
+        else:
+            points.extend((index,) for index in polygon)
+    need(before == b"", "the last line goes on")
+    return positions, faces, edges, points
+
+
+def read_frame(data):
+    """Positions and cells. OPEN: how PLY and OBJ are told apart; here by the first line."""
+    ply = data.startswith((b"ply\n", b"ply\r\n", b"ply ", b"ply\t"))
+    positions, faces, edges, points = read_ply(data) if ply else read_obj(data)
+    for cell in faces + edges + points:
+        need(all(0 <= v < len(positions) for v in cell), "a vertex that is not there")
+    return positions, not_redundant(faces + edges + points)
+
+
+def not_redundant(cells):
+    covered, kept = set(), []
+    for cell in cells:
+        if len(cell) == 3:
+            kept.append(cell)
+            covered.update(frozenset((cell[a], cell[b])) for a, b in ((0, 1), (1, 2), (0, 2)))
+    for cell in cells:
+        if len(cell) == 2 and frozenset(cell) not in covered:
+            kept.append(cell)
+            covered.add(frozenset(cell))
+    used = {v for cell in kept for v in cell}
+    for cell in cells:
+        if len(cell) == 1 and cell[0] not in used:
+            kept.append(cell)
+            used.add(cell[0])
+    return kept
+
+
+# ---- The two kinds of trajectories ----------------------------------------------------------------------------------------------
+# Each has: vertices, cells and labels (of the claim), steps as (T0, T1, hash of the motion, breakpoints of each vertex).
+
+
+class Frames:
+    def __init__(self, claim, files):
+        self.frames = []
+        for data in files:
+            positions, cells = read_frame(data)
+            need(not self.frames or (len(positions) == self.vertices and cells == listed), "frames that differ")
+            self.vertices, listed = len(positions), cells
+            self.frames.append([(x, y, z if claim.dimension == 3 else 0.0) for x, y, z in positions])
+        if claim.points:
+            used = {v for cell in listed for v in cell}
+            listed = listed + [(v,) for v in range(self.vertices) if v not in used]
+        need(all(v < self.vertices for v in claim.merged), "a merged vertex that is not there")
+        self.cells = not_redundant([tuple(claim.merged.get(v, v) for v in cell) for cell in listed])
+        self.labels = [0] * len(self.cells)
+        self.rest, self.merged = claim.source == 1, claim.merged
+        self.steps = len(self.frames) - (0 if self.rest else 1)
+
+    def step(self, k):
+        if self.rest:
+            motion = [((0.0, a), (1.0, a)) for a in self.frames[k]]
+        else:
+            motion = [((float(k), a), (float(k + 1), b)) for a, b in zip(self.frames[k], self.frames[k + 1])]
+        digest = hashlib.sha256()
+        for line in motion:
+            digest.update(struct.pack("<Q", len(line)))
+            for time, position in line:
+                digest.update(struct.pack("<4d", *(number + 0.0 for number in (time, *position))))  # -0.0 + 0.0 is 0.0
+        # OPEN: nothing says that merged vertices have to be at the same place; a checker that does not ask proves a claim about others.
+        need(all(motion[v] == motion[s] for v, s in self.merged.items()), "merged vertices that are not at the same place")
+        return (0.0, 1.0) + (digest.digest(), motion) if self.rest else (float(k), float(k + 1), digest.digest(), motion)
+
+
+def trajectory_of(claim, files):
+    need(claim.source != 2 or len(files) == 1, "a run is one file")
+    return Run(claim, files[0]) if claim.source == 2 else Frames(claim, files)
+
+
+def cells_hash(trajectory):
+    digest = hashlib.sha256(struct.pack("<QQ", trajectory.vertices, len(trajectory.cells)))
+    for cell, label in zip(trajectory.cells, trajectory.labels):
+        digest.update(struct.pack(f"<B{len(cell)}II", len(cell), *cell, label))
+    return digest.digest()
+
+
+class Run:
+    def __init__(self, claim, data):
+        parts, _ = groups(data, b"TRAJ")  # an open group is no error
+        need(parts, "the trajectory has no commit")
+        blocks = list(parts[0][0])
+        head = self.block(blocks, b"HEAD")
+        self.dimension = head.u32()
+        mode, length = head.u32(), head.f64()
+        head.end()
+        need(self.dimension in (2, 3) and mode in (0, 1) and length > 0, "HEAD")
+        need(mode == 0, "the run does not have its motion")
+        need(self.dimension == claim.dimension, "the run has another dimension")  # OPEN: follows, but is not said
+        mesh = self.block(blocks, b"MESH")
+        self.vertices, faces, edges, points = (mesh.u64() for _ in range(4))
+        need(1 <= self.vertices <= 1 << 32, "MESH")
+        cells = []
+        for size, count in ((3, faces), (2, edges), (1, points)):
+            cells += list(zip(*[iter(mesh.many(size * count, "I"))] * size))
+        mesh.end()
+        need(all(v < self.vertices for cell in cells for v in cell), "a vertex that is not there")
+        labl = self.block(blocks, b"LABL")
+        scripted = labl.raw(self.vertices)
+        labl.end()
+        need(max(scripted) <= 1, "LABL")
+        group, pairs = [0] * self.vertices, set()
+        if blocks:
+            excl = self.block(blocks, b"EXCL")
+            count = excl.u32()
+            flat = excl.many(2 * count, "H")
+            listed = list(zip(flat[::2], flat[1::2]))
+            need(listed and all(a <= b for a, b in listed), "EXCL")
+            need(all(a < b for a, b in zip(listed, listed[1:])), "EXCL: pairs do not ascend")
+            group, pairs = excl.many(self.vertices, "H"), set(listed)
+            excl.end()
+            need(all(group[v] == group[cell[0]] for cell in cells for v in cell), "a cell of two groups")
+        need(not blocks, "a block that is not expected")
+        self.cells = cells  # OPEN: whether redundant cells of a run are left out; they are not merged, so none has become so
+        self.labels = [2 * group[cell[0]] + all(scripted[v] for v in cell) for cell in self.cells]
+        found = sorted(set(self.labels))
+        expected = [(a, b) for a in found for b in found
+                    if a <= b and (a & b & 1 or (min(a // 2, b // 2), max(a // 2, b // 2)) in pairs)]
+        self.excluded = expected
+        need(claim.excluded in (None, expected), "the excluded pairs are not those of the run")
+        self.windows, last = [], None
+        for index, (blocks, group_hash) in enumerate(parts[1:]):
+            blocks = list(blocks)
+            wind = self.block(blocks, b"WIND")
+            need(wind.u64() == index, "WIND: another index")
+            begin, end = wind.raw(8), wind.raw(8)
+            wind.end()
+            t0, t1 = Reader(begin, "WIND").f64(), Reader(end, "WIND").f64()
+            need(t0 < t1, "WIND: begin and end")
+            line = self.block(blocks, b"LINE")
+            counts = line.many(self.vertices, "I")
+            need(min(counts) >= 2, "LINE: fewer than two breakpoints")
+            times = [line.many(count, "d") for count in counts]
+            motion, first = [], []
+            for mine in times:
+                need(all(a < b for a, b in zip(mine, mine[1:])), "LINE: the times do not ascend")
+                need(struct.pack("<d", mine[0]) == begin and struct.pack("<d", mine[-1]) == end, "LINE: begin or end")
+                flat = line.many(len(mine) * self.dimension, "d")
+                places = [flat[i : i + self.dimension] for i in range(0, len(flat), self.dimension)]
+                motion.append([(t, place if self.dimension == 3 else (*place, 0.0)) for t, place in zip(mine, places)])
+                first.append((begin, struct.pack("<3d", *motion[-1][0][1])))
+            line.end()
+            need(last is None or first == last, "a window that does not go on where the one before ended")
+            last = [(end, struct.pack("<3d", *mine[-1][1])) for mine in motion]
+            velo = self.block(blocks, b"VELO")
+            velo.many(self.vertices * self.dimension, "d")
+            velo.end()
+            self.block(blocks, b"STAT")
+            need(not blocks, "a block that is not expected")
+            self.windows.append((t0, t1, group_hash, motion))
+        self.steps = len(self.windows)
+
+    @staticmethod
+    def block(blocks, kind):
+        need(blocks and blocks[0][0] == kind, f"expected {kind.decode()}")
+        return Reader(blocks.pop(0)[1], kind.decode())
+
+    def step(self, k):
+        return self.windows[k]
+
+
+# ---- The proof ---------------------------------------------------------------------------------------------------------------------
+
+
+class Claim:
+    def __init__(self, payload):
+        r = Reader(payload, "CLAM")
+        self.source, self.dimension, flags, zero = r.u8(), r.u8(), r.u8(), r.u8()
+        need(self.source <= 2 and self.dimension in (2, 3) and flags < 4 and zero == 0, "CLAM")
+        self.strict, self.points = bool(flags & 1), bool(flags & 2)
+        need(not (self.points and self.source == 2), "CLAM: points of a run")
+        self.ring, self.eta = r.u32(), r.f64()
+        need(math.copysign(1, self.eta) > 0 and self.ring >= 1 and (self.eta > 0 or self.ring == 1), "CLAM: eta or ring")
+        self.cells_hash = r.raw(32)
+        merged = [(r.u32(), r.u32()) for _ in range(self.fits(r, r.u32()))]
+        self.merged = dict(merged)
+        need(all(a[0] < b[0] for a, b in zip(merged, merged[1:])), "CLAM: merged vertices do not ascend")
+        need(all(s < v and s not in self.merged for v, s in merged), "CLAM: merged vertices")
+        need(not (merged and self.source == 2), "CLAM: merged vertices of a run")
+        self.excluded = [(r.u32(), r.u32()) for _ in range(self.fits(r, r.u32()))]
+        need(all(a <= b for a, b in self.excluded), "CLAM: excluded pairs")
+        need(all(a < b for a, b in zip(self.excluded, self.excluded[1:])), "CLAM: excluded pairs do not ascend")
+        r.end()
+
+    @staticmethod
+    def fits(r, count):
+        need(8 * count <= len(r.data) - r.at, "CLAM is too short")
+        return count
+
+    def excludes(self, a, b):
+        return (min(a, b), max(a, b)) in self.excluded
+
+
+class Group:
+    def __init__(self, vertices, labels, children=None):
+        self.vertices, self.labels, self.children = tuple(sorted(set(vertices))), frozenset(labels), children
+
+    def without(self, v):
+        return Group([u for u in self.vertices if u != v], self.labels)
+
+
+def read_tree(payload, cells, labels):
+    r, seen = Reader(payload, "TREE"), set()
+
+    def node(depth):
+        value = r.uint()
+        if value:
+            need(value <= len(cells) and value not in seen, "TREE: a cell")
+            seen.add(value)
+            return Group(cells[value - 1], [labels[value - 1]])
+        need(depth < 255, "TREE: too deep")
+        left = node(depth + 1)
+        right = node(depth + 1)
+        return Group(left.vertices + right.vertices, left.labels | right.labels, (left, right))
+
+    root = node(0)
+    need(len(seen) == len(cells), "TREE: a cell is missing")
+    r.end()
+    return root
+
+
+def integer(number, power, what):
+    numerator, denominator = number.as_integer_ratio()
+    numerator, denominator = numerator << max(-power, 0), denominator << max(power, 0)
+    need(numerator % denominator == 0, f"{what} is no multiple of its unit")
+    return numerator // denominator
+
+
+class Step:
+    """One step in integers, and what is asked of it."""
+
+    def __init__(self, claim, trajectory, payload):
+        r = Reader(payload, "STEP")
+        self.claim, self.cells, self.labels = claim, trajectory.cells, trajectory.labels
+        self.number = r.u64()
+        t0, t1, p, q, kind, digest = r.f64(), r.f64(), r.i32(), r.i32(), r.u8(), r.raw(32)
+        r.end()
+        need(abs(p) <= 1200 and abs(q) <= 1200 and kind <= 1, "STEP")
+        need(self.number < trajectory.steps, "STEP: the trajectory does not have it")
+        begin, end, motion_hash, motion = trajectory.step(self.number)
+        need(t0 == begin and t1 == end, "STEP: other times")  # OPEN: -0; as numbers they are equal
+        need(digest == motion_hash, "STEP: another motion")
+        self.witness, self.known = kind == 1, {}
+        self.t0, self.t1 = integer(t0, q, "a time"), integer(t1, q, "a time")
+        self.eta = integer(claim.eta, p, "eta")
+        self.motion = [[(integer(time, q, "a time"), tuple(integer(x, p, "a position") for x in place)) for time, place in line]
+                       for line in motion]
+
+    def at(self, v, tau):
+        if (v, tau) not in self.known:
+            self.known[v, tau] = self.position(self.motion[v], tau)
+        return self.known[v, tau]
+
+    @staticmethod
+    def position(line, tau):
+        for (s, a), (t, b) in zip(line, line[1:]):
+            if tau == s or tau == t:
+                return a if tau == s else b
+            if s < tau < t:
+                return tuple(Fraction(x * (t - tau) + y * (tau - s), t - s) for x, y in zip(a, b))
+        raise AssertionError("a time outside of the step")
+
+    def times(self, vertices, begin, end):
+        inner = {t for v in vertices for t, _ in self.motion[v] if begin < t < end}
+        return [begin, *sorted(inner), end]
+
+    # Section 3.
+    def separated(self, n, x, y, begin, end, eta):
+        if not x.vertices or not y.vertices:
+            return True
+        for tau in self.times(x.vertices + y.vertices, begin, end):
+            delta = min(dot(n, self.at(v, tau)) for v in x.vertices) - max(dot(n, self.at(v, tau)) for v in y.vertices)
+            if not (delta > 0 and delta * delta > eta * eta * dot(n, n)):
+                return False
+        return True
+
+    def between_planes(self, n, nt, nd, w, x, y, begin, end, eta):
+        if w < 0 or eta * eta * dot(n, n) > w * w:
+            return False
+        for group, holds in ((x, lambda value: value > 0), (y, lambda value: value < -w)):
+            for v in group.vertices:
+                for tau in self.times([v], begin, end):
+                    if not holds(dot(n, self.at(v, tau)) + nt * tau - nd):
+                        return False
+        return True
+
+    def prove(self, root, token_blocks):
+        # An obligation: at distance?, x, y (None: x with itself), a, b, and the power of two that d is.
+        stack = [(self.eta > 0, root, None, self.t0, self.t1, 0)]
+        for payload in token_blocks:
+            need(len(payload) <= 1 << 20, "TOKS is too long")
+            r = Reader(payload, "TOKS")
+            while r.more():
+                start = r.at
+                token = r.u8()
+                need(stack, "a token too many")
+                stack.extend(reversed(self.replaced(token, r, *stack.pop(), start)))
+        need(not stack, "obligations are left")
+
+    def replaced(self, token, r, far, x, y, a, b, k, start):
+        def on(condition):
+            need(condition, f"byte {start} of TOKS: token {token:02x} may not be used here")
+
+        pair, when = y is not None, (a, b, k)
+        d = 1 << k
+        eta = self.eta if far else 0
+        if token == 0x00:
+            on(k < 1024)
+            return [(far, x, y, 2 * a, a + b, k + 1), (far, x, y, a + b, 2 * b, k + 1)]
+        if token == 0x01:
+            on(pair and x.children)
+            return [(far, child, y, *when) for child in x.children]
+        if token == 0x02:
+            on(pair and y.children)
+            return [(far, x, child, *when) for child in y.children]
+        if token == 0x03:
+            on(not pair and x.children)
+            left, right = x.children
+            return [(far, left, None, *when), (far, left, right, *when), (far, right, None, *when)]
+        if token == 0x04:
+            on(not pair and not x.children and not self.claim.strict)
+            return []
+        if token == 0x05:
+            on(not pair)
+            return [(far, x, x, *when)]
+        if token == 0x06:
+            other = y if pair else x
+            on(len(x.labels) == 1 and len(other.labels) == 1 and self.claim.excludes(*x.labels, *other.labels))
+            return []
+        if 0x08 <= token <= 0x0E or token in (0x10, 0x11):
+            if token <= 0x0E:
+                n = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (0, 0, 0))[token - 8]
+            elif token == 0x10:
+                bits = r.u32()
+                need(bits < 1 << 30, "bits 30 and 31 of a direction")
+                n = tuple(((bits >> shift & 1023) ^ 512) - 512 for shift in (0, 10, 20))
+            else:
+                n = (r.sint(), r.sint(), r.sint())
+            on(pair and self.separated(n, x, y, Fraction(a, d), Fraction(b, d), eta))
+            return []
+        if token == 0x12:
+            shift = r.uint(4097)
+            n = tuple(r.sint() << shift for _ in range(3))
+            nt, nd, w = r.scaled(), r.scaled(), r.scaled()
+            on(pair and self.between_planes(n, nt, nd, w, x, y, Fraction(a, d), Fraction(b, d), eta))
+            return []
+        if 0x20 <= token <= 0x22:
+            on(pair and not x.children and not y.children)
+            common = [v for v in x.vertices if v in y.vertices]
+            on(token - 0x20 < len(common))
+            v = common[token - 0x20]
+            return [(far, x.without(v), y, *when), (far, x, y.without(v), *when)]
+        if token == 0x30:
+            m = r.uint(256)
+            first = v = r.uint()
+            steps = [(r.uint(), r.uint()) for _ in range(m)]
+            on(pair and far and m < self.claim.ring and not x.children and not y.children)
+            for c, after in steps:
+                on(c < len(self.cells) and v in self.cells[c] and after in self.cells[c])
+                v = after
+            on(first in x.vertices and v in y.vertices)
+            return [(True, x.without(first), y, *when), (True, x, y.without(v), *when), (False, x, y, *when)]
+        raise Rejected(f"byte {start} of TOKS: there is no token {token:02x}")
+
+    # Section 5.
+    def holds(self, payload):
+        r = Reader(payload, "WITN")
+        i, j = r.u32(), r.u32()
+        sets = []
+        for _ in range(2):
+            count = r.u8()
+            need(1 <= count <= 3, "WITN: the number of vertices")
+            sets.append([(r.u32(), r.poly()) for _ in range(count)])
+        g, e = r.poly(), r.uint(1025)
+        l, u = r.sint(), r.sint()
+        r.end()
+        need(i < len(self.cells) and j < len(self.cells), "WITN: there is no such cell")
+        need(i != j or self.claim.strict, "WITN: a cell with itself")
+        need(not self.claim.excludes(self.labels[i], self.labels[j]), "WITN: an excluded pair")
+        for cell, points in zip((i, j), sets):
+            need(all(v in self.cells[cell] for v, _ in points), "WITN: a vertex is not of its cell")
+        p, q = ({v for v, _ in points} for points in sets)  # OPEN: a vertex twice in P; here its weights add up
+        need(not p & q, "WITN: a vertex of both")
+        scale = 1 << e
+        need(self.t0 * scale <= l <= u <= self.t1 * scale, "WITN: the time")
+        need(g[-1] != 0, "WITN: the last coefficient of g")
+        low, high = (sum(c * l_or_u ** k * scale ** (len(g) - 1 - k) for k, c in enumerate(g)) for l_or_u in (l, u))
+        need(low <= 0 <= high or low >= 0 >= high, "WITN: g has no change of sign")
+
+        def signs(f):
+            return bernstein(f, l, u, scale)
+
+        sums = []  # (sum of weights, sum of weight times position)
+        for points in sets:
+            total, moment = [], [[], [], []]
+            for v, w in points:
+                need(divides(g, w) or min(signs(w), default=0) >= 0, "WITN: a negative weight")
+                total = add(total, w)
+                for axis, position in enumerate(self.polynomials(v, Fraction(l, scale), Fraction(u, scale))):
+                    moment[axis] = add(moment[axis], times(w, position))
+            need(min(signs(total), default=0) > 0, "WITN: weights without a positive sum")
+            sums.append((total, moment))
+        (big_w, x), (big_v, y) = sums
+        difference = [add(times(big_v, a), times([-1], times(big_w, b))) for a, b in zip(x, y)]
+        if all(divides(g, f) for f in difference):
+            return
+        need(self.eta > 0 and not self.joined(p, q), "WITN: the points do not meet")
+        product = times(big_w, big_v)
+        gap = times([self.eta * self.eta], times(product, product))
+        for f in difference:
+            gap = add(gap, times([-1], times(f, f)))
+        need(divides(g, gap) or min(signs(gap), default=0) >= 0, "WITN: the points are not near")
+
+    def polynomials(self, v, low, high):
+        line = self.motion[v]
+        k = max(k for k, (time, _) in enumerate(line) if time <= low)
+        s, a = line[k]
+        if k + 1 == len(line):
+            need(low == high, "WITN: behind the last breakpoint")
+            return [[Fraction(x)] for x in a]
+        t, b = line[k + 1]
+        need(high <= t, "WITN: beyond the segment of a vertex")
+        return [[Fraction(x * t - y * s, t - s), Fraction(y - x, t - s)] for x, y in zip(a, b)]
+
+    def joined(self, p, q):
+        """Does a path of fewer than K edges join a vertex of p to one of q?"""
+        reached, rounds = set(p), min(self.claim.ring - 1, len(self.motion))
+        for _ in range(rounds):
+            reached |= {v for cell in self.cells if reached.intersection(cell) for v in cell}
+        return bool(reached & q)
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+# Polynomials are lists of coefficients, the constant term first, without zeros at the end.
+def trim(f):
+    f = list(f)
+    while f and f[-1] == 0:
+        f.pop()
+    return f
+
+
+def add(f, g):
+    f, g = (f, g) if len(f) >= len(g) else (g, f)
+    return trim([a + (g[k] if k < len(g) else 0) for k, a in enumerate(f)])
+
+
+def times(f, g):
+    product = [0] * (len(f) + len(g) - 1) if f and g else []
+    for i, a in enumerate(f):
+        for j, b in enumerate(g):
+            product[i + j] += a * b
+    return trim(product)
+
+
+def divides(g, f):
+    rest = [Fraction(c) for c in trim(f)]
+    while len(rest) >= len(g):
+        factor, shift = rest[-1] / g[-1], len(rest) - len(g)
+        for k, c in enumerate(g):
+            rest[k + shift] -= factor * c
+        rest = trim(rest)
+    return not rest
+
+
+def bernstein(f, l, u, scale):
+    """The coefficients of f((l + u z) / (scale + scale z)) (scale + scale z)^n, n the degree of f; none for the polynomial 0."""
+    f = trim(f)
+    result = []  # Horner's scheme: result (l + u z) + c (scale + scale z)^m, m growing
+    power = [1]
+    for c in reversed(f):
+        previous, result = result, [c * x for x in power]
+        for k, x in enumerate(previous):
+            result[k] += l * x
+            result[k + 1] += u * x
+        power = [scale * (a + b) for a, b in zip(power + [0], [0] + power)]
+    return result
+
+
+def check(proof, files):
+    """(exit code, message) for the bytes of a proof and of the files of its trajectory."""
+    try:
+        return examine(proof, files)
+    except Rejected as reason:
+        return 3, f"rejected: {reason}"
+
+
+def examine(proof, files):
+    parts, is_open = groups(proof, b"PROF")
+    need(not is_open, f"an open group behind {max(len(parts) - 1, 0)} committed steps")
+    need(parts and [kind for kind, _ in parts[0][0]] == [b"CLAM"], "the first group")
+    claim = Claim(parts[0][0][0][1])
+    trajectory = trajectory_of(claim, files)
+    need(trajectory.cells, "a claim about no cells")  # OPEN: no step can have a TREE then; without steps nothing speaks against it
+    need(cells_hash(trajectory) == claim.cells_hash, "CLAM: other cells")
+    tree, expected, refuted = None, 0, None
+    for blocks, _ in parts[1:]:
+        need(blocks and blocks[0][0] == b"STEP", "expected STEP")
+        step = Step(claim, trajectory, blocks[0][1])
+        # OPEN: whether a gap is allowed directly behind a witness, or anywhere behind one; here anywhere.
+        need(step.number == expected or (refuted is not None and step.number > expected), "STEP: another number")
+        expected = step.number + 1
+        kinds = [kind for kind, _ in blocks[1:]]
+        if step.witness:
+            need(kinds == [b"WITN"], "expected one WITN")
+            step.holds(blocks[1][1])
+            refuted = step.number if refuted is None else refuted
+        else:
+            if kinds[:1] == [b"TREE"]:
+                tree = read_tree(blocks[1][1], trajectory.cells, trajectory.labels)
+                blocks, kinds = blocks[1:], kinds[1:]
+            need(tree is not None, "no TREE")
+            need(all(kind == b"TOKS" for kind in kinds), "expected TOKS")
+            step.prove(tree, [payload for _, payload in blocks[1:]])
+    if refuted is not None:
+        return 1, f"refuted: step {refuted} has a witness"
+    need(expected == trajectory.steps, "steps are missing")
+    return 0, f"accepted: nothing touches in {expected} steps"
+
+
+def main(arguments):
+    try:
+        need(len(arguments) >= 2, "the command line: expected a proof, and frames or a trajectory.blocks")
+        contents = []
+        for name in arguments:
+            with open(name, "rb") as file:
+                contents.append(file.read())
+        code, message = check(contents[0], contents[1:])
+    except Exception as error:  # whatever goes wrong is neither 0 nor 1
+        code, message = 3, f"rejected: {error}"
+    print(message)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
