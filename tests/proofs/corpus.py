@@ -99,15 +99,18 @@ def scenes():
         [(0, 1), (2, 3)], ["--dimension", "2"]
 
 
-def scene_of_run(contact):
-    bodies = [
-        {"name": "sheet", "mesh": {"grid": {"size": [1, 1], "cells": [1, 1]}}, "material": {"young": 1e4, "density": 300, "thickness": 0.001},
-         "pin": ["left_top"], "transform": {"translate": [0, 0, 1]}},
-        {"name": "post", "mesh": {"chain": {"points": [[0.25, 0.25, 0], [0.25, 0.25, 0.5]], "segments": 1}},
-         "material": {"edge_stiffness": 10, "mass_per_length": 1}, "pin": ["all"]},
-        {"name": "rod", "mesh": {"chain": {"points": [[0.25, 0.75, 0], [0.25, 0.75, 2]], "segments": 1}},
-         "material": {"edge_stiffness": 10, "mass_per_length": 1}, "pin": ["all"]}]
-    return {"noli_scene": 1, "duration": 0.004, "window": 0.002, "record": "full", "gravity": [0, 0, -9.81], "bodies": bodies, **contact}
+def scene_of_run(plane):
+    """Two windows of a sheet (in the plane: a chain) that flies, a post that stands and a rod that a script moves; sheet and rod are excluded."""
+    curve = {"material": {"edge_stiffness": 0, "mass_per_length": 1}}
+    sheet = {"chain": {"points": [[0, 1], [1, 1.5]], "segments": 2}} if plane else {"grid": {"size": [1, 1], "cells": [1, 1]}}
+    material = {"edge_stiffness": 10, "mass_per_length": 1} if plane else {"young": 100, "density": 300, "thickness": 0.001}
+    end = [] if plane else [0]
+    bodies = [{"name": "sheet", "mesh": sheet, "material": material, "velocity": [0.5, 0.25] + ([] if plane else [-1])},
+              {"name": "post", "mesh": {"chain": {"points": [[0.25, 0.25, -2][: 3 - plane], [0.75, 0.25, -1][: 3 - plane]], "segments": 1}}, **curve, "pin": ["all"]},
+              {"name": "rod", "mesh": {"chain": {"points": [[0.25, -3, -2][: 3 - plane], [0.75, -3, 2][: 3 - plane]], "segments": 1}}, **curve}]
+    return {"noli_scene": 1, "dimension": 2 if plane else 3, "duration": 0.02, "window": 0.01, "record": "full", "bodies": bodies,
+            "scripts": [{"body": "rod", "path": [{"t": 0, "move": [0, 0, *end]}, {"t": 0.015, "move": [0.01, 0.5, *end]}, {"t": 0.1, "move": [0, 0, *end]}]}],
+            "contact": {"exclude": [["sheet", "rod"]]}}
 
 
 def run_noli(noli, folder, *arguments):
@@ -134,9 +137,9 @@ def written_by_noli(noli, folder):
                 file.write(data)
         code = run_noli(noli, folder, "verify", "--proof", "p.noli", "--threads", "1", "--no-check", *options, *paths)
         yield Case(name, read(os.path.join(folder, "p.noli")), files, extension, code)
-    for name, more in (("run", {"contact": {"exclude": [["sheet", "rod"]]}}),):
+    for name, plane in (("run", False), ("run in the plane", True)):
         with open(os.path.join(folder, "scene.json"), "w", encoding="utf-8") as file:
-            json.dump(scene_of_run(more), file)
+            json.dump(scene_of_run(plane), file)
         code = run_noli(noli, folder, "simulate", "scene.json", "--force", "--threads", "1", "-o", name)
         yield Case(name, read(os.path.join(folder, name, "proof.blocks")), [read(os.path.join(folder, name, "trajectory.blocks"))],
                    "blocks", code)
@@ -246,27 +249,68 @@ def random_tree(rng, cells):
     return b"\0" + random_tree(rng, cells[:cut]) + random_tree(rng, cells[cut:])
 
 
-def written_here(rng, frames, cells, source, dimension, flags, ring, eta, p, merged=(), excluded=(), witness=None):
-    files = [ply(f, cells) for f in frames]
+def run_bytes(dimension, vertices, cells, scripted, pairs, groups, windows):
+    """A trajectory.blocks; windows: (begin, end, for each vertex its breakpoints, (time, position))."""
+    counts = [sum(len(c) == size for c in cells) for size in (3, 2, 1)]
+    first = [[b"HEAD", struct.pack("<IId", dimension, 0, 1.0)],
+             [b"MESH", struct.pack("<4Q", vertices, *counts) + b"".join(struct.pack(f"<{len(c)}I", *c) for c in cells)],
+             [b"LABL", bytes(scripted)]]
+    if pairs:
+        first.append([b"EXCL", struct.pack("<I", len(pairs)) + b"".join(struct.pack("<2H", *pair) for pair in pairs) +
+                      struct.pack(f"<{vertices}H", *groups)])
+    parts = [first]
+    for k, (begin, end, lines) in enumerate(windows):
+        line = struct.pack(f"<{vertices}I", *map(len, lines)) + b"".join(struct.pack("<d", t) for mine in lines for t, _ in mine)
+        line += b"".join(struct.pack(f"<{dimension}d", *place[:dimension]) for mine in lines for _, place in mine)
+        parts.append([[b"WIND", struct.pack("<Qdd", k, begin, end)], [b"LINE", line], [b"VELO", bytes(8 * dimension * vertices)], [b"STAT", b"x"]])
+    return serialise(parts, b"TRAJ")
+
+
+def written_here(rng, files, source, dimension, flags, ring, eta, p, merged=(), excluded=(), witness=None, q=-1, witness_step=0):
+    """A proof of these files; with a witness for one of the steps, which ends it."""
     claim = slow_check.Claim(claim_bytes(source, dimension, flags, ring, eta, bytes(32), merged, excluded))
-    trajectory = slow_check.Frames(claim, files)
-    claim_payload = claim_bytes(source, dimension, flags, ring, eta, slow_check.cells_hash(trajectory), merged, excluded)
-    parts = [[[b"CLAM", claim_payload]]]
+    if source == 2:
+        claim.excluded = None
+    trajectory = slow_check.trajectory_of(claim, files)
+    if source == 2:
+        claim.excluded = excluded = trajectory.excluded
+    hashed = slow_check.cells_hash(trajectory)
+    parts = [[[b"CLAM", claim_bytes(source, dimension, flags, ring, eta, hashed, merged, excluded)]]]
     order = list(range(len(trajectory.cells)))
     rng.shuffle(order)
     tree = random_tree(rng, order)
-    for k in range(trajectory.steps):
-        t0, t1, digest, _ = trajectory.step(k)
-        payload = struct.pack("<Qddiib", k, t0, t1, p, -1, 0 if witness is None else 1) + digest
-        step = slow_check.Step(claim, trajectory, payload)
-        if witness is None:
-            root = slow_check.read_tree(tree, trajectory.cells, trajectory.labels)
-            tokens = prove(rng, step, root)
-            parts.append([[b"STEP", payload], *([[b"TREE", tree]] if k == 0 else []), [b"TOKS", tokens]])
-        else:
-            parts.append([[b"STEP", payload], [b"WITN", put_witness(witness(step))]])
+    for k, (t0, t1, digest, motion) in enumerate(trajectory.steps()):
+        refuted = witness is not None and k == witness_step
+        payload = struct.pack("<Qddiib", k, t0, t1, p, q, refuted) + digest
+        step = slow_check.Step(claim, trajectory, payload, lambda _, found=(t0, t1, digest, motion): found)
+        if refuted:
+            parts.append([[b"STEP", payload], [b"WITN", put_witness(witness)]])
             break
-    return serialise(parts, b"PROF"), files
+        tokens = prove(rng, step, slow_check.read_tree(tree, trajectory.cells, trajectory.labels))
+        parts.append([[b"STEP", payload], *([[b"TREE", tree]] if k == 0 else []), [b"TOKS", tokens]])
+    return serialise(parts, b"PROF")
+
+
+def made_run(dimension, dip):
+    """Two windows of an edge that goes up and down over a triangle (in the plane: an edge) with breakpoints of their own; a third cell is scripted."""
+    base = [(0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 4.0, 0.0)] if dimension == 3 else [(0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (2.0, -1.0, 0.0)]
+    cells = [(0, 1, 2), (3, 4), (5,)] if dimension == 3 else [(0, 1), (2, 0), (3, 4), (5,)]
+
+    def lifted(x, y, height):
+        return (x, y, height) if dimension == 3 else (x, 1.0 + height, 0.0)
+
+    def line(begin, end, inner):
+        return [(begin, inner[0]), *zip([begin + 0.125 * k for k in range(1, len(inner) - 1)], inner[1:-1]), (end, inner[-1])]
+
+    windows = []
+    more = [(2.0, 2.25, (1.0, 1.0))] if dip < 0 else []
+    for begin, end, heights in [(0.5, 1.25, (1.0, 0.5, 0.75, 0.625)), (1.25, 2.0, (0.625, dip, 1.0)), *more]:
+        lines = [[(begin, place), (end, place)] for place in base]
+        lines.append(line(begin, end, [lifted(1.0, 1.0, h) for h in heights]))
+        lines.append(line(begin, end, [lifted(1.5, 1.0, h) for h in (heights[0], heights[-1])]))
+        lines.append(line(begin, end, [(9.0, 9.0, 0.0), (9.0, 9.5, 0.0), (9.0, 9.0, 0.0)]))
+        windows.append((begin, end, lines))
+    return run_bytes(dimension, 6, cells, [0, 0, 0, 0, 0, 1], [(1, 2)], [0, 0, 0, 1, 1, 2], windows)
 
 
 def from_here(seed):
@@ -290,8 +334,19 @@ def from_here(seed):
             "merged, far": ([strip + [strip[0], (9.0, 9.0, 9.0)], bent + [bent[0], (9.0, 9.0, 8.0)]], [*strip_cells, (8, 9), (9, 8), (8,)],
                             0, 3, 0, 1, 2.0**-6, -9, ((8, 0),)),
     }.items():
-        proof, files = written_here(rng, *arguments)
-        yield Case(name, proof, files, "ply", 0)
+        files = [ply(frame, arguments[1]) for frame in arguments[0]]
+        yield Case(name, written_here(rng, files, *arguments[2:]), files, "ply", 0)
+    for name, dimension, dip, flags, ring, eta in (("a made run", 3, 0.25, 1, 1, 0.0), ("a made run, far", 3, 0.5, 0, 1, 0.25),
+                                                   ("a made run in the plane, far", 2, -0.5, 0, 2, 0.125)):
+        files = [made_run(dimension, dip)]
+        yield Case(name, written_here(rng, files, 2, dimension, flags, ring, eta, -6, q=-5), files, "blocks", 0)
+    # In the second window vertex 3 falls from 0.625 at 1.25 s to -0.125 at 1.375 s: at the height 0 when 5/6 of that are over. Times are in 1/32 s.
+    meets = {"i": 1, "j": 0, "P": [(3, [1])], "Q": [(0, [2]), (1, [1]), (2, [1])], "g": [-130, 3], "e": 2, "l": 161, "u": 175}
+    files = [made_run(3, -0.125)]
+    yield Case("a made run that meets", written_here(rng, files, 2, 3, 0, 1, 0.0, -6, (), (), meets, -5, 1), files, "blocks", 1)
+    nears = {"i": 0, "j": 1, "P": [(0, [2]), (1, [1]), (2, [1])], "Q": [(3, [1])], "g": [-44, 1], "e": 0, "l": 44, "u": 44}
+    files = [made_run(3, 0.25)]
+    yield Case("a made run that nears", written_here(rng, files, 2, 3, 0, 1, 0.375, -6, (), (), nears, -5, 1), files, "blocks", 1)
 
     for name, arguments, witness in (
             # One point over the middle of a triangle, nearer than the distance at the end.
@@ -304,8 +359,8 @@ def from_here(seed):
             ("wide interval", ([above(1.0), above(-1.0)], TWO, 0, 3, 0, 1, 0.0, -2),
              {"i": 1, "j": 0, "P": [(3, [3, 0, 1])], "Q": [(0, [2]), (1, [1]), (2, [1])], "g": [-1, 1], "e": 3, "l": 3, "u": 11}),
     ):
-        proof, files = written_here(rng, *arguments, witness=lambda step, w=witness: w)
-        yield Case(name, proof, files, "ply", 1)
+        files = [ply(frame, arguments[1]) for frame in arguments[0]]
+        yield Case(name, written_here(rng, files, *arguments[2:], witness=witness), files, "ply", 1)
 
 
 def corpus(noli, folder, seed=1):

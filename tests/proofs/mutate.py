@@ -20,6 +20,7 @@ from fractions import Fraction
 
 import corpus
 import slow_check
+import slow_frames
 from proof_bytes import (get_witness, numbers_of, parse, put_poly, put_sint, put_uint, put_witness, serialise, split_tokens,
                          with_numbers)
 
@@ -40,7 +41,7 @@ class Taken:
         else:
             self.run, self.frames = None, []
             for data in case.files:
-                positions, self.cells = slow_check.read_frame(data)
+                positions, self.cells = slow_frames.read_frame(data)
                 self.frames.append([list(p) for p in positions])
 
 
@@ -669,10 +670,8 @@ def all_positions(m):
 def order_of_frames(m):
     rng, frames = m.rng, frames_of(m)
     what, k = rng.randrange(4), rng.randrange(len(frames))
-    if what == 0:
+    if what == 0 and len(frames) > 1:
         del frames[k]
-        if not frames:
-            raise NoSuchThing
     elif what == 1:
         frames.insert(k, copy.deepcopy(frames[k]))
     elif what == 2:
@@ -834,12 +833,11 @@ def fit(m, files):
             claim_block[1] = corpus.claim_bytes(2, claim.dimension, claim.strict, claim.ring, claim.eta, claim.cells_hash, (), trajectory.excluded)
         if m.fit_cells:
             claim_block[1] = claim_block[1][:16] + slow_check.cells_hash(trajectory) + claim_block[1][48:]
-        for group in m.groups[1:]:
-            for block in group:
-                if block[0] == b"STEP" and len(block[1]) == 65:
-                    k = int.from_bytes(block[1][:8], "little")
-                    if k < trajectory.steps:
-                        block[1] = block[1][:33] + trajectory.step(k)[2]
+        for k, (_, _, digest, _) in enumerate(trajectory.steps()):
+            for group in m.groups[1:]:
+                for block in group:
+                    if block[0] == b"STEP" and len(block[1]) == 65 and int.from_bytes(block[1][:8], "little") == k:
+                        block[1] = block[1][:33] + digest
     except (slow_check.Rejected, struct.error, IndexError, OverflowError):
         pass
 
@@ -859,7 +857,7 @@ def mutant(rng, taken, others):
             mutation = rng.choices(_MUTATIONS, _WEIGHTS)[0]
             try:
                 mutation(m)
-            except (NoSuchThing, struct.error, OverflowError, IndexError):
+            except (NoSuchThing, struct.error, OverflowError, IndexError, ValueError):
                 continue
             kinds.append(mutation.__name__)
             break

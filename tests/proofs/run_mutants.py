@@ -73,7 +73,7 @@ class Campaign:
         os.makedirs(self.folder, exist_ok=True)
         self.cases = corpus.corpus(os.path.abspath(arguments.noli), self.folder)
         self.taken = [mutate.Taken(case) for case in self.cases]
-        self.choices = [c for c, case in enumerate(self.cases) for _ in range(4 if case.extension == "blocks" else 1)]
+        self.choices = [c for c, case in enumerate(self.cases) for _ in range(2 if case.extension == "blocks" else 1)]
         self.checkers = Checkers(arguments, self.folder)
         self.counts = collections.Counter()
         self.kinds = collections.defaultdict(collections.Counter)
@@ -159,20 +159,23 @@ class Campaign:
                 file.write(f"  noli_check_verified {' '.join(names)}\n")
             file.write(f"The same mutant again:\n  scripts/mutate-proofs 1 {self.arguments.seed} {k}\n")
 
+    def save(self, spent, k):
+        self.counts["seconds"] = round(spent, 1)
+        with open(os.path.join(self.arguments.output, f"summary-{self.arguments.seed}.json"), "w", encoding="utf-8") as file:
+            json.dump({"counts": self.counts, "next": k, "kinds": self.kinds}, file, indent=1)
+
     def run(self):
-        started = time.monotonic()
-        k, end = self.arguments.first, self.arguments.first + self.arguments.count
-        shown = started
+        shown = started = time.monotonic()
+        first = k = self.arguments.first
+        end = first + self.arguments.count
         while k < end and (self.arguments.seconds is None or time.monotonic() - started < self.arguments.seconds):
             k = self.batch(k, min(k + BATCH, end))
             if time.monotonic() - shown > 30:
                 shown = time.monotonic()
-                print(f"{k - self.arguments.first} mutants, {(k - self.arguments.first) / (shown - started):.0f} a second, "
-                      f"{self.found} findings", flush=True)
+                print(f"{k - first} mutants, {(k - first) / (shown - started):.0f} a second, {self.found} findings", flush=True)
+                self.save(shown - started, k)
         spent = time.monotonic() - started
-        self.counts["seconds"] = round(spent, 1)
-        with open(os.path.join(self.arguments.output, f"summary-{self.arguments.seed}.json"), "w", encoding="utf-8") as file:
-            json.dump({"counts": self.counts, "next": k, "kinds": self.kinds}, file, indent=1)
+        self.save(spent, k)
         for kind, codes in sorted(self.kinds.items()):
             print(f"  {kind:24} accepted {codes[0]:7}  refuted {codes[1]:7}  rejected {codes[3]:7}")
         print(", ".join(f"{what} {number}" for what, number in self.counts.items()))

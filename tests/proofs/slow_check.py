@@ -10,23 +10,16 @@ made here too. Numbers are int and Fraction; every rule is spelled out where it 
 everything in memory and is no good for anything large. Where those pages leave something open, there is a comment that begins with
 OPEN. Exit codes and first words are those of FORMAT.md, section 6.
 """
+import functools
 import hashlib
 import math
-import re
 import struct
 import sys
 from fractions import Fraction
 
+from slow_frames import Rejected, need, not_redundant, read_frame
+
 MAGIC = b"\x89NOLI\r\n\x1a"
-
-
-class Rejected(Exception):
-    pass
-
-
-def need(condition, reason):
-    if not condition:
-        raise Rejected(reason)
 
 
 # ---- Bytes -------------------------------------------------------------------------------------------------------------------------
@@ -44,6 +37,7 @@ def _table():
 _CRC = _table()
 
 
+@functools.lru_cache(maxsize=1000)
 def crc32c(data):
     crc, table = 0xFFFFFFFF, _CRC
     for byte in data:
@@ -138,261 +132,149 @@ def block_at(data, at):
 
 
 def groups(data, content):
-    """The groups, each a list of (kind, payload) and its group hash; and whether an open group follows them."""
+    """One group after another, each a list of (kind, payload), and its group hash.
+
+    OPEN: proofs/FORMAT.md has "a checker refuses a file that ends in an open group", which may be the proof alone, since for trajectories
+    such an end is no error in trajectory/FORMAT.md. Here it is any file, so whether its end is open or damaged makes no difference.
+    """
     need(len(data) >= 16, "the file is too short")
     need(data[:8] == MAGIC, "no block file")
     need(data[8:12] == b"\1\0\0\0", "another version")
     need(data[12:16] == content, "another content")
-    begin, at, running, found, blocks = 0, 16, bytes(32), [], []
+    begin, at, running, number, blocks = 0, 16, bytes(32), 0, []
     while at < len(data):
         block = block_at(data, at)
-        if block is None:
-            place = data.find(b"CMIT", at)
-            while place >= 0:
-                later = block_at(data, place)
-                need(later is None or len(later[1]) != 72, f"byte {at}: damaged")
-                place = data.find(b"CMIT", place + 1)
-            return found, True
+        need(block is not None, f"byte {at}: no block; {number} groups were committed")
         kind, payload, end = block
         if kind == b"CMIT":
             reader = Reader(payload, "CMIT")
-            need(reader.u64() == len(found), f"byte {at}: a commit with another number")
+            need(reader.u64() == number, f"byte {at}: a commit with another number")
             group = hashlib.sha256(data[begin:at]).digest()
             running = hashlib.sha256(running + group).digest()
             need(reader.raw(32) == group and reader.raw(32) == running, f"byte {at}: a commit with another hash")
             reader.end()
-            found.append((blocks, group))
-            begin, blocks = end, []
+            yield blocks, group
+            begin, blocks, number = end, [], number + 1
         else:
             blocks.append((kind, payload))
         at = end
-    return found, at > begin
-
-
-# ---- Frames: section 8 -------------------------------------------------------------------------------------------------------------
-
-INTEGERS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "int8": "b", "uint8": "B",
-            "int16": "h", "uint16": "H", "int32": "i", "uint32": "I", "int64": "q", "uint64": "Q"}
-TYPES = {**INTEGERS, "float": "f", "float32": "f", "double": "d", "float64": "d"}
-# OPEN: which spellings are a decimal number.
-DECIMAL = re.compile(rb"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\Z")
-
-
-def decimal(word, letter="d"):
-    """A decimal number, rounded once to the type of this letter."""
-    need(DECIMAL.match(word), "no number")
-    if letter not in "fd":
-        need(re.match(rb"[+-]?\d+\Z", word), "no integer")
-        value, bits = int(word), 8 * struct.calcsize(letter)
-        low = 0 if letter.isupper() else -(1 << bits - 1)
-        need(low <= value < low + (1 << bits), "out of range")
-        return value
-    value = float(word)
-    need(math.isfinite(value), "infinite")
-    zero = not re.search(rb"[1-9]", re.split(rb"[eE]", word)[0])
-    if letter == "f" and not zero:
-        need(len(word) < 400 and abs(math.log10(abs(value)) if value else -999) < 60, "out of range")
-        exact = abs(Fraction(word.decode()))
-        exponent = max(math.frexp(exact.numerator / exact.denominator)[1] - 24, -149)
-        while exact >= Fraction(2) ** (exponent + 24):
-            exponent += 1
-        while exponent > -149 and exact < Fraction(2) ** (exponent + 23):
-            exponent -= 1
-        rounded = round(exact / Fraction(2) ** exponent) * Fraction(2) ** exponent  # round() goes to even
-        need(rounded < Fraction(2) ** 128, "infinite")
-        value = math.copysign(float(rounded), -1 if word.startswith(b"-") else 1)
-    need(zero or value != 0, "rounded to 0")
-    return value
-
-
-def add_polygon(polygon, faces, edges, points):
-    need(polygon, "a polygon without vertices")  # OPEN
-    if len(polygon) == 1:
-        points.append(tuple(polygon))
-    elif len(polygon) == 2:
-        edges.append(tuple(polygon))
-    for second, third in zip(polygon[1:], polygon[2:]):
-        faces.append((polygon[0], second, third))
-
-
-def read_ply(data):
-    lines, at = [], 0
-    while not lines or lines[-1] != [b"end_header"]:
-        end = data.find(b"\n", at)
-        need(end >= 0, "a header without end")
-        line, at = data[at:end], end + 1
-        lines.append((line[:-1] if line.endswith(b"\r") else line).replace(b"\t", b" ").split(b" "))
-        lines[-1] = [word for word in lines[-1] if word]
-    need(lines[0] == [b"ply"], "no PLY file")
-    form, elements = None, []
-    for words in lines[1:-1]:
-        text = [word.decode("latin-1") for word in words]
-        need(text, "an empty line in the header")
-        if text[0] == "format":
-            need(form is None and len(text) == 3 and text[2] == "1.0", "format")
-            form = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}.get(text[1])
-            need(form is not None, "format")
-        elif text[0] == "element":
-            need(len(text) == 3 and text[2].isdigit() and text[1] != "tristrips", "element")
-            elements.append((text[1], int(text[2]), []))
-        elif text[0] == "property":
-            need(elements, "a property before the first element")
-            listed = len(text) == 5 and text[1] == "list"
-            need(listed or len(text) == 3, "property")
-            need(all(name in TYPES for name in text[2 if listed else 1 : -1]), "a type")
-            need(not listed or text[2] in INTEGERS, "a length that is no integer")
-            elements[-1][2].append((text[-1], TYPES[text[-2]], TYPES[text[2]] if listed else None))
-        else:
-            need(text[0] in ("comment", "obj_info"), "an unknown line in the header")
-    need(form is not None, "no format")
-    words, positions, faces, edges, points = [], [], [], [], []
-    ascii_lines = iter([line for line in data[at:].replace(b"\r\n", b"\n").split(b"\n")]) if form == "" else None
-
-    def number(letter):
-        nonlocal at
-        if form == "":
-            need(words, "an entry is too short")
-            return decimal(words.pop(), letter)
-        size = struct.calcsize(form + letter)
-        need(size <= len(data) - at, "the file is too short")
-        at += size
-        value = struct.unpack(form + letter, data[at - size : at])[0]
-        need(math.isfinite(value), "a number is not finite")
-        return value
-
-    def length(letter):
-        value = number(letter)
-        need(0 <= value <= len(data), "the length of a list")
-        return value
-
-    for name, count, properties in elements:
-        for _ in range(count):
-            if form == "":
-                words = []
-                while not words:
-                    line = next(ascii_lines, None)
-                    need(line is not None, "the file is too short")
-                    words = [word for word in line.replace(b"\t", b" ").split(b" ") if word][::-1]
-            entry = {}
-            for key, letter, count_letter in properties:
-                entry[key] = number(letter) if count_letter is None else \
-                    [number(letter) for _ in range(length(count_letter))]
-            need(not words, "an entry is too long")
-            if name == "vertex":
-                need("x" in entry and "y" in entry, "a vertex without x or y")
-                positions.append(tuple(float(entry.get(key, 0)) for key in "xyz"))
-            elif name == "face":
-                polygon = entry.get("vertex_indices", entry.get("vertex_index"))
-                need(isinstance(polygon, list), "a face without vertices")
-                add_polygon(polygon, faces, edges, points)
-            elif name == "edge":
-                need("vertex1" in entry and "vertex2" in entry, "an edge without vertices")
-                edges.append((entry["vertex1"], entry["vertex2"]))
-    if form == "":
-        need(not any(line.strip(b" \t") for line in ascii_lines), "something behind the last entry")
-    else:
-        need(at == len(data), "something behind the last entry")
-    return positions, faces, edges, points
-
-
-SKIPPED = set(b"vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj".split())
-
-
-def read_obj(data):
-    positions, faces, edges, points, before = [], [], [], [], b""
-    for line in data.replace(b"\r\n", b"\n").split(b"\n"):
-        line = before + re.split(rb"(?:^|(?<=[ \t]))#", line)[0].rstrip(b" \t")
-        before = b""
-        if line.endswith(b"\\"):
-            before = line[:-1] + b" "
-            continue
-        words = line.replace(b"\t", b" ").split()
-        if not words or words[0] in SKIPPED:
-            continue
-        kind, words = words[0], words[1:]
-        if kind == b"v":
-            need(len(words) in (2, 3, 4, 6, 7), "a vertex")
-            numbers = [decimal(word) for word in words]
-            positions.append(tuple((numbers + [0.0])[:3]))
-            continue
-        need(kind in (b"f", b"l", b"p"), "an unknown statement")
-        polygon = []
-        for word in words:
-            index = decimal(word.split(b"/")[0], "q")
-            need(index != 0, "a vertex 0")
-            polygon.append(index - 1 if index > 0 else len(positions) + index)
-        need(len(polygon) >= {b"f": 3, b"l": 2, b"p": 1}[kind], "too few vertices")
-        if kind == b"f":
-            add_polygon(polygon, faces, edges, points)
-        elif kind == b"l":
-            edges.extend(zip(polygon, polygon[1:]))
-        else:
-            points.extend((index,) for index in polygon)
-    need(before == b"", "the last line goes on")
-    return positions, faces, edges, points
-
-
-def read_frame(data):
-    """Positions and cells. OPEN: how PLY and OBJ are told apart; here by the first line."""
-    ply = data.startswith((b"ply\n", b"ply\r\n", b"ply ", b"ply\t"))
-    positions, faces, edges, points = read_ply(data) if ply else read_obj(data)
-    for cell in faces + edges + points:
-        need(all(0 <= v < len(positions) for v in cell), "a vertex that is not there")
-    return positions, not_redundant(faces + edges + points)
-
-
-def not_redundant(cells):
-    covered, kept = set(), []
-    for cell in cells:
-        if len(cell) == 3:
-            kept.append(cell)
-            covered.update(frozenset((cell[a], cell[b])) for a, b in ((0, 1), (1, 2), (0, 2)))
-    for cell in cells:
-        if len(cell) == 2 and frozenset(cell) not in covered:
-            kept.append(cell)
-            covered.add(frozenset(cell))
-    used = {v for cell in kept for v in cell}
-    for cell in cells:
-        if len(cell) == 1 and cell[0] not in used:
-            kept.append(cell)
-            used.add(cell[0])
-    return kept
+    need(begin == at and number > 0, f"an open group; {number} were committed")
 
 
 # ---- The two kinds of trajectories ----------------------------------------------------------------------------------------------
-# Each has: vertices, cells and labels (of the claim), steps as (T0, T1, hash of the motion, breakpoints of each vertex).
+# Each has vertices, cells and labels of the claim; and steps(), which yields (T0, T1, hash of the motion, breakpoints of each vertex).
+# OPEN: whether what comes behind the last step of a proof with a witness has to be read, and so be in order. Here it is not read.
 
 
 class Frames:
     def __init__(self, claim, files):
-        self.frames = []
-        for data in files:
-            positions, cells = read_frame(data)
-            need(not self.frames or (len(positions) == self.vertices and cells == listed), "frames that differ")
-            self.vertices, listed = len(positions), cells
-            self.frames.append([(x, y, z if claim.dimension == 3 else 0.0) for x, y, z in positions])
+        self.claim, self.files, self.rest = claim, files, claim.source == 1
+        need(len(files) >= (1 if self.rest else 2), "more frames are needed")  # OPEN: one frame has n - 1 = 0 steps, and a vacuous proof
+        first, self.listed = read_frame(files[0])
+        self.vertices, listed = len(first), self.listed
         if claim.points:
             used = {v for cell in listed for v in cell}
             listed = listed + [(v,) for v in range(self.vertices) if v not in used]
         need(all(v < self.vertices for v in claim.merged), "a merged vertex that is not there")
         self.cells = not_redundant([tuple(claim.merged.get(v, v) for v in cell) for cell in listed])
         self.labels = [0] * len(self.cells)
-        self.rest, self.merged = claim.source == 1, claim.merged
-        self.steps = len(self.frames) - (0 if self.rest else 1)
 
-    def step(self, k):
-        if self.rest:
-            motion = [((0.0, a), (1.0, a)) for a in self.frames[k]]
-        else:
-            motion = [((float(k), a), (float(k + 1), b)) for a, b in zip(self.frames[k], self.frames[k + 1])]
-        digest = hashlib.sha256()
-        for line in motion:
-            digest.update(struct.pack("<Q", len(line)))
-            for time, position in line:
-                digest.update(struct.pack("<4d", *(number + 0.0 for number in (time, *position))))  # -0.0 + 0.0 is 0.0
-        # OPEN: nothing says that merged vertices have to be at the same place; a checker that does not ask proves a claim about others.
-        need(all(motion[v] == motion[s] for v, s in self.merged.items()), "merged vertices that are not at the same place")
-        return (0.0, 1.0) + (digest.digest(), motion) if self.rest else (float(k), float(k + 1), digest.digest(), motion)
+    def positions(self, k):
+        positions, cells = read_frame(self.files[k])
+        need(len(positions) == self.vertices and cells == self.listed, "frames that differ")
+        return [(x, y, z if self.claim.dimension == 3 else 0.0) for x, y, z in positions]
+
+    def steps(self):
+        for k in range(len(self.files) - (not self.rest)):
+            begin, end = (0.0, 1.0) if self.rest else (float(k), float(k + 1))
+            motion = [((begin, a), (end, b)) for a, b in zip(self.positions(k), self.positions(k + (not self.rest)))]
+            digest = hashlib.sha256()
+            for line in motion:
+                digest.update(struct.pack("<Q", len(line)))
+                for time, position in line:
+                    digest.update(struct.pack("<4d", *(number + 0.0 for number in (time, *position))))  # -0.0 + 0.0 is 0.0
+            # OPEN: nothing says that merged vertices have to be at the same place; a checker that does not ask proves a claim about others.
+            need(all(motion[v] == motion[s] for v, s in self.claim.merged.items()), "merged vertices that are not at the same place")
+            yield begin, end, digest.digest(), motion
+
+
+class Run:
+    def __init__(self, claim, data):
+        self.parts = groups(data, b"TRAJ")
+        blocks = list(next(self.parts)[0])
+        head = self.block(blocks, b"HEAD")
+        self.dimension = head.u32()
+        mode, length = head.u32(), head.f64()
+        head.end()
+        need(self.dimension in (2, 3) and mode in (0, 1) and length > 0, "HEAD")
+        need(mode == 0, "the run does not have its motion")
+        need(self.dimension == claim.dimension, "the run has another dimension")  # OPEN: follows, but is not said
+        mesh = self.block(blocks, b"MESH")
+        self.vertices, faces, edges, points = (mesh.u64() for _ in range(4))
+        need(1 <= self.vertices <= 1 << 32, "MESH")
+        self.cells = []  # OPEN: redundant ones are left out only when they have become so, by merging, of which a run has none
+        for size, count in ((3, faces), (2, edges), (1, points)):
+            self.cells += list(zip(*[iter(mesh.many(size * count, "I"))] * size))
+        mesh.end()
+        need(all(v < self.vertices for cell in self.cells for v in cell), "a vertex that is not there")
+        labl = self.block(blocks, b"LABL")
+        scripted = labl.raw(self.vertices)
+        labl.end()
+        need(max(scripted) <= 1, "LABL")
+        group, pairs = [0] * self.vertices, set()
+        if blocks:
+            excl = self.block(blocks, b"EXCL")
+            flat = excl.many(2 * excl.u32(), "H")
+            listed = list(zip(flat[::2], flat[1::2]))
+            need(listed and all(a <= b for a, b in listed), "EXCL")
+            need(all(a < b for a, b in zip(listed, listed[1:])), "EXCL: pairs do not ascend")
+            group, pairs = excl.many(self.vertices, "H"), set(listed)
+            excl.end()
+            need(all(group[v] == group[cell[0]] for cell in self.cells for v in cell), "a cell of two groups")
+        need(not blocks, "a block that is not expected")
+        self.labels = [2 * group[cell[0]] + all(scripted[v] for v in cell) for cell in self.cells]
+        found = sorted(set(self.labels))
+        self.excluded = [(a, b) for a in found for b in found
+                         if a <= b and (a & b & 1 or (min(a // 2, b // 2), max(a // 2, b // 2)) in pairs)]
+        need(claim.excluded in (None, self.excluded), "the excluded pairs are not those of the run")
+
+    def steps(self):
+        last = None
+        for index, (blocks, group_hash) in enumerate(self.parts):
+            blocks = list(blocks)
+            wind = self.block(blocks, b"WIND")
+            need(wind.u64() == index, "WIND: another index")
+            begin, end = wind.raw(8), wind.raw(8)
+            wind.end()
+            t0, t1 = Reader(begin, "WIND").f64(), Reader(end, "WIND").f64()
+            need(t0 < t1, "WIND: begin and end")
+            line = self.block(blocks, b"LINE")
+            counts = line.many(self.vertices, "I")
+            need(min(counts) >= 2, "LINE: fewer than two breakpoints")
+            motion, first = [], []
+            for mine in [line.many(count, "d") for count in counts]:
+                need(all(a < b for a, b in zip(mine, mine[1:])), "LINE: the times do not ascend")
+                need(struct.pack("<d", mine[0]) == begin and struct.pack("<d", mine[-1]) == end, "LINE: begin or end")
+                motion.append(mine)
+            for v, mine in enumerate(motion):
+                flat = line.many(len(mine) * self.dimension, "d")
+                places = [flat[i : i + self.dimension] for i in range(0, len(flat), self.dimension)]
+                motion[v] = [(t, place if self.dimension == 3 else (*place, 0.0)) for t, place in zip(mine, places)]
+                first.append((begin, struct.pack("<3d", *motion[v][0][1])))
+            line.end()
+            need(last is None or first == last, "a window that does not go on where the one before ended")
+            last = [(end, struct.pack("<3d", *mine[-1][1])) for mine in motion]
+            velo = self.block(blocks, b"VELO")
+            velo.many(self.vertices * self.dimension, "d")
+            velo.end()
+            self.block(blocks, b"STAT")
+            need(not blocks, "a block that is not expected")
+            yield t0, t1, group_hash, motion
+
+    @staticmethod
+    def block(blocks, kind):
+        need(blocks and blocks[0][0] == kind, f"expected {kind.decode()}")
+        return Reader(blocks.pop(0)[1], kind.decode())
 
 
 def trajectory_of(claim, files):
@@ -405,90 +287,6 @@ def cells_hash(trajectory):
     for cell, label in zip(trajectory.cells, trajectory.labels):
         digest.update(struct.pack(f"<B{len(cell)}II", len(cell), *cell, label))
     return digest.digest()
-
-
-class Run:
-    def __init__(self, claim, data):
-        parts, _ = groups(data, b"TRAJ")  # an open group is no error
-        need(parts, "the trajectory has no commit")
-        blocks = list(parts[0][0])
-        head = self.block(blocks, b"HEAD")
-        self.dimension = head.u32()
-        mode, length = head.u32(), head.f64()
-        head.end()
-        need(self.dimension in (2, 3) and mode in (0, 1) and length > 0, "HEAD")
-        need(mode == 0, "the run does not have its motion")
-        need(self.dimension == claim.dimension, "the run has another dimension")  # OPEN: follows, but is not said
-        mesh = self.block(blocks, b"MESH")
-        self.vertices, faces, edges, points = (mesh.u64() for _ in range(4))
-        need(1 <= self.vertices <= 1 << 32, "MESH")
-        cells = []
-        for size, count in ((3, faces), (2, edges), (1, points)):
-            cells += list(zip(*[iter(mesh.many(size * count, "I"))] * size))
-        mesh.end()
-        need(all(v < self.vertices for cell in cells for v in cell), "a vertex that is not there")
-        labl = self.block(blocks, b"LABL")
-        scripted = labl.raw(self.vertices)
-        labl.end()
-        need(max(scripted) <= 1, "LABL")
-        group, pairs = [0] * self.vertices, set()
-        if blocks:
-            excl = self.block(blocks, b"EXCL")
-            count = excl.u32()
-            flat = excl.many(2 * count, "H")
-            listed = list(zip(flat[::2], flat[1::2]))
-            need(listed and all(a <= b for a, b in listed), "EXCL")
-            need(all(a < b for a, b in zip(listed, listed[1:])), "EXCL: pairs do not ascend")
-            group, pairs = excl.many(self.vertices, "H"), set(listed)
-            excl.end()
-            need(all(group[v] == group[cell[0]] for cell in cells for v in cell), "a cell of two groups")
-        need(not blocks, "a block that is not expected")
-        self.cells = cells  # OPEN: whether redundant cells of a run are left out; they are not merged, so none has become so
-        self.labels = [2 * group[cell[0]] + all(scripted[v] for v in cell) for cell in self.cells]
-        found = sorted(set(self.labels))
-        expected = [(a, b) for a in found for b in found
-                    if a <= b and (a & b & 1 or (min(a // 2, b // 2), max(a // 2, b // 2)) in pairs)]
-        self.excluded = expected
-        need(claim.excluded in (None, expected), "the excluded pairs are not those of the run")
-        self.windows, last = [], None
-        for index, (blocks, group_hash) in enumerate(parts[1:]):
-            blocks = list(blocks)
-            wind = self.block(blocks, b"WIND")
-            need(wind.u64() == index, "WIND: another index")
-            begin, end = wind.raw(8), wind.raw(8)
-            wind.end()
-            t0, t1 = Reader(begin, "WIND").f64(), Reader(end, "WIND").f64()
-            need(t0 < t1, "WIND: begin and end")
-            line = self.block(blocks, b"LINE")
-            counts = line.many(self.vertices, "I")
-            need(min(counts) >= 2, "LINE: fewer than two breakpoints")
-            times = [line.many(count, "d") for count in counts]
-            motion, first = [], []
-            for mine in times:
-                need(all(a < b for a, b in zip(mine, mine[1:])), "LINE: the times do not ascend")
-                need(struct.pack("<d", mine[0]) == begin and struct.pack("<d", mine[-1]) == end, "LINE: begin or end")
-                flat = line.many(len(mine) * self.dimension, "d")
-                places = [flat[i : i + self.dimension] for i in range(0, len(flat), self.dimension)]
-                motion.append([(t, place if self.dimension == 3 else (*place, 0.0)) for t, place in zip(mine, places)])
-                first.append((begin, struct.pack("<3d", *motion[-1][0][1])))
-            line.end()
-            need(last is None or first == last, "a window that does not go on where the one before ended")
-            last = [(end, struct.pack("<3d", *mine[-1][1])) for mine in motion]
-            velo = self.block(blocks, b"VELO")
-            velo.many(self.vertices * self.dimension, "d")
-            velo.end()
-            self.block(blocks, b"STAT")
-            need(not blocks, "a block that is not expected")
-            self.windows.append((t0, t1, group_hash, motion))
-        self.steps = len(self.windows)
-
-    @staticmethod
-    def block(blocks, kind):
-        need(blocks and blocks[0][0] == kind, f"expected {kind.decode()}")
-        return Reader(blocks.pop(0)[1], kind.decode())
-
-    def step(self, k):
-        return self.windows[k]
 
 
 # ---- The proof ---------------------------------------------------------------------------------------------------------------------
@@ -561,15 +359,15 @@ def integer(number, power, what):
 class Step:
     """One step in integers, and what is asked of it."""
 
-    def __init__(self, claim, trajectory, payload):
+    def __init__(self, claim, trajectory, payload, behind):
+        """behind: steps of the trajectory, of which the one with the number of this is taken: a function of the number."""
         r = Reader(payload, "STEP")
         self.claim, self.cells, self.labels = claim, trajectory.cells, trajectory.labels
         self.number = r.u64()
         t0, t1, p, q, kind, digest = r.f64(), r.f64(), r.i32(), r.i32(), r.u8(), r.raw(32)
         r.end()
         need(abs(p) <= 1200 and abs(q) <= 1200 and kind <= 1, "STEP")
-        need(self.number < trajectory.steps, "STEP: the trajectory does not have it")
-        begin, end, motion_hash, motion = trajectory.step(self.number)
+        begin, end, motion_hash, motion = behind(self.number)
         need(t0 == begin and t1 == end, "STEP: other times")  # OPEN: -0; as numbers they are equal
         need(digest == motion_hash, "STEP: another motion")
         self.witness, self.known = kind == 1, {}
@@ -820,19 +618,27 @@ def check(proof, files):
 
 
 def examine(proof, files):
-    parts, is_open = groups(proof, b"PROF")
-    need(not is_open, f"an open group behind {max(len(parts) - 1, 0)} committed steps")
-    need(parts and [kind for kind, _ in parts[0][0]] == [b"CLAM"], "the first group")
-    claim = Claim(parts[0][0][0][1])
+    parts = groups(proof, b"PROF")
+    first, _ = next(parts)
+    need([kind for kind, _ in first] == [b"CLAM"], "the first group")
+    claim = Claim(first[0][1])
     trajectory = trajectory_of(claim, files)
     need(trajectory.cells, "a claim about no cells")  # OPEN: no step can have a TREE then; without steps nothing speaks against it
     need(cells_hash(trajectory) == claim.cells_hash, "CLAM: other cells")
-    tree, expected, refuted = None, 0, None
-    for blocks, _ in parts[1:]:
+    steps, tree, expected, refuted = trajectory.steps(), None, 0, None
+
+    def step_of_trajectory(number):
+        # OPEN: whether steps may be missing only directly behind a witness, or anywhere behind one; here anywhere.
+        need(number == expected or (refuted is not None and number > expected), "STEP: another number")
+        for _ in range(expected, number):
+            need(next(steps, None) is not None, "STEP: the trajectory does not have it")
+        found = next(steps, None)
+        need(found is not None, "STEP: the trajectory does not have it")
+        return found
+
+    for blocks, _ in parts:
         need(blocks and blocks[0][0] == b"STEP", "expected STEP")
-        step = Step(claim, trajectory, blocks[0][1])
-        # OPEN: whether a gap is allowed directly behind a witness, or anywhere behind one; here anywhere.
-        need(step.number == expected or (refuted is not None and step.number > expected), "STEP: another number")
+        step = Step(claim, trajectory, blocks[0][1], step_of_trajectory)
         expected = step.number + 1
         kinds = [kind for kind, _ in blocks[1:]]
         if step.witness:
@@ -848,7 +654,7 @@ def examine(proof, files):
             step.prove(tree, [payload for _, payload in blocks[1:]])
     if refuted is not None:
         return 1, f"refuted: step {refuted} has a witness"
-    need(expected == trajectory.steps, "steps are missing")
+    need(next(steps, None) is None, "steps are missing")
     return 0, f"accepted: nothing touches in {expected} steps"
 
 
