@@ -7,7 +7,9 @@
 namespace noli::app {
 namespace {
 
-ProofClaim claim_of(const VerifyRequest& request, int dimension) { return {dimension, request.strict, {}}; }
+ProofClaim claim_of(const VerifyRequest& request, int dimension) {
+  return {dimension, request.strict, {}, request.min_distance, request.ring};
+}
 
 StepProver make_prover(const VerifyRequest& request, int dimension, const Mesh& mesh, std::span<const Position> x_t0,
                        std::span<const Position> x_t1) {
@@ -23,6 +25,8 @@ ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mes
   header.dimension = dimension;
   header.strict = request.strict;
   header.points = request.points;
+  header.eta = request.min_distance;
+  header.ring = request.ring;
   header.vertices = mesh.vertex_count;
   header.mesh = &mesh;
   const std::vector<std::uint32_t> labels(mesh.cell_count(), 0);
@@ -43,6 +47,8 @@ FrameProof::FrameProof(const VerifyRequest& request, int dimension, const Mesh& 
                        std::span<const Position> x_t0, std::span<const Position> x_t1)
     : mesh_(mesh),
       dimension_(dimension),
+      eta_(request.min_distance),
+      ring_(request.ring),
       strict_(request.strict),
       rest_(request.constant_motion),
       prover_(make_prover(request, dimension, mesh, x_t0, x_t1)),
@@ -53,7 +59,13 @@ bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::sp
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
   begin(step, ProofFile::Kind::proof, lines);
   if (!tree_written_) file_.tree(prover_.tree().encoded());
-  const bool whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
+  bool whole = false;
+  try {
+    whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
+  } catch (...) {
+    file_.discard();
+    throw;
+  }
   if (!whole) {
     file_.discard();
     return false;
@@ -69,13 +81,24 @@ void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines&
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const VerifyResult& result) {
-  const WitnessStep what{mesh_, x_t0, x_t1, dimension_, strict_, rest_ ? 0 : step};
+  const WitnessStep what{mesh_, x_t0, x_t1, dimension_, strict_, rest_ ? 0 : step, eta_, ring_};
   std::optional<std::string> witness;
   if (result.first) witness = witness_of(what, *result.first);
   for (std::size_t i = 0; i < result.initial_reports.size() && !witness; ++i) {
     witness = witness_of(what, result.initial_reports[i]);
   }
   for (std::size_t i = 0; i < result.reports.size() && !witness; ++i) witness = witness_of(what, result.reports[i]);
+  return write_witness(step, x_t0, x_t1, witness);
+}
+
+bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                        const TooNear& near) {
+  const WitnessStep what{mesh_, x_t0, x_t1, dimension_, strict_, rest_ ? 0 : step, eta_, ring_};
+  return write_witness(step, x_t0, x_t1, witness_of(what, near, MeshPaths(prover_.tree(), mesh_.vertex_count, ring_)));
+}
+
+bool FrameProof::write_witness(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                               const std::optional<std::string>& witness) {
   if (!witness) return false;
   begin(step, ProofFile::Kind::witness, WorldLines::from_frames(x_t0, x_t1));
   file_.witness(*witness);

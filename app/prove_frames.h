@@ -28,11 +28,18 @@ class FrameProof {
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
               const VerifyResult& result);
 
+  /// The same for one in which something comes nearer than the least distance.
+  bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1, const TooNear& near);
+
  private:
+  bool write_witness(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                     const std::optional<std::string>& witness);
   void begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines);
 
   const Mesh& mesh_;
   int dimension_;
+  double eta_;
+  std::uint32_t ring_;
   bool strict_;
   bool rest_;
   bool tree_written_ = false;

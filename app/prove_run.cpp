@@ -90,8 +90,7 @@ std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_fold
   auto sink =
       std::make_unique<FileSink>(file, committed.groups == 0 ? FileSink::Open::create : FileSink::Open::existing);
   std::unique_ptr<RunProof> proof(new RunProof(scene, x, false, labels_of(scene), [&](const ProofHeader& header) {
-    return committed.groups == 0 ? ProofFile(std::move(sink), header)
-                                 : ProofFile(std::move(sink), committed, header.dimension);
+    return committed.groups == 0 ? ProofFile(std::move(sink), header) : ProofFile(std::move(sink), committed, header);
   }));
   const std::uint64_t proved = std::max<std::uint64_t>(committed.groups, 1) - 1;
   RunReader reader(run_folder);

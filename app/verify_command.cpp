@@ -46,7 +46,8 @@ ExitCode exit_code(Verdict verdict) {
   switch (verdict) {
     case Verdict::no_contact:
     case Verdict::proved: return ExitCode::holds;
-    case Verdict::contact: return ExitCode::refuted;
+    case Verdict::contact:
+    case Verdict::too_near: return ExitCode::refuted;
     case Verdict::undecided: return ExitCode::undecided;
   }
   return ExitCode::failure;
@@ -61,7 +62,8 @@ void require_place_of_proof(const std::filesystem::path& proof, const std::vecto
 /// Has the checker look at a proof that is complete. What it refuses is an error of this program.
 void check(const VerifyRequest& request, VerifyOutcome& outcome) {
   const bool whole =
-      outcome.verdict == Verdict::no_contact || (outcome.verdict == Verdict::contact && outcome.witnesses > 0);
+      outcome.verdict == Verdict::no_contact ||
+      ((outcome.verdict == Verdict::contact || outcome.verdict == Verdict::too_near) && outcome.witnesses > 0);
   if (!whole) return;
   const Stopwatch watch;
   const CheckerVerdict verdict = run_checker(Checker::plain, *request.proof, trajectory_for_checker(request.frames));
@@ -88,6 +90,15 @@ ExitCode run(VerifyArguments& arguments) {
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   const Output output(arguments.json, with_files_of_runs(request.frames));
+  if (request.min_distance > 0 && !request.proof) {
+    throw UsageError("--min-distance: is decided by its proof; expected --proof OUT");
+  }
+  if (request.min_distance == 0 && request.ring > 1) {
+    throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
+  }
+  if (request.run && request.min_distance > 0) {
+    throw UsageError("--min-distance: is for frames; expected it without a run");
+  }
   if (request.proof) require_place_of_proof(*request.proof, request.frames);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
   if (request.proof && request.check) check(request, outcome);
@@ -108,6 +119,16 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("N");
   command.add_option("--time-limit", arguments.time_limit, "Stop after this time, undecided: 500ms, 60s, 5m, 1h")
       ->type_name("TIME");
+  command
+      .add_option("--min-distance", request.min_distance,
+                  "Features have to be more than this apart; needs --proof, which is what decides it")
+      ->check(is_positive())
+      ->type_name("DISTANCE");
+  command
+      .add_option("--min-distance-from-ring", request.ring,
+                  "But for features that a path of fewer than K mesh edges joins: these have to be disjoint")
+      ->check(CLI::Range(1, 255))
+      ->type_name("K");
   command.add_option("--proof", request.proof, "Write the proof there, a file that `noli check` checks")
       ->type_name("OUT");
   command

@@ -42,6 +42,8 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
       {"neighbours", "features that share a vertex are not compared; vertices are who they are by index"},
       {"initial_intersections", "pairs of cells whose vertex-disjoint parts meet at the first time of all"},
       {"excluded", excluded_json(request, outcome)},
+      {"min_distance", request.min_distance},
+      {"min_distance_from_ring", request.ring},
       {"strict", request.strict},
       {"points", request.points},
       {"static", request.constant_motion},
@@ -144,6 +146,11 @@ class Text {
         break;
       case Verdict::contact:
         line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());
+        break;
+      case Verdict::too_near:
+        line("Nothing touches, but something is not more than {} apart: cells {} and {}, in step {} at time {}.",
+             digits17(request_.min_distance), outcome_.near->pair.first_cell, outcome_.near->pair.second_cell,
+             outcome_.near->step, digits17(outcome_.near->pair.time));
         break;
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
     }

@@ -50,7 +50,7 @@ class Run {
       if (sequence_.step() == 0) begin();
       require_plane();
       verify();
-      if (outcome_.touches() && !request_.keep_going) break;
+      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
     }
     conclude();
     outcome_.seconds = watch.seconds() - outcome_.read_seconds;
@@ -161,7 +161,12 @@ class Run {
     if (result.contact_count() + result.initial_intersections > 0) {
       if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
     } else if (outcome_.witnesses == 0) {
-      outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
+      try {
+        outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
+      } catch (const TooNear& near) {
+        outcome_.near = ListedNear{step + 1, near};
+        if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
+      }
     }
     outcome_.proof_seconds += watch.seconds();
   }
@@ -228,10 +233,11 @@ class Run {
   void conclude() {
     stopped();
     const bool all_steps = outcome_.steps.size() == outcome_.steps_total;
-    const bool enough = outcome_.touches() && !request_.keep_going;
+    const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
     outcome_.complete = outcome_.complete && (all_steps || enough);
     const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
-    outcome_.verdict = outcome_.touches() ? Verdict::contact : untouched;
+    const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
+    outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
   }
 
   const VerifyRequest& request_;

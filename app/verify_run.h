@@ -17,6 +17,7 @@
 
 #include "noli/app/contact_report.h"
 #include "noli/kernel/first_contact.h"
+#include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/verifier.h"
 #include "noli/trajectory/exclusions.h"
 
@@ -34,20 +35,23 @@ struct VerifyRequest {
   bool points = false;           ///< vertices that nothing refers to are particles
   bool constant_motion = false;  ///< --static: each frame for itself
   bool merge_identical = false;
+  double min_distance = 0;  ///< features have to be more than this apart
+  std::uint32_t ring = 1;   ///< but for those that a path of fewer edges joins
   std::optional<std::chrono::nanoseconds> time_limit;
   std::optional<std::filesystem::path> proof;  ///< where the proof is written to
   bool check = true;                           ///< have the checker look at the proof
 };
 
-/// `proved`: no contact, and the checker has accepted the proof of it.
-enum class Verdict { no_contact, proved, contact, undecided };
+/// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the checker has accepted the proof of it.
+enum class Verdict { no_contact, proved, contact, too_near, undecided };
 
-/// The name used in JSON: "no_contact", "proved", "contact", "undecided".
+/// The name used in JSON: "no_contact", "proved", "contact", "too_near", "undecided".
 constexpr std::string_view name(Verdict verdict) {
   switch (verdict) {
     case Verdict::no_contact: return "no_contact";
     case Verdict::proved: return "proved";
     case Verdict::contact: return "contact";
+    case Verdict::too_near: return "too_near";
     case Verdict::undecided: return "undecided";
   }
   return "";
@@ -70,6 +74,12 @@ struct Listed {
 struct ListedInitial {
   std::size_t step = 0;  ///< from 1
   InitialIntersection pair;
+};
+
+/// Two cells that come nearer than the least distance, and when, about.
+struct ListedNear {
+  std::size_t step = 0;  ///< from 1
+  TooNear pair;
 };
 
 /// What one step gave.
@@ -100,6 +110,7 @@ struct VerifyOutcome {
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
   double seconds = 0;                  ///< wall clock without reading
+  std::optional<ListedNear> near;      ///< who comes too near
   std::optional<std::string> checked;  ///< what the checker said of the proof
   double read_seconds = 0;             ///< wall clock of reading
   std::size_t witnesses = 0;           ///< written to the proof

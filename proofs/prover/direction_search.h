@@ -159,15 +159,15 @@ Vec<Dim> lowest(const PartPair<Dim>& pair, const std::array<double, 8>& q, doubl
 
 }  // namespace detail
 
-/// A direction that certainly separates the first part (above) from the second over the interval, starting from the
-/// guess `v`; nothing if none was found in `rounds` rounds or there seems to be none.
-template <int Dim>
+/// A direction n for which the first part is above the second by more than bound_of(n) over the interval, starting from
+/// the guess `v`; nothing if none was found in `rounds` rounds or there seems to be none.
+template <int Dim, class Bound>
 std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair, Direction<Dim> v, Interval interval,
-                                                      int rounds) {
+                                                      int rounds, const Bound& bound_of) {
   detail::Simplex<Dim> simplex;
   for (int round = 0; round < rounds; ++round) {
     const Projections p = at_ends(project(pair, v), interval);
-    const double bound = error_bound<Dim>(v, pair.reach);
+    const double bound = bound_of(v);
     const double gap_begin = gap_above(p.q[0]), gap_end = gap_above(p.q[1]);
     if (gap_begin > bound && gap_end > bound) return v;
     const bool begin = gap_begin < gap_end;
@@ -177,6 +177,30 @@ std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair,
     if (round > 0 && !(detail::inner(v, v) < before)) return std::nullopt;
   }
   return std::nullopt;
+}
+
+/// A direction that certainly separates the two.
+template <int Dim>
+std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair, const Direction<Dim>& v,
+                                                      Interval interval, int rounds) {
+  return find_direction<Dim>(pair, v, interval, rounds,
+                             [&](const Direction<Dim>& n) { return error_bound<Dim>(n, pair.reach); });
+}
+
+/// How far apart the parts are at one time, or more than that: the least length of a vector that was met in the search.
+template <int Dim>
+double distance_at_most(const PartPair<Dim>& pair, double s, int rounds) {
+  detail::Simplex<Dim> simplex;
+  Direction<Dim> v = between_middles(pair);
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    const Projections p = at_ends(project(pair, v), {s, s});
+    if (!simplex.add(detail::lowest(pair, p.q[0], s), v)) return least;  // inside, or flat: rounding does not tell
+    const double length = std::sqrt(detail::inner(v, v));
+    if (!(length < least)) return least;
+    least = length;
+  }
+  return least;
 }
 
 }  // namespace noli

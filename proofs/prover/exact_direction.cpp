@@ -17,8 +17,18 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-bool separates(const Vector& n, const std::vector<Vector>& differences) {
-  return std::all_of(differences.begin(), differences.end(), [&](const Vector& w) { return inner(n, w).sign() > 0; });
+/// What a direction has to separate, and how far.
+struct Question {
+  const std::vector<Vector>& differences;
+  const Integer& least2;
+};
+
+bool separates(const Vector& n, const Question& question) {
+  const Integer least = question.least2 * inner(n, n);
+  return std::all_of(question.differences.begin(), question.differences.end(), [&](const Vector& w) {
+    const Integer along = inner(n, w);
+    return along.sign() > 0 && (least.is_zero() || along * along > least);
+  });
 }
 
 /// n with so many bits in its longest component, the rest rounded away.
@@ -36,17 +46,17 @@ Vector rounded(const Vector& n, std::size_t bits) {
 }
 
 /// The same direction in as few bits as are enough, of some numbers that are tried.
-Vector shortened(const Vector& n, const std::vector<Vector>& differences) {
+Vector shortened(const Vector& n, const Question& question) {
   for (const std::size_t bits : {9U, 15U, 22U, 30U, 40U, 60U, 90U, 130U, 200U, 400U}) {
     Vector shorter = rounded(n, bits);
-    if (separates(shorter, differences)) return shorter;
+    if (separates(shorter, question)) return shorter;
   }
   return n;
 }
 
 class Search {
  public:
-  explicit Search(const std::vector<Vector>& differences) : d_(differences) {}
+  explicit Search(const Question& question) : question_(question), d_(question.differences) {}
 
   std::optional<Vector> operator()() {
     for (const Vector& w : d_) {
@@ -76,19 +86,20 @@ class Search {
   }
 
   bool take(const Vector& n) {
-    if (!separates(n, d_)) return false;
-    found_ = shortened(n, d_);
+    if (!separates(n, question_)) return false;
+    found_ = shortened(n, question_);
     return true;
   }
 
+  Question question_;
   const std::vector<Vector>& d_;
   std::optional<Vector> found_;
 };
 
 }  // namespace
 
-std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences) {
-  return Search(differences)();
+std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences, const Integer& least2) {
+  return Search({differences, least2})();
 }
 
 }  // namespace noli

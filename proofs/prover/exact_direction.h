@@ -4,9 +4,10 @@
 //
 // Notation
 //   D     the differences of a point of the first part and one of the second, at both ends of a piece of time and at
-//         each breakpoint between, each times some positive number: integer vectors
+//         each breakpoint between, all times the same positive number: integer vectors
+//   least2  the square of the distance asked for, times that of this number
 //
-// A direction n separates iff n.w > 0 for all w in D. If there is one, the point of the hull of D nearest to the origin
+// A direction n separates iff n.w > 0 and (n.w)^2 > least2 n.n for all w in D. If there is one, the point of the hull of D nearest to the origin
 // is one, and it is the nearest point of a hull of at most as many points as there are dimensions: so it is enough to
 // look at the directions that one, two or three points of D give.
 //
@@ -23,8 +24,8 @@ namespace noli {
 
 using IntegerVector = std::array<Integer, 3>;
 
-/// A direction with n.w > 0 for all w in `differences`, with few bits where few do; nothing if there is none.
-/// Precondition: `differences` is not empty.
-std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences);
+/// A direction that separates, with few bits where few do; nothing if there is none. Precondition: `differences` is not
+/// empty.
+std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences, const Integer& least2);
 
 }  // namespace noli

@@ -30,8 +30,8 @@ std::string claim_payload(const ProofHeader& header) {
   put(bytes, static_cast<std::uint8_t>(header.dimension));
   put(bytes, static_cast<std::uint8_t>((header.strict ? 1 : 0) | (header.points ? 2 : 0)));
   put(bytes, std::uint8_t{0});
-  put(bytes, std::uint32_t{1});
-  put(bytes, 0.0);
+  put(bytes, header.ring);
+  put(bytes, header.eta);
   bytes.append(bytes_of(cells_hash(header)));
   put(bytes, static_cast<std::uint32_t>(header.merged.size()));
   for (const auto& [v, same] : header.merged) {
@@ -72,7 +72,8 @@ Sha256Digest breakpoints_hash(const WorldLines& lines, int dimension, double shi
 struct StepUnits {
   exact::ExponentRange space, time;
 
-  StepUnits(const WorldLines& lines, int dimension, double shift) {
+  StepUnits(const WorldLines& lines, int dimension, double shift, double eta) {
+    space.add(eta);
     for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
       for (const double t : lines.times(static_cast<VertexId>(v))) time.add(t + shift);
       for (const Position& x : lines.positions(static_cast<VertexId>(v))) {
@@ -87,13 +88,13 @@ std::int32_t unit(const exact::ExponentRange& range) { return range.high < range
 }  // namespace
 
 ProofFile::ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header)
-    : blocks_(std::move(sink), content), dimension_(header.dimension) {
+    : blocks_(std::move(sink), content), dimension_(header.dimension), eta_(header.eta) {
   blocks_.append(four_letters("CLAM"), claim_payload(header));
   blocks_.commit();
 }
 
-ProofFile::ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, int dimension)
-    : blocks_(std::move(sink), committed), dimension_(dimension) {}
+ProofFile::ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, const ProofHeader& header)
+    : blocks_(std::move(sink), committed), dimension_(header.dimension), eta_(header.eta) {}
 
 void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift) {
   begin_step(number, kind, lines, shift, breakpoints_hash(lines, dimension_, shift));
@@ -101,7 +102,7 @@ void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& li
 
 void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
                            const Sha256Digest& hash) {
-  const StepUnits units(lines, dimension_, shift);
+  const StepUnits units(lines, dimension_, shift, eta_);
   std::string bytes;
   put(bytes, number);
   put(bytes, lines.first_time() + shift);

@@ -26,6 +26,8 @@ struct ProofHeader {
   std::span<const std::uint32_t> labels;        ///< of its cells
   std::vector<std::array<VertexId, 2>> merged;  ///< a vertex and the one that stands for it, ascending
   LabelPairs excluded;
+  double eta = 0;
+  std::uint32_t ring = 1;
 };
 
 class ProofFile {
@@ -35,7 +37,7 @@ class ProofFile {
   /// Writes the header. Throws what the sink throws, here and below.
   ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header);
   /// Goes on behind a commit, as BlockWriter.
-  ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, int dimension);
+  ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, const ProofHeader& header);
 
   enum class Kind : std::uint8_t { proof = 0, witness = 1 };
 
@@ -55,6 +57,7 @@ class ProofFile {
  private:
   BlockWriter blocks_;
   int dimension_;
+  double eta_;
 };
 
 }  // namespace noli

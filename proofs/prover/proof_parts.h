@@ -19,13 +19,16 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "noli/kernel/scaled_integers.h"
 #include "noli/proofs/prover/around.h"
 #include "noli/proofs/prover/direction_search.h"
 #include "noli/proofs/prover/exact_direction.h"
+#include "noli/proofs/prover/mesh_paths.h"
 #include "noli/proofs/prover/proof_tree.h"
 #include "noli/proofs/prover/tokens.h"
+#include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/window_cell.h"
 
 namespace noli {
@@ -62,12 +65,17 @@ struct Piece {
 template <int Dim>
 class ProofParts {
  public:
-  ProofParts(const WorldLines& lines, const std::vector<ProofChord<Dim>>& chords, const Piece& span)
-      : lines_(lines), chords_(chords), span_(span) {}
+  /// `eta`, `paths`: the least distance, and who may be nearer than that.
+  ProofParts(const WorldLines& lines, const std::vector<ProofChord<Dim>>& chords, const Piece& span, double eta,
+             const MeshPaths& paths)
+      : lines_(lines), chords_(chords), span_(span), eta_(eta), paths_(paths) {}
 
-  /// Writes the tokens for two cells.
-  void settle(const ProofCell& a, const ProofCell& b, Tokens& tokens) {
+  /// Writes the tokens for two cells. Throws TooNear, NoProof.
+  void settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b, Tokens& tokens) {
     known_ = false;
+    first_cell_ = i;
+    second_cell_ = j;
+    distance_ = eta_;
     drop_common({a, all_corners(a.corners)}, {b, all_corners(b.corners)}, tokens);
   }
 
@@ -78,6 +86,11 @@ class ProofParts {
 
     Part without(std::size_t corner) const { return {cell, static_cast<CornerMask>(mask & ~(1U << corner))}; }
     bool has(std::size_t corner) const { return (mask >> corner & 1) != 0; }
+  };
+
+  struct Pair {
+    PartPair<Dim> points;
+    bool exact = true;  ///< all radii are 0
   };
 
   /// Rounds of the search for a direction, as in proofs/prover/cell_pair.h; from which depth on exact arithmetic is
@@ -100,13 +113,61 @@ class ProofParts {
     }
     if (a.mask == 0 || b.mask == 0) return tokens.empty();
     const auto pair = pair_over(a, b, [&](VertexId v) -> const ProofChord<Dim>& { return chords_[v]; });
-    separate(a, b, pair, {}, tokens);
+    if (distance_ > 0 && !closed_at_once(pair, tokens)) return go_around(a, b, pair, tokens);
+    if (distance_ == 0) separate(a, b, pair, tokens);
   }
 
-  struct Pair {
-    PartPair<Dim> points;
-    bool exact = true;  ///< all radii are 0
-  };
+  /// Whether a direction is found for the whole span.
+  bool closed_at_once(const Pair& pair, Tokens& tokens) {
+    if (known_ && above(pair, last_, {})) {
+      write(pair, last_, {}, tokens);
+      return true;
+    }
+    const auto n = find(pair, {});
+    if (n) write(pair, *n, {}, tokens);
+    return n.has_value();
+  }
+
+  /// Two parts that are not seen to be far enough apart: where a path joins two of their vertices, what has both need
+  /// only be disjoint.
+  void go_around(const Part& a, const Part& b, const Pair& pair, Tokens& tokens) {
+    for (std::size_t i = 0; i < a.cell.corners; ++i) {
+      for (std::size_t j = 0; j < b.cell.corners; ++j) {
+        if (!a.has(i) || !b.has(j)) continue;
+        const auto path = paths_.find(a.cell.vertices[i], b.cell.vertices[j]);
+        if (!path) continue;
+        tokens.ring(a.cell.vertices[i], *path);
+        drop_common(a.without(i), b, tokens);
+        drop_common(a, b.without(j), tokens);
+        const double distance = std::exchange(distance_, 0);
+        drop_common(a, b, tokens);
+        distance_ = distance;
+        return;
+      }
+    }
+    if (pair.exact) refuse_near(pair);
+    halve(a, b, pair, span_, tokens);
+  }
+
+  /// Parts that are certainly nearer than the least distance, at one of a few times.
+  void refuse_near(const Pair& pair) const {
+    for (int k = 0; k <= 8; ++k) {
+      if (distance_at_most(pair.points, k / 8.0, search_rounds) < distance_ * (1 - 0x1p-30))
+        throw TooNear{first_cell_, second_cell_, k / 8.0};
+    }
+  }
+
+  /// What n.(a - b) has to exceed: rounding and radii, and the least distance.
+  double bound_of(const Pair& pair, const Direction<Dim>& n) const {
+    const double bound = error_bound<Dim>(n, pair.points.reach);
+    return distance_ == 0 ? bound : bound + distance_ * std::sqrt(detail::inner(n, n)) * (1 + 0x1p-48);
+  }
+
+  bool above(const Pair& pair, const Direction<Dim>& n, const Interval& interval) const {
+    const Projections p = at_ends(project(pair.points, n), interval);
+    const double bound = bound_of(pair, n);
+    return gap_above(p.q[0]) > bound && gap_above(p.q[1]) > bound;
+  }
 
   template <class ChordOf>
   static Pair pair_over(const Part& a, const Part& b, const ChordOf& chord) {
@@ -134,15 +195,13 @@ class ProofParts {
   }
 
   /// Over the whole span the directions of the cells' other parts are tried first.
-  void separate(const Part& a, const Part& b, const Pair& pair, const Interval& interval, Tokens& tokens) {
-    if (known_ && separates(pair.points, last_, interval) > 0) return write(pair, last_, interval, tokens);
-    if (const auto n = find(pair, interval)) return write(pair, *n, interval, tokens);
-    halve(a, b, pair, span_, tokens);
+  void separate(const Part& a, const Part& b, const Pair& pair, Tokens& tokens) {
+    if (!closed_at_once(pair, tokens)) halve(a, b, pair, span_, tokens);
   }
 
-  static std::optional<Direction<Dim>> find(const Pair& pair, const Interval& interval) {
-    const Direction<Dim> guess = between_middles(pair.points);
-    return find_direction(pair.points, guess, interval, search_rounds);
+  std::optional<Direction<Dim>> find(const Pair& pair, const Interval& interval) const {
+    return find_direction<Dim>(pair.points, between_middles(pair.points), interval, search_rounds,
+                               [&](const Direction<Dim>& n) { return bound_of(pair, n); });
   }
 
   void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece, Tokens& tokens) {
@@ -158,6 +217,9 @@ class ProofParts {
       const double begin = width * mpz_get_d((piece.k - (span_.k << deeper)).get());
       const Interval interval{begin, begin + width};
       if (const auto n = find(whole, interval)) return write(whole, *n, interval, tokens);
+      if (distance_ > 0 && distance_at_most(whole.points, begin, search_rounds) < distance_ * (1 - 0x1p-30)) {
+        throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()), -static_cast<int>(piece.e))};
+      }
     } else if (!whole.exact) {
       if (const auto pair = pair_in(a, b, piece)) {
         if (const auto n = find(*pair, {})) return write(*pair, *n, {}, tokens);
@@ -165,8 +227,8 @@ class ProofParts {
     }
     if (piece.e >= exact_from) {
       const auto differences = differences_in(a, b, piece);
-      if (differences.size() <= most_exact) {
-        if (const auto n = exact_direction(differences)) return tokens.direction(*n);
+      if (differences.w.size() <= most_exact) {
+        if (const auto n = exact_direction(differences.w, differences.least2)) return tokens.direction(*n);
       }
     }
     halve(a, b, whole, piece, tokens);
@@ -202,7 +264,7 @@ class ProofParts {
     for (const double scale : {0x1p9 - 1, 0x1p20, 0x1p31, 0x1p45}) {
       Direction<Dim> m;
       for (std::size_t k = 0; k < Dim; ++k) m[k] = std::nearbyint(n[k] / most * scale);
-      if (separates(pair.points, m, interval) <= 0) continue;
+      if (!above(pair, m, interval)) continue;
       return scale < 512 ? put_short(m, tokens) : put_long(m, tokens);
     }
     put_long(n, tokens);
@@ -237,8 +299,14 @@ class ProofParts {
     return Integer(parts.mantissa) << static_cast<std::size_t>(parts.exponent - low);
   }
 
-  /// D, exactly: at both ends of the piece and at each breakpoint of the parts between.
-  std::vector<IntegerVector> differences_in(const Part& a, const Part& b, const Piece& piece) const {
+  /// D and least2 of proofs/prover/exact_direction.h.
+  struct Differences {
+    std::vector<IntegerVector> w;
+    Integer least2;
+  };
+
+  /// At both ends of the piece and at each breakpoint of the parts between.
+  Differences differences_in(const Part& a, const Part& b, const Piece& piece) const {
     exact::ExponentRange space, time;
     std::vector<VertexId> vertices;
     std::size_t of_a = 0;
@@ -254,6 +322,7 @@ class ProofParts {
       }
       for (const double t : lines_.times(v)) time.add(t);
     }
+    if (distance_ > 0) space.add(distance_);
     time.add(lines_.first_time());
     time.add(lines_.last_time());
     const auto scaled = [&](double t) { return integer(t, time.low) << piece.e; };  // times 2^e
@@ -267,7 +336,8 @@ class ProofParts {
         if (c > times[0] && c < times[1] && times.size() <= most_exact) times.push_back(std::move(c));
       }
     }
-    std::vector<IntegerVector> result;
+    Differences result;
+    std::vector<Integer> denominators;
     for (const Integer& c : times) {
       std::vector<std::pair<IntegerVector, Integer>> at;  // numerators, denominator > 0
       for (const VertexId v : vertices) at.push_back(position(v, c, space.low, scaled));
@@ -275,11 +345,28 @@ class ProofParts {
         for (std::size_t j = of_a; j < vertices.size(); ++j) {
           IntegerVector w;
           for (std::size_t k = 0; k < Dim; ++k) w[k] = at[i].first[k] * at[j].second - at[j].first[k] * at[i].second;
-          result.push_back(std::move(w));
+          result.w.push_back(std::move(w));
+          denominators.push_back(at[i].second * at[j].second);
         }
       }
     }
+    make_common(result, denominators);
+    if (distance_ > 0) {
+      const Integer least = integer(distance_, space.low) * denominators[0];
+      result.least2 = least * least;
+    }
     return result;
+  }
+
+  /// Multiplies each vector so that all have the same denominator, which takes the place of the first.
+  static void make_common(Differences& differences, std::vector<Integer>& denominators) {
+    Integer common = denominators[0];
+    for (const Integer& d : denominators) mpz_lcm(common.get(), common.get(), d.get());
+    for (std::size_t i = 0; i < denominators.size(); ++i) {
+      const Integer factor = divide_exactly(common, denominators[i]);
+      for (Integer& part : differences.w[i]) part *= factor;
+    }
+    denominators[0] = common;
   }
 
   template <class Scaled>
@@ -298,6 +385,10 @@ class ProofParts {
   const WorldLines& lines_;
   const std::vector<ProofChord<Dim>>& chords_;
   Piece span_;
+  double eta_;
+  const MeshPaths& paths_;
+  double distance_ = 0;  ///< eta_, or 0 where parts need only be disjoint
+  std::uint32_t first_cell_ = 0, second_cell_ = 0;
   bool known_ = false;  ///< last_ separated two parts of the same cells
   Direction<Dim> last_{};
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/proofs/prover/proof_tree.h"
 
-#include <algorithm>
-
 #include "noli/proofs/prover/features.h"
 #include "noli/proofs/prover/tokens.h"
 
@@ -11,10 +9,17 @@ namespace noli {
 namespace {
 
 ProofCell cell_of(const Mesh& mesh, std::uint32_t cell) {
-  ProofCell result{corners(mesh, cell), static_cast<std::uint8_t>(corner_count(mesh, cell))};
-  const auto begin = result.vertices.begin(), end = begin + result.corners;
-  std::sort(begin, end);
-  result.corners = static_cast<std::uint8_t>(std::unique(begin, end) - begin);
+  const auto all = corners(mesh, cell);
+  ProofCell result;
+  const auto count = static_cast<std::size_t>(corner_count(mesh, cell));
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t at = 0;
+    while (at < result.corners && result.vertices[at] < all[i]) ++at;
+    if (at < result.corners && result.vertices[at] == all[i]) continue;
+    for (std::size_t k = result.corners; k > at; --k) result.vertices[k] = result.vertices[k - 1];
+    result.vertices[at] = all[i];
+    ++result.corners;
+  }
   return result;
 }
 

@@ -34,6 +34,8 @@ struct ProofScene {
   const ProofTree& tree;
   const LabelPairs& excluded;
   bool strict;
+  double eta;
+  const MeshPaths& paths;
   std::vector<ProofChord<Dim>> chords;  ///< by vertex
   std::vector<ProofBox<Dim>> boxes;     ///< by node
   Piece span;
@@ -49,7 +51,7 @@ template <int Dim>
 class ProofWalk {
  public:
   ProofWalk(const ProofScene<Dim>& scene, const StopSignal& stop)
-      : scene_(scene), stop_(stop), parts_(scene.lines, scene.chords, scene.span) {}
+      : scene_(scene), stop_(stop), parts_(scene.lines, scene.chords, scene.span, scene.eta, scene.paths) {}
 
   /// Writes the tokens of an obligation. What is about at most `grain` cells is put on `tasks` instead, if there is such
   /// a list: then `cut` is called where its tokens have to be put. False if it was stopped.
@@ -102,10 +104,16 @@ class ProofWalk {
     if (stopped_) return;
     const ProofBox<Dim>&a = scene_.boxes[x], &b = scene_.boxes[y];
     for (std::size_t k = 0; k < Dim; ++k) {
-      if (a.low[0][k] > b.high[0][k] && a.low[1][k] > b.high[1][k]) return tokens_->axis(k, true);
-      if (b.low[0][k] > a.high[0][k] && b.low[1][k] > a.high[1][k]) return tokens_->axis(k, false);
+      if (over(a.low[0][k], b.high[0][k]) && over(a.low[1][k], b.high[1][k])) return tokens_->axis(k, true);
+      if (over(b.low[0][k], a.high[0][k]) && over(b.low[1][k], a.high[1][k])) return tokens_->axis(k, false);
     }
     take_apart(x, y);
+  }
+
+  /// Whether x is above y by more than the least distance. Where the difference is rounded it is by less than the two
+  /// together, which is left out of it.
+  bool over(double x, double y) const {
+    return scene_.eta == 0 ? x > y : x - y > scene_.eta + 0x1p-51 * (std::abs(x) + std::abs(y) + scene_.eta);
   }
 
   void take_apart(std::uint32_t x, std::uint32_t y) {
@@ -127,7 +135,8 @@ class ProofWalk {
   }
 
   void cells(std::uint32_t x, std::uint32_t y) {
-    parts_.settle(scene_.tree.cell(node(x).cell), scene_.tree.cell(node(y).cell), *tokens_);
+    const std::uint32_t i = node(x).cell, j = node(y).cell;
+    parts_.settle(i, scene_.tree.cell(i), j, scene_.tree.cell(j), *tokens_);
   }
 
   void look_at_clock() {

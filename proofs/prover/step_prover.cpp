@@ -24,9 +24,9 @@ using Take = std::function<void(std::string_view)>;
 template <int Dim>
 class Proof {
  public:
-  Proof(const ProofTree& tree, const ProofClaim& claim, const WorldLines& lines, const VerifyOptions& options,
-        const Take& take)
-      : tree_(tree), claim_(claim), lines_(lines), options_(options), take_(take), stop_(options) {}
+  Proof(const ProofTree& tree, const MeshPaths& paths, const ProofClaim& claim, const WorldLines& lines,
+        const VerifyOptions& options, const Take& take)
+      : tree_(tree), paths_(paths), claim_(claim), lines_(lines), options_(options), take_(take), stop_(options) {}
 
   bool run() { return settle({Integer(0), 0}); }
 
@@ -38,7 +38,7 @@ class Proof {
   };
 
   bool settle(const Piece& span) {
-    ProofScene<Dim> scene{lines_, tree_, claim_.excluded, claim_.strict, {}, {}, span};
+    ProofScene<Dim> scene{lines_, tree_, claim_.excluded, claim_.strict, claim_.eta, paths_, {}, {}, span};
     const bool restless = find_chords(scene, *span.times(lines_));
     if (restless && span.half(0).times(lines_) && span.half(1).times(lines_)) {
       Tokens halve;
@@ -155,6 +155,7 @@ class Proof {
   }
 
   const ProofTree& tree_;
+  const MeshPaths& paths_;
   const ProofClaim& claim_;
   const WorldLines& lines_;
   const VerifyOptions& options_;
@@ -185,13 +186,13 @@ class Blocks {
 
 StepProver::StepProver(const Mesh& mesh, std::span<const std::uint32_t> order, std::span<const std::uint32_t> ends,
                        std::span<const std::uint32_t> labels, ProofClaim claim)
-    : claim_(std::move(claim)), tree_(mesh, order, ends, labels) {}
+    : claim_(std::move(claim)), tree_(mesh, order, ends, labels), paths_(tree_, mesh.vertex_count, claim_.ring) {}
 
 bool StepProver::prove(const WorldLines& lines, const VerifyOptions& options, const Take& take) const {
   Blocks blocks(take);
   const Take put = [&](std::string_view bytes) { blocks(bytes); };
-  const bool whole = claim_.dimension == 2 ? Proof<2>(tree_, claim_, lines, options, put).run()
-                                           : Proof<3>(tree_, claim_, lines, options, put).run();
+  const bool whole = claim_.dimension == 2 ? Proof<2>(tree_, paths_, claim_, lines, options, put).run()
+                                           : Proof<3>(tree_, paths_, claim_, lines, options, put).run();
   blocks.flush();
   return whole;
 }

@@ -26,6 +26,8 @@ struct ProofClaim {
   int dimension = 3;
   bool strict = false;
   LabelPairs excluded;
+  double eta = 0;          ///< the least distance
+  std::uint32_t ring = 1;  ///< features that a path of fewer edges joins may be nearer than that
 };
 
 class StepProver {
@@ -37,7 +39,7 @@ class StepProver {
   const ProofTree& tree() const { return tree_; }
 
   /// Gives `take` the payloads of the blocks TOKS, in order, from one thread at a time. False if it was stopped (stop,
-  /// deadline). Throws NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and deadline
+  /// deadline). Throws TooNear, NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and deadline
   /// count.
   bool prove(const WorldLines& lines, const VerifyOptions& options,
              const std::function<void(std::string_view)>& take) const;
@@ -45,6 +47,7 @@ class StepProver {
  private:
   ProofClaim claim_;
   ProofTree tree_;
+  MeshPaths paths_;
 };
 
 }  // namespace noli

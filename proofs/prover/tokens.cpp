@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/proofs/prover/tokens.h"
 
-#include <algorithm>
-#include <cstring>
-
 namespace noli {
 
 void put_uint(std::string& bytes, std::uint64_t value) {
@@ -32,6 +29,17 @@ void Tokens::direction(const std::array<Integer, 3>& n) {
   std::string& bytes = room();
   bytes.push_back(0x11);
   for (const Integer& part : n) put_sint(bytes, part);
+}
+
+void Tokens::ring(VertexId v, const std::vector<std::array<std::uint32_t, 2>>& steps) {
+  std::string& bytes = room();
+  bytes.push_back(0x30);
+  put_uint(bytes, steps.size());
+  put_uint(bytes, v);
+  for (const auto& [cell, next] : steps) {
+    put_uint(bytes, cell);
+    put_uint(bytes, next);
+  }
 }
 
 }  // namespace noli

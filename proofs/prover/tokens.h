@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "noli/kernel/integer.h"
+#include "noli/trajectory/mesh.h"
 
 namespace noli {
 
@@ -36,13 +37,13 @@ class Tokens {
   void axis(std::size_t k, bool up) { put(static_cast<std::uint8_t>(0x08 + 2 * k + (up ? 0 : 1))); }
   void empty() { put(0x0e); }
   void drop(std::uint8_t k) { put(static_cast<std::uint8_t>(0x20 + k)); }
+  /// W along a path from v: the cell and the vertex of each of its steps.
+  void ring(VertexId v, const std::vector<std::array<std::uint32_t, 2>>& steps);
   /// S with components of at most ten bits, -512 to 511.
   void direction(const std::array<int, 3>& n);
   void direction(const std::array<Integer, 3>& n);
 
   const std::vector<std::string>& pieces() const { return pieces_; }
-  bool empty_so_far() const { return pieces_.empty(); }
-  std::size_t closing() const { return closing_; }
 
  private:
   std::string& room() {
@@ -52,7 +53,6 @@ class Tokens {
   void put(std::uint8_t byte) { room().push_back(static_cast<char>(byte)); }
 
   std::vector<std::string> pieces_;
-  std::size_t closing_ = 0;
 };
 
 }  // namespace noli

@@ -80,6 +80,7 @@ class Motion {
         for (std::size_t k = 0; k < dimension(); ++k) range.add(p[k]);
       }
     }
+    range.add(step.eta);
     low_ = range.high < range.low ? 0 : range.low;
   }
 
@@ -102,14 +103,15 @@ class Motion {
     return x;
   }
   mpz_class begin() const { return mpz_class(static_cast<unsigned long>(step_.begin)); }
-
- private:
-  std::size_t dimension() const { return static_cast<std::size_t>(step_.dimension); }
+  /// In the step's unit.
   mpz_class integer(double x) const {
     if (x == 0) return 0;
     const exact::OddBinary parts(x);
     return mpz_class(static_cast<long>(parts.mantissa)) << static_cast<unsigned long>(parts.exponent - low_);
   }
+
+ private:
+  std::size_t dimension() const { return static_cast<std::size_t>(step_.dimension); }
 
   const WitnessStep& step_;
   int low_ = 0;
@@ -153,11 +155,93 @@ class Search {
     return std::nullopt;
   }
 
+  /// At a time, the nearest points of some features of two cells that no short path joins.
+  std::optional<Found> of_near(const TooNear& near, const MeshPaths& paths) const {
+    const mpz_class at = fraction(near.time, false);
+    const auto a = vertices_of(near.first_cell), b = vertices_of(near.second_cell);
+    for (unsigned m = 1; m < 1U << a.size(); ++m) {
+      for (unsigned n = 1; n < 1U << b.size(); ++n) {
+        Sides s{chosen(a, m), chosen(b, n)};
+        const bool swap = s.p.size() > s.q.size();
+        if (swap) std::swap(s.p, s.q);
+        const auto pair = pair_of(s);
+        if (!pair || joined(s, paths)) continue;
+        if (auto found = near_at(*pair, s, at)) {
+          if (swap) std::swap(found->p, found->q);
+          found->i = near.first_cell;
+          found->j = near.second_cell;
+          return found;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
   std::optional<Found> of_cells(std::uint32_t i, std::uint32_t j) { return at_rest(i, j, motion_.begin(), 0); }
 
  private:
   static constexpr unsigned long first_bits = 64, most_bits = 900;
   static constexpr std::size_t most_cells = 64;
+
+  static std::vector<VertexId> chosen(const std::vector<VertexId>& all, unsigned mask) {
+    std::vector<VertexId> result;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if ((mask >> k & 1) != 0) result.push_back(all[k]);
+    }
+    return result;
+  }
+
+  static std::optional<FeaturePair> pair_of(const Sides& s) {
+    if (s.p.size() == 1 && s.q.size() == 3) return FeaturePair::vertex_face;
+    if (s.p.size() == 2 && s.q.size() == 2) return FeaturePair::edge_edge;
+    if (s.p.size() == 1 && s.q.size() == 2) return FeaturePair::vertex_edge;
+    if (s.p.size() == 1 && s.q.size() == 1) return FeaturePair::vertex_vertex;
+    return std::nullopt;
+  }
+
+  static bool joined(const Sides& s, const MeshPaths& paths) {
+    return std::ranges::any_of(s.p, [&](VertexId v) {
+      return std::ranges::any_of(s.q, [&](VertexId w) { return paths.find(v, w).has_value(); });
+    });
+  }
+
+  /// If the nearest points of the features' planes and lines are in the features, and near enough.
+  std::optional<Found> near_at(FeaturePair pair, const Sides& s, const mpz_class& at) const {
+    const auto place = [&](VertexId v) {
+      PolyVector x;
+      const auto numbers = motion_.position_at(v, at, first_bits);
+      for (std::size_t k = 0; k < 3; ++k) x[k] = trimmed({numbers[k]});
+      return x;
+    };
+    Found found;
+    Equation e = equation(pair, s, place);
+    found.p = std::move(e.p);
+    found.q = std::move(e.q);
+    found.g = {-at, mpz_class(1) << first_bits};
+    found.e = first_bits;
+    found.l = found.u = at;
+    mpz_class square = 0, total_p = 0, total_q = 0;
+    std::array<mpz_class, 3> x{}, y{};
+    if (!add_up(found.p, at, total_p, x) || !add_up(found.q, at, total_q, y)) return std::nullopt;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const mpz_class d = total_q * x[k] - total_p * y[k];
+      square += d * d;
+    }
+    const mpz_class least = (motion_.integer(step_.eta) << first_bits) * total_p * total_q;
+    return square <= least * least ? std::optional(found) : std::nullopt;
+  }
+
+  /// The sums of constant weights, and of weights times positions. False if a weight is negative or all are 0.
+  bool add_up(const Weights& side, const mpz_class& at, mpz_class& total, std::array<mpz_class, 3>& x) const {
+    for (const auto& [v, weight] : side) {
+      const mpz_class w = weight.empty() ? mpz_class(0) : weight[0];
+      if (w < 0) return false;
+      total += w;
+      const auto position = motion_.position_at(v, at, first_bits);
+      for (std::size_t k = 0; k < 3; ++k) x[k] += w * position[k];
+    }
+    return total > 0;
+  }
 
   std::vector<std::uint32_t> cells_with(const std::vector<VertexId>& vertices) const {
     std::vector<std::uint32_t> cells;
@@ -176,17 +260,19 @@ class Search {
     Weights p, q;
   };
 
-  Equation equation(FeaturePair pair, const Sides& s) const {
-    if (pair == FeaturePair::vertex_face) return vertex_face(s);
-    if (pair == FeaturePair::edge_edge) return edge_edge(s);
-    if (pair == FeaturePair::vertex_edge) return vertex_edge(s);
-    return vertex_vertex(s);
+  /// `at` gives the position of a vertex.
+  template <class At>
+  static Equation equation(FeaturePair pair, const Sides& s, const At& at) {
+    if (pair == FeaturePair::vertex_face) return vertex_face(s, at);
+    if (pair == FeaturePair::edge_edge) return edge_edge(s, at);
+    if (pair == FeaturePair::vertex_edge) return vertex_edge(s, at);
+    return vertex_vertex(s, at);
   }
 
-  Equation vertex_face(const Sides& s) const {
-    const PolyVector x = motion_.position(s.p[0]);
-    const std::array<PolyVector, 3> corner = {motion_.position(s.q[0]), motion_.position(s.q[1]),
-                                              motion_.position(s.q[2])};
+  template <class At>
+  static Equation vertex_face(const Sides& s, const At& at) {
+    const PolyVector x = at(s.p[0]);
+    const std::array<PolyVector, 3> corner = {at(s.q[0]), at(s.q[1]), at(s.q[2])};
     const PolyVector n = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
     Equation e{inner(n, minus(x, corner[0])), {{s.p[0], {1}}}, {}};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -195,9 +281,10 @@ class Search {
     return e;
   }
 
-  Equation edge_edge(const Sides& s) const {
-    const PolyVector a = motion_.position(s.p[0]), c = motion_.position(s.q[0]);
-    const PolyVector u = minus(motion_.position(s.p[1]), a), v = minus(motion_.position(s.q[1]), c), r = minus(c, a);
+  template <class At>
+  static Equation edge_edge(const Sides& s, const At& at) {
+    const PolyVector a = at(s.p[0]), c = at(s.q[0]);
+    const PolyVector u = minus(at(s.p[1]), a), v = minus(at(s.q[1]), c), r = minus(c, a);
     const PolyVector n = cross(u, v);
     const Poly all = inner(n, n), along_u = inner(cross(r, v), n), along_v = inner(cross(r, u), n);
     return {inner(n, r),
@@ -205,16 +292,17 @@ class Search {
             {{s.q[0], difference(all, along_v)}, {s.q[1], along_v}}};
   }
 
-  Equation vertex_edge(const Sides& s) const {
-    const PolyVector a = motion_.position(s.q[0]), u = minus(motion_.position(s.q[1]), a),
-                     r = minus(motion_.position(s.p[0]), a);
+  template <class At>
+  static Equation vertex_edge(const Sides& s, const At& at) {
+    const PolyVector a = at(s.q[0]), u = minus(at(s.q[1]), a), r = minus(at(s.p[0]), a);
     const PolyVector n = cross(u, r);
     const Poly all = inner(u, u), along = inner(r, u);
     return {common(n), {{s.p[0], {1}}}, {{s.q[0], difference(all, along)}, {s.q[1], along}}};
   }
 
-  Equation vertex_vertex(const Sides& s) const {
-    return {common(minus(motion_.position(s.p[0]), motion_.position(s.q[0]))), {{s.p[0], {1}}}, {{s.q[0], {1}}}};
+  template <class At>
+  static Equation vertex_vertex(const Sides& s, const At& at) {
+    return {common(minus(at(s.p[0]), at(s.q[0]))), {{s.p[0], {1}}}, {{s.q[0], {1}}}};
   }
 
   /// What divides all three.
@@ -230,7 +318,7 @@ class Search {
   }
 
   std::optional<Found> at_root(const FeatureContact& contact, const Sides& sides) const {
-    const Equation equation = this->equation(contact.pair, sides);
+    const Equation equation = this->equation(contact.pair, sides, [this](VertexId v) { return motion_.position(v); });
     if (equation.f.size() < 2) return std::nullopt;
     Found found{0,
                 0,
@@ -334,13 +422,7 @@ class Search {
     for (unsigned m = 1; m < 1U << a.size(); ++m) {
       for (unsigned n = 1; n < 1U << b.size(); ++n) {
         if (std::popcount(m) + std::popcount(n) > 5) continue;
-        std::vector<VertexId> p, q;
-        for (std::size_t k = 0; k < a.size(); ++k) {
-          if ((m >> k & 1) != 0) p.push_back(a[k]);
-        }
-        for (std::size_t k = 0; k < b.size(); ++k) {
-          if ((n >> k & 1) != 0) q.push_back(b[k]);
-        }
+        const std::vector<VertexId> p = chosen(a, m), q = chosen(b, n);
         if (std::ranges::find_first_of(p, q) != p.end()) continue;
         if (auto weights = weights_at(p, q, at, e)) {
           Found found{i, j, {}, {}, {-at, mpz_class(1) << e}, e, at, at};
@@ -429,6 +511,10 @@ std::optional<std::string> witness_of(const WitnessStep& step, const FeatureCont
 
 std::optional<std::string> witness_of(const WitnessStep& step, const InitialIntersection& pair) {
   return payload(Search(step).of_cells(pair.first_cell, pair.second_cell));
+}
+
+std::optional<std::string> witness_of(const WitnessStep& step, const TooNear& near, const MeshPaths& paths) {
+  return payload(Search(step).of_near(near, paths));
 }
 
 }  // namespace noli

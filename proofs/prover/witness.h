@@ -19,6 +19,8 @@
 #include <span>
 #include <string>
 
+#include "noli/proofs/prover/mesh_paths.h"
+#include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/verifier.h"
 
 namespace noli {
@@ -29,7 +31,9 @@ struct WitnessStep {
   std::span<const Position> x_t0, x_t1;
   int dimension;
   bool strict;
-  std::uint64_t begin;  ///< T0, an integer; T1 is one more
+  std::uint64_t begin;     ///< T0, an integer; T1 is one more
+  double eta = 0;          ///< the least distance
+  std::uint32_t ring = 1;  ///< features that a path of fewer edges joins may be nearer
 };
 
 /// The payload for a pair of features that meets; nothing if none was found.
@@ -37,5 +41,8 @@ std::optional<std::string> witness_of(const WitnessStep& step, const FeatureCont
 
 /// The same for two cells that meet at the beginning.
 std::optional<std::string> witness_of(const WitnessStep& step, const InitialIntersection& pair);
+
+/// The same for two cells that are nearer to each other than the least distance at a time in [0, 1] of the step.
+std::optional<std::string> witness_of(const WitnessStep& step, const TooNear& near, const MeshPaths& paths);
 
 }  // namespace noli

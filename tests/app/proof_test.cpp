@@ -133,6 +133,35 @@ TEST_F(Proof, WithoutTheCheckTheVerdictIsNoContact) {
   EXPECT_EQ(prove(frames).verdict_line().substr(0, 15), "verdict proved ");
 }
 
+TEST_F(Proof, KeepsADistance) {
+  const auto frames = triangles({1, 0.5});
+  EXPECT_EQ(prove(frames, {"--min-distance", "0.4999"}).verdict_line().substr(0, 15), "verdict proved ");
+  EXPECT_EQ(check(frames).exit_code, 0);
+  for (const char* distance : {"0.5001", "0.75"}) {
+    const Process process = prove(frames, {"--min-distance", distance});
+    EXPECT_EQ(process.exit_code, 1) << distance;
+    EXPECT_EQ(process.verdict_line().substr(0, 17), "verdict too_near ") << process.verdict_line();
+    EXPECT_EQ(check(frames).exit_code, 1) << distance;
+  }
+  EXPECT_EQ(verify(frames, {"--min-distance", "0.1"}).exit_code, 3);
+  EXPECT_EQ(prove(frames, {"--min-distance", "-1"}).exit_code, 3);
+  EXPECT_EQ(prove(frames, {"--min-distance-from-ring", "2"}).exit_code, 3);
+}
+
+TEST_F(Proof, NeighboursMayBeNearerThanTheDistance) {
+  Sequence sheet = untouched_sequences()[0];
+  const auto frames = write(sheet);
+  EXPECT_EQ(prove(frames, {"--min-distance", "0.9"}).exit_code, 1);
+  EXPECT_EQ(check(frames).exit_code, 1);
+  for (const char* ring : {"2", "3", "4"}) {
+    const Process process = prove(frames, {"--min-distance", "0.9", "--min-distance-from-ring", ring});
+    EXPECT_EQ(process.exit_code, 0) << process.out.substr(0, 300) << process.err;
+    EXPECT_EQ(check(frames).exit_code, 0) << ring;
+  }
+  EXPECT_EQ(prove(frames, {"--min-distance", "2.5", "--min-distance-from-ring", "2"}).exit_code, 1);
+  EXPECT_EQ(check(frames).exit_code, 1);
+}
+
 TEST_F(Proof, IsNotWrittenOverAFrame) {
   const auto frames = triangles({1, 0.5});
   const std::string before = bytes_of(frames[1]);
