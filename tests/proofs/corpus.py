@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Small good proofs, for tests/proofs/run_mutants.py to break.
 
-Most are written by `noli` about scenes of a few cells. It writes no proofs at a distance, so those, and all tokens that it has no
-use for (W, P, B, wide numbers), come from a little prover here that tries directions at random and lets slow_check say which hold.
+Many are written by `noli` about scenes of a few cells. Others, with all the tokens that it seldom has a use for (W, P, B, wide numbers),
+come from a little prover here that tries directions at random and lets slow_check say which hold.
 
 What this does not do: it searches for nothing cleverly, and a scene that it cannot prove is an error.
 """
@@ -14,6 +14,7 @@ import subprocess
 from fractions import Fraction
 
 import slow_check
+import slow_files
 from proof_bytes import put_sint, put_uint, put_witness, serialise
 
 
@@ -84,7 +85,11 @@ def scenes():
     yield "merged", [double, [(x, y, z + 1.0) for x, y, z in double]], [*fan_cells, (5, 6, 7), (6, 5)], ["--merge-identical"]
     rough = [(0.1, 0.2, 0.3), (1.7, 0.1, 0.2), (0.3, 1.9, 0.1), (0.4, 0.3, 1.1), (1.2, 0.4, 1.3), (0.2, 1.1, 1.7)]
     yield "rough", [rough, [(x * 1.1, y - 0.05, z * 0.9) for x, y, z in rough]], TWO, []
-    # These touch.
+    apart = ["--min-distance", "0.0625", "--min-distance-from-ring"]
+    yield "fan apart", [fan, [(x, y + 0.125 * x, z + 0.25 * x * x) for x, y, z in fan]], fan_cells, [*apart, "1"]
+    yield "two apart", [above(1.0), above(0.0625 + 2.0**-20)], TWO, [*apart, "2", "--strict"]
+    # These touch, or are too near.
+    yield "two not apart", [above(1.0), above(0.03125)], TWO, [*apart, "2"]
     yield "vertex-face", [above(1.0), above(-1.0)], TWO, []
     yield "vertex-face late", [above(1.0), above(0.5), above(-0.25, 0.25)], TWO, []
     yield "rough contact", [rough, [(x * 1.1, y, z - 1.3 if z > 1 else z) for x, y, z in rough]], TWO, []
@@ -229,7 +234,7 @@ def prove(rng, step, root, depth=14):
                     raise RuntimeError("the little prover has no proof")
                 token = b"\0"
         tokens.append(token)
-        reader = slow_check.Reader(token, "token")
+        reader = slow_files.Reader(token, "token")
         reader.u8()
         stack.extend(reversed(step.replaced(token[0], reader, far, x, y, a, b, k, 0)))
     return b"".join(tokens)
@@ -271,10 +276,10 @@ def written_here(rng, files, source, dimension, flags, ring, eta, p, merged=(), 
     claim = slow_check.Claim(claim_bytes(source, dimension, flags, ring, eta, bytes(32), merged, excluded))
     if source == 2:
         claim.excluded = None
-    trajectory = slow_check.trajectory_of(claim, files)
+    trajectory = slow_files.trajectory_of(claim, files)
     if source == 2:
         claim.excluded = excluded = trajectory.excluded
-    hashed = slow_check.cells_hash(trajectory)
+    hashed = slow_files.cells_hash(trajectory)
     parts = [[[b"CLAM", claim_bytes(source, dimension, flags, ring, eta, hashed, merged, excluded)]]]
     order = list(range(len(trajectory.cells)))
     rng.shuffle(order)

@@ -20,7 +20,7 @@ from fractions import Fraction
 
 import corpus
 import slow_check
-import slow_frames
+import slow_files
 from proof_bytes import (get_witness, numbers_of, parse, put_poly, put_sint, put_uint, put_witness, serialise, split_tokens,
                          with_numbers)
 
@@ -41,7 +41,7 @@ class Taken:
         else:
             self.run, self.frames = None, []
             for data in case.files:
-                positions, self.cells = slow_frames.read_frame(data)
+                positions, self.cells = slow_files.read_frame(data)
                 self.frames.append([list(p) for p in positions])
 
 
@@ -125,7 +125,7 @@ def tokens_of(m):
     block = m.block(b"TOKS")
     try:
         tokens = split_tokens(block[1])
-    except slow_check.Rejected:
+    except slow_files.Rejected:
         raise NoSuchThing from None
     if not tokens:
         raise NoSuchThing
@@ -255,7 +255,7 @@ def blocks_of_tokens(m):
         if what == 2:
             try:
                 tokens = split_tokens(payload)
-            except slow_check.Rejected:
+            except slow_files.Rejected:
                 raise NoSuchThing from None
             cut = len(b"".join(tokens[: m.rng.randrange(len(tokens) + 1)]))
         group[i : i + 1] = [[b"TOKS", payload[:cut]], [b"TOKS", payload[cut:]]]
@@ -316,11 +316,11 @@ def steps_moved(m):
 
 def tree_of(m):
     block = m.block(b"TREE")
-    reader, values = slow_check.Reader(block[1], "TREE"), []
+    reader, values = slow_files.Reader(block[1], "TREE"), []
     try:
         while reader.more():
             values.append(reader.uint())
-    except slow_check.Rejected:
+    except slow_files.Rejected:
         raise NoSuchThing from None
     if not values:
         raise NoSuchThing
@@ -409,7 +409,7 @@ def pairs_of_claim(m):
     block, rng = m.groups[0][0], m.rng
     try:
         claim = slow_check.Claim(block[1])
-    except slow_check.Rejected:
+    except slow_files.Rejected:
         raise NoSuchThing from None
     merged, excluded = sorted(claim.merged.items()), list(claim.excluded)
     vertices = len(m.taken.frames[0]) if m.taken.frames else 4
@@ -448,7 +448,7 @@ def witness_of(m):
     block = m.block(b"WITN")
     try:
         return block, get_witness(block[1])
-    except slow_check.Rejected:
+    except slow_files.Rejected:
         raise NoSuchThing from None
 
 
@@ -828,17 +828,17 @@ def fit(m, files):
         claim = slow_check.Claim(claim_block[1])
         if claim.source == 2:
             claim.excluded = None
-        trajectory = slow_check.trajectory_of(claim, files)
+        trajectory = slow_files.trajectory_of(claim, files)
         if claim.source == 2 and m.fit_cells:
             claim_block[1] = corpus.claim_bytes(2, claim.dimension, claim.strict, claim.ring, claim.eta, claim.cells_hash, (), trajectory.excluded)
         if m.fit_cells:
-            claim_block[1] = claim_block[1][:16] + slow_check.cells_hash(trajectory) + claim_block[1][48:]
+            claim_block[1] = claim_block[1][:16] + slow_files.cells_hash(trajectory) + claim_block[1][48:]
         for k, (_, _, digest, _) in enumerate(trajectory.steps()):
             for group in m.groups[1:]:
                 for block in group:
                     if block[0] == b"STEP" and len(block[1]) == 65 and int.from_bytes(block[1][:8], "little") == k:
                         block[1] = block[1][:33] + digest
-    except (slow_check.Rejected, struct.error, IndexError, OverflowError):
+    except (slow_files.Rejected, struct.error, IndexError, OverflowError):
         pass
 
 

@@ -78,8 +78,9 @@ int main(int argc, char** argv) {
     std::vector<char*> arguments;
     for (auto& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    const auto code = static_cast<unsigned char>(kind == 'R' ? noli_check_main(static_cast<int>(words.size()), arguments.data())
-                                                             : exit_code_of(words[0], arguments));
+    const auto code =
+        static_cast<unsigned char>(kind == 'R' ? noli_check_main(static_cast<int>(words.size()), arguments.data())
+                                               : exit_code_of(words[0], arguments));
     if (write(answers, &code, 1) != 1) stop("nobody reads the answers");
   }
   return 0;

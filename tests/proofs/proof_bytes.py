@@ -2,28 +2,28 @@
 """Block files, tokens and witnesses taken apart and put together again, for the tests that break proofs.
 
 What this does not do: it checks nothing; what it is given to take apart is well-formed, or ValueError, IndexError or
-slow_check.Rejected comes of it.
+slow_files.Rejected comes of it.
 """
 import functools
 import hashlib
 import struct
 
-import slow_check
+import slow_files
 
 
 @functools.lru_cache(maxsize=20000)
 def checksum(data):
-    return struct.pack("<I", slow_check.crc32c(data))
+    return struct.pack("<I", slow_files.crc32c(data))
 
 
 def block(kind, payload):
     head = kind + struct.pack("<Q", len(payload)) + payload
-    return head + (checksum(head) if len(head) < 10000 else struct.pack("<I", slow_check.crc32c(head)))
+    return head + (checksum(head) if len(head) < 10000 else struct.pack("<I", slow_files.crc32c(head)))
 
 
 def serialise(groups, content, spoil=None, commit=True):
     """spoil: None, or (which group, what of its commit: "number", "group", "running") to write wrong; commit: whether the last group has one."""
-    pieces, running = [slow_check.MAGIC + b"\1\0\0\0" + content], bytes(32)
+    pieces, running = [slow_files.MAGIC + b"\1\0\0\0" + content], bytes(32)
     whole = []
     for number, blocks in enumerate(groups):
         pieces += [block(kind, payload) for kind, payload in blocks]
@@ -75,7 +75,7 @@ def put_poly(f):
 
 
 def split_tokens(payload):
-    reader, tokens = slow_check.Reader(payload, "TOKS"), []
+    reader, tokens = slow_files.Reader(payload, "TOKS"), []
     while reader.more():
         start, token = reader.at, reader.u8()
         if token == 0x10:
@@ -92,7 +92,7 @@ def split_tokens(payload):
 
 def numbers_of(token):
     """The numbers of S, P and W."""
-    reader, kind = slow_check.Reader(token, "token"), token[0]
+    reader, kind = slow_files.Reader(token, "token"), token[0]
     reader.u8()
     if kind == 0x10:
         bits = reader.u32()
@@ -119,7 +119,7 @@ def with_numbers(kind, n):
 
 
 def get_witness(payload):
-    r, w = slow_check.Reader(payload, "WITN"), {}
+    r, w = slow_files.Reader(payload, "WITN"), {}
     w["i"], w["j"] = r.u32(), r.u32()
     for side in "PQ":
         w[side] = [(r.u32(), r.poly()) for _ in range(r.u8())]

@@ -5,7 +5,8 @@
     run_mutants.py --noli NOLI --harness HARNESS --checker NOLI_CHECK [--verified CHECKER] --count N [--seed S] [--first K] -o FOLDER
 
 Mutant k of a seed is the same whenever it is made by the same corpus, which `noli` writes anew each time. The C++ checker runs inside
-of HARNESS (mutate_harness.cpp), each thousandth mutant as a process too; the verified checker is a process always. slow_check.py is asked
+of HARNESS (mutate_harness.cpp), each thousandth mutant as a process too; the verified checker is a process always, and left out where there is
+none. slow_check.py is asked
 whenever another accepts or refutes, and for some of the others. A finding is kept in FOLDER/findings with the commands that show it.
 Exits 1 when there is one.
 
@@ -199,7 +200,11 @@ def main():
     parser.add_argument("--seconds", type=float)
     parser.add_argument("--keep", type=int, default=100)
     parser.add_argument("-o", "--output", required=True)
-    return Campaign(parser.parse_args()).run()
+    arguments = parser.parse_args()
+    if arguments.verified and not os.path.exists(arguments.verified):
+        print(f"without the verified checker: there is no {arguments.verified}")
+        arguments.verified = None
+    return Campaign(arguments).run()
 
 
 if __name__ == "__main__":
