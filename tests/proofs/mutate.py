@@ -222,6 +222,23 @@ def coefficients(m):
     block[1] = b"".join(tokens)
 
 
+def path_longer(m):
+    """W whose path goes to and fro, up to and beyond the greatest length; the ring may be greater."""
+    block, tokens, _ = tokens_of(m)
+    some = [k for k, token in enumerate(tokens) if token[0] == 0x30]
+    if not some:
+        raise NoSuchThing
+    k = m.rng.choice(some)
+    n = numbers_of(tokens[k])
+    more = m.rng.choice((1, 2, 255 - n[0], 256 - n[0], 300))
+    cells = [c for c, cell in enumerate(m.taken.cells) if n[1] in cell] if m.taken.frames else [0]
+    if more < 0 or not cells:
+        raise NoSuchThing
+    tokens[k] = with_numbers(0x30, [n[0] + more, n[1]] + [m.rng.choice(cells), n[1]] * more + n[2:])
+    block[1] = b"".join(tokens)
+    field(m.groups[0][0], 4, "I", lambda ring: m.rng.choice((ring, n[0] + more, n[0] + more + 1, 1000)))
+
+
 def plane(m):
     """S is written as P with a plane at rest, or nearly; bounds are met exactly, or missed by one."""
     block, tokens, _ = tokens_of(m)
@@ -531,9 +548,16 @@ def witness_time(m):
 
 def witness_places(m):
     block, w = witness_of(m)
-    what, rng = m.rng.randrange(9), m.rng
+    what, rng = m.rng.randrange(10), m.rng
     side = rng.choice("PQ")
-    if what == 0:
+    if what == 9:  # a vertex that two cells share, on both sides or on one
+        v = rng.randrange(6)
+        cells = [c for c, cell in enumerate(m.taken.cells) if v in cell] if m.taken.frames else [0, 1]
+        w["i"], w["j"] = rng.choice(cells or [0]), rng.choice(cells or [0])
+        w[side] = [(v, [1])]
+        if rng.random() < 0.7:
+            w["P"] = w["Q"] = [(v, [1])]
+    elif what == 0:
         w["P"], w["Q"] = w["Q"], w["P"]
         if rng.random() < 0.7:
             w["i"], w["j"] = w["j"], w["i"]
@@ -752,6 +776,12 @@ def world_lines(m):
         field(lines[k], at_time, "d", lambda x: rng.choice((x + 2.0**-20, x - 2.0**-20, other_double(rng, x), x * (1 + 2.0**-50))))
         return
     unit = unit_of(m)
+    if rng.random() < 0.4:  # beside the same coordinate of another breakpoint: S holds just so, or just not
+        places = 4 * vertices + 8 * total
+        other = places + 8 * dimension * rng.randrange(total) + (at_place - places) % (8 * dimension)
+        x = struct.unpack("<d", lines[k][1][other : other + 8])[0]
+        field(lines[k], at_place, "d", lambda _: x + unit * rng.choice((0, 0, 1, -1, 2, -2)))
+        return
     change = rng.choice((unit, -unit, unit * rng.randrange(-2**30, 2**30), 0.25, -0.125, 1.0, None, None))
     before = lines[k][1][at_place : at_place + 8]
     field(lines[k], at_place, "d", lambda x: other_double(rng, x) if change is None else x + change)
@@ -813,7 +843,7 @@ def blocks_of_run(m):
 
 STRUCTURED = [  # (weight, mutation)
     (4, payload_bytes), (3, token_deleted), (3, token_doubled), (3, tokens_swapped), (6, token_replaced), (4, token_inserted), (4, split_moved),
-    (1, split_deep), (9, coefficients), (6, plane), (2, blocks_of_tokens), (1, numbers_longer), (3, step_fields), (2, units_finer), (3, steps_moved),
+    (1, split_deep), (9, coefficients), (6, plane), (1, path_longer), (2, blocks_of_tokens), (1, numbers_longer), (3, step_fields), (2, units_finer), (3, steps_moved),
     (4, tree_numbers), (3, tree_shape), (2, tree_elsewhere), (4, claim_fields), (7, distance), (4, pairs_of_claim), (1, counts_of_claim),
     (9, witness_polynomials), (7, witness_weights), (6, witness_time), (7, witness_places), (4, blocks_moved), (3, from_another),
     (14, positions), (3, all_positions), (2, order_of_frames), (5, cells_of_frames), (6, world_lines), (3, scene_of_run), (3, blocks_of_run)]

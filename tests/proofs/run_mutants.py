@@ -85,6 +85,9 @@ class Campaign:
                     file.write(data)
 
     def make(self, k):
+        """Mutant k of the seed; those below 0 are the good proofs as they are."""
+        if k < 0:
+            return -k - 1, "as it is", self.cases[-k - 1].proof, None
         rng = random.Random(f"{self.arguments.seed}/{k}")
         c = rng.choice(self.choices)
         kinds, proof, files = mutate.mutant(rng, self.taken[c], self.taken)
@@ -105,7 +108,7 @@ class Campaign:
             if k % 1000 == 0:
                 records.append(self.checkers.execute(self.arguments.checker, names))
                 expected.append((slot, "process"))
-            if self.arguments.verified and k % self.arguments.verified_every == 0:
+            if self.arguments.verified and (k < 0 or k % self.arguments.verified_every == 0):
                 records.append(self.checkers.execute(self.arguments.verified, names))
                 expected.append((slot, "verified"))
             made.append((c, kinds, proof, files, names))
@@ -123,10 +126,13 @@ class Campaign:
     def judge(self, k, made, codes):
         c, kinds, proof, files, _ = made
         slow = None
-        if any(code in (0, 1) for code in codes.values()) or k % self.arguments.slow_every == 0:
+        if k < 0:
+            slow, words = self.cases[c].code, "a good proof"
+            codes["slow"] = slow
+        elif any(code in (0, 1) for code in codes.values()) or k % self.arguments.slow_every == 0:
             slow, words = self.slow(proof, self.cases[c].files if files is None else files)
             codes["slow"] = slow
-        self.counts["mutants"] += 1
+        self.counts["mutants" if k >= 0 else "good proofs"] += 1
         for who in codes:
             self.counts[who] += 1
         self.counts[f"all say {codes['checker']}" if len(set(codes.values())) == 1 else "differ"] += 1
@@ -169,6 +175,7 @@ class Campaign:
         shown = started = time.monotonic()
         first = k = self.arguments.first
         end = first + self.arguments.count
+        self.batch(-len(self.cases), 0)
         while k < end and (self.arguments.seconds is None or time.monotonic() - started < self.arguments.seconds):
             k = self.batch(k, min(k + BATCH, end))
             if time.monotonic() - shown > 30:
