@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// mutate_harness FOLDER: the checker of proofs (proofs/checker/main.cpp, included whole) in a process that checks one proof after another,
+// for tests/proofs/run_mutants.py. Standard input is a sequence of
+//
+//   F  name data                writes the file FOLDER/name
+//   R  count name...            runs the checker in this process with these arguments, files in FOLDER
+//   E  program count name...    runs a program with them, in a process of its own
+//
+// Names are a byte of length and the bytes; data are a u32 of length, little-endian, and the bytes; a count is a byte. R and E are
+// answered on standard output with one byte: the exit code; 128 and the signal, if E's program ended by one. What the checkers print is dropped.
+//
+// What this does not do: it judges no answer, and does not survive a crash of the checker in R; whoever reads its answers
+// sees from their number which proof it was.
+#define main noli_check_main
+#include "main.cpp"
+#undef main
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+[[noreturn]] void stop(const char* why) {
+  std::fprintf(stderr, "mutate_harness: %s\n", why);
+  std::exit(4);
+}
+
+std::string read_bytes(std::size_t size) {
+  std::string bytes(size, '\0');
+  if (size != 0 && std::fread(bytes.data(), 1, size, stdin) != size) stop("the input ends early");
+  return bytes;
+}
+
+std::size_t read_byte() { return static_cast<unsigned char>(read_bytes(1)[0]); }
+
+std::string read_name() { return read_bytes(read_byte()); }
+
+void write_file() {
+  const std::string name = read_name(), size = read_bytes(4);
+  std::uint32_t length;
+  std::memcpy(&length, size.data(), 4);
+  const std::string data = read_bytes(length);
+  std::FILE* file = std::fopen(name.c_str(), "wb");
+  if (file == nullptr || std::fwrite(data.data(), 1, data.size(), file) != data.size() || std::fclose(file) != 0)
+    stop("a file cannot be written");
+}
+
+int exit_code_of(const std::string& program, std::vector<char*> arguments) {
+  pid_t child;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+  if (posix_spawn(&child, program.c_str(), &actions, nullptr, arguments.data(), environ) != 0) stop("cannot start it");
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) stop("waitpid failed");
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2 || chdir(argv[1]) != 0) stop("expected a folder");
+  const int answers = dup(1);
+  if (answers < 0 || std::freopen("/dev/null", "w", stdout) == nullptr) stop("standard output cannot be moved");
+  for (int kind; (kind = std::getchar()) != EOF;) {
+    if (kind == 'F') {
+      write_file();
+      continue;
+    }
+    if (kind != 'R' && kind != 'E') stop("an unknown record");
+    std::vector<std::string> words = {kind == 'E' ? read_name() : "noli_check"};
+    for (std::size_t count = read_byte(); count > 0; --count) words.push_back(read_name());
+    std::vector<char*> arguments;
+    for (auto& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const auto code =
+        static_cast<unsigned char>(kind == 'R' ? noli_check_main(static_cast<int>(words.size()), arguments.data())
+                                               : exit_code_of(words[0], arguments));
+    if (write(answers, &code, 1) != 1) stop("nobody reads the answers");
+  }
+  return 0;
+}
