@@ -53,7 +53,7 @@ std::vector<std::string> conjuncts(const std::string& text) {
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
-  static const std::regex place(R"(\brequire\((?!bool )|\bconst bool (apart|usable) = )");
+  static const std::regex place(R"(\brequire\((?!bool )|\bconst bool (apart|usable) =\s)");
   int number = 0;
   for (int i = 2; i < argc; ++i) {
     std::ifstream in(argv[i], std::ios::binary);
