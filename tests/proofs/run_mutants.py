@@ -36,7 +36,7 @@ def name_bytes(name):
 
 
 class Checkers:
-    """The harness, one at a time of the batch."""
+    """Records for the harness, and its answers; it is started again after a crash."""
 
     def __init__(self, arguments, folder):
         self.arguments, self.folder, self.process = arguments, folder, None
