@@ -53,7 +53,7 @@ class Checkers:
     def answers(self, records, count):
         """The answers to a batch; fewer, if the checker crashed in the harness."""
         if self.process is None:
-            self.process = subprocess.Popen([self.arguments.harness, self.folder], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+            self.process = subprocess.Popen([os.path.abspath(self.arguments.harness), self.folder], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         try:
             self.process.stdin.write(b"".join(records))
             self.process.stdin.flush()
