@@ -110,9 +110,11 @@ def scene_of_run(plane):
     sheet = {"chain": {"points": [[0, 1], [1, 1.5]], "segments": 2}} if plane else {"grid": {"size": [1, 1], "cells": [1, 1]}}
     material = {"edge_stiffness": 10, "mass_per_length": 1} if plane else {"young": 100, "density": 300, "thickness": 0.001}
     end = [] if plane else [0]
+    post = [[0.25, 0.25, -2][: 3 - plane], [0.75, 0.25, -1][: 3 - plane]]
+    rod = [[0.25, -3, -2][: 3 - plane], [0.75, -3, 2][: 3 - plane]]
     bodies = [{"name": "sheet", "mesh": sheet, "material": material, "velocity": [0.5, 0.25] + ([] if plane else [-1])},
-              {"name": "post", "mesh": {"chain": {"points": [[0.25, 0.25, -2][: 3 - plane], [0.75, 0.25, -1][: 3 - plane]], "segments": 1}}, **curve, "pin": ["all"]},
-              {"name": "rod", "mesh": {"chain": {"points": [[0.25, -3, -2][: 3 - plane], [0.75, -3, 2][: 3 - plane]], "segments": 1}}, **curve}]
+              {"name": "post", "mesh": {"chain": {"points": post, "segments": 1}}, **curve, "pin": ["all"]},
+              {"name": "rod", "mesh": {"chain": {"points": rod, "segments": 1}}, **curve}]
     return {"noli_scene": 1, "dimension": 2 if plane else 3, "duration": 0.02, "window": 0.01, "record": "full", "bodies": bodies,
             "scripts": [{"body": "rod", "path": [{"t": 0, "move": [0, 0, *end]}, {"t": 0.015, "move": [0.01, 0.5, *end]}, {"t": 0.1, "move": [0, 0, *end]}]}],
             "contact": {"exclude": [["sheet", "rod"]]}}
@@ -171,11 +173,9 @@ def separation(rng, step, n, x, y, begin, end, eta):
         high = max(slow_check.dot(n, step.at(v, t)) for v in y.vertices for t in when)
         nd = -((-(high + w)) // 1) + rng.randrange(3)
         if high + w < nd < low:
-            s = rng.choice([0, 1, 5])
-            scaled = [put_uint(0) + put_sint(0), put_uint(s) + put_sint(int(nd) << 1 << s), put_uint(0) + put_sint(w << s << 1)]
-            token = b"\x12" + put_uint(s + 1) + b"".join(map(put_sint, n))
-            scaled[1] = put_uint(s) + put_sint(int(nd) << 1)
-            kinds.append(token + b"".join(scaled))
+            s = rng.choice([0, 1, 5])  # all of it times 2^(s + 1), with shifts of their own
+            kinds.append(b"\x12" + put_uint(s + 1) + b"".join(map(put_sint, n)) + put_uint(0) + put_sint(0) +
+                         put_uint(s) + put_sint(int(nd) << 1) + put_uint(0) + put_sint(w << s + 1))
     return rng.choice(kinds)
 
 
@@ -205,19 +205,18 @@ def prove(rng, step, root, depth=14):
         if len(x.labels) == 1 and len(other.labels) == 1 and step.claim.excludes(*x.labels, *other.labels):
             token = b"\6"
         elif y is None:
-            token = b"\3" if x.children and rng.random() < 0.8 else b"\5" if x.children or step.claim.strict or rng.random() < 0.1 else b"\4"
-            if token == b"\5" and x.children and not step.claim.strict:
-                token = b"\3"
-            if token == b"\5" and not step.claim.strict:
-                token = b"\4"
+            if x.children:
+                token = b"\3" if not step.claim.strict or rng.random() < 0.8 else b"\5"
+            else:
+                token = b"\5" if step.claim.strict else b"\4"
         else:
-            directions = AXES[:6] + [tuple(rng.randrange(-9, 10) for _ in range(3)) for _ in range(40)]
+            directions = AXES[:6] + [tuple(rng.randrange(-9, 10) for _ in range(3)) for _ in range(200)]
             if not x.vertices or not y.vertices:
                 directions = [(0, 0, 0), *directions[:8]]
             common = set(x.vertices) & set(y.vertices)
             if not common:
                 rng.shuffle(directions)
-                for n in directions[: 6 if x.children or y.children else 46]:
+                for n in directions[: 6 if x.children or y.children else 206]:
                     if step.separated(n, x, y, begin, end, eta):
                         token = separation(rng, step, n, x, y, begin, end, eta)
                         break

@@ -21,8 +21,7 @@ from fractions import Fraction
 import corpus
 import slow_check
 import slow_files
-from proof_bytes import (get_witness, numbers_of, parse, put_poly, put_sint, put_uint, put_witness, serialise, split_tokens,
-                         with_numbers)
+from proof_bytes import get_witness, numbers_of, parse, put_uint, put_witness, serialise, split_tokens, with_numbers
 
 
 class NoSuchThing(Exception):
@@ -250,8 +249,10 @@ def plane(m):
     n = axes.get(tokens[k]) or numbers_of(tokens[k])
     shift = m.rng.choice((0, 0, 1, 4))
     n = [c << shift for c in n]
-    tokens[k] = with_numbers(0x12, [0, *n, m.rng.choice((0, 1, 4095, 4096, 4097)) if m.rng.random() < 0.2 else 0, m.rng.choice((0, 0, 0, 1, -1)), 0,
-                                    m.rng.randrange(-6, 7) << m.rng.choice((0, 1, 2, 3, 4, 8)) << shift, 0, m.rng.choice((0, 0, 1, -1, 4 << shift))])
+    long_shift = m.rng.choice((0, 1, 4095, 4096, 4097)) if m.rng.random() < 0.2 else 0
+    nd = m.rng.randrange(-6, 7) << m.rng.choice((0, 1, 2, 3, 4, 8)) << shift
+    nt, w = m.rng.choice((0, 0, 0, 1, -1)), m.rng.choice((0, 0, 1, -1, 4 << shift))
+    tokens[k] = with_numbers(0x12, [0, *n, long_shift, nt, 0, nd, 0, w])
     block[1] = b"".join(tokens)
 
 

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// mutate_harness FOLDER: the checker of proofs (proofs/checker/main.cpp, included whole) in a process that checks one proof after another,
-// for tests/proofs/run_mutants.py. Standard input is a sequence of
+// mutate_harness FOLDER: the checker of proofs (proofs/checker/main.cpp, included whole) in a process that checks one
+// proof after another, for tests/proofs/run_mutants.py. Standard input is a sequence of
 //
 //   F  name data                writes the file FOLDER/name
 //   R  count name...            runs the checker in this process with these arguments, files in FOLDER
 //   E  program count name...    runs a program with them, in a process of its own
 //
-// Names are a byte of length and the bytes; data are a u32 of length, little-endian, and the bytes; a count is a byte. R and E are
-// answered on standard output with one byte: the exit code; 128 and the signal, if E's program ended by one. What the checkers print is dropped.
+// Names are a byte of length and the bytes; data are a u32 of length, little-endian, and the bytes; a count is a byte.
+// R and E are answered on standard output with one byte: the exit code; 128 and the signal, if E's program ended by
+// one. What the checkers print is dropped.
 //
-// What this does not do: it judges no answer, and does not survive a crash of the checker in R; whoever reads its answers
-// sees from their number which proof it was.
+// What this does not do: it judges no answer, and does not survive a crash of the checker in R; whoever reads its
+// answers sees from their number which proof it was.
 #define main noli_check_main
-#include "main.cpp"
+#include "main.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef main
 
 #include <fcntl.h>
@@ -76,6 +77,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> words = {kind == 'E' ? read_name() : "noli_check"};
     for (std::size_t count = read_byte(); count > 0; --count) words.push_back(read_name());
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (auto& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     const auto code =

@@ -36,7 +36,7 @@ def name_bytes(name):
 
 
 class Checkers:
-    """The harness, one at a time of the batch."""
+    """Records for the harness, and its answers; it is started again after a crash."""
 
     def __init__(self, arguments, folder):
         self.arguments, self.folder, self.process = arguments, folder, None
@@ -53,7 +53,7 @@ class Checkers:
     def answers(self, records, count):
         """The answers to a batch; fewer, if the checker crashed in the harness."""
         if self.process is None:
-            self.process = subprocess.Popen([self.arguments.harness, self.folder], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+            self.process = subprocess.Popen([os.path.abspath(self.arguments.harness), self.folder], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         try:
             self.process.stdin.write(b"".join(records))
             self.process.stdin.flush()
