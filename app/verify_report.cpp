@@ -120,6 +120,8 @@ std::string why_ended(const RunEnding& ending) {
 int threads_used(const VerifyRequest& request) { return request.threads > 0 ? request.threads : hardware_threads(); }
 
 const char* why_incomplete(const VerifyOutcome& outcome) {
+  if (outcome.no_proof) return "no proof was found";
+  if (outcome.near) return "something is about as near as the least distance, but no witness was found";
   if (outcome.interrupted) return "interrupted";
   if (outcome.steps_total == 0) return "no window was committed";
   return outcome.out_of_time ? "time limit" : "first contact only";

@@ -166,6 +166,9 @@ class Run {
       } catch (const TooNear& near) {
         outcome_.near = ListedNear{step + 1, near};
         if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
+      } catch (const NoProof&) {
+        outcome_.no_proof = true;
+        outcome_.complete = false;
       }
     }
     outcome_.proof_seconds += watch.seconds();

@@ -122,6 +122,7 @@ struct VerifyOutcome {
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
   double seconds = 0;                  ///< wall clock without reading
+  bool no_proof = false;               ///< nothing touches, but no proof of it was found
   std::optional<ListedNear> near;      ///< who comes too near
   std::optional<std::string> checked;  ///< what the checker said of the proof
   double read_seconds = 0;             ///< wall clock of reading

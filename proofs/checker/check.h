@@ -160,7 +160,7 @@ class Check {
   void refute(const Integers& motion, std::uint64_t number) {
     const Witness witness(proof_.expect("WITN"), claim_, motion);
     proof_.expect_commit();
-    if (!refuted_) refuted_ = "in step " + std::to_string(number) + ", " + witness.words();
+    if (!refuted_) refuted_ = "in step " + std::to_string(number + 1) + ", " + witness.words();
   }
 
   BlockFile proof_;

@@ -204,8 +204,14 @@ class ProofParts {
                                [&](const Direction<Dim>& n) { return bound_of(pair, n); });
   }
 
+  /// Parts that are just as far apart as the least distance are not farther.
+  [[noreturn]] void give_up_at(const Piece& piece) const {
+    if (distance_ == 0) throw NoProof("no direction separates two parts, however short the time");
+    throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()), -static_cast<int>(piece.e))};
+  }
+
   void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece, Tokens& tokens) {
-    if (piece.e == give_up) throw NoProof("no direction separates two parts, however short the time");
+    if (piece.e == give_up) give_up_at(piece);
     tokens.halve();
     for (long which = 0; which < 2; ++which) over_piece(a, b, pair, piece.half(which), tokens);
   }

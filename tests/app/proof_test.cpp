@@ -153,7 +153,7 @@ TEST_F(Proof, KeepsADistance) {
   const auto frames = triangles({1, 0.5});
   EXPECT_EQ(prove(frames, {"--min-distance", "0.4999"}).verdict_line().substr(0, 15), "verdict proved ");
   EXPECT_EQ(check(frames).exit_code, 0);
-  for (const char* distance : {"0.5001", "0.75"}) {
+  for (const char* distance : {"0.5", "0.5001", "0.75"}) {
     const Process process = prove(frames, {"--min-distance", distance});
     EXPECT_EQ(process.exit_code, 1) << distance;
     EXPECT_EQ(process.verdict_line().substr(0, 17), "verdict too_near ") << process.verdict_line();

@@ -43,7 +43,7 @@ WitnessFields changed(const std::function<void(WitnessFields&)>& change, Witness
 }
 
 TEST(Witnesses, AtTheSquareRootOfTwo) {
-  EXPECT_VERDICT(check(at_root_two), 1, "in step 0, vertices {0} of cell 1 and {1 2} of cell 0 meet");
+  EXPECT_VERDICT(check(at_root_two), 1, "in step 1, vertices {0} of cell 1 and {1 2} of cell 0 meet");
   EXPECT_VERDICT(
       check({0, 1, at_root_two.q, at_root_two.p, {1, -2, -1}, 1023, mpz_class(1) << 1021, mpz_class(1) << 1022}), 1,
       "");
