@@ -203,7 +203,7 @@ Definition by_axis (f : Z -> Z -> Z) (p q : vec) : vec :=
 Record chord := Chord { grain : Z; origin : vec; motion : vec; lows : vec; highs : vec }.
 
 (** The number [s] of scenes in which vertices begin at these trajectories' first breakpoints. *)
-Definition scale (path : Z -> traj) (ids : list Z) : Z :=
+Definition unit_bits (path : Z -> traj) (ids : list Z) : Z :=
   let most m v := match path v with
     | [] => m
     | (_, p) :: _ => greater m (greater (Z.abs (vx p)) (greater (Z.abs (vy p)) (Z.abs (vz p))))
@@ -588,7 +588,7 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
 Definition build (s : scene) (g : group) : option tree :=
   if forallb (wf_vertex s) (group_ids (fun v => v) s g) then
     let ids := group_ids (same s) s g in
-    match join_all ids (vertices (scale (path s) ids) s ids []) with
+    match join_all ids (vertices (unit_bits (path s) ids) s ids []) with
     | Some table => build_from table s g
     | None => None
     end

@@ -209,7 +209,7 @@ Lemma no_walk_wide : ways_of (near 7 2) point_first up = [false; false; false]. 
 
 (** Large numbers: units are 2^8 where the largest has 49 bits, on either side of 0. *)
 Definition large c z e := near_at 256 c z e.
-Definition chord_at s v := chord_of (scale (path s) [0; 1]) (tbeg s) (tend s) (path s v).
+Definition chord_at s v := chord_of (unit_bits (path s) [0; 1]) (tbeg s) (tend s) (path s v).
 Lemma ok_unit : option_map grain (chord_at (large (- 2 ^ 40) 11 0) 0) = Some 256. Proof. computed. Qed.
 Lemma ok_bounds_large : map (fun c => ways_of (large c 11 0) point_first up) [2 ^ 40; - 2 ^ 40]
   = [[true; true; true]; [true; true; true]]. Proof. computed. Qed.

@@ -197,9 +197,9 @@ let by_axis f p q =
 type chord = { grain : Zint.t; origin : vec; motion : vec; lows : vec;
                highs : vec }
 
-(** val scale : (Zint.t -> traj) -> Zint.t list -> Zint.t **)
+(** val unit_bits : (Zint.t -> traj) -> Zint.t list -> Zint.t **)
 
-let scale path0 ids =
+let unit_bits path0 ids =
   let most = fun m v ->
     match path0 v with
     | [] -> m
@@ -711,7 +711,7 @@ let rec build_from table s = function
 let build s g =
   if List.for_all (wf_vertex s) (group_ids (fun v -> v) s g)
   then let ids = group_ids s.same s g in
-       (match join_all ids (vertices (scale s.path ids) s ids []) with
+       (match join_all ids (vertices (unit_bits s.path ids) s ids []) with
         | Some table -> build_from table s g
         | None -> None)
   else None
