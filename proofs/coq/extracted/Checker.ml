@@ -575,21 +575,23 @@ let least_at n d c = function
     -> halfspace * Zint.t **)
 
 let plane_between k n a b d x y =
+  let n0 = by_axis Zint.add n n in
   let w =
     if Zint.equal k Zint.zero
     then Zint.zero
-    else Zint.add (Zint.sqrt k) Zint.one
+    else Zint.add (Zint.sqrt (Zint.shiftl k (Zint.add Zint.one Zint.one)))
+           Zint.one
   in
   let middle = fun c ->
     Zint.shiftr
-      (Zint.add (Zint.sub (least_at n d c x) (least_at (opposite n) d c y)) w)
-      Zint.one
+      (Zint.add (Zint.sub (least_at n0 d c x) (least_at (opposite n0) d c y))
+        w) Zint.one
   in
   let f = middle a in
   let g = Zint.sub (middle b) f in
   let l = Zint.sub b a in
-  ({ normal = { vx = (Zint.mul l n.vx); vy = (Zint.mul l n.vy); vz =
-  (Zint.mul l n.vz) }; nt = (Zint.neg (Zint.mul g d)); nd =
+  ({ normal = { vx = (Zint.mul l n0.vx); vy = (Zint.mul l n0.vy); vz =
+  (Zint.mul l n0.vz) }; nt = (Zint.neg (Zint.mul g d)); nd =
   (Zint.sub (Zint.mul f l) (Zint.mul g a)) }, (Zint.mul w l))
 
 (** val empty : vertex list -> bool **)
