@@ -11,8 +11,10 @@
     vertices of a group come with search trees of their trajectories, in increasing order
     of their ids, which are those that stand for others ([same] in Spec.v).
 
-    Cost: of a token, the search in each trajectory, which is logarithmic, and its
-    breakpoints in the interval; of [start], all breakpoints once, and the sorting of ids.
+    Cost: of S, a few small numbers for each vertex if quick bounds settle it; else, and of P,
+    the search in each trajectory, which is logarithmic, and its breakpoints in the interval; if no
+    plane is found, for each vertex all breakpoints in the interval of all; of [start], all breakpoints
+    a few times, and the sorting of ids.
 
     Not here: reading bytes, and bounds for the lengths of what is read.  The tree
     is recursed over, so that a reader has to bound its depth. *)
@@ -185,8 +187,9 @@ Definition inside (h : halfspace) (a b d : Z) (x : search traj) : bool :=
     Not here: bounds from the breakpoints of a part of the time alone; trajectories that begin before
     [T0] or end after [T1], which have no chord.  What bounds do not settle, a plane or the walk below do. *)
 
-(** Positions have about as many bits; [u] has as many; parts beyond this denominator are not
-    looked at.  Any numbers do; with these, all numbers are below 2^62 for directions of 10 bits. *)
+(** How many bits positions have, and [u] has, and up to which [d] parts are looked at.  Any numbers
+    do; with these, those of a token are below 2^62 for directions of 10 bits, unless vertices leave by far
+    the places where they begin. *)
 Definition place_bits : Z := 40.
 Definition time_bits : Z := 20.
 Definition d_quick : Z := 2 ^ 8.
@@ -203,7 +206,7 @@ Definition by_axis (f : Z -> Z -> Z) (p q : vec) : vec :=
 Record chord := Chord { grain : Z; origin : vec; motion : vec; lows : vec; highs : vec }.
 
 (** The number [s] of scenes in which vertices begin at these trajectories' first breakpoints. *)
-Definition scale (path : Z -> traj) (ids : list Z) : Z :=
+Definition unit_bits (path : Z -> traj) (ids : list Z) : Z :=
   let most m v := match path v with
     | [] => m
     | (_, p) :: _ => greater m (greater (Z.abs (vx p)) (greater (Z.abs (vy p)) (Z.abs (vz p))))
@@ -479,9 +482,11 @@ Definition least_at (n : vec) (d c : Z) (x : list vertex) : Z :=
   | [] => 0
   end.
 
-(** The plane, and how far [y] has to be behind it: in direction [n], the root of [k]. *)
+(** The plane, and how far [y] has to be behind it: in direction [n], the root of [k].  [n] is
+    doubled, so that there is an integer between two others. *)
 Definition plane_between (k : Z) (n : vec) (a b d : Z) (x y : list vertex) : halfspace * Z :=
-  let w := if k =? 0 then 0 else Z.sqrt k + 1 in
+  let n := by_axis Z.add n n in
+  let w := if k =? 0 then 0 else Z.sqrt (Z.shiftl k (1 + 1)) + 1 in
   let middle c := Z.shiftr (least_at n d c x - least_at (opposite n) d c y + w) 1 in
   let f := middle a in
   let g := middle b - f in
@@ -588,7 +593,7 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
 Definition build (s : scene) (g : group) : option tree :=
   if forallb (wf_vertex s) (group_ids (fun v => v) s g) then
     let ids := group_ids (same s) s g in
-    match join_all ids (vertices (scale (path s) ids) s ids []) with
+    match join_all ids (vertices (unit_bits (path s) ids) s ids []) with
     | Some table => build_from table s g
     | None => None
     end

@@ -189,8 +189,7 @@ Lemma ok_bounds : ways_of (near 11 0) point_first up = [true; true; true]. Proof
 Lemma no_bounds : ways_of (near 10 0) point_first up = [false; true; true]. Proof. computed. Qed.
 Lemma ok_bounds_down : ways_of (near 11 0) tri_first down = [true; true; true]. Proof. computed. Qed.
 Lemma no_bounds_down : ways_of (near 10 0) tri_first down = [false; true; true]. Proof. computed. Qed.
-Lemma ok_between_plane : ways_of (near 8 0) point_first up = [false; true; true]. Proof. computed. Qed.
-Lemma no_between_plane : ways_of (near 7 0) point_first up = [false; false; true]. Proof. computed. Qed.
+Lemma ok_between_plane : ways_of (near 7 0) point_first up = [false; true; true]. Proof. computed. Qed.
 Lemma ok_walk : ways_of (near 6 0) point_first up = [false; false; true]. Proof. computed. Qed.
 Lemma no_walk : ways_of (near 5 0) point_first up = [false; false; false]. Proof. computed. Qed.
 Lemma ok_each_way : forallb (fun z => lax (near z 0) point_first (close (TDirection up))) [6; 8; 11] = true.
@@ -204,12 +203,12 @@ Lemma ok_bounds_wide : ways_of (near 13 2) point_first up = [true; true; true]. 
 Lemma no_bounds_wide : ways_of (near 12 2) point_first up = [false; true; true]. Proof. computed. Qed.
 Lemma ok_bounds_wide_long : ways_of (near 13 2) point_first (V3 0 0 3) = [true; true; true]. Proof. computed. Qed.
 Lemma no_bounds_wide_long : ways_of (near 12 2) point_first (V3 0 0 3) = [false; true; true]. Proof. computed. Qed.
-Lemma no_between_plane_wide : ways_of (near 10 2) point_first up = [false; false; true]. Proof. computed. Qed.
+Lemma no_between_plane_wide : ways_of (near 9 2) point_first up = [false; false; true]. Proof. computed. Qed.
 Lemma no_walk_wide : ways_of (near 7 2) point_first up = [false; false; false]. Proof. computed. Qed.
 
 (** Large numbers: units are 2^8 where the largest has 49 bits, on either side of 0. *)
 Definition large c z e := near_at 256 c z e.
-Definition chord_at s v := chord_of (scale (path s) [0; 1]) (tbeg s) (tend s) (path s v).
+Definition chord_at s v := chord_of (unit_bits (path s) [0; 1]) (tbeg s) (tend s) (path s v).
 Lemma ok_unit : option_map grain (chord_at (large (- 2 ^ 40) 11 0) 0) = Some 256. Proof. computed. Qed.
 Lemma ok_bounds_large : map (fun c => ways_of (large c 11 0) point_first up) [2 ^ 40; - 2 ^ 40]
   = [[true; true; true]; [true; true; true]]. Proof. computed. Qed.

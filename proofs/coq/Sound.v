@@ -980,10 +980,10 @@ Close Scope R_scope.
 (** ** 5. Obligations *)
 
 (** Chords of a scene with a tree are in units of 2 to this. *)
-Definition bits_of (s : scene) (g : group) : Z := scale (path s) (group_ids (same s) s g).
+Definition bits_of (s : scene) (g : group) : Z := unit_bits (path s) (group_ids (same s) s g).
 
 Lemma bits_of_least s g : (0 <= bits_of s g)%Z.
-Proof. unfold bits_of, scale. apply greater_left. Qed.
+Proof. unfold bits_of, unit_bits. apply greater_left. Qed.
 
 Section Soundness.
 Variable s : scene.
@@ -1619,7 +1619,7 @@ Lemma build_sound g x : bits = bits_of s g -> build s g = Some x ->
   exists table, each resolved table /\ build_from table s g = Some x.
 Proof.
   intros Eb. unfold build. on_forallb (group_ids (fun v => v) s g) F. cbn zeta.
-  change (scale _ _) with (bits_of s g). rewrite <- Eb.
+  change (unit_bits _ _) with (bits_of s g). rewrite <- Eb.
   assert (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) as C.
   { intros i v Hi Hv. rewrite forallb_forall in F. apply wf_vertex_sound, F, (group_ids_in _ g i); auto.
     now apply (cell_ids_in (fun u => u)). }

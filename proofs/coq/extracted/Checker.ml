@@ -197,9 +197,9 @@ let by_axis f p q =
 type chord = { grain : Zint.t; origin : vec; motion : vec; lows : vec;
                highs : vec }
 
-(** val scale : (Zint.t -> traj) -> Zint.t list -> Zint.t **)
+(** val unit_bits : (Zint.t -> traj) -> Zint.t list -> Zint.t **)
 
-let scale path0 ids =
+let unit_bits path0 ids =
   let most = fun m v ->
     match path0 v with
     | [] -> m
@@ -575,21 +575,23 @@ let least_at n d c = function
     -> halfspace * Zint.t **)
 
 let plane_between k n a b d x y =
+  let n0 = by_axis Zint.add n n in
   let w =
     if Zint.equal k Zint.zero
     then Zint.zero
-    else Zint.add (Zint.sqrt k) Zint.one
+    else Zint.add (Zint.sqrt (Zint.shiftl k (Zint.add Zint.one Zint.one)))
+           Zint.one
   in
   let middle = fun c ->
     Zint.shiftr
-      (Zint.add (Zint.sub (least_at n d c x) (least_at (opposite n) d c y)) w)
-      Zint.one
+      (Zint.add (Zint.sub (least_at n0 d c x) (least_at (opposite n0) d c y))
+        w) Zint.one
   in
   let f = middle a in
   let g = Zint.sub (middle b) f in
   let l = Zint.sub b a in
-  ({ normal = { vx = (Zint.mul l n.vx); vy = (Zint.mul l n.vy); vz =
-  (Zint.mul l n.vz) }; nt = (Zint.neg (Zint.mul g d)); nd =
+  ({ normal = { vx = (Zint.mul l n0.vx); vy = (Zint.mul l n0.vy); vz =
+  (Zint.mul l n0.vz) }; nt = (Zint.neg (Zint.mul g d)); nd =
   (Zint.sub (Zint.mul f l) (Zint.mul g a)) }, (Zint.mul w l))
 
 (** val empty : vertex list -> bool **)
@@ -711,7 +713,7 @@ let rec build_from table s = function
 let build s g =
   if List.for_all (wf_vertex s) (group_ids (fun v -> v) s g)
   then let ids = group_ids s.same s g in
-       (match join_all ids (vertices (scale s.path ids) s ids []) with
+       (match join_all ids (vertices (unit_bits s.path ids) s ids []) with
         | Some table -> build_from table s g
         | None -> None)
   else None

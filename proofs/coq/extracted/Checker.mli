@@ -76,7 +76,7 @@ val by_axis : (Zint.t -> Zint.t -> Zint.t) -> vec -> vec -> vec
 type chord = { grain : Zint.t; origin : vec; motion : vec; lows : vec;
                highs : vec }
 
-val scale : (Zint.t -> traj) -> Zint.t list -> Zint.t
+val unit_bits : (Zint.t -> traj) -> Zint.t list -> Zint.t
 
 val coarse : Zint.t -> vec -> vec
 
