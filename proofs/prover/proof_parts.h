@@ -96,7 +96,7 @@ class ProofParts {
   /// Rounds of the search for a direction, as in proofs/prover/cell_pair.h; from which depth on exact arithmetic is
   /// asked; and when to give up: at that depth neighbouring doubles are farther apart than anything moves.
   static constexpr int search_rounds = 10;
-  static constexpr unsigned exact_from = 6, give_up = 1000, interval_bits = 20;
+  static constexpr unsigned exact_from = 6, give_up = 1000, give_up_near = 120, interval_bits = 20;
   static constexpr std::size_t most_exact = 60;
 
   /// The first vertex that both have is dropped from one and from the other.
@@ -207,11 +207,12 @@ class ProofParts {
   /// Parts that are just as far apart as the least distance are not farther.
   [[noreturn]] void give_up_at(const Piece& piece) const {
     if (distance_ == 0) throw NoProof("no direction separates two parts, however short the time");
-    throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()), -static_cast<int>(piece.e))};
+    const Integer at = piece.k.is_zero() ? piece.k : piece.k + Integer(1);
+    throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(at.get()), -static_cast<int>(piece.e))};
   }
 
   void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece, Tokens& tokens) {
-    if (piece.e == give_up) give_up_at(piece);
+    if (piece.e == (distance_ == 0 ? give_up : give_up_near)) give_up_at(piece);
     tokens.halve();
     for (long which = 0; which < 2; ++which) over_piece(a, b, pair, piece.half(which), tokens);
   }

@@ -93,16 +93,10 @@ let skipped = ["vt"; "vn"; "vp"; "g"; "o"; "s"; "mg"; "usemtl"; "mtllib"; "usema
 
 let two n = Z.shift_left Z.one n
 
-(* v, v/vt, v//vn, v/vt/vn: at most so many parts. *)
-let corner t known most word =
-  let parts = String.split_on_char '/' word in
-  if List.length parts > most then wrong t "an index has too many parts";
-  let part i s = if i = 1 && s = "" && List.length parts = 3 then Z.one
-    else if s = "" then wrong t "an index has an empty part" else whole t (Z.neg (two 63)) (Z.pred (two 63)) s in
-  let indices = List.mapi part parts in
-  let v = List.hd indices in
-  if List.mem Z.zero indices || Z.lt v (Z.of_int (-known)) || Z.gt v (Z.of_int mask) then
-    wrong t "an index is 0 or out of range";
+(* v, v/vt, v//vn, v/vt/vn: what follows the first slash is not used. *)
+let corner t known word =
+  let v = whole t (Z.neg (two 63)) (Z.pred (two 63)) (List.hd (String.split_on_char '/' word)) in
+  if Z.sign v = 0 || Z.lt v (Z.of_int (-known)) || Z.gt v (Z.of_int mask) then wrong t "an index is 0 or out of range";
   if Z.sign v > 0 then Z.to_int v - 1 else known + Z.to_int v
 
 let read_obj t =
@@ -124,7 +118,7 @@ let read_obj t =
     | "v" :: r -> vertex r
     | ("f" | "l" | "p" as kind) :: r ->
       let least = match kind with "f" -> 3 | "l" -> 2 | _ -> 1 in
-      let corners = List.rev (List.rev_map (corner t (known ()) least) r) in
+      let corners = List.rev (List.rev_map (corner t (known ())) r) in
       if List.compare_length_with corners least < 0 then wrong t "too few vertices";
       if kind = "f" then polygon raw corners;
       if kind = "p" then List.iter (fun v -> polygon raw [v]) corners;

@@ -9,6 +9,7 @@ open Blocks
 open Trajectory
 
 type claim = {
+  source : int; dimension : int; points : bool;
   strict : bool; ring : int; eta : float; labels : int array; excluded : (int * int) list;
   same : int array;         (* by vertex: the one that stands for it *)
   cells : int array array;  (* before merging *)
@@ -74,7 +75,7 @@ let read_claim file paths =
   check c (excluded = right) "other pairs are excluded than those of the run";
   let cells = if is_run then mesh.cells else cells_of mesh same (flags >= 2) in
   let labels = if is_run then trajectory.labels else Array.make (Array.length cells) 0 in
-  let claim = { strict = flags land 1 = 1; ring; eta; same; cells; labels; excluded } in
+  let claim = { source; dimension; points = flags >= 2; strict = flags land 1 = 1; ring; eta; same; cells; labels; excluded } in
   check c (cells <> [||]) "a claim about no cells";
   check c (cells_hash claim = hash) "the claim is about other cells than those of the trajectory";
   expect_commit file;
@@ -231,9 +232,14 @@ let rec check_steps file claim next_motion seen tree words =
   | _ -> refuse file "expected a block STEP before this"
 
 let print_claim claim steps =
-  Printf.printf "%d steps; %d cells of %d vertices; features of %s.\n" steps (Array.length claim.cells)
-    (Array.length claim.same)
-    (if claim.strict then "one cell are compared too" else "two different cells are compared");
+  let merged = ref 0 in
+  Array.iteri (fun v s -> if v <> s then incr merged) claim.same;
+  Printf.printf "%d steps of %s; dimension %d; %d cells of %d vertices.\n" steps
+    [| "frames, straight lines between them"; "frames at rest"; "a run" |].(claim.source) claim.dimension
+    (Array.length claim.cells) (Array.length claim.same);
+  Printf.printf "Compared: features of two different cells%s.\n" (if claim.strict then ", and of one" else "");
+  if claim.points then print_endline "Vertices without a cell are points.";
+  if !merged > 0 then Printf.printf "Merged: %d vertices, each always where another is.\n" !merged;
   if claim.eta > 0.0 then Printf.printf "Least distance %.17g, ring %d.\n" claim.eta claim.ring;
   if claim.excluded <> [] then print_string "Not compared, pairs of labels:";
   List.iter (fun (a, b) -> Printf.printf " %d-%d" a b) claim.excluded;
