@@ -17,8 +17,8 @@ struct CheckerVerdict {
   std::string words;  ///< its standard output, lines
 };
 
-/// Runs a checker on a proof and what it is about. Throws std::runtime_error when the checker is not there, was ended by
-/// a signal, or ended with another code than it may.
+/// Runs a checker on a proof and what it is about. Throws std::runtime_error when the checker is not there, was ended
+/// by a signal, or ended with another code than it may.
 CheckerVerdict run_checker(Checker checker, const std::filesystem::path& proof,
                            const std::vector<std::filesystem::path>& trajectory);
 

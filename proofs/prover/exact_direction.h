@@ -7,9 +7,9 @@
 //         each breakpoint between, all times the same positive number: integer vectors
 //   least2  the square of the distance asked for, times that of this number
 //
-// A direction n separates iff n.w > 0 and (n.w)^2 > least2 n.n for all w in D. If there is one, the point of the hull of D nearest to the origin
-// is one, and it is the nearest point of a hull of at most as many points as there are dimensions: so it is enough to
-// look at the directions that one, two or three points of D give.
+// A direction n separates iff n.w > 0 and (n.w)^2 > least2 n.n for all w in D. If there is one, the point of the hull
+// of D nearest to the origin is one, and it is the nearest point of a hull of at most as many points as there are
+// dimensions: so it is enough to look at the directions that one, two or three points of D give.
 //
 // What this does not do: it is not fast; it takes some 10 ms for 18 differences.
 #pragma once

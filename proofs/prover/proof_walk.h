@@ -53,8 +53,8 @@ class ProofWalk {
   ProofWalk(const ProofScene<Dim>& scene, const StopSignal& stop)
       : scene_(scene), stop_(stop), parts_(scene.lines, scene.chords, scene.span, scene.eta, scene.paths) {}
 
-  /// Writes the tokens of an obligation. What is about at most `grain` cells is put on `tasks` instead, if there is such
-  /// a list: then `cut` is called where its tokens have to be put. False if it was stopped.
+  /// Writes the tokens of an obligation. What is about at most `grain` cells is put on `tasks` instead, if there is
+  /// such a list: then `cut` is called where its tokens have to be put. False if it was stopped.
   template <class Cut>
   bool run(const ProofTask& task, Tokens& tokens, std::uint32_t grain, std::vector<ProofTask>* tasks, const Cut& cut) {
     grain_ = grain;

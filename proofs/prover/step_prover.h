@@ -39,8 +39,8 @@ class StepProver {
   const ProofTree& tree() const { return tree_; }
 
   /// Gives `take` the payloads of the blocks TOKS, in order, from one thread at a time. False if it was stopped (stop,
-  /// deadline). Throws TooNear, NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and deadline
-  /// count.
+  /// deadline). Throws TooNear, NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and
+  /// deadline count.
   bool prove(const WorldLines& lines, const VerifyOptions& options,
              const std::function<void(std::string_view)>& take) const;
 

@@ -82,10 +82,9 @@ class WindowVerifier {
  public:
   /// Takes what does not change from window to window: `x`, a position for each vertex, decides how cells are grouped
   /// and laid out, not what is answered; best is where the run begins, or a rest shape. Of the options it takes
-  /// dimension, strict, scripted and exclusions, which hold from now on. Preconditions: there are x.size() = mesh.vertex_count
-  /// vertices, every index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is empty or has an
-  /// entry for each vertex.
-  /// O(n log n).
+  /// dimension, strict, scripted and exclusions, which hold from now on. Preconditions: there are x.size() =
+  /// mesh.vertex_count vertices, every index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is
+  /// empty or has an entry for each vertex. O(n log n).
   WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options);
   ~WindowVerifier();
   WindowVerifier(WindowVerifier&&) noexcept;

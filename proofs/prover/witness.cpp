@@ -369,8 +369,8 @@ class Search {
     (at_middle * sign_at(found.g, found.l, found.e) <= 0 ? found.u : found.l) = middle;
   }
 
-  /// Whether all weights are seen to be as they have to be. If one vanishes at the root, g becomes what it has in common
-  /// with it.
+  /// Whether all weights are seen to be as they have to be. If one vanishes at the root, g becomes what it has in
+  /// common with it.
   static bool settled(Found& found) {
     bool all = true;
     for (const Weights* side : {&found.p, &found.q}) {

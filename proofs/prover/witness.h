@@ -9,8 +9,8 @@
 //
 // Where the features span just a plane (in 2D a line) at the time of contact, g is the factor of their determinant that
 // vanishes then, and the weights are those of the nearest points of the plane (the line). Elsewhere (motion within a
-// plane, degenerate features, contact from the beginning) cells are looked at, at rest, at some times that are fractions
-// with a power of two below.
+// plane, degenerate features, contact from the beginning) cells are looked at, at rest, at some times that are
+// fractions with a power of two below.
 //
 // What this does not do: it does not find contacts, and for degenerate ones that last for a moment it finds no witness.
 #pragma once

@@ -41,8 +41,8 @@ void place_sheet(Places& frame, std::uint32_t n, std::uint32_t m, const At& at) 
   }
 }
 
-/// `count` sheets of n by n squares above each other at a distance of `gap` squares; they wave, and each slides over the
-/// one below by `slide` squares a frame.
+/// `count` sheets of n by n squares above each other at a distance of `gap` squares; they wave, and each slides over
+/// the one below by `slide` squares a frame.
 Sequence sliding(const std::string& name, std::uint32_t n, int count, int frames, double gap, double slide) {
   Sequence s{name, {}, {}};
   for (int k = 0; k < count; ++k) add_sheet(s.mesh, n, n);
@@ -59,8 +59,8 @@ Sequence sliding(const std::string& name, std::uint32_t n, int count, int frames
   return s;
 }
 
-/// A ribbon around an axis, turned by `turns` quarter turns per unit of length at the end of the sequence. Directions are
-/// points of a diamond, so nothing but + - * / is used.
+/// A ribbon around an axis, turned by `turns` quarter turns per unit of length at the end of the sequence. Directions
+/// are points of a diamond, so nothing but + - * / is used.
 Sequence twisted(const std::string& name, std::uint32_t n, int frames, double turns) {
   Sequence s{name, {}, {}};
   add_sheet(s.mesh, n, 2);

@@ -20,8 +20,8 @@ struct Sequence {
 };
 
 /// At least thirty, none of which has a contact: sheets that slide and wave, rods that twist, stacks that fall, near
-/// misses down to one unit in the last place, in the plane, loose edges and points, 2 to 200 frames. Coordinates are made
-/// with + - * / alone.
+/// misses down to one unit in the last place, in the plane, loose edges and points, 2 to 200 frames. Coordinates are
+/// made with + - * / alone.
 std::vector<Sequence> untouched_sequences();
 
 /// The same in large: about so many faces.

@@ -56,7 +56,8 @@ TEST(BlockFile, HasTheBytesOfItsDefinition) {
   const std::string first = file_header() + raw_block(kind_a, "payload"), second = raw_block(kind_b, "");
   const Sha256Digest running = next_running_hash({}, sha256(first));
   EXPECT_EQ(file.bytes, first + raw_commit(0, first, {}) + second + raw_commit(1, second, running));
-  EXPECT_EQ(writer.committed(), (CommitPoint{file.bytes.size(), 2, next_running_hash(running, sha256(second)), sha256(second)}));
+  EXPECT_EQ(writer.committed(),
+            (CommitPoint{file.bytes.size(), 2, next_running_hash(running, sha256(second)), sha256(second)}));
 }
 
 TEST(BlockFile, APayloadInPartsIsTheSame) {
