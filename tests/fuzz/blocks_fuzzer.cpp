@@ -19,7 +19,7 @@ using noli::fuzz::require;
 namespace kind = noli::run_kind;
 
 constexpr std::array kinds = {
-    noli::block_format::commit, kind::head,  kind::mesh, kind::labels, kind::exclusions,     kind::window, kind::lines,
+    noli::block_format::commit, kind::head,  kind::mesh, kind::labels,     kind::exclusions, kind::window, kind::lines,
     kind::lines_hash,           kind::frame, kind::ends, kind::velocities, kind::state};
 
 /// The file of these blocks.
