@@ -107,7 +107,13 @@ bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256
                      const VerifyOptions& options) {
   file_.begin_step(window, ProofFile::Kind::proof, lines, 0, hash);
   if (file_.committed().groups == 1) file_.tree(prover_.tree().encoded());
-  const bool whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
+  bool whole = false;
+  try {
+    whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
+  } catch (const NoProof&) {
+    file_.discard();
+    throw;
+  }
   if (!whole) file_.discard();
   return whole;
 }

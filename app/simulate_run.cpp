@@ -203,8 +203,12 @@ class Run {
     writer_.emplace(folder_.path(), reader);
     const bool proved = std::filesystem::exists(proof_path(folder_.path())) || last.windows == 0;
     if (record_ == RecordMode::full && request_.prove && proved) {
-      proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), positions_of<Dim>(built_.model.x),
-                                proof_options());
+      try {
+        proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), positions_of<Dim>(built_.model.x),
+                                  proof_options());
+      } catch (const NoProof&) {
+        // It ended before this already.
+      }
     }
     outcome_.windows_before = last.windows;
     go_on_with(simulation_at<Dim>(built_.model, last, retries_.halvings()));
@@ -261,13 +265,25 @@ class Run {
       const Stopwatch watch;
       WindowResult result = verifier_.verify(*lines, options);
       if (proof_ && result.complete && result.contact_count() == 0) {
-        result.complete = proof_->prove(index, *lines, writer_->open_window_hash(), proof_options());
+        result.complete = prove(index, *lines);
       }
       outcome_.verifying_seconds += watch.seconds();
       return result;
     };
     const bool aside = (request_.threads == 0 ? hardware_threads() : request_.threads) > 1;
     candidate_->verdict = std::async(aside ? std::launch::async : std::launch::deferred, look);
+  }
+
+  /// A window in which nothing touches is one also if no proof of it is found; the proof of the run then ends before it,
+  /// and no checker accepts that for the whole. False if it was stopped.
+  bool prove(std::uint64_t index, const WorldLines& lines) {
+    try {
+      return proof_->prove(index, lines, writer_->open_window_hash(), proof_options());
+    } catch (const NoProof& none) {
+      folder_.log({{"event", "no_proof"}, {"window", index}, {"why", none.what()}});
+      proof_.reset();
+      return true;
+    }
   }
 
   enum class Settled { yes, rolled_back };
