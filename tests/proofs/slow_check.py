@@ -13,7 +13,6 @@ What this does not do: it holds everything in memory and is no good for anything
 open, there is a comment that begins with OPEN.
 """
 import math
-import struct
 import sys
 from fractions import Fraction
 
