@@ -37,8 +37,11 @@ ExitCode run(const CheckArguments& arguments) {
       folder ? arguments.files : std::vector<fs::path>(arguments.files.begin() + 1, arguments.files.end());
   if (!fs::exists(proof)) throw InputError(proof.string(), "", "is not there; expected a proof");
   const Output output(arguments.json, arguments.files);
-  const CheckerVerdict verdict =
-      run_checker(arguments.verified ? Checker::verified : Checker::plain, proof, trajectory_for_checker(trajectory));
+  CheckerProcess checker(arguments.verified ? Checker::verified : Checker::plain, proof,
+                         trajectory_for_checker(trajectory), std::nullopt);
+  const auto said = checker.finish();
+  if (!said) throw ReadInterrupted(proof.string());
+  const CheckerVerdict& verdict = *said;
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
   output.write(std::string("verdict ") + word + "\n" + verdict.words,
                {{"verdict", word},

@@ -3,15 +3,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
+#include "noli/app/interrupt.h"
 #include "noli/trajectory/run_file.h"
 
 extern char** environ;
@@ -35,11 +39,23 @@ fs::path path_of(Checker checker) {
   return path;
 }
 
-/// A pipe; both ends are closed with it.
-class Pipe {
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+int wait_for(pid_t pid) {
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0) {
+    if (errno != EINTR) fail("waiting for the checker");
+  }
+  return status;
+}
+
+}  // namespace
+
+/// Both ends are closed with it.
+class CheckerProcess::Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "a pipe");
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail("a pipe");
   }
   ~Pipe() {
     close(0);
@@ -53,61 +69,107 @@ class Pipe {
     if (ends_[i] >= 0) ::close(ends_[i]);
     ends_[i] = -1;
   }
-  std::string read_all() const {
-    std::string text;
-    std::array<char, 4096> part;
-    for (;;) {
-      const ssize_t got = ::read(ends_[0], part.data(), part.size());
-      if (got > 0) text.append(part.data(), static_cast<std::size_t>(got));
-      if (got == 0) return text;
-      if (got < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "the checker's words");
-    }
+  /// Who uses this end asks before whether it would have to wait.
+  void never_wait(std::size_t i) const {
+    if (::fcntl(ends_[i], F_SETFL, O_NONBLOCK) != 0) fail("a pipe");
   }
 
  private:
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// Starts a program whose standard output goes to the pipe.
-pid_t start(const std::vector<std::string>& arguments, const Pipe& pipe) {
+namespace {
+
+/// Starts a program, in a group of processes of its own.
+pid_t start(const std::vector<std::string>& arguments, int input, int output) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, pipe.end(1), STDOUT_FILENO);
+  if (input >= 0) posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, argv[0], &actions, nullptr, argv.data(), environ);
+  const int error = ::posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::system_error(error, std::generic_category(), arguments[0]);
   return pid;
 }
 
-int wait_for(pid_t pid) {
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0) {
-    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for the checker");
-  }
-  return status;
-}
-
 }  // namespace
 
-CheckerVerdict run_checker(Checker checker, const fs::path& proof, const std::vector<fs::path>& trajectory) {
-  std::vector<std::string> arguments = {path_of(checker).string(), proof.string()};
+CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
+                               const std::vector<fs::path>& trajectory, Deadline deadline)
+    : checker_(checker), deadline_(deadline), words_(std::make_unique<Pipe>()) {
+  std::vector<std::string> arguments = {path_of(checker).string(), proof ? proof->string() : "-"};
   for (const fs::path& path : trajectory) arguments.push_back(path.string());
-  Pipe pipe;
-  const pid_t pid = start(arguments, pipe);
-  pipe.close(1);
+  if (!proof) {
+    proof_ = std::make_unique<Pipe>();
+    proof_->never_wait(1);
+  }
+  words_->never_wait(0);
+  pid_ = start(arguments, proof_ ? proof_->end(0) : -1, words_->end(1));
+  words_->close(1);
+  if (proof_) proof_->close(0);
+}
+
+CheckerProcess::~CheckerProcess() { end_it(); }
+
+void CheckerProcess::end_it() {
+  if (pid_ < 0) return;
+  ::kill(pid_, SIGKILL);
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+}
+
+bool CheckerProcess::ready(int end, short event) const {
+  constexpr int milliseconds = 100;  // an interruption that came before poll() does not end it
+  for (;;) {
+    if (interrupted().load(std::memory_order_relaxed)) return false;
+    if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) return false;
+    pollfd one{end, event, 0};
+    const int there = ::poll(&one, 1, milliseconds);
+    if (there > 0) return true;
+    if (there < 0 && errno != EINTR) fail("waiting for the checker");
+  }
+}
+
+void CheckerProcess::write(std::string_view bytes) {
+  while (!bytes.empty() && proof_->end(1) >= 0) {
+    const ssize_t written = ::write(proof_->end(1), bytes.data(), bytes.size());
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written >= 0 || errno == EINTR) continue;
+    if (errno != EAGAIN && errno != EPIPE) fail("the proof on its way to the checker");
+    if (errno == EPIPE || !ready(proof_->end(1), POLLOUT)) proof_->close(1);
+  }
+}
+
+std::optional<CheckerVerdict> CheckerProcess::finish() {
+  if (proof_) proof_->close(1);
   CheckerVerdict verdict;
-  verdict.words = pipe.read_all();
-  const int status = wait_for(pid);
+  for (std::array<char, 4096> part;;) {
+    if (!ready(words_->end(0), POLLIN)) {
+      end_it();
+      return std::nullopt;
+    }
+    const ssize_t got = ::read(words_->end(0), part.data(), part.size());
+    if (got > 0) verdict.words.append(part.data(), static_cast<std::size_t>(got));
+    if (got == 0) break;
+    if (got < 0 && errno != EINTR && errno != EAGAIN) fail("the checker's words");
+  }
+  const int status = wait_for(std::exchange(pid_, -1));
   if (WIFSIGNALED(status)) {
-    throw std::runtime_error(fmt::format("{} was ended by signal {}", name_of(checker), WTERMSIG(status)));
+    throw std::runtime_error(fmt::format("{} was ended by signal {}", name_of(checker_), WTERMSIG(status)));
   }
   verdict.code = WEXITSTATUS(status);
   if (verdict.code != 0 && verdict.code != 1 && verdict.code != 3) {
-    throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker), verdict.code));
+    throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker_), verdict.code));
   }
   return verdict;
 }

@@ -3,13 +3,23 @@
 // The checkers of proofs, which are programs of their own (proofs/checker, proofs/coq), run as separate processes.
 #pragma once
 
+#include <sys/types.h>
+
+#include <chrono>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "noli/trajectory/block_sink.h"
 
 namespace noli::app {
 
 enum class Checker { plain, verified };
+
+using Deadline = std::optional<std::chrono::steady_clock::time_point>;
 
 /// What a checker said, and how it ended: 0 accepted, 1 refuted, 3 rejected.
 struct CheckerVerdict {
@@ -17,10 +27,50 @@ struct CheckerVerdict {
   std::string words;  ///< its standard output, lines
 };
 
-/// Runs a checker on a proof and what it is about. Throws std::runtime_error when the checker is not there, was ended
-/// by a signal, or ended with another code than it may.
-CheckerVerdict run_checker(Checker checker, const std::filesystem::path& proof,
-                           const std::vector<std::filesystem::path>& trajectory);
+/// A checker at work. It does not share the signals of the terminal: who waits for it is interrupted, and ends it.
+class CheckerProcess {
+ public:
+  /// Starts it on a proof in a file, or, without one, on what is written to it. Throws std::runtime_error when the
+  /// checker is not there.
+  CheckerProcess(Checker checker, const std::optional<std::filesystem::path>& proof,
+                 const std::vector<std::filesystem::path>& trajectory, Deadline deadline);
+  /// Ends it if it has not ended.
+  ~CheckerProcess();
+  CheckerProcess(const CheckerProcess&) = delete;
+  CheckerProcess& operator=(const CheckerProcess&) = delete;
+
+  /// The next bytes of the proof. Nothing is written any more after an interruption, the deadline, or when the checker
+  /// reads no more; finish() tells.
+  void write(std::string_view bytes);
+  /// Waits until it has read all that was written and has ended; nothing if it was interrupted (app::interrupted()) or
+  /// the deadline came. Throws std::runtime_error when it was ended by a signal, or with another code than it may.
+  std::optional<CheckerVerdict> finish();
+
+ private:
+  class Pipe;
+  /// Whether the pipe's end can be read or written; false once the wait is over.
+  bool ready(int end, short event) const;
+  void end_it();
+
+  Checker checker_;
+  Deadline deadline_;
+  std::unique_ptr<Pipe> proof_, words_;
+  pid_t pid_ = -1;
+};
+
+/// Writes a proof to a checker that is at work, which has to outlive it.
+class CheckerSink : public Sink {
+ public:
+  explicit CheckerSink(CheckerProcess& checker) : checker_(checker) {}
+  void write(std::string_view bytes) override { checker_.write(bytes); }
+  void sync() override {}
+  /// What was written cannot be taken back: the checker will reject a proof of which a part was to be cut off. Nobody
+  /// asks it then.
+  void truncate(std::uint64_t /*size*/) override {}
+
+ private:
+  CheckerProcess& checker_;
+};
 
 /// The file of a run that checkers read.
 std::vector<std::filesystem::path> trajectory_for_checker(const std::vector<std::filesystem::path>& trajectory);

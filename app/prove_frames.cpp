@@ -37,8 +37,7 @@ ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mes
       if (same[v] != v) header.merged.push_back({v, same[v]});
     }
   }
-  std::filesystem::remove(*request.proof);
-  return {std::make_unique<FileSink>(*request.proof, FileSink::Open::create), header};
+  return {request.open_proof(), header};
 }
 
 }  // namespace
@@ -76,31 +75,26 @@ bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::sp
 }
 
 void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines) {
-  file_.begin_step(step, kind, lines, rest_ ? 0 : static_cast<double>(step));
+  file_.begin_step(step, kind, lines, shift(step));
 }
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const VerifyResult& result) {
-  const WitnessStep what{mesh_, x_t0, x_t1, dimension_, strict_, rest_ ? 0 : step, eta_, ring_};
-  std::optional<std::string> witness;
-  if (result.first) witness = witness_of(what, *result.first);
-  for (std::size_t i = 0; i < result.initial_reports.size() && !witness; ++i) {
-    witness = witness_of(what, result.initial_reports[i]);
-  }
-  for (std::size_t i = 0; i < result.reports.size() && !witness; ++i) witness = witness_of(what, result.reports[i]);
-  return write_witness(step, x_t0, x_t1, witness);
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_};
+  return write_witness(step, lines, witness_of(what, result.first, result.initial_reports, result.reports));
 }
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const TooNear& near) {
-  const WitnessStep what{mesh_, x_t0, x_t1, dimension_, strict_, rest_ ? 0 : step, eta_, ring_};
-  return write_witness(step, x_t0, x_t1, witness_of(what, near, MeshPaths(prover_.tree(), mesh_.vertex_count, ring_)));
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_};
+  return write_witness(step, lines, witness_of(what, near, MeshPaths(prover_.tree(), mesh_.vertex_count, ring_)));
 }
 
-bool FrameProof::write_witness(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                               const std::optional<std::string>& witness) {
+bool FrameProof::write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness) {
   if (!witness) return false;
-  begin(step, ProofFile::Kind::witness, WorldLines::from_frames(x_t0, x_t1));
+  begin(step, ProofFile::Kind::witness, lines);
   file_.witness(*witness);
   file_.commit();
   return true;

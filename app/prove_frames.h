@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The proof of `noli verify FRAMES... --proof OUT`, step by step beside the verifier.
+// The proof of `noli verify FRAMES...`, step by step beside the verifier.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,8 @@ namespace noli::app {
 
 class FrameProof {
  public:
-  /// `mesh` is what is compared (after merging), which has to outlive this; the rest is what the claim says of it.
+  /// `mesh` is what is compared (after merging), which has to outlive this; the rest is what the claim says of it. Writes to
+  /// request.open_proof().
   FrameProof(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
              std::span<const Position> x_t0, std::span<const Position> x_t1);
 
@@ -28,12 +29,15 @@ class FrameProof {
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
               const VerifyResult& result);
 
+  const StepProver& prover() const { return prover_; }
+
   /// The same for one in which something comes nearer than the least distance.
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1, const TooNear& near);
 
  private:
-  bool write_witness(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                     const std::optional<std::string>& witness);
+  bool write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness);
+  /// What step's times are more than those of two frames.
+  double shift(std::size_t step) const { return rest_ ? 0 : static_cast<double>(step); }
   void begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines);
 
   const Mesh& mesh_;

@@ -36,21 +36,24 @@ LabelPairs excluded_pairs(const RunScene& scene, const std::vector<std::uint32_t
   return pairs;
 }
 
-StepProver make_prover(const RunScene& scene, std::span<const Position> x, bool strict,
+StepProver make_prover(const RunScene& scene, std::span<const Position> x, const RunProof::Claim& claim,
                        const std::vector<std::uint32_t>& labels) {
   const int dimension = static_cast<int>(scene.header.dimension);
-  const Forest forest(scene.mesh, x, {dimension, strict, {}, nullptr});
+  const Forest forest(scene.mesh, x, {dimension, claim.strict, {}, nullptr});
   std::vector<std::uint32_t> order, ends;
   for (const Leaf& leaf : forest.leaves()) order.push_back(leaf.cell);
   for (const Tree& tree : forest.trees()) ends.push_back(tree.root.begin + tree.root.count);
-  return StepProver(scene.mesh, order, ends, labels, {dimension, strict, excluded_pairs(scene, labels)});
+  return StepProver(scene.mesh, order, ends, labels,
+                    {dimension, claim.strict, excluded_pairs(scene, labels), claim.eta, claim.ring});
 }
 
-ProofHeader header_of(const RunScene& scene, bool strict, const std::vector<std::uint32_t>& labels) {
+ProofHeader header_of(const RunScene& scene, const RunProof::Claim& claim, const std::vector<std::uint32_t>& labels) {
   ProofHeader header;
   header.source = ProofSource::run;
   header.dimension = static_cast<int>(scene.header.dimension);
-  header.strict = strict;
+  header.strict = claim.strict;
+  header.eta = claim.eta;
+  header.ring = claim.ring;
   header.vertices = scene.mesh.vertex_count;
   header.mesh = &scene.mesh;
   header.labels = labels;
@@ -72,14 +75,16 @@ CommitPoint last_commit(const std::filesystem::path& file, std::uint64_t groups)
 
 std::filesystem::path proof_path(const std::filesystem::path& run_folder) { return run_folder / "proof.blocks"; }
 
-RunProof::RunProof(const std::filesystem::path& file, const RunScene& scene, std::span<const Position> x, bool strict)
-    : RunProof(scene, x, strict, labels_of(scene), [&](const ProofHeader& header) {
-        return ProofFile(std::make_unique<FileSink>(file, FileSink::Open::create), header);
-      }) {}
+RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, const Claim& claim)
+    : RunProof(scene, x, claim, labels_of(scene),
+               [&](const ProofHeader& header) { return ProofFile(std::move(sink), header); }) {}
 
-RunProof::RunProof(const RunScene& scene, std::span<const Position> x, bool strict,
+RunProof::RunProof(const RunScene& scene, std::span<const Position> x, const Claim& claim,
                    const std::vector<std::uint32_t>& labels, const std::function<ProofFile(const ProofHeader&)>& open)
-    : prover_(make_prover(scene, x, strict, labels)), file_(open(header_of(scene, strict, labels))) {}
+    : scene_(scene),
+      claim_(claim),
+      prover_(make_prover(scene, x, claim, labels)),
+      file_(open(header_of(scene, claim, labels))) {}
 
 std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_folder, std::uint64_t windows,
                                            const RunScene& scene, std::span<const Position> x,
@@ -89,7 +94,7 @@ std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_fold
   if (committed.groups == 0) std::filesystem::remove(file);  // there is none, or not even its claim was written
   auto sink =
       std::make_unique<FileSink>(file, committed.groups == 0 ? FileSink::Open::create : FileSink::Open::existing);
-  std::unique_ptr<RunProof> proof(new RunProof(scene, x, false, labels_of(scene), [&](const ProofHeader& header) {
+  std::unique_ptr<RunProof> proof(new RunProof(scene, x, {}, labels_of(scene), [&](const ProofHeader& header) {
     return committed.groups == 0 ? ProofFile(std::move(sink), header) : ProofFile(std::move(sink), committed, header);
   }));
   const std::uint64_t proved = std::max<std::uint64_t>(committed.groups, 1) - 1;
@@ -110,7 +115,7 @@ bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256
   bool whole = false;
   try {
     whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
-  } catch (const NoProof&) {
+  } catch (...) {
     file_.discard();
     throw;
   }
@@ -119,5 +124,30 @@ bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256
 }
 
 void RunProof::commit() { file_.commit(); }
+
+WitnessStep RunProof::what(const WorldLines& lines) const {
+  return {scene_.mesh, lines, 0, static_cast<int>(scene_.header.dimension), claim_.strict, claim_.eta, claim_.ring};
+}
+
+bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
+                      const WindowResult& result) {
+  std::optional<FeatureContact> first;
+  if (result.first) first = result.first->contact;
+  return write_witness(window, lines, hash, witness_of(what(lines), first, result.initial_reports, result.reports));
+}
+
+bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const TooNear& near) {
+  const MeshPaths paths(prover_.tree(), scene_.mesh.vertex_count, claim_.ring);
+  return write_witness(window, lines, hash, witness_of(what(lines), near, paths));
+}
+
+bool RunProof::write_witness(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
+                             const std::optional<std::string>& witness) {
+  if (!witness) return false;
+  file_.begin_step(window, ProofFile::Kind::witness, lines, 0, hash);
+  file_.witness(*witness);
+  file_.commit();
+  return true;
+}
 
 }  // namespace noli::app

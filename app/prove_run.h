@@ -10,6 +10,8 @@
 
 #include "noli/proofs/prover/proof_file.h"
 #include "noli/proofs/prover/step_prover.h"
+#include "noli/proofs/prover/window_verifier.h"
+#include "noli/proofs/prover/witness.h"
 #include "noli/trajectory/run_file.h"
 
 namespace noli::app {
@@ -19,9 +21,16 @@ std::filesystem::path proof_path(const std::filesystem::path& run_folder);
 
 class RunProof {
  public:
-  /// A new file, which must not be there yet. `x`: positions at the beginning of the run, by which cells are put into a
-  /// tree.
-  RunProof(const std::filesystem::path& file, const RunScene& scene, std::span<const Position> x, bool strict);
+  /// What is claimed beside what the scene says.
+  struct Claim {
+    bool strict = false;
+    double eta = 0;          ///< the least distance
+    std::uint32_t ring = 1;  ///< features that a path of fewer edges joins may be nearer than that
+  };
+
+  /// Writes to an empty sink. `x`: positions at the beginning of the run, by which cells are
+  /// put into a tree.
+  RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, const Claim& claim);
   /// Goes on with the proof of a run of which so many windows are committed: cuts off what is about others, and proves
   /// those that it lacks. Throws InputError when the proof cannot be read.
   static std::unique_ptr<RunProof> resume(const std::filesystem::path& run_folder, std::uint64_t windows,
@@ -29,14 +38,27 @@ class RunProof {
                                           const VerifyOptions& options);
 
   /// Writes the proof of a window in which nothing touches; it does not count before commit(). `hash`: of its group in
-  /// trajectory.blocks. False if it was stopped; that, and NoProof, leave the file as it was.
+  /// trajectory.blocks. False if it was stopped; that, and TooNear and NoProof, which it throws, leave the file as it was.
   bool prove(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const VerifyOptions& options);
   void commit();
 
- private:
-  RunProof(const RunScene& scene, std::span<const Position> x, bool strict, const std::vector<std::uint32_t>& labels,
-           const std::function<ProofFile(const ProofHeader&)>& open);
+  /// Writes a witness for a window that has a contact, and commits it. False if none was found.
+  bool refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const WindowResult& result);
+  const StepProver& prover() const { return prover_; }
 
+  /// The same for one in which something comes nearer than the least distance.
+  bool refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const TooNear& near);
+
+ private:
+  RunProof(const RunScene& scene, std::span<const Position> x, const Claim& claim,
+           const std::vector<std::uint32_t>& labels, const std::function<ProofFile(const ProofHeader&)>& open);
+
+  WitnessStep what(const WorldLines& lines) const;
+  bool write_witness(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
+                     const std::optional<std::string>& witness);
+
+  RunScene scene_;
+  Claim claim_;
   StepProver prover_;
   ProofFile file_;
 };

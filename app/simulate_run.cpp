@@ -177,8 +177,9 @@ class Run {
       writer_.emplace(folder_.path(), run_scene(scene));
       folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
       if (record_ == RecordMode::full && request_.prove) {
-        proof_ = std::make_unique<RunProof>(proof_path(folder_.path()), run_scene(scene),
-                                            positions_of<Dim>(built_.model.x), false);
+        proof_ =
+            std::make_unique<RunProof>(std::make_unique<FileSink>(proof_path(folder_.path()), FileSink::Open::create),
+                                       run_scene(scene), positions_of<Dim>(built_.model.x), RunProof::Claim{});
       }
       go_on_with(Simulation<double, Dim>(built_.model));
       return;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "noli/app/checker.h"
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
@@ -19,8 +25,10 @@ namespace {
 constexpr const char* footer =
     "Every step from one frame to the next is decided exactly. The first step that has a contact is counted to its "
     "end, then the run\n"
-    "stops. Standard output begins with the verdict line; verdicts: no_contact or,\n"
-    "if a checker has accepted the proof of it, proved (exit 0), contact (1), undecided (2).\n"
+    "stops. A proof of it goes to a checker, a program of its own that trusts nothing of this one. Standard output\n"
+    "begins with the verdict line; verdicts: proved (the checker has accepted the proof), no_contact (decided "
+    "exactly,\n"
+    "but checked by nobody else: --no-check; both exit 0), contact, too_near (both 1), undecided (2).\n"
     "Steps are counted from 1 (for a run they are its windows): `steps` were looked at, `steps_total` there are; times "
     "are in [0, 1] of their step (for a run, in "
     "seconds). `first_time` is of the first pair of features that "
@@ -53,29 +61,124 @@ ExitCode exit_code(Verdict verdict) {
   return ExitCode::failure;
 }
 
-/// The proof is made anew; it may not be one of the files that are read.
-void require_place_of_proof(const std::filesystem::path& proof, const std::vector<std::filesystem::path>& frames) {
-  require_other_file(proof, with_files_of_runs(frames), "--proof");
+/// The proof is made anew; it may not be one of the files that are read, nor something that is no file.
+void require_place_of_proof(const VerifyArguments& arguments) {
+  const std::filesystem::path& proof = *arguments.request.proof;
+  auto others = with_files_of_runs(arguments.request.frames);
+  if (arguments.json && *arguments.json != "-") others.emplace_back(*arguments.json);
+  require_other_file(proof, others, "--proof");
+  std::error_code error;
+  if (std::filesystem::exists(proof, error) && !std::filesystem::is_regular_file(proof, error)) {
+    throw UsageError("--proof " + proof.string() + ": is no regular file; expected the name of a file");
+  }
   require_writable_file(proof, "--proof");
 }
 
-/// Has the checker look at a proof that is complete. What it refuses is an error of this program.
-void check(const VerifyRequest& request, VerifyOutcome& outcome) {
-  const bool whole =
-      outcome.verdict == Verdict::no_contact ||
-      ((outcome.verdict == Verdict::contact || outcome.verdict == Verdict::too_near) && outcome.witnesses > 0);
-  if (!whole) return;
-  const Stopwatch watch;
-  const CheckerVerdict verdict = run_checker(Checker::plain, *request.proof, trajectory_for_checker(request.frames));
-  outcome.check_seconds = watch.seconds();
-  outcome.checked = verdict.words.substr(0, verdict.words.find('\n'));
-  const int expected = outcome.verdict == Verdict::no_contact ? 0 : 1;
-  if (verdict.code != expected) {
-    throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
-                             *outcome.checked);
+/// What the prover decides when nobody wants its proof.
+class NoSink : public Sink {
+  void write(std::string_view /*bytes*/) override {}
+  void sync() override {}
+  void truncate(std::uint64_t /*size*/) override {}
+};
+
+/// A folder for a proof that nobody wants to keep; it vanishes with this.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / "noli-proof-XXXXXX") {  // for mkdtemp to fill in
+    std::string name = path_.string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
+    path_ = name;
   }
-  if (expected == 0) outcome.verdict = Verdict::proved;
-}
+  ~TemporaryFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The proof on its way: to a file, or to the checker at once. With a least distance it goes through a file in any case,
+/// because of a step that is nearer the proof is begun before that is known, and has to be taken back.
+class ProofRoute {
+ public:
+  explicit ProofRoute(VerifyRequest& request) : request_(request) {
+    can_check_ = request.check && can_be_read_again();
+    file_ = request.proof;
+    if (!file_ && can_check_ && request.min_distance > 0) file_ = folder_.emplace().path() / "proof.noli";
+    if (file_) {
+      request.open_proof = [this] { return to_file(); };
+    } else if (can_check_) {
+      request.open_proof = [this] { return to_checker(); };
+    } else if (request.min_distance > 0) {
+      request.open_proof = [] { return std::make_unique<NoSink>(); };
+    }
+  }
+
+  /// Has the checker say what it thinks of a proof that is complete. What it refuses is an error of this program.
+  void check(VerifyOutcome& outcome) {
+    if (request_.check) outcome.not_checked = why_not(outcome);
+    const bool refuted = outcome.verdict == Verdict::contact || outcome.verdict == Verdict::too_near;
+    const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);
+    if (!request_.check || outcome.not_checked || !whole) return;
+    const Stopwatch watch;
+    if (!checker_) checker_.emplace(Checker::plain, file_, trajectory(), request_.deadline);
+    const auto verdict = checker_->finish();
+    outcome.check_seconds = watch.seconds();
+    if (!verdict) return stopped(outcome);
+    outcome.checked = verdict->words.substr(0, verdict->words.find('\n'));
+    if (verdict->code != (refuted ? 1 : 0)) {
+      throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
+                               *outcome.checked);
+    }
+    if (!refuted) outcome.verdict = Verdict::proved;
+  }
+
+ private:
+  std::vector<std::filesystem::path> trajectory() const { return trajectory_for_checker(request_.frames); }
+
+  bool can_be_read_again() const {
+    std::error_code error;
+    return std::ranges::all_of(trajectory(), [&](const auto& path) {
+      return !std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error);
+    });
+  }
+
+  std::unique_ptr<Sink> to_file() const {
+    std::filesystem::remove(*file_);
+    return std::make_unique<FileSink>(*file_, FileSink::Open::create);
+  }
+  std::unique_ptr<Sink> to_checker() {
+    checker_.emplace(Checker::plain, std::nullopt, trajectory(), request_.deadline);
+    return std::make_unique<CheckerSink>(*checker_);
+  }
+
+  std::optional<std::string> why_not(const VerifyOutcome& outcome) const {
+    if (!can_check_) return "what is verified is no file that could be read twice";
+    if (outcome.no_proof) return "no proof was found";
+    if (outcome.open_window) return "the run has to be gone on with first, because it ends within a window";
+    return std::nullopt;
+  }
+
+  static void stopped(VerifyOutcome& outcome) {
+    const bool by_user = interrupted().load(std::memory_order_relaxed);
+    (by_user ? outcome.interrupted : outcome.out_of_time) = true;
+    outcome.not_checked = by_user ? "interrupted" : "time limit";
+    if (outcome.verdict != Verdict::no_contact) return;
+    outcome.verdict = Verdict::undecided;
+    outcome.complete = false;
+  }
+
+  VerifyRequest& request_;
+  bool can_check_ = false;
+  std::optional<TemporaryFolder> folder_;
+  std::optional<std::filesystem::path> file_;
+  std::optional<CheckerProcess> checker_;
+};
 
 /// Before anything else is said about a single one.
 void require_there(const std::vector<std::filesystem::path>& frames) {
@@ -86,22 +189,19 @@ void require_there(const std::vector<std::filesystem::path>& frames) {
 
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
-  if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
+  if (!arguments.time_limit.empty()) {
+    request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
+  }
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   const Output output(arguments.json, with_files_of_runs(request.frames));
-  if (request.min_distance > 0 && !request.proof) {
-    throw UsageError("--min-distance: is decided by its proof; expected --proof OUT");
-  }
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
-  if (request.run && request.min_distance > 0) {
-    throw UsageError("--min-distance: is for frames; expected it without a run");
-  }
-  if (request.proof) require_place_of_proof(*request.proof, request.frames);
+  if (request.proof) require_place_of_proof(arguments);
+  ProofRoute route(request);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
-  if (request.proof && request.check) check(request, outcome);
+  route.check(outcome);
   output.write(verify_text(request, outcome), verify_json(request, outcome));
   return exit_code(outcome.verdict);
 }
@@ -119,9 +219,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("N");
   command.add_option("--time-limit", arguments.time_limit, "Stop after this time, undecided: 500ms, 60s, 5m, 1h")
       ->type_name("TIME");
-  command
-      .add_option("--min-distance", request.min_distance,
-                  "Features have to be more than this apart; needs --proof, which is what decides it")
+  command.add_option("--min-distance", request.min_distance, "Features have to be more than this apart")
       ->check(is_positive())
       ->type_name("DISTANCE");
   command
@@ -147,7 +245,9 @@ void add_flags(CLI::App& command, VerifyRequest& request) {
   command.add_flag("--static", request.constant_motion, "Each frame by itself, at rest");
   command.add_flag("--merge-identical", request.merge_identical,
                    "Make one vertex of those whose coordinates are equal in all frames (reads them twice)");
-  command.add_flag("!--no-check", request.check, "Do without the check of the proof: the verdict stays no_contact");
+  command.add_flag(
+      "!--no-check", request.check,
+      "Do without the checker, and without a proof if --proof does not ask for one: the verdict stays no_contact");
 }
 
 }  // namespace

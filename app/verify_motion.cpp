@@ -5,6 +5,7 @@
 
 #include "noli/app/exit_code.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/largest_distance.h"
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
 #include "noli/app/prove_run.h"
@@ -33,7 +34,6 @@ class MotionRun {
       throw UsageError(
           "--static, --merge-identical, --points, --dimension: are for frames; expected none of them with a run");
     }
-    if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
     const LogFacts log = read_log(request.frames[0]);
@@ -57,7 +57,7 @@ class MotionRun {
       const auto window = read_next();
       if (!window) break;
       verify(*window);
-      if (outcome_.touches() && !request_.keep_going) break;
+      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
     }
     conclude();
     outcome_.seconds = watch.seconds() - outcome_.read_seconds;
@@ -67,7 +67,7 @@ class MotionRun {
  private:
   bool stopped() {
     outcome_.interrupted |= interrupted().load(std::memory_order_relaxed);
-    outcome_.out_of_time |= deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+    outcome_.out_of_time |= request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline;
     return outcome_.interrupted || outcome_.out_of_time;
   }
 
@@ -91,11 +91,11 @@ class MotionRun {
     options.initial = outcome_.steps.empty();
     options.first_only = request_.first_only;
     options.strict = request_.strict;
-    options.max_reports = request_.max_reports;
+    options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
     options.scripted = scripted_;
     options.exclusions = &reader_.scene().exclusions;
     options.stop = &interrupted();
-    options.deadline = deadline_;
+    options.deadline = request_.deadline;
     return options;
   }
 
@@ -107,22 +107,42 @@ class MotionRun {
     if (drop) drop_contacts_at_begin(window, result);
     outcome_.complete = result.complete;
     add(result);
-    if (request_.proof && result.complete && !outcome_.touches()) prove(window);
+    if (request_.open_proof && result.complete && !outcome_.no_proof) prove(window, result);
   }
 
-  void prove(const RunWindow& window) {
+  void prove(const RunWindow& window, const WindowResult& result) {
     const Stopwatch watch;
     if (!proof_) {
-      std::filesystem::remove(*request_.proof);
-      proof_ = std::make_unique<RunProof>(*request_.proof, reader_.scene(), beginning(window), request_.strict);
+      const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
+      proof_ = std::make_unique<RunProof>(request_.open_proof(), reader_.scene(), beginning(window), claim);
     }
+    if (result.contact_count() + result.initial_intersections > 0) {
+      if (proof_->refute(window.index, *window.lines, window.group_hash, result)) ++outcome_.witnesses;
+    } else if (!outcome_.touches()) {
+      prove_untouched(window);
+    }
+    outcome_.proof_seconds += watch.seconds();
+  }
+
+  void prove_untouched(const RunWindow& window) {
     VerifyOptions options;
     options.threads = request_.threads;
     options.stop = &interrupted();
-    options.deadline = deadline_;
-    outcome_.complete = proof_->prove(window.index, *window.lines, window.group_hash, options);
-    if (outcome_.complete) proof_->commit();
-    outcome_.proof_seconds += watch.seconds();
+    options.deadline = request_.deadline;
+    try {
+      outcome_.complete = proof_->prove(window.index, *window.lines, window.group_hash, options);
+      if (outcome_.complete) proof_->commit();
+    } catch (const TooNear& near) {
+      outcome_.near = ListedNear{outcome_.steps.size(), near};
+      if (proof_->refute(window.index, *window.lines, window.group_hash, near)) ++outcome_.witnesses;
+      if (window.index == 0) {
+        outcome_.largest_distance = largest_distance(proof_->prover(), reader_.mesh(), beginning(window),
+                                                     request_.min_distance, options);
+      }
+    } catch (const NoProof&) {
+      outcome_.no_proof = true;
+      outcome_.complete = !request_.needs_proof();
+    }
   }
 
   std::vector<Position> beginning(const RunWindow& window) const {
@@ -167,7 +187,7 @@ class MotionRun {
 
   void conclude() {
     stopped();
-    const bool enough = outcome_.touches() && !request_.keep_going;
+    const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
     if (ended_) outcome_.steps_total = reader_.windows();
     outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
     outcome_.open_window = ended_ && reader_.open_window().has_value();
@@ -175,14 +195,14 @@ class MotionRun {
     // A run of which nothing was committed yet proves nothing.
     if (outcome_.steps.empty()) outcome_.complete = false;
     const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
-    outcome_.verdict = outcome_.touches() ? Verdict::contact : untouched;
+    const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
+    outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
   }
 
   const VerifyRequest& request_;
   RunReader reader_;
   std::vector<std::uint8_t> scripted_;
   std::optional<WindowVerifier> verifier_;  ///< made where the run begins
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::unique_ptr<RunProof> proof_;
   bool meeting_at_end_ = false;
   bool ended_ = false;  ///< all windows have been read

@@ -100,6 +100,20 @@ Json work_json(const VerifyOutcome& outcome) {
   return json;
 }
 
+Json near_json(const VerifyOutcome& outcome) {
+  if (!outcome.near) return nullptr;
+  const TooNear& pair = outcome.near->pair;
+  return {{"cells", {pair.first_cell, pair.second_cell}}, {"step", outcome.near->step}, {"part_of_step", pair.time}};
+}
+
+Json proof_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
+  const auto or_null = [](const std::optional<std::string>& text) { return text ? Json(*text) : Json(nullptr); };
+  return {{"file", request.proof ? Json(request.proof->string()) : Json(nullptr)},
+          {"witnesses", outcome.witnesses},
+          {"checked", or_null(outcome.checked)},
+          {"not_checked", or_null(outcome.not_checked)}};
+}
+
 Json run_json(const RunEnding& ending) {
   return {{"end", ending.why ? Json(*ending.why) : Json(nullptr)},
           {"time", ending.time},
@@ -170,11 +184,15 @@ class Text {
         line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());
         break;
       case Verdict::too_near:
-        line("Nothing touches, but something is not more than {} apart: cells {} and {}, in step {} at time {}.",
+        line("Nothing touches, but something is not more than {} apart: cells {} and {}, in step {}, after {} of it.",
              digits17(request_.min_distance), outcome_.near->pair.first_cell, outcome_.near->pair.second_cell,
              outcome_.near->step, digits17(outcome_.near->pair.time));
         break;
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
+    }
+    if (outcome_.largest_distance) {
+      line("The largest distance that the first frame allows is {}{}.", digits17(*outcome_.largest_distance),
+           request_.ring == 1 ? " (neighbours by the mesh are near; see --min-distance-from-ring)" : "");
     }
     proof();
     ending();
@@ -193,13 +211,20 @@ class Text {
   }
 
   void proof() {
-    if (!request_.proof) return;
-    if (outcome_.checked) line("The checker says of {}: {}.", request_.proof->string(), *outcome_.checked);
-    if (outcome_.verdict == Verdict::contact && outcome_.witnesses == 0)
-      line("No witness was found for {}: it proves nothing.", request_.proof->string());
-    if (outcome_.verdict == Verdict::no_contact) line("The proof in {} was not checked.", request_.proof->string());
-    if (outcome_.verdict == Verdict::undecided)
-      line("{} is not complete, and proves nothing.", request_.proof->string());
+    const bool touches = outcome_.verdict == Verdict::contact;
+    if (!request_.proof) {
+      if (outcome_.checked) line("The checker says of the proof: {}.", *outcome_.checked);
+      if (outcome_.not_checked) line("It was not checked: {}.", *outcome_.not_checked);
+      if (touches && request_.open_proof && outcome_.witnesses == 0 && outcome_.complete)
+        line("No witness was found of which a checker could be convinced.");
+      return;
+    }
+    const std::string file = request_.proof->string();
+    if (outcome_.checked) line("The checker says of {}: {}.", file, *outcome_.checked);
+    if (outcome_.not_checked) line("{} was not checked: {}.", file, *outcome_.not_checked);
+    if (touches && outcome_.witnesses == 0) line("No witness was found for {}: it proves nothing.", file);
+    if (outcome_.verdict == Verdict::no_contact && !request_.check) line("The proof in {} was not checked.", file);
+    if (outcome_.verdict == Verdict::undecided) line("{} is not complete, and proves nothing.", file);
   }
 
   std::size_t touching_steps() const {
@@ -249,8 +274,8 @@ class Text {
     line("");
     line("Time: {:.3f} s, and {:.3f} s of reading; {} thread(s); {:.0f} MB.", outcome_.seconds, outcome_.read_seconds,
          threads_used(request_), static_cast<double>(peak_memory_bytes()) / 1e6);
-    if (request_.proof)
-      line("Of it, {:.3f} s of making the proof; then {:.3f} s of checking it.", outcome_.proof_seconds,
+    if (request_.open_proof)
+      line("Of it, {:.3f} s of making the proof; then {:.3f} s of waiting for the checker.", outcome_.proof_seconds,
            outcome_.check_seconds);
   }
 
@@ -279,11 +304,9 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   json["edges"] = outcome.edges;
   json["points"] = outcome.points;
   json["stages"] = work_json(outcome);
-  if (request.proof) {
-    json["proof"] = {{"file", request.proof->string()},
-                     {"witnesses", outcome.witnesses},
-                     {"checked", outcome.checked ? Json(*outcome.checked) : Json(nullptr)}};
-  }
+  json["near"] = near_json(outcome);
+  json["largest_distance_at_first"] = outcome.largest_distance ? Json(*outcome.largest_distance) : Json(nullptr);
+  if (request.open_proof) json["proof"] = proof_json(request, outcome);
   json["timing"] = {{"seconds", outcome.seconds},
                     {"read_seconds", outcome.read_seconds},
                     {"proof_seconds", outcome.proof_seconds},

@@ -10,6 +10,7 @@
 
 #include "noli/app/exit_code.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/largest_distance.h"
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
 #include "noli/app/prove_frames.h"
@@ -39,7 +40,6 @@ class Run {
  public:
   explicit Run(const VerifyRequest& request) : request_(request), sequence_(request.frames, motion_of(request)) {
     require_readable(request.frames);
-    if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     outcome_.steps_total = sequence_.step_count();
   }
 
@@ -60,7 +60,7 @@ class Run {
  private:
   bool stopped() {
     outcome_.interrupted |= interrupted().load(std::memory_order_relaxed);
-    outcome_.out_of_time |= deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+    outcome_.out_of_time |= request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline;
     return outcome_.interrupted || outcome_.out_of_time;
   }
 
@@ -128,9 +128,9 @@ class Run {
     options.initial = request_.constant_motion || sequence_.step() == 0;
     options.first_only = request_.first_only;
     options.strict = request_.strict;
-    options.max_reports = request_.max_reports;
+    options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
     options.stop = &interrupted();
-    options.deadline = deadline_;
+    options.deadline = request_.deadline;
     options.progress = [this, &progress](double share) {
       progress.show((static_cast<double>(sequence_.step()) + share) / static_cast<double>(outcome_.steps_total));
     };
@@ -148,7 +148,7 @@ class Run {
     add_counts(result);
     add_reports(result);
     if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
-    if (request_.proof && result.complete) prove(asked, result);
+    if (request_.open_proof && result.complete && !outcome_.no_proof) prove(asked, result);
   }
 
   void prove(const VerifyOptions& options, const VerifyResult& result) {
@@ -160,15 +160,19 @@ class Run {
     const auto step = sequence_.step();
     if (result.contact_count() + result.initial_intersections > 0) {
       if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
-    } else if (outcome_.witnesses == 0) {
+    } else if (!outcome_.touches()) {
       try {
         outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
       } catch (const TooNear& near) {
         outcome_.near = ListedNear{step + 1, near};
         if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
+        if (step == 0) {
+          outcome_.largest_distance =
+              largest_distance(proof_->prover(), mesh_, sequence_.x_t0(), request_.min_distance, options);
+        }
       } catch (const NoProof&) {
         outcome_.no_proof = true;
-        outcome_.complete = false;
+        outcome_.complete = !request_.needs_proof();
       }
     }
     outcome_.proof_seconds += watch.seconds();
@@ -245,7 +249,6 @@ class Run {
 
   const VerifyRequest& request_;
   FrameSequence sequence_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::optional<IdenticalVertices> classes_;
   Mesh mesh_;
   std::optional<FrameProof> proof_;

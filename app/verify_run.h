@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "noli/kernel/first_contact.h"
 #include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/verifier.h"
+#include "noli/trajectory/block_sink.h"
 
 namespace noli::app {
 
@@ -37,9 +40,14 @@ struct VerifyRequest {
   bool merge_identical = false;
   double min_distance = 0;  ///< features have to be more than this apart
   std::uint32_t ring = 1;   ///< but for those that a path of fewer edges joins
-  std::optional<std::chrono::nanoseconds> time_limit;
-  std::optional<std::filesystem::path> proof;  ///< where the proof is written to
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  std::optional<std::filesystem::path> proof;  ///< the file where the user wants it
   bool check = true;                           ///< have the checker look at the proof
+  /// Where the proof is written to, called once at most; empty: none is made.
+  std::function<std::unique_ptr<Sink>()> open_proof;
+
+  /// Without a proof there is no answer.
+  bool needs_proof() const { return proof || min_distance > 0; }
 };
 
 /// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the
@@ -121,14 +129,16 @@ struct VerifyOutcome {
   StageCounters stages;
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
-  double seconds = 0;                  ///< wall clock without reading
-  bool no_proof = false;               ///< nothing touches, but no proof of it was found
-  std::optional<ListedNear> near;      ///< who comes too near
-  std::optional<std::string> checked;  ///< what the checker said of the proof
-  double read_seconds = 0;             ///< wall clock of reading
-  std::size_t witnesses = 0;           ///< written to the proof
-  double proof_seconds = 0;            ///< wall clock of making the proof
-  double check_seconds = 0;            ///< wall clock of the checker
+  double seconds = 0;                      ///< wall clock without reading
+  double read_seconds = 0;                 ///< wall clock of reading
+  bool no_proof = false;                   ///< nothing touches, but no proof of it was found
+  std::optional<ListedNear> near;          ///< who comes too near
+  std::optional<double> largest_distance;  ///< that the mesh allows at the first time, if it is less than was asked for
+  std::size_t witnesses = 0;               ///< written to the proof
+  std::optional<std::string> checked;      ///< what the checker said of the proof
+  std::optional<std::string> not_checked;  ///< why it was not asked, though the user did not say so
+  double proof_seconds = 0;                ///< wall clock of making the proof
+  double check_seconds = 0;                ///< wall clock of waiting for the checker
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }

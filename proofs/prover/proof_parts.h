@@ -91,6 +91,7 @@ class ProofParts {
   struct Pair {
     PartPair<Dim> points;
     bool exact = true;  ///< all radii are 0
+    double strays = 0;  ///< the greatest radii of both parts, added
   };
 
   /// Rounds of the search for a direction, as in proofs/prover/cell_pair.h; from which depth on exact arithmetic is
@@ -145,15 +146,17 @@ class ProofParts {
         return;
       }
     }
-    if (pair.exact) refuse_near(pair);
+    refuse_near(pair, span_, 8);
     halve(a, b, pair, span_, tokens);
   }
 
-  /// Parts that are certainly nearer than the least distance, at one of a few times.
-  void refuse_near(const Pair& pair) const {
-    for (int k = 0; k <= 8; ++k) {
-      if (distance_at_most(pair.points, k / 8.0, search_rounds) < distance_ * (1 - 0x1p-30))
-        throw TooNear{first_cell_, second_cell_, k / 8.0};
+  /// Parts that are certainly nearer than the least distance at one of a few times of the piece, whose chords they have.
+  /// (In three dimensions a vertex strays from its chord by less than two radii.)
+  void refuse_near(const Pair& pair, const Piece& piece, int times) const {
+    for (int k = 0; k <= times; ++k) {
+      const double part = static_cast<double>(k) / times;
+      if (distance_at_most(pair.points, part, search_rounds) + 2 * pair.strays >= distance_ * (1 - 0x1p-30)) continue;
+      throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()) + part, -static_cast<int>(piece.e))};
     }
   }
 
@@ -188,7 +191,8 @@ class ProofParts {
     };
     put(a, 0, margin_a);
     put(b, 4, margin_b);
-    pair.exact = margin_a + margin_b == 0;
+    pair.strays = margin_a + margin_b;
+    pair.exact = pair.strays == 0;
     pair.points.reach = detail::reach_of<Dim>(pair.points.d);
     if (!pair.exact) pair.points.reach = raised(pair.points.reach, margin_a + margin_b);
     return pair;
@@ -230,6 +234,7 @@ class ProofParts {
     } else if (!whole.exact) {
       if (const auto pair = pair_in(a, b, piece)) {
         if (const auto n = find(*pair, {})) return write(*pair, *n, {}, tokens);
+        if (distance_ > 0) refuse_near(*pair, piece, 1);
       }
     }
     if (piece.e >= exact_from) {

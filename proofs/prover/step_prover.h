@@ -37,6 +37,13 @@ class StepProver {
              std::span<const std::uint32_t> labels, ProofClaim claim);
 
   const ProofTree& tree() const { return tree_; }
+  const ProofClaim& claim() const { return claim_; }
+  /// The same with another least distance.
+  StepProver with_distance(double eta) const {
+    StepProver other = *this;
+    other.claim_.eta = eta;
+    return other;
+  }
 
   /// Gives `take` the payloads of the blocks TOKS, in order, from one thread at a time. False if it was stopped (stop,
   /// deadline). Throws TooNear, NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <set>
+#include <span>
 
 #include "noli/kernel/scaled_integers.h"
 #include "noli/proofs/prover/features.h"
@@ -70,51 +72,110 @@ PolyVector cross(const PolyVector& a, const PolyVector& b) {
   return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
 
-/// The step in integers.
+/// The step in integers: time in units of 2^q, of which `first_bits` more are taken for times between them.
 class Motion {
  public:
+  static constexpr unsigned long first_bits = 64;
+
   explicit Motion(const WitnessStep& step) : step_(step) {
-    exact::ExponentRange range;
-    for (const auto& x : {step.x_t0, step.x_t1}) {
-      for (const Position& p : x) {
-        for (std::size_t k = 0; k < dimension(); ++k) range.add(p[k]);
+    exact::ExponentRange space, time;
+    for (VertexId v = 0; v < step.lines.vertex_count(); ++v) {
+      for (const double t : step.lines.times(v)) time.add(t + step.shift);
+      for (const Position& p : step.lines.positions(v)) {
+        for (std::size_t k = 0; k < dimension(); ++k) space.add(p[k]);
       }
     }
-    range.add(step.eta);
-    low_ = range.high < range.low ? 0 : range.low;
+    space.add(step.eta);
+    space_ = space.high < space.low ? 0 : space.low;
+    time_ = time.high < time.low ? 0 : time.low;
   }
 
-  /// Of a vertex, in integer time.
-  PolyVector position(VertexId v) const {
-    PolyVector x;
-    for (std::size_t k = 0; k < dimension(); ++k) {
-      const mpz_class a = integer(step_.x_t0[v][k]), b = integer(step_.x_t1[v][k]);
-      x[k] = trimmed({a - (b - a) * begin(), b - a});
-    }
-    return x;
-  }
-  /// Times 2^e.
-  std::array<mpz_class, 3> position_at(VertexId v, const mpz_class& at, unsigned long e) const {
-    std::array<mpz_class, 3> x;
-    for (std::size_t k = 0; k < dimension(); ++k) {
-      const mpz_class a = integer(step_.x_t0[v][k]), b = integer(step_.x_t1[v][k]);
-      x[k] = (a << e) + (b - a) * (at - (begin() << e));
-    }
-    return x;
-  }
-  mpz_class begin() const { return mpz_class(static_cast<unsigned long>(step_.begin)); }
-  /// In the step's unit.
-  mpz_class integer(double x) const {
-    if (x == 0) return 0;
-    const exact::OddBinary parts(x);
-    return mpz_class(static_cast<long>(parts.mantissa)) << static_cast<unsigned long>(parts.exponent - low_);
+  std::size_t dimension() const { return static_cast<std::size_t>(step_.dimension); }
+  const WorldLines& lines() const { return step_.lines; }
+  /// A coordinate in the unit of all of them.
+  mpz_class length(double x) const { return integer(x, space_); }
+  /// A time of a breakpoint.
+  mpz_class time(double t) const { return integer(t + step_.shift, time_); }
+  /// Any time of the lines, times 2^first_bits; rounded down, or up.
+  mpz_class fraction(double t, bool up) const {
+    mpq_class exact(t);
+    exact += mpq_class(step_.shift);
+    const long bits = static_cast<long>(first_bits) - time_;
+    exact *= bits >= 0 ? mpq_class(mpz_class(1) << static_cast<unsigned long>(bits))
+                       : mpq_class(1, mpz_class(1) << static_cast<unsigned long>(-bits));
+    mpz_class result;
+    (up ? mpz_cdiv_q : mpz_fdiv_q)(result.get_mpz_t(), exact.get_num_mpz_t(), exact.get_den_mpz_t());
+    return result;
   }
 
  private:
-  std::size_t dimension() const { return static_cast<std::size_t>(step_.dimension); }
+  static mpz_class integer(double x, int unit) {
+    if (x == 0) return 0;
+    const exact::OddBinary parts(x);
+    return mpz_class(static_cast<long>(parts.mantissa)) << static_cast<unsigned long>(parts.exponent - unit);
+  }
 
   const WitnessStep& step_;
-  int low_ = 0;
+  int space_ = 0, time_ = 0;
+};
+
+/// Some vertices from a time on, each on the segment that begins there or has it within; at the end of the step they
+/// rest. All positions are multiplied by the same number, which makes them integers.
+class Segments {
+ public:
+  Segments(const Motion& motion, std::span<const VertexId> vertices, const mpz_class& from, unsigned long e) {
+    for (const VertexId v : vertices) {
+      const auto times = motion.lines().times(v);
+      const auto positions = motion.lines().positions(v);
+      std::size_t low = 0;
+      for (std::size_t high = times.size(); high - low > 1;) {
+        const std::size_t middle = (low + high) / 2;
+        (motion.time(times[middle]) << e <= from ? low : high) = middle;
+      }
+      const bool rests = low + 1 == times.size();
+      Segment s{v, motion.time(times[low]), 0, {}, {}};
+      s.t1 = rests ? mpz_class(s.t0 + 1) : motion.time(times[low + 1]);
+      for (std::size_t k = 0; k < motion.dimension(); ++k) {
+        s.x0[k] = motion.length(positions[low][k]);
+        s.x1[k] = motion.length(positions[rests ? low : low + 1][k]);
+      }
+      scale_ = lcm(scale_, mpz_class(s.t1 - s.t0));
+      segments_.push_back(std::move(s));
+    }
+  }
+
+  const mpz_class& scale() const { return scale_; }
+  /// Of a vertex, in integer time.
+  PolyVector position(VertexId v) const {
+    const Segment& s = of(v);
+    const mpz_class factor = scale_ / (s.t1 - s.t0);
+    PolyVector x;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = trimmed({factor * (s.x0[k] * s.t1 - s.x1[k] * s.t0), factor * (s.x1[k] - s.x0[k])});
+    }
+    return x;
+  }
+  /// At the time at / 2^e, times 2^e.
+  std::array<mpz_class, 3> position_at(VertexId v, const mpz_class& at, unsigned long e) const {
+    const Segment& s = of(v);
+    const mpz_class factor = scale_ / (s.t1 - s.t0);
+    std::array<mpz_class, 3> x;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = factor * (s.x0[k] * ((s.t1 << e) - at) + s.x1[k] * (at - (s.t0 << e)));
+    }
+    return x;
+  }
+
+ private:
+  struct Segment {
+    VertexId v;
+    mpz_class t0, t1;
+    std::array<mpz_class, 3> x0, x1;
+  };
+  const Segment& of(VertexId v) const { return *std::ranges::find(segments_, v, &Segment::v); }
+
+  std::vector<Segment> segments_;
+  mpz_class scale_ = 1;
 };
 
 /// The two features of a contact.
@@ -148,8 +209,7 @@ class Search {
           found->j = j;
           return found;
         }
-        if (auto found = at_some_time(contact, of_p, of_q)) return found;
-        return std::nullopt;
+        return at_some_time(contact, of_p, of_q);
       }
     }
     return std::nullopt;
@@ -157,7 +217,7 @@ class Search {
 
   /// At a time, the nearest points of some features of two cells that no short path joins.
   std::optional<Found> of_near(const TooNear& near, const MeshPaths& paths) const {
-    const mpz_class at = fraction(near.time, false);
+    const mpz_class at = part_of_step(near.time);
     const auto a = vertices_of(near.first_cell), b = vertices_of(near.second_cell);
     for (unsigned m = 1; m < 1U << a.size(); ++m) {
       for (unsigned n = 1; n < 1U << b.size(); ++n) {
@@ -177,10 +237,10 @@ class Search {
     return std::nullopt;
   }
 
-  std::optional<Found> of_cells(std::uint32_t i, std::uint32_t j) { return at_rest(i, j, motion_.begin(), 0); }
+  std::optional<Found> of_cells(std::uint32_t i, std::uint32_t j) { return at_rest(i, j, begin(), 0); }
 
  private:
-  static constexpr unsigned long first_bits = 64, most_bits = 900;
+  static constexpr unsigned long first_bits = Motion::first_bits, most_bits = 900;
   static constexpr std::size_t most_cells = 64;
 
   static std::vector<VertexId> chosen(const std::vector<VertexId>& all, unsigned mask) {
@@ -205,11 +265,18 @@ class Search {
     });
   }
 
+  static std::vector<VertexId> all_of(const Sides& s) {
+    std::vector<VertexId> all = s.p;
+    all.insert(all.end(), s.q.begin(), s.q.end());
+    return all;
+  }
+
   /// If the nearest points of the features' planes and lines are in the features, and near enough.
   std::optional<Found> near_at(FeaturePair pair, const Sides& s, const mpz_class& at) const {
+    const Segments segments(motion_, all_of(s), at, first_bits);
     const auto place = [&](VertexId v) {
       PolyVector x;
-      const auto numbers = motion_.position_at(v, at, first_bits);
+      const auto numbers = segments.position_at(v, at, first_bits);
       for (std::size_t k = 0; k < 3; ++k) x[k] = trimmed({numbers[k]});
       return x;
     };
@@ -222,22 +289,23 @@ class Search {
     found.l = found.u = at;
     mpz_class square = 0, total_p = 0, total_q = 0;
     std::array<mpz_class, 3> x{}, y{};
-    if (!add_up(found.p, at, total_p, x) || !add_up(found.q, at, total_q, y)) return std::nullopt;
+    if (!add_up(segments, found.p, at, total_p, x) || !add_up(segments, found.q, at, total_q, y)) return std::nullopt;
     for (std::size_t k = 0; k < 3; ++k) {
       const mpz_class d = total_q * x[k] - total_p * y[k];
       square += d * d;
     }
-    const mpz_class least = (motion_.integer(step_.eta) << first_bits) * total_p * total_q;
+    const mpz_class least = (segments.scale() * motion_.length(step_.eta) << first_bits) * total_p * total_q;
     return square <= least * least ? std::optional(found) : std::nullopt;
   }
 
   /// The sums of constant weights, and of weights times positions. False if a weight is negative or all are 0.
-  bool add_up(const Weights& side, const mpz_class& at, mpz_class& total, std::array<mpz_class, 3>& x) const {
+  static bool add_up(const Segments& segments, const Weights& side, const mpz_class& at, mpz_class& total,
+                     std::array<mpz_class, 3>& x) {
     for (const auto& [v, weight] : side) {
       const mpz_class w = weight.empty() ? mpz_class(0) : weight[0];
       if (w < 0) return false;
       total += w;
-      const auto position = motion_.position_at(v, at, first_bits);
+      const auto position = segments.position_at(v, at, first_bits);
       for (std::size_t k = 0; k < 3; ++k) x[k] += w * position[k];
     }
     return total > 0;
@@ -308,26 +376,48 @@ class Search {
   /// What divides all three.
   static Poly common(const PolyVector& x) { return greatest_common_divisor(greatest_common_divisor(x[0], x[1]), x[2]); }
 
-  /// `s` of the step as a fraction of 2^first_bits, in integer time; rounded down, or up.
-  mpz_class fraction(double s, bool up) const {
-    mpq_class exact(s);
-    exact += motion_.begin();
-    mpz_class scaled = exact.get_num() << first_bits, result;
-    (up ? mpz_cdiv_q : mpz_fdiv_q)(result.get_mpz_t(), scaled.get_mpz_t(), exact.get_den_mpz_t());
-    return result;
+  mpz_class begin() const { return motion_.time(step_.lines.first_time()); }
+  /// T0 and so much of the step, rounded down to a multiple of 2^-first_bits; times 2^first_bits.
+  mpz_class part_of_step(double part) const {
+    mpq_class at(part);
+    at *= (motion_.time(step_.lines.last_time()) - begin()) << first_bits;
+    mpz_class result;
+    mpz_fdiv_q(result.get_mpz_t(), at.get_num_mpz_t(), at.get_den_mpz_t());
+    return result + (begin() << first_bits);
   }
 
+  /// At the root of the condition within the time of the contact, one after another of the parts into which
+  /// breakpoints cut that.
   std::optional<Found> at_root(const FeatureContact& contact, const Sides& sides) const {
-    const Equation equation = this->equation(contact.pair, sides, [this](VertexId v) { return motion_.position(v); });
-    if (equation.f.size() < 2) return std::nullopt;
-    Found found{0,
-                0,
-                equation.p,
-                equation.q,
-                square_free(equation.f),
-                first_bits,
-                fraction(contact.first.begin, false),
-                fraction(contact.first.end, true)};
+    const auto vertices = all_of(sides);
+    const mpz_class end = motion_.fraction(contact.first.end, true);
+    mpz_class from = motion_.fraction(contact.first.begin, false);
+    const auto cuts = breakpoints_between(vertices, from, end);
+    for (const mpz_class& to : cuts) {
+      const Segments segments(motion_, vertices, from, first_bits);
+      const Equation condition = equation(contact.pair, sides, [&](VertexId v) { return segments.position(v); });
+      if (auto found = at_root_of(condition, from, to)) return found;
+      from = to;
+    }
+    return std::nullopt;
+  }
+
+  /// Times of breakpoints between two times, and the second; at least that.
+  std::vector<mpz_class> breakpoints_between(const std::vector<VertexId>& vertices, const mpz_class& from,
+                                             const mpz_class& to) const {
+    std::set<mpz_class> cuts = {to};
+    for (const VertexId v : vertices) {
+      const auto times = step_.lines.times(v);
+      const auto time = [&](double t) { return mpz_class(motion_.time(t) << first_bits); };
+      auto t = std::partition_point(times.begin(), times.end(), [&](double t) { return time(t) <= from; });
+      for (; t != times.end() && time(*t) < to; ++t) cuts.insert(time(*t));
+    }
+    return {cuts.begin(), cuts.end()};
+  }
+
+  static std::optional<Found> at_root_of(const Equation& condition, const mpz_class& from, const mpz_class& to) {
+    if (condition.f.size() < 2) return std::nullopt;
+    Found found{0, 0, condition.p, condition.q, square_free(condition.f), first_bits, from, to};
     for (Weights* side : {&found.p, &found.q}) reduce(*side);
     for (; found.e <= most_bits; halve(found)) {
       if (!bracket(found)) return std::nullopt;
@@ -395,8 +485,9 @@ class Search {
   /// Cells that have the features, at rest at the end of the time's enclosure, and at some times of the step.
   std::optional<Found> at_some_time(const FeatureContact& contact, const std::vector<std::uint32_t>& of_p,
                                     const std::vector<std::uint32_t>& of_q) const {
-    std::vector<mpz_class> times = {fraction(contact.first.begin, false), fraction(contact.first.end, true)};
-    for (int i = 0; i <= 16; ++i) times.push_back(fraction(i / 16.0, false));
+    std::vector<mpz_class> times = {motion_.fraction(contact.first.begin, false),
+                                    motion_.fraction(contact.first.end, true)};
+    for (int i = 0; i <= 16; ++i) times.push_back(part_of_step(i / 16.0));
     for (const mpz_class& at : times) {
       for (const std::uint32_t i : of_p) {
         for (const std::uint32_t j : of_q) {
@@ -440,9 +531,11 @@ class Search {
                                                    const mpz_class& at, unsigned long e) const {
     const std::size_t n = p.size() + q.size();
     std::vector<std::vector<mpq_class>> rows(4, std::vector<mpq_class>(n));
+    const auto vertices = all_of({p, q});
+    const Segments segments(motion_, vertices, at, e);
     for (std::size_t c = 0; c < n; ++c) {
       const bool first = c < p.size();
-      const auto x = motion_.position_at(first ? p[c] : q[c - p.size()], at, e);
+      const auto x = segments.position_at(vertices[c], at, e);
       for (std::size_t k = 0; k < 3; ++k) rows[k][c] = first ? x[k] : mpz_class(-x[k]);
       rows[3][c] = first ? 1 : -1;
     }
@@ -515,6 +608,16 @@ std::optional<std::string> witness_of(const WitnessStep& step, const InitialInte
 
 std::optional<std::string> witness_of(const WitnessStep& step, const TooNear& near, const MeshPaths& paths) {
   return payload(Search(step).of_near(near, paths));
+}
+
+std::optional<std::string> witness_of(const WitnessStep& step, const std::optional<FeatureContact>& first,
+                                      std::span<const InitialIntersection> initial,
+                                      std::span<const FeatureContact> contacts) {
+  std::optional<std::string> witness;
+  if (first) witness = witness_of(step, *first);
+  for (std::size_t i = 0; i < initial.size() && !witness; ++i) witness = witness_of(step, initial[i]);
+  for (std::size_t i = 0; i < contacts.size() && !witness; ++i) witness = witness_of(step, contacts[i]);
+  return witness;
 }
 
 }  // namespace noli

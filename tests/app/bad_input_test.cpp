@@ -148,7 +148,8 @@ TEST_P(BadLines, AreRefused) {
 const std::vector<BadLine> bad_lines = {
     {"unknown_command", {"prove", "%1", "%2"}, {}},
     {"unknown_option", {"verify", "%1", "%2", "--tolerance", "1e-6"}, {"--tolerance"}},
-    {"not_offered_yet", {"verify", "%1", "%2", "--min-distance", "1"}, {"--min-distance"}},
+    {"no_distance", {"verify", "%1", "%2", "--min-distance", "0"}, {"--min-distance"}},
+    {"ring_without_distance", {"verify", "%1", "%2", "--min-distance-from-ring", "2"}, {"--min-distance-from-ring"}},
     {"single_frame", {"verify", "%1"}, {}},
     {"no_frame", {"verify"}, {}},
     {"missing_frame", {"verify", "%1", "%2", "/nowhere/frame.ply"}, {"/nowhere/frame.ply"}},

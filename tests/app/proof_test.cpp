@@ -159,7 +159,10 @@ TEST_F(Proof, KeepsADistance) {
     EXPECT_EQ(process.verdict_line().substr(0, 17), "verdict too_near ") << process.verdict_line();
     EXPECT_EQ(check(frames).exit_code, 1) << distance;
   }
-  EXPECT_EQ(verify(frames, {"--min-distance", "0.1"}).exit_code, 3);
+  EXPECT_EQ(verify(frames, {"--min-distance", "0.1"}).verdict_line().substr(0, 15), "verdict proved ");
+  EXPECT_EQ(verify(frames, {"--min-distance", "0.1", "--no-check"}).verdict_line().substr(0, 19), "verdict no_contact ");
+  EXPECT_EQ(verify(frames, {"--min-distance", "0.5", "--no-check"}).exit_code, 1);
+  EXPECT_EQ(verify(frames, {"--min-distance", "0.5"}).verdict_line().substr(0, 17), "verdict too_near ");
   EXPECT_EQ(prove(frames, {"--min-distance", "-1"}).exit_code, 3);
   EXPECT_EQ(prove(frames, {"--min-distance-from-ring", "2"}).exit_code, 3);
 }
@@ -185,6 +188,32 @@ TEST_F(Proof, IsNotWrittenOverAFrame) {
   EXPECT_EQ(process.exit_code, 3);
   EXPECT_EQ(bytes_of(frames[1]), before);
   EXPECT_EQ(verify(frames, {"--proof", folder.path("no/such/folder.noli")}).exit_code, 3);
+}
+
+TEST_F(Proof, IsWrittenToAFileOfItsOwn) {
+  const auto frames = triangles({1, 0.5});
+  EXPECT_EQ(verify(frames, {"--proof", "/dev/null"}).exit_code, 3);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  const std::string result = folder.write("result.json", "{}");
+  EXPECT_EQ(verify(frames, {"--proof", result, "--json", result}).exit_code, 3);
+  EXPECT_EQ(bytes_of(result), "{}");
+}
+
+TEST_F(Proof, GoesToTheCheckerAtOnceIfNobodyWantsAFile) {
+  const auto frames = triangles({1, 0.5, 0.25});
+  const Process process = verify(frames, {"--json", folder.path("result.json")});
+  EXPECT_EQ(process.verdict_line().substr(0, 15), "verdict proved ");
+  const Json proof = Json::parse(read_text(folder.path("result.json")))["proof"];
+  EXPECT_EQ(proof, (Json{{"file", nullptr},
+                         {"witnesses", 0},
+                         {"checked", "accepted: nothing touches"},
+                         {"not_checked", nullptr}}));
+  const Process touching = verify(triangles({1, 0.5, -2}), {});
+  EXPECT_EQ(touching.exit_code, 1);
+  EXPECT_NE(touching.out.find("The checker says of the proof: refuted: in step 2, vertices {3} of cell 1"),
+            std::string::npos)
+      << touching.out;
+  EXPECT_EQ(verify(triangles({1, 0.5, -2}), {"--no-check"}).out.find("The checker says"), std::string::npos);
 }
 
 TEST_F(Proof, CutOffItIsRejected) {

@@ -26,7 +26,7 @@ TEST_F(Simulate, CommitsWhatTouchesNothing) {
     EXPECT_TRUE(fs::exists(fs::path(folder.path("run")) / file)) << file;
   }
   const Json verified = json_of({"verify", run_path("run")}, 0);
-  EXPECT_EQ(verified["verdict"], "no_contact");
+  EXPECT_EQ(verified["verdict"], "proved");
   EXPECT_EQ(verified["steps"], 25);
   EXPECT_EQ(verified["faces"], 72);
 }
@@ -161,7 +161,7 @@ TEST_F(Simulate, InterruptedRunsEndAtTheLastWindow) {
   const Process process = run_noli({"simulate", file, "-o", run_path("run")}, options);
   EXPECT_EQ(process.exit_code, 2) << process.out;
   EXPECT_EQ(process.out.rfind("verdict undecided end interrupted", 0), 0) << process.out;
-  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
 }
 
 TEST_F(Simulate, AFolderThatIsThereIsNotOverwritten) {
@@ -199,7 +199,7 @@ TEST_F(Simulate, NumbersThatRunOutAreNamed) {
   EXPECT_EQ(blown["verdict"], "not_finite");
   EXPECT_EQ(blown["end"], "not_finite");
   EXPECT_EQ(blown["not_finite"]["force"], "edge_spring");
-  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "no_contact");
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
 }
 
 TEST_F(Simulate, FieldsAreNamedInErrors) {
@@ -336,6 +336,8 @@ TEST_F(Simulate, AFullDiskLeavesTheCommittedWindows) {
   const Json verified = json_of({"verify", run_path("run")}, 0);
   EXPECT_GT(verified["steps"], 5);
   EXPECT_LT(verified["steps"], 20);
+  EXPECT_EQ(verified["verdict"], "no_contact");
+  EXPECT_NE(verified["proof"]["not_checked"].get<std::string>().find("ends within a window"), std::string::npos);
   EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--resume"}).exit_code, 0);
   EXPECT_TRUE(blocks("run") == blocks("whole"));
 }

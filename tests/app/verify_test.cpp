@@ -42,11 +42,11 @@ TEST_F(Verify, SaysThatNothingTouches) {
   EXPECT_EQ(process.exit_code, 0);
   EXPECT_EQ(
       process.verdict_line(),
-      "verdict no_contact contacts.vertex_face 0 contacts.edge_edge 0 contacts.vertex_edge 0 contacts.vertex_vertex 0 "
+      "verdict proved contacts.vertex_face 0 contacts.edge_edge 0 contacts.vertex_edge 0 contacts.vertex_vertex 0 "
       "initial_intersections 0 first_time none steps 1 steps_total 1 faces 2 complete true");
   EXPECT_EQ(process.err, "");
   const Json json = json_of(arguments, 0);
-  EXPECT_EQ(json["verdict"], "no_contact");
+  EXPECT_EQ(json["verdict"], "proved");
   EXPECT_EQ(json["contacts"], vertex_face_contacts(0));
   EXPECT_TRUE(json["first"].is_null());
   EXPECT_TRUE(json["first_time"].is_null());
@@ -128,7 +128,7 @@ TEST_F(Verify, IsContentWithTheFirstContactWhenAsked) {
   const Json json = json_of(with(frames({1, -1}), {"--first-only"}), 1);
   EXPECT_EQ(json["verdict"], "contact");
   EXPECT_FALSE(json["first"].is_null());
-  EXPECT_EQ(json_of(with(frames({1, 0.5}), {"--first-only"}), 0)["verdict"], "no_contact");
+  EXPECT_EQ(json_of(with(frames({1, 0.5}), {"--first-only"}), 0)["verdict"], "proved");
 }
 
 TEST_F(Verify, ListsNoMoreThanAskedButCountsAll) {
@@ -164,7 +164,7 @@ TEST_F(Verify, TakesASingleFrameAtRest) {
 TEST_F(Verify, LooksAtOneCellWhenStrict) {
   const auto open = folder.write("open.ply", ply_text({{0, 0, 0}, {4, 0, 1}, {2, 1, 0}}, {{0, 1, 2}}));
   const auto flipped = folder.write("flipped.ply", ply_text({{0, 0, 0}, {4, 0, 1}, {2, -1, 1}}, {{0, 1, 2}}));
-  EXPECT_EQ(json_of({"verify", open, flipped}, 0)["verdict"], "no_contact");
+  EXPECT_EQ(json_of({"verify", open, flipped}, 0)["verdict"], "proved");
   const Json json = json_of({"verify", open, flipped, "--strict"}, 1);
   EXPECT_EQ(json["contacts"]["vertex_edge"], 1);
   EXPECT_EQ(json["statement"]["strict"], true);
@@ -227,8 +227,13 @@ TEST_F(Verify, ReadsAFrameFromAPipe) {
   EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
 }
 
-TEST_F(Verify, AcceptsTheFlagOfALaterChecker) {
-  EXPECT_EQ(run_noli(with(frames({1, 0.5}), {"--no-check"})).exit_code, 0);
+TEST_F(Verify, WhatCanBeReadOnlyOnceIsNotChecked) {
+  const auto pipe = folder.path("pipe.ply");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe) << two_triangles(1); });
+  const Json json = json_of({"verify", pipe, folder.write("b.ply", two_triangles(0.5))}, 0);
+  writer.join();
+  EXPECT_EQ(json["verdict"], "no_contact");
 }
 
 TEST_F(Verify, GivesTheSameForAnyNumberOfThreads) {
@@ -251,7 +256,7 @@ TEST_F(Verify, CountsTheContactsOfRealCloth) {
 TEST_F(Verify, ClearsARealRodTwist) {
   const auto a = real_data("frames/rod-twist-clean/0.ply"), b = real_data("frames/rod-twist-clean/1.ply");
   if (!a || !b) GTEST_SKIP() << "no real data";
-  EXPECT_EQ(json_of({"verify", *a, *b}, 0)["verdict"], "no_contact");
+  EXPECT_EQ(json_of({"verify", *a, *b}, 0)["verdict"], "proved");
 }
 
 }  // namespace
