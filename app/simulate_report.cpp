@@ -176,6 +176,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["not_finite"] = not_finite_json(outcome);
   json["too_near"] = too_near_json(outcome);
   json["roll_backs"] = outcome.roll_backs;
+  json["proof"] = {{"whole", outcome.proved}, {"ends", outcome.no_proof ? Json(*outcome.no_proof) : Json(nullptr)}};
   json["certificate_defects"] = outcome.certificate_defects;
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
@@ -202,6 +203,9 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
   text += end_text(outcome) + "\n";
   if (!outcome.title.empty()) text += on_one_line(outcome.title) + ": ";
   text += committed_text(request, outcome) + "\n";
+  if (outcome.no_proof) {
+    text += fmt::format("No proof was found: proof.blocks ends before {}.\n", on_one_line(*outcome.no_proof));
+  }
   if (outcome.series == SeriesEnd::stopped) {
     text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
   }

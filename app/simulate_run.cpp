@@ -101,6 +101,7 @@ class Run {
     settle();
     find_end();
     conclude(clock);
+    outcome_.proved = proof_ != nullptr && outcome_.windows > 0;
     outcome_.seconds = watch.seconds();
     return std::move(outcome_);
   }
@@ -207,8 +208,8 @@ class Run {
       try {
         proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), positions_of<Dim>(built_.model.x),
                                   proof_options());
-      } catch (const NoProof&) {
-        // It ended before this already.
+      } catch (const NoProof& none) {
+        outcome_.no_proof = none.what();  // it ended before this already
       }
     }
     outcome_.windows_before = last.windows;
@@ -282,6 +283,7 @@ class Run {
       return proof_->prove(index, lines, writer_->open_window_hash(), proof_options());
     } catch (const NoProof& none) {
       folder_.log({{"event", "no_proof"}, {"window", index}, {"why", none.what()}});
+      outcome_.no_proof = fmt::format("window {}: {}", index, none.what());
       proof_.reset();
       return true;
     }

@@ -81,6 +81,8 @@ struct SimulateOutcome {
   std::optional<StartGap> start_gap;  ///< of its pair, if that begins within a layer and ends the first window
   std::optional<integrator::NotFinite> not_finite;
   std::uint64_t roll_backs = 0;           ///< of windows that were run again
+  bool proved = false;                    ///< proof.blocks has a proof of every window
+  std::optional<std::string> no_proof;    ///< why it ends before
   std::uint64_t certificate_defects = 0;  ///< of them, such that more layers from the start were enough
   certificates::CertificateCounts certificates;
   SeriesEnd series = SeriesEnd::stopped;

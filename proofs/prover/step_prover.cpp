@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "noli/proofs/prover/pieces.h"
+#include "noli/proofs/prover/span_cut.h"
 
 namespace noli {
 
@@ -12,11 +13,6 @@ namespace {
 
 constexpr std::uint32_t grain_share = 128;
 constexpr std::uint32_t least_grain = 64;
-
-/// As in proofs/prover/window_verifier.cpp: a span is cut if more than one vertex of so many strays by more than a
-/// twelfth of its shortest edge, and has on average more breakpoints inside than that.
-constexpr std::size_t few = 16;
-constexpr std::size_t worth_cutting = 8;
 
 using Take = std::function<void(std::string_view)>;
 
@@ -60,7 +56,7 @@ class Proof {
     });
     std::size_t inside = 0;
     for (const auto& chord : scene.chords) inside += chord.inside;
-    return inside > worth_cutting * vertices && count_restless(scene.chords) * few > vertices;
+    return worth_cutting(inside, vertices, [&] { return count_restless(scene.chords); });
   }
 
   std::size_t count_restless(const std::vector<ProofChord<Dim>>& chords) const {

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "noli/kernel/parallel.h"
+#include "noli/proofs/prover/span_cut.h"
 #include "noli/proofs/prover/window_traversal.h"
 
 namespace noli {
@@ -15,11 +16,6 @@ namespace {
 /// As in verifier.cpp.
 constexpr std::uint32_t grain_share = 256;
 constexpr std::uint32_t least_grain = 64;
-
-/// A span is cut if more than one vertex of so many is restless in it, and a vertex has on average more breakpoints
-/// inside than that.
-constexpr std::size_t few = 16;
-constexpr std::size_t worth_cutting = 8;
 
 /// What one task leaves behind.
 struct Outcome {
@@ -205,8 +201,8 @@ class Verification {
   /// Whether shorter spans are worth their while.
   bool cut_time(const WindowChords<Dim>& chords) const {
     const double cut = middle(chords.span);
-    return chords.restless * few > chords.of.size() && chords.inside > worth_cutting * chords.of.size() &&
-           chords.span.begin < cut && cut < chords.span.end;
+    return worth_cutting(chords.inside, chords.of.size(), [&] { return chords.restless; }) && chords.span.begin < cut &&
+           cut < chords.span.end;
   }
 
   Outcome walk(const WindowChords<Dim>& chords) {

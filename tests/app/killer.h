@@ -11,58 +11,60 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace noli::app_tests {
 
-/// Starts `noli` with these arguments and kills it after a pause, unless it has ended. Whether it ended well.
-inline bool run_and_kill(std::vector<std::string> arguments, std::chrono::microseconds pause) {
-  arguments.insert(arguments.begin(), "noli");
-  std::vector<char*> argv;
-  for (std::string& word : arguments) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
+/// A `noli` at work, without its standard output.
+class Victim {
+ public:
+  explicit Victim(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "noli");
+    std::vector<char*> argv;
+    for (std::string& word : arguments) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ != 0) return;
     std::freopen("/dev/null", "w", stdout);
     ::execv(NOLI_COMMAND, argv.data());
     ::_exit(127);
   }
-  std::this_thread::sleep_for(pause);
-  ::kill(child, SIGKILL);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  void kill_after(std::chrono::microseconds pause) const {
+    std::this_thread::sleep_for(pause);
+    ::kill(child_, SIGKILL);
+  }
+  /// Its exit code; nothing if it was killed.
+  std::optional<int> wait() const {
+    int status = 0;
+    ::waitpid(child_, &status, 0);
+    return WIFEXITED(status) ? std::optional(WEXITSTATUS(status)) : std::nullopt;
+  }
+
+ private:
+  pid_t child_;
+};
+
+/// Starts `noli` with these arguments and kills it after a pause, unless it has ended. Whether it ended well.
+inline bool run_and_kill(const std::vector<std::string>& arguments, std::chrono::microseconds pause) {
+  const Victim victim(arguments);
+  victim.kill_after(pause);
+  return victim.wait() == 0;
 }
 
 /// Starts `simulate` with these arguments and kills it after pause(), again and again, `most` times; then lets it end.
 /// Returns how often it killed it, or -1 if it did not end well.
 inline int kill_until_done(const std::vector<std::string>& arguments, const std::string& run, int most,
                            const std::function<std::chrono::microseconds()>& pause) {
-  int kills = 0;
-  for (;;) {
-    std::vector<std::string> command{"noli", "simulate"};
+  for (int kills = 0;; ++kills) {
+    std::vector<std::string> command{"simulate"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     command.insert(command.end(), {"-o", run, std::filesystem::exists(run) ? "--resume" : "--force"});
-    std::vector<char*> argv;
-    argv.reserve(command.size() + 1);
-    for (std::string& word : command) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    const pid_t child = ::fork();
-    if (child == 0) {
-      std::freopen("/dev/null", "w", stdout);
-      ::execv(NOLI_COMMAND, argv.data());
-      ::_exit(127);
-    }
-    if (kills < most) {
-      std::this_thread::sleep_for(pause());
-      ::kill(child, SIGKILL);
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? kills : -1;
-    ++kills;
+    const Victim victim(command);
+    if (kills < most) victim.kill_after(pause());
+    if (const auto code = victim.wait()) return code == 0 ? kills : -1;
   }
 }
 

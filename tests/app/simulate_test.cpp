@@ -27,6 +27,7 @@ TEST_F(Simulate, CommitsWhatTouchesNothing) {
   }
   const Json verified = json_of({"verify", run_path("run")}, 0);
   EXPECT_EQ(verified["verdict"], "proved");
+  EXPECT_EQ(json["proof"], (Json{{"whole", true}, {"ends", nullptr}}));
   EXPECT_EQ(verified["steps"], 25);
   EXPECT_EQ(verified["faces"], 72);
 }

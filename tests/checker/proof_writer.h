@@ -4,13 +4,12 @@
 // asks the checker.
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "noli/proofs/checker/check.h"
+#include "noli/tests/support/temporary_folder.h"
 
 namespace noli::checker::test {
 
@@ -108,21 +107,12 @@ inline Verdict verdict(const std::string& proof, const std::vector<std::string>&
 /// A folder that goes with the test.
 class Folder {
  public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "noli_checker_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder " + name);
-    path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
+    return folder_.write(name, text).string();
   }
 
  private:
-  fs::path path_;
+  noli::test::TemporaryFolder folder_;
 };
 
 struct ClaimFields {
