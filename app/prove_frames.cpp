@@ -1,25 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/prove_frames.h"
 
+#include <algorithm>
+#include <set>
+
+#include "noli/proofs/prover/features.h"
 #include "noli/proofs/prover/hierarchy.h"
 #include "noli/proofs/prover/witness.h"
 
 namespace noli::app {
 namespace {
 
-ProofClaim claim_of(const VerifyRequest& request, int dimension) {
-  return {dimension, request.strict, {}, request.min_distance, request.ring};
+/// The groups of cells.
+std::vector<std::uint32_t> labels_of(const Mesh& mesh, const Exclusions* exclusions) {
+  std::vector<std::uint32_t> labels(mesh.cell_count(), 0);
+  for (std::uint32_t c = 0; exclusions != nullptr && c < labels.size(); ++c) {
+    labels[c] = exclusions->groups[corners(mesh, c)[0]];
+  }
+  return labels;
 }
 
-StepProver make_prover(const VerifyRequest& request, int dimension, const Mesh& mesh, std::span<const Position> x_t0,
-                       std::span<const Position> x_t1) {
+/// Those that have cells on both sides.
+LabelPairs excluded_pairs(const std::vector<std::uint32_t>& labels, const Exclusions* exclusions) {
+  LabelPairs pairs;
+  if (exclusions == nullptr) return pairs;
+  const std::set<std::uint32_t> there(labels.begin(), labels.end());
+  for (const auto& [a, b] : exclusions->pairs) {
+    if (there.count(a) + there.count(b) == 2) pairs.insert({a, b});
+  }
+  return pairs;
+}
+
+/// The tree has a part of its own for each label, in which neighbours are near each other.
+StepProver make_prover(const VerifyRequest& request, int dimension, const Mesh& mesh, const Exclusions* exclusions,
+                       std::span<const Position> x_t0, std::span<const Position> x_t1) {
   const Hierarchy hierarchy(mesh, x_t0, x_t1, dimension, request.threads);
-  const std::vector<std::uint32_t> ends = {static_cast<std::uint32_t>(mesh.cell_count())};
-  return StepProver(mesh, hierarchy.leaf_cells(), ends, std::vector<std::uint32_t>(mesh.cell_count(), 0),
-                    claim_of(request, dimension));
+  const std::vector<std::uint32_t> labels = labels_of(mesh, exclusions);
+  const auto cells = hierarchy.leaf_cells();
+  std::vector<std::uint32_t> order(cells.begin(), cells.end()), ends;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t c) { return labels[c]; });
+  for (std::size_t i = 1; i <= order.size(); ++i) {
+    if (i == order.size() || labels[order[i]] != labels[order[i - 1]]) ends.push_back(static_cast<std::uint32_t>(i));
+  }
+  return StepProver(
+      mesh, order, ends, labels,
+      {dimension, request.strict, excluded_pairs(labels, exclusions), request.min_distance, request.ring});
 }
 
-ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes) {
+ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
+                    const Exclusions* exclusions) {
   ProofHeader header;
   header.source = request.constant_motion ? ProofSource::frames_at_rest : ProofSource::frames;
   header.dimension = dimension;
@@ -29,8 +58,9 @@ ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mes
   header.ring = request.ring;
   header.vertices = mesh.vertex_count;
   header.mesh = &mesh;
-  const std::vector<std::uint32_t> labels(mesh.cell_count(), 0);
+  const std::vector<std::uint32_t> labels = labels_of(mesh, exclusions);
   header.labels = labels;
+  header.excluded = excluded_pairs(labels, exclusions);
   if (classes != nullptr) {
     const auto& same = classes->representative();
     for (VertexId v = 0; v < same.size(); ++v) {
@@ -43,15 +73,15 @@ ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mes
 }  // namespace
 
 FrameProof::FrameProof(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
-                       std::span<const Position> x_t0, std::span<const Position> x_t1)
+                       const Exclusions* exclusions, std::span<const Position> x_t0, std::span<const Position> x_t1)
     : mesh_(mesh),
       dimension_(dimension),
       eta_(request.min_distance),
       ring_(request.ring),
       strict_(request.strict),
       rest_(request.constant_motion),
-      prover_(make_prover(request, dimension, mesh, x_t0, x_t1)),
-      file_(make_file(request, dimension, mesh, classes)) {}
+      prover_(make_prover(request, dimension, mesh, exclusions, x_t0, x_t1)),
+      file_(make_file(request, dimension, mesh, classes, exclusions)) {}
 
 bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                        const VerifyOptions& options) {

@@ -65,6 +65,7 @@ ExitCode exit_code(Verdict verdict) {
 void require_place_of_proof(const VerifyArguments& arguments) {
   const std::filesystem::path& proof = *arguments.request.proof;
   auto others = with_files_of_runs(arguments.request.frames);
+  if (arguments.request.ignore) others.push_back(*arguments.request.ignore);
   if (arguments.json && *arguments.json != "-") others.emplace_back(*arguments.json);
   require_other_file(proof, others, "--proof");
   std::error_code error;
@@ -194,7 +195,9 @@ ExitCode run(VerifyArguments& arguments) {
   }
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
-  const Output output(arguments.json, with_files_of_runs(request.frames));
+  auto inputs = with_files_of_runs(request.frames);
+  if (request.ignore) inputs.push_back(*request.ignore);
+  const Output output(arguments.json, inputs);
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
@@ -227,6 +230,12 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
                   "But for features that a path of fewer than K mesh edges joins: these have to be disjoint")
       ->check(CLI::Range(1, 255))
       ->type_name("K");
+  command
+      .add_option(
+          "--ignore", request.ignore,
+          "Pairs of groups of vertices whose cells are not compared, a JSON file: {\"groups\": {\"a\": [[0, 99]], "
+          "\"b\": [[100, 120], 130]}, \"ignore\": [[\"a\", \"b\"]]}")
+      ->type_name("GROUPS.json");
   command.add_option("--proof", request.proof, "Write the proof there, a file that `noli check` checks")
       ->type_name("OUT");
   command

@@ -30,9 +30,10 @@ RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
 class MotionRun {
  public:
   explicit MotionRun(const VerifyRequest& request) : request_(request), reader_(request.frames.at(0)) {
-    if (request.constant_motion || request.merge_identical || request.points || request.dimension) {
+    if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore) {
       throw UsageError(
-          "--static, --merge-identical, --points, --dimension: are for frames; expected none of them with a run");
+          "--static, --merge-identical, --points, --dimension, --ignore: are for frames; expected none of them with a "
+          "run");
     }
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
@@ -136,8 +137,8 @@ class MotionRun {
       outcome_.near = ListedNear{outcome_.steps.size(), near};
       if (proof_->refute(window.index, *window.lines, window.group_hash, near)) ++outcome_.witnesses;
       if (window.index == 0) {
-        outcome_.largest_distance = largest_distance(proof_->prover(), reader_.mesh(), beginning(window),
-                                                     request_.min_distance, options);
+        outcome_.largest_distance =
+            largest_distance(proof_->prover(), reader_.mesh(), beginning(window), request_.min_distance, options);
       }
     } catch (const NoProof&) {
       outcome_.no_proof = true;

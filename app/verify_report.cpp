@@ -23,7 +23,8 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json list = Json::array();
   if (request.run) list.push_back(held_text(outcome.not_compared));
   for (const auto& pair : outcome.not_compared.excluded) {
-    list.push_back(fmt::format("two cells of {}, which the run's scene excludes", pair_text(pair)));
+    list.push_back(fmt::format("two cells of {}, which {}", pair_text(pair),
+                               request.run ? "the run's scene excludes" : "--ignore leaves out"));
   }
   return list;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/verify_run.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,12 +10,14 @@
 #include <utility>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/groups.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/largest_distance.h"
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
 #include "noli/app/prove_frames.h"
 #include "noli/audit/any_query.h"
+#include "noli/proofs/prover/window_verifier.h"
 #include "noli/trajectory/cells.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/frames.h"
@@ -104,10 +107,59 @@ class Run {
                        "no faces, edges or points; expected something that can touch (see --points)");
     }
     outcome_.dimension = request_.dimension.value_or(in_plane() ? 2 : 3);
+    if (request_.ignore) leave_out(*request_.ignore);
     outcome_.vertices = mesh_.vertex_count;
     outcome_.faces = mesh_.faces.size();
     outcome_.edges = mesh_.edges.size();
     outcome_.points = mesh_.points.size();
+  }
+
+  /// Pairs of groups are not compared.
+  void leave_out(const std::filesystem::path& file) {
+    groups_ = read_groups(file, mesh_.vertex_count);
+    for (VertexId v = 0; classes_ && v < mesh_.vertex_count; ++v) {
+      const VertexId same = classes_->representative()[v];
+      if (groups_->exclusions.groups[v] == groups_->exclusions.groups[same]) continue;
+      throw InputError(file.string(), "",
+                       fmt::format("vertices {} and {} are merged; expected them in one group", same, v));
+    }
+    require_whole_cells(file, *groups_, mesh_);
+    for (const auto& [a, b] : groups_->exclusions.pairs) {
+      outcome_.not_compared.excluded.push_back({groups_->names[a], groups_->names[b]});
+    }
+    WindowOptions options;
+    options.dimension = outcome_.dimension;
+    options.strict = request_.strict;
+    options.exclusions = &groups_->exclusions;
+    verifier_.emplace(mesh_, sequence_.x_t0(), options);
+  }
+
+  VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
+                              const VerifyOptions& options) const {
+    if (!verifier_) return verify_step(mesh_, x_t0, x_t1, options);
+    WindowOptions window;
+    window.dimension = options.dimension;
+    window.threads = options.threads;
+    window.initial = options.initial;
+    window.first_only = options.first_only;
+    window.strict = options.strict;
+    window.max_reports = options.max_reports;
+    window.exclusions = &groups_->exclusions;
+    window.stop = options.stop;
+    window.deadline = options.deadline;
+    window.progress = options.progress;
+    WindowResult found = verifier_->verify(WorldLines::from_frames(x_t0, x_t1), window);
+    VerifyResult result;
+    result.complete = found.complete;
+    result.contacts = found.contacts;
+    result.initial_intersections = found.initial_intersections;
+    result.reports = std::move(found.reports);
+    result.initial_reports = std::move(found.initial_reports);
+    if (found.first) result.first = found.first->contact;
+    result.stages = found.stages;
+    result.obligations = found.obligations;
+    result.cell_pairs = found.cell_pairs;
+    return result;
   }
 
   bool in_plane() const {
@@ -140,7 +192,7 @@ class Run {
   void verify() {
     Progress progress("verify");
     const VerifyOptions asked = options(progress);
-    VerifyResult result = verify_step(mesh_, sequence_.x_t0(), sequence_.x_t1(), asked);
+    VerifyResult result = verify_between(sequence_.x_t0(), sequence_.x_t1(), asked);
     const bool any_at_begin = meeting_at_end_;
     meeting_at_end_ = !request_.constant_motion && result.contact_count() > 0;
     if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(asked, result);
@@ -154,8 +206,8 @@ class Run {
   void prove(const VerifyOptions& options, const VerifyResult& result) {
     const Stopwatch watch;
     if (!proof_) {
-      proof_.emplace(request_, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr, sequence_.x_t0(),
-                     sequence_.x_t1());
+      proof_.emplace(request_, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr,
+                     groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
     }
     const auto step = sequence_.step();
     if (result.contact_count() + result.initial_intersections > 0) {
@@ -184,7 +236,7 @@ class Run {
     options.progress = nullptr;
     options.first_only = false;
     options.max_reports = 0;
-    const VerifyResult resting = verify_step(mesh_, sequence_.x_t0(), sequence_.x_t0(), options);
+    const VerifyResult resting = verify_between(sequence_.x_t0(), sequence_.x_t0(), options);
     result.complete = result.complete && resting.complete;
     result.stages += resting.stages;
     for (std::size_t i = 0; i < result.contacts.size(); ++i) {
@@ -251,6 +303,8 @@ class Run {
   FrameSequence sequence_;
   std::optional<IdenticalVertices> classes_;
   Mesh mesh_;
+  std::optional<Groups> groups_;            ///< with --ignore
+  std::optional<WindowVerifier> verifier_;  ///< the same
   std::optional<FrameProof> proof_;
   /// Whether some pair of features met in the step before: only then can one meet where the next step begins.
   bool meeting_at_end_ = false;

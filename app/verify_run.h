@@ -38,8 +38,9 @@ struct VerifyRequest {
   bool points = false;           ///< vertices that nothing refers to are particles
   bool constant_motion = false;  ///< --static: each frame for itself
   bool merge_identical = false;
-  double min_distance = 0;  ///< features have to be more than this apart
-  std::uint32_t ring = 1;   ///< but for those that a path of fewer edges joins
+  std::optional<std::filesystem::path> ignore;  ///< groups of vertices that are not compared (groups.h)
+  double min_distance = 0;                      ///< features have to be more than this apart
+  std::uint32_t ring = 1;                       ///< but for those that a path of fewer edges joins
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::optional<std::filesystem::path> proof;  ///< the file where the user wants it
   bool check = true;                           ///< have the checker look at the proof
@@ -112,7 +113,7 @@ struct VerifyOutcome {
   int dimension = 3;
   std::size_t vertices = 0, faces = 0, edges = 0, points = 0;
   std::size_t merged_vertices = 0;
-  NotCompared not_compared;               ///< of a run
+  NotCompared not_compared;               ///< of a run, or --ignore
   std::size_t unreferenced_vertices = 0;  ///< that are left out
   std::size_t steps_total = 0;            ///< of the frames or the run, looked at or not
   std::vector<StepCounts> steps;          ///< of the steps that were begun, in order

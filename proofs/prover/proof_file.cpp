@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/proofs/prover/proof_file.h"
 
+#include <algorithm>
+
 #include "noli/kernel/scaled_integers.h"
 #include "noli/proofs/prover/features.h"
 #include "noli/trajectory/bytes.h"
@@ -43,6 +45,13 @@ std::string claim_payload(const ProofHeader& header) {
     put(bytes, a);
     put(bytes, b);
   }
+  return bytes;
+}
+
+/// Block LABL.
+std::string labels_payload(const ProofHeader& header) {
+  std::string bytes;
+  for (const std::uint32_t label : header.labels) put(bytes, label);
   return bytes;
 }
 
@@ -90,6 +99,8 @@ std::int32_t unit(const exact::ExponentRange& range) { return range.high < range
 ProofFile::ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header)
     : blocks_(std::move(sink), content), dimension_(header.dimension), eta_(header.eta) {
   blocks_.append(four_letters("CLAM"), claim_payload(header));
+  const bool labelled = std::ranges::any_of(header.labels, [](std::uint32_t label) { return label != 0; });
+  if (header.source != ProofSource::run && labelled) blocks_.append(four_letters("LABL"), labels_payload(header));
   blocks_.commit();
 }
 

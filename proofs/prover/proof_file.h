@@ -16,7 +16,7 @@ namespace noli {
 
 enum class ProofSource : std::uint8_t { frames = 0, frames_at_rest = 1, run = 2 };
 
-/// Block CLAM.
+/// Blocks CLAM and, for frames whose labels are not all 0, LABL.
 struct ProofHeader {
   ProofSource source = ProofSource::frames;
   int dimension = 3;

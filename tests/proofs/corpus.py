@@ -88,7 +88,12 @@ def scenes():
     apart = ["--min-distance", "0.0625", "--min-distance-from-ring"]
     yield "fan apart", [fan, [(x, y + 0.125 * x, z + 0.25 * x * x) for x, y, z in fan]], fan_cells, [*apart, "1"]
     yield "two apart", [above(1.0), above(0.0625 + 2.0**-20)], TWO, [*apart, "2", "--strict"]
+    # GROUPS: what one triangle is to the other is not looked at.
+    yield "ignored", [above(1.0), above(-1.0)], TWO, ["--ignore", "groups.json"]
+    yield "ignored, points", [[*above(1.0), (9.0, 9.0, 5.0), (9.0, 9.0, 6.0)], [*above(-1.0), (9.25, 9.0, 4.0), (9.0, 9.5, 6.0)]], TWO, \
+        ["--ignore", "groups.json", "--points"]
     # These touch, or are too near.
+    yield "ignored, but not all", [[*above(1.0), (1.0, 1.0, 2.0)], [*above(-1.0), (1.0, 1.0, -1.5)]], TWO, ["--ignore", "groups.json", "--points"]
     yield "two not apart", [above(1.0), above(0.03125)], TWO, [*apart, "2"]
     yield "vertex-face", [above(1.0), above(-1.0)], TWO, []
     yield "vertex-face late", [above(1.0), above(0.5), above(-0.25, 0.25)], TWO, []
@@ -132,7 +137,12 @@ def read(path):
         return file.read()
 
 
+GROUPS = {"groups": {"low": [[0, 2]], "high": [[3, 5]]}, "ignore": [["low", "high"]]}
+
+
 def written_by_noli(noli, folder):
+    with open(os.path.join(folder, "groups.json"), "w", encoding="utf-8") as file:
+        json.dump(GROUPS, file)
     for number, (name, frames, cells, options) in enumerate(scenes()):
         form = number % 3  # ASCII PLY, binary PLY, OBJ
         extension = "obj" if form == 2 else "ply"

@@ -21,7 +21,7 @@ import slow_check
 import slow_files
 from mutant import Mutant, NoSuchThing, Taken, some_bytes
 from mutate_blocks import (
-    blocks_moved, claim_fields, counts_of_claim, distance, from_another, pairs_of_claim, step_fields, steps_moved, tree_elsewhere,
+    blocks_moved, claim_fields, counts_of_claim, distance, from_another, labels_of_cells, pairs_of_claim, step_fields, steps_moved, tree_elsewhere,
     tree_numbers, tree_shape, units_finer)
 from mutate_motion import all_positions, blocks_of_run, cells_of_frames, order_of_frames, positions, scene_of_run, world_lines
 from mutate_tokens import (
@@ -34,7 +34,7 @@ from proof_bytes import serialise
 STRUCTURED = [  # (weight, mutation)
     (4, payload_bytes), (3, token_deleted), (3, token_doubled), (3, tokens_swapped), (6, token_replaced), (4, token_inserted), (4, split_moved),
     (1, split_deep), (9, coefficients), (6, plane), (1, path_longer), (2, blocks_of_tokens), (1, numbers_longer), (3, step_fields), (2, units_finer), (3, steps_moved),
-    (4, tree_numbers), (3, tree_shape), (2, tree_elsewhere), (4, claim_fields), (7, distance), (4, pairs_of_claim), (1, counts_of_claim),
+    (4, tree_numbers), (3, tree_shape), (2, tree_elsewhere), (4, claim_fields), (2, labels_of_cells), (7, distance), (4, pairs_of_claim), (1, counts_of_claim),
     (9, witness_polynomials), (7, witness_weights), (6, witness_time), (7, witness_places), (4, blocks_moved), (3, from_another),
     (14, positions), (3, all_positions), (2, order_of_frames), (5, cells_of_frames), (6, world_lines), (3, scene_of_run), (3, blocks_of_run)]
 _MUTATIONS = [mutation for _, mutation in STRUCTURED]
@@ -51,6 +51,9 @@ def fit(m, files):
         trajectory = slow_files.trajectory_of(claim, files)
         if claim.source == 2 and m.fit_cells:
             claim_block[1] = corpus.claim_bytes(2, claim.dimension, claim.strict, claim.ring, claim.eta, claim.cells_hash, (), trajectory.excluded)
+        labels = [block for block in m.groups[0][1:] if block[0] == b"LABL"]
+        if labels and claim.source != 2:
+            slow_check.take_labels(claim, trajectory, labels[0][1])
         if m.fit_cells:
             claim_block[1] = claim_block[1][:16] + slow_files.cells_hash(trajectory) + claim_block[1][48:]
         for k, (_, _, digest, _) in enumerate(trajectory.steps()):

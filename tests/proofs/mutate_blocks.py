@@ -181,6 +181,30 @@ def pairs_of_claim(m):
     m.fit_cells = m.fit_motion = True
 
 
+def labels_of_cells(m):
+    """A label changed, two swapped; labels where there are none, or none where there are."""
+    first, rng = m.groups[0], m.rng
+    there = [block for block in first if block[0] == b"LABL"]
+    m.fit_cells = rng.random() < 0.8
+    if not there:
+        if m.taken.run is not None and rng.random() < 0.9:
+            raise NoSuchThing
+        cells = len(m.taken.cells) if m.taken.frames else 3
+        labels = [rng.choice((0, 0, 1, 2, 7)) for _ in range(cells + rng.choice((0, 0, 0, 0, 1, -1)))]
+        first.insert(rng.choice((1, 1, 1, 1, 0)), [b"LABL", struct.pack(f"<{len(labels)}I", *labels)])
+        return
+    block, what = there[0], rng.randrange(6)
+    k = 4 * rng.randrange(max(1, len(block[1]) // 4))
+    if what <= 2:
+        field(block, k, "I", lambda n: rng.choice((0, 1, 2, n + 1, n ^ 1 << rng.randrange(32))))
+    elif what == 3:
+        block[1] = block[1][4:] + block[1][:4]
+    elif what == 4:
+        block[1] = rng.choice((bytes(len(block[1])), block[1][:-4], block[1] + b"\1\0\0\0", block[1][:-1]))
+    else:
+        first.remove(block)
+
+
 def counts_of_claim(m):
     block, at = m.groups[0][0], 48
     field(block, m.rng.choice((at, len(block[1]) - 4)), "I", lambda n: m.rng.choice((n + 1, n - 1, 1 << 31, 1 << 29, (1 << 32) - 1)))
@@ -200,7 +224,7 @@ def blocks_moved(m):
         j = rng.randrange(len(group))
         group[k], group[j] = group[j], group[k]
     elif what == 4:
-        group[k][0] = rng.choice((b"CLAM", b"STEP", b"TREE", b"TOKS", b"WITN", b"CMIT", b"XXXX", b"toks", b"\0\0\0\0"))
+        group[k][0] = rng.choice((b"CLAM", b"LABL", b"STEP", b"TREE", b"TOKS", b"WITN", b"CMIT", b"XXXX", b"toks", b"\0\0\0\0"))
     elif what == 5:
         rng.choice(m.groups).append(group.pop(k))
     elif what == 6:

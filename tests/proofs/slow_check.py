@@ -344,12 +344,22 @@ def check(proof, files):
         return 3, f"rejected: {reason}"
 
 
+def take_labels(claim, trajectory, payload):
+    """Block LABL."""
+    need(claim.source != 2, "LABL: of a run")
+    need(len(payload) == 4 * len(trajectory.cells), "LABL: another number of cells")
+    trajectory.labels = [int.from_bytes(payload[i : i + 4], "little") for i in range(0, len(payload), 4)]
+    need(any(trajectory.labels), "LABL: all are 0")
+
+
 def examine(proof, files):
     parts = groups(proof, b"PROF")
     first, _ = next(parts)
-    need([kind for kind, _ in first] == [b"CLAM"], "the first group")
+    need([kind for kind, _ in first] in ([b"CLAM"], [b"CLAM", b"LABL"]), "the first group")
     claim = Claim(first[0][1])
     trajectory = trajectory_of(claim, files)
+    if len(first) == 2:
+        take_labels(claim, trajectory, first[1][1])
     need(trajectory.cells, "a claim about no cells")  # OPEN: no step can have a TREE then; without steps nothing speaks against it
     need(cells_hash(trajectory) == claim.cells_hash, "CLAM: other cells")
     steps, tree, expected, refuted = trajectory.steps(), None, 0, None
