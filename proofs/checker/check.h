@@ -32,7 +32,9 @@ class Check {
     Scene scene = trajectory_->scene();
     c.require(!run() || claim_.dimension == scene.dimension, "the run has another dimension");
     read_merged(scene.vertices, c);
-    read_excluded(scene, c);
+    const std::uint32_t pairs = c.u32();
+    claim_.excluded = read_pairs<std::uint32_t>(c, pairs, "excluded pairs are not in order");
+    c.require(!run() || claim_.excluded == scene.excluded, "other pairs are excluded than those of the run");
     c.end();
     make_cells(scene);
     c.require(!claim_.cells.empty(), "a claim about no cells");
@@ -73,19 +75,8 @@ class Check {
     }
   }
 
-  void read_excluded(const Scene& scene, Reader& c) {
-    const std::uint32_t n = c.u32();
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const LabelPair pair = {c.u32(), c.u32()};
-      c.require(pair[0] <= pair[1] && (i == 0 || pair > *claim_.excluded.rbegin()), "excluded pairs are not in order");
-      claim_.excluded.insert(pair);
-    }
-    c.require(!scene.excluded || claim_.excluded == *scene.excluded, "other pairs are excluded than those of the run");
-  }
-
   void make_cells(Scene& scene) {
     claim_.cells = std::move(scene.cells);
-    claim_.labels = std::move(scene.labels);
     if (run()) return;
     std::vector<bool> used(scene.vertices, !claim_.points);
     for (const Cell& cell : claim_.cells) {
@@ -97,18 +88,17 @@ class Check {
     for (Cell& cell : claim_.cells) {
       for (std::size_t i = 0; i < cell.size; ++i) cell.v[i] = claim_.same[cell.v[i]];
     }
-    claim_.cells = tidy(std::move(claim_.cells), scene.vertices);
-    claim_.labels.assign(claim_.cells.size(), 0);
+    tidy(claim_.cells, scene.vertices);
   }
 
   Sha256::Digest cells_hash() const {
     Sha256 hash;
     hash.add_raw(std::uint64_t{claim_.same.size()});
     hash.add_raw(std::uint64_t{claim_.cells.size()});
-    for (std::size_t i = 0; i < claim_.cells.size(); ++i) {
-      hash.add_raw(claim_.cells[i].size);
-      for (const std::uint32_t v : claim_.cells[i]) hash.add_raw(v);
-      hash.add_raw(claim_.labels[i]);
+    for (const Cell& cell : claim_.cells) {
+      hash.add_raw(cell.size);
+      for (const std::uint32_t v : cell) hash.add_raw(v);
+      hash.add_raw(cell.label);
     }
     return hash.digest();
   }
@@ -144,7 +134,7 @@ class Check {
   void prove(const Integers& motion, const Reader& c) {
     auto block = proof_.next();
     if (block && block->kind == "TREE") {
-      tree_.emplace(std::move(block->data), claim_);
+      tree_.emplace(std::move(block->data), claim_.cells);
       block = proof_.next();
     }
     c.require(tree_.has_value(), "the first step has no tree");

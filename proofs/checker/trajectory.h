@@ -1,12 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The motion, step by step, from frames or from the block file of a run.
+// The motion, step by step, from frames or from the block file of a run, and what is claimed of it.
 #pragma once
 
 #include "blocks.h"
 #include "frames.h"
 
 namespace noli::checker {
+
+/// a <= b.
+using LabelPair = std::array<std::uint32_t, 2>;
+
+/// What does not change.
+struct Scene {
+  int dimension = 3;
+  std::uint64_t vertices = 0;
+  std::vector<Cell> cells;
+  std::set<LabelPair> excluded;  ///< of a run: just these have to be
+};
+
+/// What the claims of all steps have in common. Its cells are those after merging.
+struct Claim {
+  int source = 0, dimension = 3;
+  bool strict = false, points = false;
+  std::uint32_t ring = 1, merged = 0;
+  double eta = 0;
+  std::vector<std::uint32_t> same;  ///< by vertex: the one that stands for it
+  std::vector<Cell> cells;
+  std::set<LabelPair> excluded;
+
+  bool is_excluded(std::uint32_t a, std::uint32_t b) const {
+    return excluded.count({std::min(a, b), std::max(a, b)}) != 0;
+  }
+};
 
 /// The breakpoints of all vertices in one step: those of vertex v are [begin[v], begin[v + 1]).
 struct Motion {
@@ -28,18 +54,6 @@ struct Motion {
   }
 };
 
-/// a <= b.
-using LabelPair = std::array<std::uint32_t, 2>;
-
-/// What does not change. Labels: one for each cell.
-struct Scene {
-  int dimension = 3;
-  std::uint64_t vertices = 0;
-  std::vector<Cell> cells;
-  std::vector<std::uint32_t> labels;
-  std::optional<std::set<LabelPair>> excluded;  ///< of a run: just these have to be
-};
-
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
@@ -55,15 +69,15 @@ class Frames : public Trajectory {
     require(paths_.size() >= (rest ? 1 : 2), "the command line", "expected more frames");
     now_ = read_frame(paths_[0]);
   }
-  Scene scene() override { return {3, now_.x.size(), now_.cells, {}, {}}; }
+  Scene scene() override { return {3, now_.x.size(), now_.cells, {}}; }
   bool next(Motion& motion) override {
-    if (step_ + (rest_ ? 0 : 1) == paths_.size()) return false;
-    std::vector<Position> before = now_.x;
-    if (!rest_ || step_ > 0) {
-      const std::string& path = paths_[rest_ ? step_ : step_ + 1];
-      Frame frame = read_frame(path);
-      require(frame.x.size() == now_.x.size() && frame.cells == now_.cells, path,
-              "has another mesh than the frame before");
+    const std::size_t wanted = rest_ ? step_ : step_ + 1;
+    if (wanted == paths_.size()) return false;
+    const std::vector<Position> before = now_.x;
+    if (wanted > 0) {
+      Frame frame = read_frame(paths_[wanted]);
+      const bool same = frame.x.size() == now_.x.size() && frame.cells == now_.cells;
+      require(same, paths_[wanted], "has another mesh than the frame before");
       now_ = std::move(frame);
     }
     motion.t0 = rest_ ? 0 : static_cast<double>(step_);
@@ -87,6 +101,18 @@ class Frames : public Trajectory {
   Frame now_;
 };
 
+/// Pairs that ascend strictly, each with a <= b; of integers of this type.
+template <class T>
+std::set<LabelPair> read_pairs(Reader& c, std::uint32_t count, const char* wrong) {
+  std::set<LabelPair> pairs;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const LabelPair pair = {c.raw<T>(), c.raw<T>()};
+    c.require(pair[0] <= pair[1] && (i == 0 || pair > *pairs.rbegin()), wrong);
+    pairs.insert(pair);
+  }
+  return pairs;
+}
+
 /// The block file of a run, recorded in full.
 class Run : public Trajectory {
  public:
@@ -99,7 +125,7 @@ class Run : public Trajectory {
     c.require(c.u32() == 0, "the run has recorded frames alone, which are not its motion");
     c.require(c.f64() > 0, "expected a window length above 0");
     c.end();
-    Scene scene{static_cast<int>(dimension_), 0, {}, {}, std::set<LabelPair>{}};
+    Scene scene{static_cast<int>(dimension_), 0, {}, {}};
     mesh(scene);
     label(scene);
     return scene;
@@ -159,25 +185,21 @@ class Run : public Trajectory {
       Reader e = file_.as("EXCL", std::move(block));
       const std::uint32_t n = e.u32();
       e.require(n > 0, "expected a pair");
-      for (std::uint32_t i = 0; i < n; ++i) {
-        const LabelPair pair = {e.raw<std::uint16_t>(), e.raw<std::uint16_t>()};
-        e.require(pair[0] <= pair[1] && (i == 0 || pair > *pairs.rbegin()), "pairs are not in order");
-        pairs.insert(pair);
-      }
+      pairs = read_pairs<std::uint16_t>(e, n, "pairs are not in order");
       for (auto& g : group) g = e.raw<std::uint16_t>();
       e.end();
       file_.expect_commit();
     }
-    for (const Cell& cell : scene.cells) {
+    std::set<std::uint32_t> labels;
+    for (Cell& cell : scene.cells) {
       const std::uint16_t g = group[cell.v[0]];
       c.require(std::ranges::all_of(cell, [&](auto v) { return group[v] == g; }), "a cell is of two groups");
-      const bool held = std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; });
-      scene.labels.push_back(2u * g + (held ? 1 : 0));
+      cell.label = 2u * g + (std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; }) ? 1 : 0);
+      labels.insert(cell.label);
     }
-    const std::set<std::uint32_t> labels(scene.labels.begin(), scene.labels.end());
     for (const std::uint32_t a : labels) {
       for (const std::uint32_t b : labels) {
-        if (a <= b && ((a % 2 == 1 && b % 2 == 1) || pairs.count({a / 2, b / 2}) != 0)) scene.excluded->insert({a, b});
+        if (a <= b && ((a % 2 == 1 && b % 2 == 1) || pairs.count({a / 2, b / 2}) != 0)) scene.excluded.insert({a, b});
       }
     }
   }

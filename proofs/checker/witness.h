@@ -7,16 +7,16 @@
 //   l, u, e   the root of g is in [l / 2^e, u / 2^e]
 #pragma once
 
-#include "scene.h"
+#include "separation.h"
 
 namespace noli::checker {
 
 using Poly = std::vector<mpz_class>;
 
 inline Poly operator+(const Poly& f, const Poly& g) {
-  Poly sum = f.size() < g.size() ? g : f;
-  const Poly& shorter = f.size() < g.size() ? f : g;
-  for (std::size_t i = 0; i < shorter.size(); ++i) sum[i] += shorter[i];
+  if (f.size() < g.size()) return g + f;
+  Poly sum = f;
+  for (std::size_t i = 0; i < g.size(); ++i) sum[i] += g[i];
   return sum;
 }
 inline Poly operator*(const Poly& f, const Poly& g) {
@@ -36,7 +36,7 @@ inline bool divides(const Poly& g, Poly f) {
     for (std::size_t i = 0; i < g.size(); ++i) f[f.size() - g.size() + i] -= lead * g[i];
     f.pop_back();
   }
-  return std::all_of(f.begin(), f.end(), [](const mpz_class& k) { return k == 0; });
+  return std::ranges::all_of(f, [](const mpz_class& k) { return k == 0; });
 }
 
 /// 2^(e n) f(at / 2^e), where n is the degree.
@@ -62,24 +62,24 @@ inline int least_sign(Poly f, const mpz_class& l, const mpz_class& u, unsigned l
   return least;
 }
 
+/// Rejects what does not hold.
 class Witness {
  public:
-  /// Rejects what does not hold.
   Witness(Reader c, const Claim& claim, const Integers& motion) : claim_(claim), motion_(motion), c_(std::move(c)) {
     const std::uint32_t i = c_.u32(), j = c_.u32();
     require(std::max(i, j) < claim.cells.size(), "a cell that is not there is named");
-    read(p_, claim.cells[i]);
-    read(q_, claim.cells[j]);
+    p_ = read(claim.cells[i]);
+    q_ = read(claim.cells[j]);
     g_ = poly();
-    const std::uint64_t e = c_.uint();
-    require(e <= 1024, "the denominator is too long");
-    e_ = e;
+    e_ = c_.uint();
+    require(e_ <= 1024, "the denominator is too long");
     l_ = c_.sint();
     u_ = c_.sint();
     c_.end();
     require(i != j || claim_.strict, "it is about one cell, and the claim is not strict");
-    require(!claim_.is_excluded(claim_.labels[i], claim_.labels[j]), "the pair is excluded");
-    require((motion_.begin() << e_) <= l_ && l_ <= u_ && u_ <= (motion_.end() << e_), "the time is not in the step");
+    require(!claim_.is_excluded(claim_.cells[i].label, claim_.cells[j].label), "the pair is excluded");
+    const Piece& step = motion_.step();
+    require((step.a << e_) <= l_ && l_ <= u_ && u_ <= (step.b << e_), "the time is not in the step");
     for (const auto& [v, w] : p_) require(std::ranges::count(q_, v, &Corner::v) == 0, "a vertex is on both sides");
     require(g_.back() != 0, "the last coefficient of g is 0");
     require(sgn(value(g_, l_, e_)) * sgn(value(g_, u_, e_)) <= 0, "g has no change of sign");
@@ -108,18 +108,20 @@ class Witness {
   Poly poly() {
     const std::uint8_t n = c_.u8();
     require(n >= 1 && n <= 32, "a polynomial has 1 to 32 coefficients");
-    Poly f;
-    for (std::uint8_t i = 0; i < n; ++i) f.push_back(c_.sint());
+    Poly f(n);
+    for (auto& coefficient : f) coefficient = c_.sint();
     return f;
   }
-  void read(Corners& corners, const Cell& cell) {
+  Corners read(const Cell& cell) {
     const std::uint8_t n = c_.u8();
     require(n >= 1 && n <= 3, "expected 1 to 3 vertices");
-    for (std::uint8_t i = 0; i < n; ++i) {
-      const std::uint32_t v = c_.u32();
-      require(cell.has(v), "a vertex is not one of its cell");
-      corners.push_back({v, poly()});
+    Corners corners(n);
+    for (Corner& corner : corners) {
+      corner.v = c_.u32();
+      require(cell.has(corner.v), "a vertex is not one of its cell");
+      corner.weight = poly();
     }
+    return corners;
   }
   static std::string names(const Corners& corners) {
     std::string text;
@@ -134,11 +136,12 @@ class Witness {
     for (const auto& [v, w] : corners) {
       require(not_negative(w), "a weight may be negative");
       // On the segment from the last breakpoint at or before l on; at the last of all it rests.
-      const Path path = motion_.path(v);
+      Path path = motion_.path(v, motion_.step());
       std::size_t k = path.size() - 1;
       while (k > 0 && (path[k].t << e_) > l_) --k;
       const bool last = k + 1 == path.size();
-      const Breakpoint &p = path[k], q = last ? Breakpoint{p.t + 1, p.x} : path[k + 1];
+      if (last) path.push_back({path[k].t + 1, path[k].x});
+      const Breakpoint &p = path[k], &q = path[k + 1];
       require(u_ <= ((last ? p : q).t << e_), "a vertex has a breakpoint between l and u");
       const mpz_class duration = q.t - p.t;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -167,24 +170,22 @@ class Witness {
     require(not_negative(scale * scale + mpz_class(-1) * square), "the points are not as near as the least distance");
   }
 
-  /// Whether a path of fewer than K edges joins the sides.
+  /// Whether a path of fewer than K edges joins the sides: vertices are reached from P, an edge at a time.
   bool near() const {
-    std::vector<std::vector<std::uint32_t>> cells(claim_.same.size());  // by vertex
-    for (std::uint32_t i = 0; i < claim_.cells.size(); ++i) {
-      for (const std::uint32_t v : claim_.cells[i]) cells[v].push_back(i);
-    }
-    std::set<std::uint32_t> reached, border;
-    for (const Corner& corner : p_) border.insert(corner.v);
-    for (std::uint32_t k = 1; !border.empty(); ++k) {
-      reached.insert(border.begin(), border.end());
-      std::set<std::uint32_t> next;
-      for (const std::uint32_t v : border) {
-        for (const std::uint32_t i : cells[v]) next.insert(claim_.cells[i].begin(), claim_.cells[i].end());
+    std::vector<bool> reached(claim_.same.size(), false);
+    for (const Corner& corner : p_) reached[corner.v] = true;
+    const auto is_reached = [&](std::uint32_t v) { return static_cast<bool>(reached[v]); };
+    bool more = true;
+    for (std::uint32_t k = 1; k < claim_.ring && more; ++k) {
+      std::vector<std::uint32_t> next;
+      for (const Cell& cell : claim_.cells) {
+        if (std::ranges::any_of(cell, is_reached))
+          std::ranges::remove_copy_if(cell, std::back_inserter(next), is_reached);
       }
-      border.clear();
-      if (k < claim_.ring) std::ranges::set_difference(next, reached, std::inserter(border, border.end()));
+      for (const std::uint32_t v : next) reached[v] = true;
+      more = !next.empty();
     }
-    return std::ranges::any_of(q_, [&](const Corner& corner) { return reached.count(corner.v) != 0; });
+    return std::ranges::any_of(q_, is_reached, &Corner::v);
   }
 
   const Claim& claim_;
@@ -192,7 +193,7 @@ class Witness {
   Reader c_;
   Corners p_, q_;
   Poly g_;
-  unsigned long e_ = 0;
+  std::uint64_t e_ = 0;
   mpz_class l_, u_;
   std::string words_;
 };
