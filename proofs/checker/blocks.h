@@ -125,8 +125,9 @@ class BlockFile {
     require(Reader(sum, name_).u32() == crc32c(payload, crc32c(head)), at_ - 4, "the checksum is wrong");
     Block block{head.substr(0, 4), Reader(std::move(payload), name_, block_at_ + 12)};
     if (block.kind == "CMIT") return commit(block.data);
-    for (const std::string_view part : {std::string_view(head), block.data.all(), std::string_view(sum)})
-      group_.add(part);
+    group_.add(head);
+    group_.add(block.data.all());
+    group_.add(sum);
     ++blocks_;
     return block;
   }
@@ -154,8 +155,7 @@ class BlockFile {
     c.require(c.u64() == groups_, "a commit has the wrong number");
     last_ = group_.digest();
     Sha256 both;
-    both.add_raw(running_);
-    both.add_raw(last_);
+    both.add_raw(std::array{running_, last_});
     running_ = both.digest();
     c.require(c.raw<Sha256::Digest>() == last_, "the hash of the group is wrong");
     c.require(c.raw<Sha256::Digest>() == running_, "the running hash is wrong");

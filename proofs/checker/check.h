@@ -46,13 +46,11 @@ class Check {
   std::optional<std::string> go() {
     for (std::uint64_t read = 0;; ++read) {
       auto block = proof_.next();
-      if (proof_.ended()) {
-        const bool all = refuted_ || !trajectory_->next(motion_);
-        require(all, "the proof, after " + std::to_string(steps_) + " steps", "it ends, but the trajectory goes on");
-        return refuted_;
-      }
+      if (proof_.ended()) break;
       step(proof_.as("STEP", std::move(block)), read);
     }
+    require(refuted_ || !trajectory_->next(motion_), "the proof", "it ends, but the trajectory goes on");
+    return refuted_;
   }
 
   const Claim& claim() const { return claim_; }
@@ -62,7 +60,8 @@ class Check {
   bool run() const { return claim_.source == 2; }
 
   void read_merged(std::uint64_t vertices, Reader& c) {
-    for (std::uint64_t v = 0; v < vertices; ++v) claim_.same.push_back(static_cast<std::uint32_t>(v));
+    claim_.same.resize(vertices);
+    std::iota(claim_.same.begin(), claim_.same.end(), 0);
     claim_.merged = c.u32();
     c.require(!run() || claim_.merged == 0, "a run has no merged vertices");
     std::int64_t before = -1;
@@ -93,8 +92,7 @@ class Check {
 
   Sha256::Digest cells_hash() const {
     Sha256 hash;
-    hash.add_raw(std::uint64_t{claim_.same.size()});
-    hash.add_raw(std::uint64_t{claim_.cells.size()});
+    hash.add_raw(std::array<std::uint64_t, 2>{claim_.same.size(), claim_.cells.size()});
     for (const Cell& cell : claim_.cells) {
       hash.add_raw(cell.size);
       for (const std::uint32_t v : cell) hash.add_raw(v);
@@ -107,8 +105,7 @@ class Check {
     const std::uint64_t number = c.u64();
     c.require(number >= steps_ && (refuted_ || number == read), "a step has the wrong number");
     for (; steps_ <= number; ++steps_) {
-      const bool there = trajectory_->next(motion_);
-      c.require(there, "the trajectory has no such step");
+      c.require(trajectory_->next(motion_), "the trajectory has no such step");
     }
     const double t0 = c.f64(), t1 = c.f64();
     c.require(t0 == motion_.t0 && t1 == motion_.t1, "the trajectory's step has another time");
@@ -124,8 +121,8 @@ class Check {
     for (std::size_t v = 0; v < claim_.same.size(); ++v) {
       const std::uint64_t i = motion_.begin[v], j = motion_.begin[claim_.same[v]];
       const bool merged = claim_.same[v] != v;
-      c.require(!merged || (motion_.x[i] == motion_.x[j] && motion_.x[i + 1] == motion_.x[j + 1]),
-                "a merged vertex is not where the one is that stands for it");
+      const bool together = motion_.x[i] == motion_.x[j] && motion_.x[i + 1] == motion_.x[j + 1];
+      c.require(!merged || together, "a merged vertex is not where the one is that stands for it");
     }
     const Integers motion(motion_, p, q, claim_.eta, c);
     kind == 0 ? prove(motion, c) : refute(motion, number);

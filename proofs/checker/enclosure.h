@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick way to see that a direction separates two groups, in integers of 64 bits: boxes around vertices at both ends
-// of a piece, between which all their motion is. If the boxes are apart, so are the vertices; if not, nothing is known,
-// and separation.h decides.
+// A quick way to see that a direction separates two groups, in integers of 64 bits: boxes around each vertex at both ends
+// of a piece, between which its motion is. If they are apart, so are the vertices; if not, separation.h decides.
 //
-// Notation, and why this is so
-//   unit      a power of two of which all positions and the least distance are less than 2^46
-//   x'        a position in units, cut to an integer: less than 1 off
-//   t'        a time from T0 on, in units of which the step has 2^49 to 2^50, cut to an integer. With the rounding of the
-//             difference it is less than 2 off, and an end of a piece, k/d of the step's, less than 3
-//   s, e      breakpoints around the piece: the first and last of all, or at least `blur` away from it
-//   chord     the line C(t) = x'(s) + way (t - t'(s)) / span; way = x'(e) - x'(s), span = t'(e) - t'(s), at least 16.
-//             At a t' of the piece's ends it is computed for one that is up to 5 beyond s or e, so it is within
-//             1.4 |way| of x'(s); and less than 2 off, as the part of the way that is over is cut to 2^-60 of it
-//   stray     of a breakpoint between s and e: x' less the chord at t'. Those of s and of e are 0, but if span is more
-//             than t'(e) - t'(s), up to |way| < 18 |way| / span away at e
-//   slack     of a breakpoint: 1 for x', 2 for the chord, 18 |way| / span for its time; of an end of the piece: 2, and
-//             3 |way| / span. All is linear between breakpoints, and so is the chord: a vertex is always within the
-//             least and the greatest stray and the slack from the chord, 0 being a stray too
-//   box       the chord at an end of the piece, with stray and slack: below 2^50. So n.x is below 2^61 if the components of
-//             n are up to 512, and below 2^92 if they are below 2^40
-//   gap       the least n.u less the greatest n.w, of the boxes: linear between both ends, it bounds the difference there.
-//             It is more than the distance times |n| if 2^20 gap > (its units + 1) root, where root >= 2^20 |n|
+// Notation, and why it is so
+//   unit    a power of two of which all positions and the least distance are less than 2^46
+//   x'      a position in units, cut to an integer: less than 1 off
+//   t'      a time from T0 on, the step being 2^49 to 2^50 long, cut to an integer. The difference from T0 is rounded as
+//           well, so t' is less than 2 off, and an end of a piece, k/d of the step's, less than 3
+//   s, e    breakpoints around the piece: the first and last of all, or such that are `blur` away from it
+//   chord   the line C(t) = x'(s) + way (t - t'(s)) / span; way = x'(e) - x'(s), span = t'(e) - t'(s), at least 16.
+//           It is taken at times up to 5 beyond s and e, so within 1.4 |way| of x'(s); it comes out less than 2 off
+//   stray   of a breakpoint between s and e, x' less the chord. Those of s and e are 0; if span was made 16, e may be
+//           |way| <= 18 |way| / span away, with what its time is off
+//   slack   of a breakpoint 1 for x', 2 for the chord, and 18 |way| / span for its time; of an end of the piece 2 and
+//           3 |way| / span: less than 6 + 32 |way| / span. Chord and motion are linear between breakpoints, so a
+//           vertex is always within the least and the greatest stray (0 is one), and the slack, from the chord
+//   box     the chord at an end of the piece, with stray and slack: below 2^50. So n.x is below 2^61 where components
+//           of n are up to 512, and below 2^92 where they are below 2^40
+//   gap     the least n.u less the greatest n.w of the boxes, linear from end to end: a lower bound of what S asks for.
+//           2^20 gap > (units of the least distance, rounded up) root, root >= 2^20 |n|, is what S asks for
 #pragma once
 
 #include "separation.h"
@@ -99,15 +97,10 @@ class Enclosures {
   }
   Box box(std::size_t v, const Piece& piece) const {
     const std::array<std::int64_t, 2> ends = {end(piece.k, piece.halvings), end(piece.k + 1, piece.halvings)};
-    std::uint64_t s = motion_.begin[v], e = motion_.begin[v + 1] - 1;
-    for (std::uint64_t high = e; high - s > 1;) {
-      const std::uint64_t middle = (s + high) / 2;
-      (time(motion_.times[middle]) + blur <= ends[0] ? s : high) = middle;
-    }
-    for (std::uint64_t low = s; e - low > 1;) {
-      const std::uint64_t middle = (low + e) / 2;
-      (time(motion_.times[middle]) - blur >= ends[1] ? e : low) = middle;
-    }
+    const auto inner = std::views::iota(motion_.begin[v] + 1, motion_.begin[v + 1] - 1);
+    const auto first_with = [&](auto holds) { return *std::ranges::partition_point(inner, std::not_fn(holds)); };
+    const std::uint64_t s = first_with([&](auto i) { return time(motion_.times[i]) + blur > ends[0]; }) - 1,
+                        e = first_with([&](auto i) { return time(motion_.times[i]) - blur >= ends[1]; });
     const Point start = place(s), way = difference(place(e), start);
     const std::int64_t begin = time(motion_.times[s]),
                        span = std::max<std::int64_t>(time(motion_.times[e]) - begin, 16);
@@ -124,12 +117,13 @@ class Enclosures {
         stray[1][k] = std::max(stray[1][k], away[k]);
       }
     }
-    Box box = {std::array{chord(ends[0]), chord(ends[0])}, {chord(ends[1]), chord(ends[1])}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto slack = 6 + static_cast<std::int64_t>(Wide{32} * std::abs(way[k]) / span);
-      for (auto& [least, greatest] : box) {
-        least[k] += stray[0][k] - slack;
-        greatest[k] += stray[1][k] + slack;
+    Box box;
+    for (std::size_t i = 0; i < 2; ++i) {
+      box[i].fill(chord(ends[i]));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto slack = 6 + static_cast<std::int64_t>(Wide{32} * std::abs(way[k]) / span);
+        box[i][0][k] += stray[0][k] - slack;
+        box[i][1][k] += stray[1][k] + slack;
       }
     }
     return box;

@@ -61,9 +61,9 @@ inline std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 inline Frame read_obj(Reader text) {
-  static const std::set<std::string_view> skipped = {"vt",    "vn",       "vp",       "g",          "o",        "s",
-                                                     "mg",    "usemtl",   "mtllib",   "usemap",     "maplib",   "lod",
-                                                     "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
+  static const std::set<std::string_view> skipped = {"",      "vt",  "vn",       "vp",       "g",          "o",
+                                                     "s",     "mg",  "usemtl",   "mtllib",   "usemap",     "maplib",
+                                                     "bevel", "lod", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
   Frame frame;
   while (auto line = text.line()) {
     std::string statement(*line);
@@ -74,33 +74,34 @@ inline Frame read_obj(Reader text) {
     }
     auto words = words_of(statement);
     words.erase(std::ranges::find(words, '#', [](std::string_view word) { return word[0]; }), words.end());
-    const std::string_view keyword = words.empty() ? "g" : words[0];
-    if (skipped.count(keyword) != 0) continue;
-    Position x{};
-    std::vector<std::uint32_t> corners;
-    for (std::size_t i = 1; i < words.size(); ++i) {
-      if (keyword == "v") {
+    const std::string_view keyword = words.empty() ? "" : words[0];
+    if (skipped.contains(keyword)) continue;
+    if (keyword == "v") {
+      Position x{};
+      for (std::size_t i = 1; i < words.size(); ++i) {
         const auto value = text.number<double>(words[i]);
         text.require(std::isfinite(value), "expected a finite number");
         if (i <= 3) x[i - 1] = value;
-      } else {
-        const auto index = text.number<std::int64_t>(words[i].substr(0, words[i].find('/')));
-        const auto known = static_cast<std::int64_t>(frame.x.size());
-        text.require(index != 0 && -known <= index && index <= 0xffffffff, "an index is out of range");
-        corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : known + index));
       }
-    }
-    if (keyword == "v") {
       text.require(words.size() >= 3 && words.size() != 6 && words.size() <= 8, "expected 2, 3, 4, 6 or 7 numbers");
       text.require(frame.x.size() < 0xffffffff, "too many vertices");
       frame.x.push_back(x);
       continue;
     }
     text.require(keyword == "f" || keyword == "l" || keyword == "p", "expected a statement of a mesh");
-    text.require(corners.size() >= (keyword == "f" ? 3 : keyword == "l" ? 2 : 1), "too few vertices");
-    if (keyword == "f") frame.add_polygon(corners);
-    for (std::size_t i = 0; keyword == "p" && i < corners.size(); ++i) frame.add_polygon({corners[i]});
-    for (std::size_t i = 1; keyword == "l" && i < corners.size(); ++i) frame.add_polygon({corners[i - 1], corners[i]});
+    std::vector<std::uint32_t> corners;
+    for (const std::string_view word : words | std::views::drop(1)) {
+      const auto index = text.number<std::int64_t>(word.substr(0, word.find('/')));
+      const auto known = static_cast<std::int64_t>(frame.x.size());
+      text.require(index != 0 && -known <= index && index <= 0xffffffff, "an index is out of range");
+      corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : known + index));
+    }
+    const std::size_t least = keyword == "f"   ? 3
+                              : keyword == "l" ? 2
+                                               : 1,
+                      size = keyword == "f" ? corners.size() : least;
+    text.require(corners.size() >= least, "too few vertices");
+    for (auto at = corners.begin(); at + size <= corners.end(); ++at) frame.add_polygon({at, at + size});
   }
   for (const Cell& c : frame.cells)
     text.require(std::ranges::max(c.v) < frame.x.size(), "a vertex that is not there is named");
@@ -155,7 +156,7 @@ class PlyReader {
     text_.require(row != types.end(), "expected the name of a type");
     return row;
   }
-  bool has(std::string_view name) const { return names_.count(std::string(name)) != 0; }
+  bool has(std::string_view name) const { return names_.contains(name); }
 
   void header() {
     text_.require(text_.line() == "ply", "expected ply");
@@ -218,11 +219,8 @@ class PlyReader {
       const long double n = p.count == nullptr ? 1 : (this->*p.count->read)();
       text_.require(n >= 0, "a list has an impossible length");
       for (long double i = 0; i < n; ++i) {
-        if (p.use == uses.size() && ascii_) {
-          word();  // it need not be a number
-          continue;
-        }
-        const long double value = (this->*p.type->read)();
+        // What is skipped need not be a number.
+        const long double value = p.use == uses.size() && ascii_ ? (word(), 0) : (this->*p.type->read)();
         if (p.use < x.size()) x[p.use] = value;
         if (p.use == 5 || p.use == 6) corners.push_back(vertex(value));
       }
@@ -257,7 +255,7 @@ class PlyReader {
 
   Reader text_;
   bool ascii_ = false, big_ = false;
-  std::set<std::string> names_;  ///< elements, and element and property
+  std::set<std::string, std::less<>> names_;  ///< elements, and element and property
   std::vector<Element> elements_;
   std::vector<std::string_view> words_;
   std::size_t word_ = 0;

@@ -17,10 +17,10 @@ using Vertices = std::span<const std::uint32_t>;
 class Tree {
  public:
   struct Node {
-    std::uint32_t right = 0;  ///< a leaf has none, 0
-    std::uint32_t count = 0;  ///< of its vertices
-    std::uint64_t first = 0;  ///< where they begin
-    std::int64_t label = -1;  ///< that all cells below have, or -1
+    std::uint32_t right = 0;             ///< a leaf has none, 0
+    std::uint32_t count = 0;             ///< of its vertices
+    std::uint64_t first = 0;             ///< where they begin
+    std::optional<std::uint32_t> label;  ///< that all cells below have, if they have one
   };
 
   Tree(Reader c, const std::vector<Cell>& cells) : cells_(cells), seen_(cells.size(), false) {
@@ -28,7 +28,7 @@ class Tree {
     vertices_.reserve(24 * cells.size());  // more than it takes if it is balanced; what is not used is not touched
     add(c, 0);
     c.end();
-    c.require(leaves_ == cells.size(), "the tree has not all cells");
+    c.require(nodes_.size() + 1 == 2 * cells.size(), "the tree has not all cells");
   }
 
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
@@ -40,11 +40,10 @@ class Tree {
     const std::uint64_t code = c.uint();
     const auto i = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
-    std::vector<std::uint32_t> all;
+    std::vector<std::uint32_t> all;  // its vertices
     if (code != 0) {
       c.require(code <= cells_.size() && !seen_[code - 1], "a cell that is not there, or is in the tree twice");
       seen_[code - 1] = true;
-      ++leaves_;
       nodes_[i].label = cells_[code - 1].label;
       all.assign(cells_[code - 1].begin(), cells_[code - 1].end());
       std::ranges::sort(all);
@@ -64,7 +63,6 @@ class Tree {
 
   const std::vector<Cell>& cells_;
   std::vector<bool> seen_;
-  std::size_t leaves_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> vertices_;
 };
@@ -117,23 +115,7 @@ class Obligations {
         c.require(top.self, "B is for a group with itself");
         return push({{top.x, top.y, false, top.distance, top.piece}});
       case 0x06: return excluded(top, c);
-      case 0x08:
-      case 0x09:
-      case 0x0a:
-      case 0x0b:
-      case 0x0c:
-      case 0x0d:
-      case 0x0e: {
-        std::array<std::int64_t, 3> n = {0, 0, 0};
-        if (code < 0x0e) n[(code - 8) / 2] = code % 2 == 0 ? 1 : -1;
-        return direction(top, n, c);
-      }
-      case 0x10: {
-        const std::uint32_t word = c.u32();
-        c.require(word >> 30 == 0, "the highest bits of a direction are not 0");
-        const auto part = [&](int k) -> std::int64_t { return static_cast<std::int32_t>(word << (22 - 10 * k)) >> 22; };
-        return direction(top, {part(0), part(1), part(2)}, c);
-      }
+      case 0x10: return packed(top, c);
       case 0x11: {
         const Vector n = {c.sint(), c.sint(), c.sint()};
         const bool small = std::ranges::all_of(n, [](const mpz_class& k) { return abs(k) < Enclosures::limit; });
@@ -145,8 +127,12 @@ class Obligations {
       case 0x21:
       case 0x22: return drop(top, code & 3u, c);
       case 0x30: return ring(top, c);
-      default: c.require(false, "the byte before this is no token");
+      default: break;
     }
+    c.require(0x08 <= code && code <= 0x0e, "the byte before this is no token");
+    std::array<std::int64_t, 3> n = {0, 0, 0};
+    if (code < 0x0e) n[(code - 8) / 2] = code % 2 == 0 ? 1 : -1;
+    direction(top, n, c);
   }
 
   /// The new top first.
@@ -179,10 +165,8 @@ class Obligations {
     c.require(halvings < 1024, "the interval is too short for T");
     pieces_.push_back({a + b, 2 * b, 2 * k + 1, halvings + 1, ++pieces_made_});
     pieces_.push_back({2 * a, a + b, 2 * k, halvings + 1, ++pieces_made_});
-    Obligation first = top, second = top;
-    second.piece = top.piece + 1;
-    first.piece = top.piece + 2;
-    push({first, second});
+    push(
+        {{top.x, top.y, top.self, top.distance, top.piece + 2}, {top.x, top.y, top.self, top.distance, top.piece + 1}});
   }
 
   void split(const Obligation& top, Side side, const Reader& c) {
@@ -195,17 +179,15 @@ class Obligations {
 
   void parts(const Obligation& top, const Reader& c) {
     c.require(top.self && !leaf(top.x), "N is for a group with itself that has parts");
-    const Group l{top.x.node + 1, 0}, r{node(top.x).right, 0};
-    push({{l, l, true, top.distance, top.piece},
-          {l, r, false, top.distance, top.piece},
-          {r, r, true, top.distance, top.piece}});
+    const Group l{top.x.node + 1}, r{node(top.x).right};
+    const auto part = [&](Group x, Group y, bool self) { return Obligation{x, y, self, top.distance, top.piece}; };
+    push({part(l, l, true), part(l, r, false), part(r, r, true)});
   }
 
   void excluded(const Obligation& top, const Reader& c) const {
-    const std::int64_t a = node(top.x).label, b = node(top.y).label;
-    c.require(a >= 0 && b >= 0, "the cells have several labels");
-    c.require(claim_.is_excluded(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)),
-              "the labels are not an excluded pair");
+    const auto a = node(top.x).label, b = node(top.y).label;
+    c.require(a && b, "the cells have several labels");
+    c.require(claim_.is_excluded(*a, *b), "the labels are not an excluded pair");
   }
 
   void drop(const Obligation& top, std::size_t k, const Reader& c) {
@@ -222,16 +204,17 @@ class Obligations {
     c.require(!top.self && leaf(top.x) && leaf(top.y) && top.distance, "W is for two cells at distance");
     c.require(m < claim_.ring && m <= 255, "a path that is not shorter than the ring, or longer than 255");
     std::uint64_t last = first;
-    for (std::uint64_t i = 0; i < m; ++i) {
-      const std::uint64_t cell = c.uint(), next = c.uint();
-      c.require(cell < claim_.cells.size() && claim_.cells[cell].has(last) && claim_.cells[cell].has(next),
-                "a cell of the path has not its vertices");
+    for (std::uint64_t k = 0; k < m; ++k) {
+      const std::uint64_t i = c.uint(), next = c.uint();
+      c.require(i < claim_.cells.size(), "a cell of the path has not its vertices, it is not there");
+      c.require(claim_.cells[i].has(last) && claim_.cells[i].has(next), "a cell of the path has not its vertices");
       last = next;
     }
-    Room of_x, of_y;
-    c.require(
-        std::ranges::count(vertices(top.x, of_x), first) == 1 && std::ranges::count(vertices(top.y, of_y), last) == 1,
-        "the path does not join the cells");
+    const auto has = [&](const Group& g, std::uint64_t v) {
+      Room room;
+      return std::ranges::count(vertices(g, room), v) == 1;
+    };
+    c.require(has(top.x, first) && has(top.y, last), "the path does not join the cells");
     Obligation third = top;
     third.distance = false;
     push({less(top, &Obligation::x, first), less(top, &Obligation::y, last), third});
@@ -245,6 +228,12 @@ class Obligations {
     exactly(top, c, [&](auto&&... rest) { return separated(Vector{n[0], n[1], n[2]}, rest...); });
   }
 
+  void packed(const Obligation& top, Reader& c) {
+    const std::uint32_t word = c.u32();
+    c.require(word >> 30 == 0, "the highest bits of a direction are not 0");
+    const auto part = [&](int k) -> std::int64_t { return static_cast<std::int32_t>(word << (22 - 10 * k)) >> 22; };
+    direction(top, {part(0), part(1), part(2)}, c);
+  }
   void half_space(const Obligation& top, Reader& c) const {
     const unsigned long s = c.shift();
     Vector n;
@@ -261,8 +250,9 @@ class Obligations {
     const Vertices x = vertices(top.x, of_x), y = vertices(top.y, of_y);
     const Piece& piece = pieces_[top.piece];
     std::vector<Path> paths;
-    for (const std::uint32_t v : x) paths.push_back(motion_.path(v, piece));
-    for (const std::uint32_t v : y) paths.push_back(motion_.path(v, piece));
+    for (const Vertices& group : {x, y}) {
+      for (const std::uint32_t v : group) paths.push_back(motion_.path(v, piece));
+    }
     const mpz_class eta = top.distance ? motion_.eta() : mpz_class(0);
     c.require(holds(piece, eta * eta, paths, x.size()), "this does not separate the pair");
   }

@@ -35,10 +35,8 @@ class Integers {
   Integers(const Motion& motion, int p, int q, double eta, const Reader& c) : motion_(motion), p_(p), q_(q) {
     c.require(is_multiple(eta, p), "the least distance is no multiple of the step's unit");
     for (const double t : motion.times) c.require(is_multiple(t, q), "a time is no multiple of the step's unit");
-    for (const auto& x : motion.x) {
-      const bool whole = is_multiple(x[0], p) && is_multiple(x[1], p) && is_multiple(x[2], p);
-      c.require(whole, "a position is no multiple of the step's unit");
-    }
+    for (const double x : motion.x | std::views::join)
+      c.require(is_multiple(x, p), "a position is no multiple of the step's unit");
     eta_ = integer(eta, p);
     step_ = {integer(motion.t0, q), integer(motion.t1, q)};
   }

@@ -13,7 +13,7 @@ using LabelPair = std::array<std::uint32_t, 2>;
 
 /// What does not change.
 struct Scene {
-  int dimension = 3;
+  std::uint32_t dimension = 3;
   std::uint64_t vertices = 0;
   std::vector<Cell> cells;
   std::set<LabelPair> excluded;  ///< of a run: just these have to be
@@ -21,7 +21,7 @@ struct Scene {
 
 /// What the claims of all steps have in common. Its cells are those after merging.
 struct Claim {
-  int source = 0, dimension = 3;
+  std::uint32_t source = 0, dimension = 3;
   bool strict = false, points = false;
   std::uint32_t ring = 1, merged = 0;
   double eta = 0;
@@ -30,7 +30,7 @@ struct Claim {
   std::set<LabelPair> excluded;
 
   bool is_excluded(std::uint32_t a, std::uint32_t b) const {
-    return excluded.count({std::min(a, b), std::max(a, b)}) != 0;
+    return excluded.contains({std::min(a, b), std::max(a, b)});
   }
 };
 
@@ -120,15 +120,14 @@ class Run : public Trajectory {
 
   Scene scene() override {
     Reader c = file_.expect("HEAD");
-    dimension_ = c.u32();
+    dimension_ = scene_.dimension = c.u32();
     c.require(dimension_ == 2 || dimension_ == 3, "expected dimension 2 or 3");
     c.require(c.u32() == 0, "the run has recorded frames alone, which are not its motion");
     c.require(c.f64() > 0, "expected a window length above 0");
     c.end();
-    Scene scene{static_cast<int>(dimension_), 0, {}, {}};
-    mesh(scene);
-    label(scene);
-    return scene;
+    mesh();
+    label();
+    return std::move(scene_);
   }
 
   bool next(Motion& motion) override {
@@ -157,9 +156,9 @@ class Run : public Trajectory {
     return std::memcmp(&a, &b, sizeof a) == 0;
   }
 
-  void mesh(Scene& scene) {
+  void mesh() {
     Reader c = file_.expect("MESH");
-    scene.vertices = vertices_ = c.u64();
+    vertices_ = scene_.vertices = c.u64();
     c.require(vertices_ >= 1 && vertices_ <= std::uint64_t{1} << 32, "an impossible number of vertices");
     const std::array<std::uint64_t, 3> counts = {c.u64(), c.u64(), c.u64()};
     for (std::uint8_t k = 0; k < 3; ++k) {
@@ -168,13 +167,13 @@ class Run : public Trajectory {
       for (std::uint64_t i = 0; i < counts[k]; ++i) {
         for (std::size_t j = 0; j < cell.size; ++j) cell.v[j] = c.u32();
         c.require(std::ranges::max(cell.v) < vertices_, "a vertex that is not there is named");
-        scene.cells.push_back(cell);
+        scene_.cells.push_back(cell);
       }
     }
     c.end();
   }
 
-  void label(Scene& scene) {
+  void label() {
     Reader c = file_.expect("LABL");
     c.require(c.left() == vertices_, "expected a label for each vertex");
     const std::string scripted(c.take(vertices_));
@@ -191,7 +190,7 @@ class Run : public Trajectory {
       file_.expect_commit();
     }
     std::set<std::uint32_t> labels;
-    for (Cell& cell : scene.cells) {
+    for (Cell& cell : scene_.cells) {
       const std::uint16_t g = group[cell.v[0]];
       c.require(std::ranges::all_of(cell, [&](auto v) { return group[v] == g; }), "a cell is of two groups");
       cell.label = 2u * g + (std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; }) ? 1 : 0);
@@ -199,7 +198,8 @@ class Run : public Trajectory {
     }
     for (const std::uint32_t a : labels) {
       for (const std::uint32_t b : labels) {
-        if (a <= b && ((a % 2 == 1 && b % 2 == 1) || pairs.count({a / 2, b / 2}) != 0)) scene.excluded.insert({a, b});
+        const bool both_scripted = a % 2 == 1 && b % 2 == 1;
+        if (a <= b && (both_scripted || pairs.contains({a / 2, b / 2}))) scene_.excluded.insert({a, b});
       }
     }
   }
@@ -212,10 +212,9 @@ class Run : public Trajectory {
       c.require(count >= 2, "a vertex has fewer than two breakpoints");
       motion.begin.push_back(motion.begin.back() + count);
     }
-    const std::uint64_t all = motion.begin.back();
-    c.need(all, 8 * (1 + std::uint64_t{dimension_}));
-    motion.times.resize(all);
-    motion.x.assign(all, {});
+    c.need(motion.begin.back(), 8 * (1 + std::uint64_t{dimension_}));
+    motion.times.resize(motion.begin.back());
+    motion.x.assign(motion.begin.back(), {});
     for (double& t : motion.times) t = c.f64();
     for (auto& x : motion.x) {
       for (std::size_t k = 0; k < dimension_; ++k) x[k] = c.f64();
@@ -226,15 +225,15 @@ class Run : public Trajectory {
       const std::uint64_t first = motion.begin[v], last = motion.begin[v + 1] - 1;
       for (std::uint64_t i = first; i < last; ++i)
         c.require(motion.times[i] < motion.times[i + 1], "times do not ascend");
-      c.require(same_bits(motion.times[first], motion.t0) && same_bits(motion.times[last], motion.t1),
-                "a world line does not begin and end with its window");
-      c.require(windows_ == 0 || same_bits(last_[v], motion.x[first]),
-                "a vertex does not begin where it was at the end of the window before");
+      const bool covers = same_bits(motion.times[first], motion.t0) && same_bits(motion.times[last], motion.t1);
+      c.require(covers, "a world line does not begin and end with its window");
+      c.require(windows_ == 0 || same_bits(last_[v], motion.x[first]), "a vertex does not begin where it was before");
       last_[v] = motion.x[last];
     }
   }
 
   BlockFile file_;
+  Scene scene_;
   std::uint32_t dimension_ = 3;
   std::uint64_t vertices_ = 0, windows_ = 0;
   double end_ = 0;

@@ -39,16 +39,9 @@ inline bool divides(const Poly& g, Poly f) {
   return std::ranges::all_of(f, [](const mpz_class& k) { return k == 0; });
 }
 
-/// 2^(e n) f(at / 2^e), where n is the degree.
-inline mpz_class value(const Poly& f, const mpz_class& at, unsigned long e) {
-  mpz_class sum = 0;
-  for (std::size_t i = f.size(); i-- > 0;) sum = sum * at + (f[i] << (e * (f.size() - 1 - i)));
-  return sum;
-}
-
-/// The least sign of its Bernstein coefficients on [l / 2^e, u / 2^e]: those of f((l + u z) / (2^e (1 + z))) (1 + z)^n,
-/// n being its degree. Of 0 it is 0.
-inline int least_sign(Poly f, const mpz_class& l, const mpz_class& u, unsigned long e) {
+/// The Bernstein coefficients of f on [l / 2^e, u / 2^e], but for positive factors: those of
+/// 2^(e n) f((l + u z) / (2^e (1 + z))) (1 + z)^n, n being its degree. The first and the last are f(l / 2^e) and f(u / 2^e).
+inline Poly bernstein(Poly f, const mpz_class& l, const mpz_class& u, unsigned long e) {
   while (!f.empty() && f.back() == 0) f.pop_back();
   Poly sum(f.size(), 0), power = {1};  // power: (l + u z)^k
   for (std::size_t k = 0; k < f.size(); ++k) {
@@ -57,9 +50,7 @@ inline int least_sign(Poly f, const mpz_class& l, const mpz_class& u, unsigned l
     sum = sum + term;
     power = power * Poly{l, u};
   }
-  int least = f.empty() ? 0 : 1;
-  for (const mpz_class& k : sum) least = std::min(least, sgn(k));
-  return least;
+  return sum;
 }
 
 /// Rejects what does not hold.
@@ -82,10 +73,10 @@ class Witness {
     require((step.a << e_) <= l_ && l_ <= u_ && u_ <= (step.b << e_), "the time is not in the step");
     for (const auto& [v, w] : p_) require(std::ranges::count(q_, v, &Corner::v) == 0, "a vertex is on both sides");
     require(g_.back() != 0, "the last coefficient of g is 0");
-    require(sgn(value(g_, l_, e_)) * sgn(value(g_, u_, e_)) <= 0, "g has no change of sign");
+    const Poly signs = bernstein(g_, l_, u_, e_);
+    require(sgn(signs.front()) * sgn(signs.back()) <= 0, "g has no change of sign");
     meet(centre(p_), centre(q_));
-    words_ = "vertices" + names(p_) + " of cell " + std::to_string(i) + " and" + names(q_) + " of cell " +
-             std::to_string(j) + " meet";
+    words_ = "vertices" + names(p_, i) + " and" + names(q_, j) + " meet";
   }
 
   const std::string& words() const { return words_; }
@@ -123,13 +114,18 @@ class Witness {
     }
     return corners;
   }
-  static std::string names(const Corners& corners) {
+  static std::string names(const Corners& corners, std::uint32_t cell) {
     std::string text;
     for (const Corner& corner : corners) text += (text.empty() ? " {" : " ") + std::to_string(corner.v);
-    return text + "}";
+    return text + "} of cell " + std::to_string(cell);
   }
 
-  bool not_negative(const Poly& f) const { return divides(g_, f) || least_sign(f, l_, u_, e_) >= 0; }
+  /// The least sign of its Bernstein coefficients; of 0 it is 0.
+  int least_sign(const Poly& f) const {
+    const Poly coefficients = bernstein(f, l_, u_, e_);
+    return coefficients.empty() ? 0 : sgn(std::ranges::min(coefficients));
+  }
+  bool not_negative(const Poly& f) const { return divides(g_, f) || least_sign(f) >= 0; }
 
   Centre centre(const Corners& corners) const {
     Centre sum;
@@ -151,7 +147,7 @@ class Witness {
       sum.duration *= duration;
       sum.weight = sum.weight + w;
     }
-    require(least_sign(sum.weight, l_, u_, e_) > 0, "a sum of weights may not be positive");
+    require(least_sign(sum.weight) > 0, "a sum of weights may not be positive");
     return sum;
   }
 
