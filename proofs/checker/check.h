@@ -49,7 +49,8 @@ class Check {
       if (proof_.ended()) break;
       step(proof_.as("STEP", std::move(block)), read);
     }
-    require(refuted_ || !trajectory_->next(motion_), "the proof", "it ends, but the trajectory goes on");
+    const std::string place = "the proof, after " + std::to_string(steps_) + " steps";
+    require(refuted_ || !trajectory_->next(motion_), place, "it ends, but the trajectory goes on");
     return refuted_;
   }
 

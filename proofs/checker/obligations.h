@@ -192,10 +192,10 @@ class Obligations {
 
   void drop(const Obligation& top, std::size_t k, const Reader& c) {
     c.require(!top.self && leaf(top.x) && leaf(top.y), "D is for two cells");
-    Room of_x, of_y;
-    std::vector<std::uint32_t> common;
-    std::ranges::set_intersection(vertices(top.x, of_x), vertices(top.y, of_y), std::back_inserter(common));
-    c.require(k < common.size(), "there is no such common vertex");
+    Room of_x, of_y, common;
+    const auto [x, y, end] =
+        std::ranges::set_intersection(vertices(top.x, of_x), vertices(top.y, of_y), common.begin());
+    c.require(common.begin() + k < end, "there is no such common vertex");
     push({less(top, &Obligation::x, common[k]), less(top, &Obligation::y, common[k])});
   }
 
@@ -206,8 +206,9 @@ class Obligations {
     std::uint64_t last = first;
     for (std::uint64_t k = 0; k < m; ++k) {
       const std::uint64_t i = c.uint(), next = c.uint();
-      c.require(i < claim_.cells.size(), "a cell of the path has not its vertices, it is not there");
-      c.require(claim_.cells[i].has(last) && claim_.cells[i].has(next), "a cell of the path has not its vertices");
+      const auto& cells = claim_.cells;
+      c.require(i < cells.size() && cells[i].has(last) && cells[i].has(next),
+                "a cell of the path has not its vertices");
       last = next;
     }
     const auto has = [&](const Group& g, std::uint64_t v) {

@@ -227,7 +227,8 @@ class Run : public Trajectory {
         c.require(motion.times[i] < motion.times[i + 1], "times do not ascend");
       const bool covers = same_bits(motion.times[first], motion.t0) && same_bits(motion.times[last], motion.t1);
       c.require(covers, "a world line does not begin and end with its window");
-      c.require(windows_ == 0 || same_bits(last_[v], motion.x[first]), "a vertex does not begin where it was before");
+      c.require(windows_ == 0 || same_bits(last_[v], motion.x[first]),
+                "a vertex does not begin where it was at the end of the window before");
       last_[v] = motion.x[last];
     }
   }
