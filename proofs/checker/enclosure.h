@@ -10,7 +10,8 @@
 //           well, so t' is less than 2 off, and an end of a piece, k/d of the step's, less than 3
 //   s, e    breakpoints around the piece: the first and last of all, or such that are `blur` away from it
 //   chord   the line C(t) = x'(s) + way (t - t'(s)) / span; way = x'(e) - x'(s), span = t'(e) - t'(s), at least 16.
-//           It is taken at times up to 5 beyond s and e, so within 1.4 |way| of x'(s); it comes out less than 2 off
+//           It is taken at times up to 5 beyond s and e, so within 1.4 |way| of x'(s). Its differences are exact in
+//           binary64, a quotient and a product are rounded and then cut: less than 2 off
 //   stray   of a breakpoint between s and e, x' less the chord. Those of s and e are 0; if span was made 16, e may be
 //           |way| <= 18 |way| / span away, with what its time is off
 //   slack   of a breakpoint 1 for x', 2 for the chord, and 18 |way| / span for its time; of an end of the piece 2 and
@@ -105,8 +106,10 @@ class Enclosures {
     const std::int64_t begin = time(motion_.times[s]),
                        span = std::max<std::int64_t>(time(motion_.times[e]) - begin, 16);
     const auto chord = [&](std::int64_t t) {
-      const auto over = static_cast<std::int64_t>((Wide{t - begin} << 60) / span);
-      const auto at = [&](std::size_t k) { return start[k] + static_cast<std::int64_t>(Wide{way[k]} * over >> 60); };
+      const double over = static_cast<double>(t - begin) / static_cast<double>(span);
+      const auto at = [&](std::size_t k) {
+        return start[k] + static_cast<std::int64_t>(static_cast<double>(way[k]) * over);
+      };
       return Point{at(0), at(1), at(2)};
     };
     std::array<Point, 2> stray{};
@@ -121,7 +124,7 @@ class Enclosures {
     for (std::size_t i = 0; i < 2; ++i) {
       box[i].fill(chord(ends[i]));
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto slack = 6 + static_cast<std::int64_t>(Wide{32} * std::abs(way[k]) / span);
+        const std::int64_t slack = 6 + 32 * std::abs(way[k]) / span;
         box[i][0][k] += stray[0][k] - slack;
         box[i][1][k] += stray[1][k] + slack;
       }

@@ -26,7 +26,7 @@ struct Frame {
   std::vector<Cell> cells;
 
   /// p0 p1 ... pn as faces around p0; two vertices are a loose edge, one is a loose point.
-  void add_polygon(const std::vector<std::uint32_t>& p) {
+  void add_polygon(std::span<const std::uint32_t> p) {
     if (p.size() == 1) cells.push_back({{p[0]}, 1});
     if (p.size() == 2) cells.push_back({{p[0], p[1]}, 2});
     for (std::size_t i = 2; i < p.size(); ++i) cells.push_back({{p[0], p[i - 1], p[i]}, 3});
@@ -61,9 +61,9 @@ inline std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 inline Frame read_obj(Reader text) {
-  static const std::set<std::string_view> skipped = {"",      "vt",  "vn",       "vp",       "g",          "o",
-                                                     "s",     "mg",  "usemtl",   "mtllib",   "usemap",     "maplib",
-                                                     "bevel", "lod", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
+  static const std::map<std::string_view, std::size_t> shapes = {{"p", 1}, {"l", 2}, {"f", 3}};  // least numbers
+  static constexpr std::string_view skipped =
+      "  vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj ";
   Frame frame;
   while (auto line = text.line()) {
     std::string statement(*line);
@@ -74,8 +74,8 @@ inline Frame read_obj(Reader text) {
     }
     auto words = words_of(statement);
     words.erase(std::ranges::find(words, '#', [](std::string_view word) { return word[0]; }), words.end());
-    const std::string_view keyword = words.empty() ? "" : words[0];
-    if (skipped.contains(keyword)) continue;
+    const std::string keyword(words.empty() ? "" : words[0]);
+    if (skipped.find(" " + keyword + " ") != std::string_view::npos) continue;
     if (keyword == "v") {
       Position x{};
       for (std::size_t i = 1; i < words.size(); ++i) {
@@ -88,7 +88,8 @@ inline Frame read_obj(Reader text) {
       frame.x.push_back(x);
       continue;
     }
-    text.require(keyword == "f" || keyword == "l" || keyword == "p", "expected a statement of a mesh");
+    const auto shape = shapes.find(keyword);
+    text.require(shape != shapes.end(), "expected a statement of a mesh");
     std::vector<std::uint32_t> corners;
     for (const std::string_view word : words | std::views::drop(1)) {
       const auto index = text.number<std::int64_t>(word.substr(0, word.find('/')));
@@ -96,12 +97,9 @@ inline Frame read_obj(Reader text) {
       text.require(index != 0 && -known <= index && index <= 0xffffffff, "an index is out of range");
       corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : known + index));
     }
-    const std::size_t least = keyword == "f"   ? 3
-                              : keyword == "l" ? 2
-                                               : 1,
-                      size = keyword == "f" ? corners.size() : least;
+    const std::size_t least = shape->second, size = keyword == "f" ? corners.size() : least;
     text.require(corners.size() >= least, "too few vertices");
-    for (auto at = corners.begin(); at + size <= corners.end(); ++at) frame.add_polygon({at, at + size});
+    for (std::size_t i = 0; i + size <= corners.size(); ++i) frame.add_polygon(std::span(corners).subspan(i, size));
   }
   for (const Cell& c : frame.cells)
     text.require(std::ranges::max(c.v) < frame.x.size(), "a vertex that is not there is named");
