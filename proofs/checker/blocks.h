@@ -72,7 +72,7 @@ class Sha256 {
     auto [a, b, c, d, e, f, g, h] = state_;
     auto w = std::bit_cast<std::array<std::uint32_t, 16>>(block_);
     for (auto& word : w) word = __builtin_bswap32(word);
-#pragma GCC unroll 16
+#pragma GCC unroll 64
     for (std::size_t i = 0; i < 64; ++i) {
       const std::uint32_t t1 =
           h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + (g ^ (e & (f ^ g))) + k[i] + w[i % 16];

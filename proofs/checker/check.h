@@ -29,7 +29,7 @@ class Check {
     c.require(!run() || paths.size() == 1, "the proof is of a run: expected its trajectory.blocks, one file");
     if (run()) trajectory_ = std::make_unique<Run>(paths[0]);
     if (!run()) trajectory_ = std::make_unique<Frames>(paths, claim_.source == 1);
-    Scene scene = trajectory_->scene();
+    Scene& scene = trajectory_->scene;
     c.require(!run() || claim_.dimension == scene.dimension, "the run has another dimension");
     read_merged(scene.vertices, c);
     const std::uint32_t pairs = c.u32();

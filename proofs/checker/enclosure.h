@@ -45,7 +45,8 @@ class Enclosures {
     time_unit_ = std::ldexp(1, 49 - std::ilogb(duration));
     duration_ = time(motion.t1);
     eta_ = eta > 0 ? static_cast<std::int64_t>(eta * unit_) + 1 : 0;
-    for (std::size_t v = 0; v + 1 < motion.begin.size(); ++v) whole_step_.push_back(box(v, {}));
+    whole_step_.resize(motion.begin.size() - 1);
+    for (std::size_t v = 0; v < whole_step_.size(); ++v) whole_step_[v] = box(v, {});
   }
 
   /// Whether a direction surely separates two groups that have vertices, by the least distance or just so.

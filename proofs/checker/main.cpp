@@ -9,9 +9,8 @@
 #include "check.h"
 
 namespace noli::checker {
-namespace {
 
-void print_claim(const Claim& claim, std::uint64_t steps) {
+static void print_claim(const Claim& claim, std::uint64_t steps) {
   constexpr std::array sources = {"frames, straight lines between them", "frames at rest", "a run"};
   std::printf("%llu steps of %s; dimension %u; %zu cells of %zu vertices.\n", static_cast<unsigned long long>(steps),
               sources[claim.source], claim.dimension, claim.cells.size(), claim.same.size());
@@ -24,7 +23,7 @@ void print_claim(const Claim& claim, std::uint64_t steps) {
   if (!claim.excluded.empty()) std::printf("\n");
 }
 
-int run(const std::vector<std::string>& arguments) {
+static int run(const std::vector<std::string>& arguments) {
   require(arguments.size() >= 2, "the command line", "expected a proof, and frames or a trajectory.blocks");
   Check check(arguments[0], {arguments.begin() + 1, arguments.end()});
   const auto refuted = check.go();
@@ -34,7 +33,6 @@ int run(const std::vector<std::string>& arguments) {
   return refuted ? 1 : 0;
 }
 
-}  // namespace
 }  // namespace noli::checker
 
 int main(int argc, char** argv) {

@@ -57,9 +57,10 @@ struct Motion {
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
-  virtual Scene scene() = 0;
   /// The next step, if there is one.
   virtual bool next(Motion& motion) = 0;
+
+  Scene scene;
 };
 
 /// Frames, moving or at rest.
@@ -68,8 +69,8 @@ class Frames : public Trajectory {
   Frames(std::vector<std::string> paths, bool rest) : paths_(std::move(paths)), rest_(rest) {
     require(paths_.size() >= (rest ? 1 : 2), "the command line", "expected more frames");
     now_ = read_frame(paths_[0]);
+    scene = {3, now_.x.size(), now_.cells, {}};
   }
-  Scene scene() override { return {3, now_.x.size(), now_.cells, {}}; }
   bool next(Motion& motion) override {
     const std::size_t wanted = rest_ ? step_ : step_ + 1;
     if (wanted == paths_.size()) return false;
@@ -116,18 +117,15 @@ std::set<LabelPair> read_pairs(Reader& c, std::uint32_t count, const char* wrong
 /// The block file of a run, recorded in full.
 class Run : public Trajectory {
  public:
-  explicit Run(const std::string& path) : file_(path, "TRAJ") {}
-
-  Scene scene() override {
+  explicit Run(const std::string& path) : file_(path, "TRAJ") {
     Reader c = file_.expect("HEAD");
-    dimension_ = scene_.dimension = c.u32();
-    c.require(dimension_ == 2 || dimension_ == 3, "expected dimension 2 or 3");
+    scene.dimension = c.u32();
+    c.require(scene.dimension == 2 || scene.dimension == 3, "expected dimension 2 or 3");
     c.require(c.u32() == 0, "the run has recorded frames alone, which are not its motion");
     c.require(c.f64() > 0, "expected a window length above 0");
     c.end();
     mesh();
     label();
-    return std::move(scene_);
   }
 
   bool next(Motion& motion) override {
@@ -158,16 +156,16 @@ class Run : public Trajectory {
 
   void mesh() {
     Reader c = file_.expect("MESH");
-    vertices_ = scene_.vertices = c.u64();
-    c.require(vertices_ >= 1 && vertices_ <= std::uint64_t{1} << 32, "an impossible number of vertices");
+    scene.vertices = c.u64();
+    c.require(scene.vertices >= 1 && scene.vertices <= std::uint64_t{1} << 32, "an impossible number of vertices");
     const std::array<std::uint64_t, 3> counts = {c.u64(), c.u64(), c.u64()};
     for (std::uint8_t k = 0; k < 3; ++k) {
       Cell cell{{}, static_cast<std::uint8_t>(3 - k)};
       c.need(counts[k], 4u * cell.size);
       for (std::uint64_t i = 0; i < counts[k]; ++i) {
         for (std::size_t j = 0; j < cell.size; ++j) cell.v[j] = c.u32();
-        c.require(std::ranges::max(cell.v) < vertices_, "a vertex that is not there is named");
-        scene_.cells.push_back(cell);
+        c.require(std::ranges::max(cell.v) < scene.vertices, "a vertex that is not there is named");
+        scene.cells.push_back(cell);
       }
     }
     c.end();
@@ -175,10 +173,10 @@ class Run : public Trajectory {
 
   void label() {
     Reader c = file_.expect("LABL");
-    c.require(c.left() == vertices_, "expected a label for each vertex");
-    const std::string scripted(c.take(vertices_));
+    c.require(c.left() == scene.vertices, "expected a label for each vertex");
+    const std::string scripted(c.take(scene.vertices));
     c.require(std::ranges::all_of(scripted, [](char l) { return l == 0 || l == 1; }), "a label is not 0 or 1");
-    std::vector<std::uint16_t> group(vertices_, 0);
+    std::vector<std::uint16_t> group(scene.vertices, 0);
     std::set<LabelPair> pairs;
     if (auto block = file_.next()) {
       Reader e = file_.as("EXCL", std::move(block));
@@ -190,7 +188,7 @@ class Run : public Trajectory {
       file_.expect_commit();
     }
     std::set<std::uint32_t> labels;
-    for (Cell& cell : scene_.cells) {
+    for (Cell& cell : scene.cells) {
       const std::uint16_t g = group[cell.v[0]];
       c.require(std::ranges::all_of(cell, [&](auto v) { return group[v] == g; }), "a cell is of two groups");
       cell.label = 2u * g + (std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; }) ? 1 : 0);
@@ -199,7 +197,7 @@ class Run : public Trajectory {
     for (const std::uint32_t a : labels) {
       for (const std::uint32_t b : labels) {
         const bool both_scripted = a % 2 == 1 && b % 2 == 1;
-        if (a <= b && (both_scripted || pairs.contains({a / 2, b / 2}))) scene_.excluded.insert({a, b});
+        if (a <= b && (both_scripted || pairs.contains({a / 2, b / 2}))) scene.excluded.insert({a, b});
       }
     }
   }
@@ -207,21 +205,21 @@ class Run : public Trajectory {
   void lines(Motion& motion) {
     Reader c = file_.expect("LINE");
     motion.begin = {0};
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    for (std::size_t v = 0; v < scene.vertices; ++v) {
       const std::uint32_t count = c.u32();
       c.require(count >= 2, "a vertex has fewer than two breakpoints");
       motion.begin.push_back(motion.begin.back() + count);
     }
-    c.need(motion.begin.back(), 8 * (1 + std::uint64_t{dimension_}));
+    c.need(motion.begin.back(), 8 * (1 + std::uint64_t{scene.dimension}));
     motion.times.resize(motion.begin.back());
     motion.x.assign(motion.begin.back(), {});
     for (double& t : motion.times) t = c.f64();
     for (auto& x : motion.x) {
-      for (std::size_t k = 0; k < dimension_; ++k) x[k] = c.f64();
+      for (std::size_t k = 0; k < scene.dimension; ++k) x[k] = c.f64();
     }
     c.end();
-    last_.resize(vertices_);
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    last_.resize(scene.vertices);
+    for (std::size_t v = 0; v < scene.vertices; ++v) {
       const std::uint64_t first = motion.begin[v], last = motion.begin[v + 1] - 1;
       for (std::uint64_t i = first; i < last; ++i)
         c.require(motion.times[i] < motion.times[i + 1], "times do not ascend");
@@ -234,9 +232,7 @@ class Run : public Trajectory {
   }
 
   BlockFile file_;
-  Scene scene_;
-  std::uint32_t dimension_ = 3;
-  std::uint64_t vertices_ = 0, windows_ = 0;
+  std::uint64_t windows_ = 0;
   double end_ = 0;
   std::vector<Position> last_;
 };
