@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick way to see that a direction separates two groups, in integers of 64 bits: boxes around each vertex at both ends
-// of a piece, between which its motion is. If they are apart, so are the vertices; if not, separation.h decides.
+// A quick way to see that a direction separates two groups, in integers of 64 bits: boxes around each vertex at both
+// ends of a piece, between which its motion is. If they are apart, so are the vertices; if not, separation.h decides.
 //
 // Notation, and why it is so
 //   unit    a power of two of which all positions and the least distance are less than 2^46
 //   x'      a position in units, cut to an integer: less than 1 off
-//   t'      a time from T0 on, the step being 2^49 to 2^50 long, cut to an integer. The difference from T0 is rounded as
-//           well, so t' is less than 2 off, and an end of a piece, k/d of the step's, less than 3
+//   t'      a time from T0 on, the step being 2^49 to 2^50 long, cut to an integer. The difference from T0 is rounded
+//           as well, so t' is less than 2 off, and an end of a piece, k/d of the step's, less than 3
 //   s, e    breakpoints around the piece: the first and last of all, or such that are `blur` away from it
 //   chord   the line C(t) = x'(s) + way (t - t'(s)) / span; way = x'(e) - x'(s), span = t'(e) - t'(s), at least 16.
 //           It is taken at times up to 5 beyond s and e, so within 1.4 |way| of x'(s). Its differences are exact in
 //           binary64, a quotient and a product are rounded and then cut: less than 2 off
 //   stray   of a breakpoint between s and e, x' less the chord. Those of s and e are 0; if span was made 16, e may be
-//           |way| <= 18 |way| / span away, with what its time is off
+//           18 |way| / span away, with what its time is off
 //   slack   of a breakpoint 1 for x', 2 for the chord, and 18 |way| / span for its time; of an end of the piece 2 and
 //           3 |way| / span: less than 6 + 32 |way| / span. Chord and motion are linear between breakpoints, so a
 //           vertex is always within the least and the greatest stray (0 is one), and the slack, from the chord

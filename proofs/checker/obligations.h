@@ -13,7 +13,7 @@ namespace noli::checker {
 
 using Vertices = std::span<const std::uint32_t>;
 
-/// The tree of block TREE. Its nodes are numbered in prefix order: the root is 0, and the left child of node i is i + 1.
+/// The tree of block TREE. Nodes are numbered in prefix order: the root is 0, the left child of node i is i + 1.
 class Tree {
  public:
   struct Node {

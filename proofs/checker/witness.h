@@ -40,7 +40,7 @@ inline bool divides(const Poly& g, Poly f) {
 }
 
 /// The Bernstein coefficients of f on [l / 2^e, u / 2^e], but for positive factors: those of
-/// 2^(e n) f((l + u z) / (2^e (1 + z))) (1 + z)^n, n being its degree. The first and the last are f(l / 2^e) and f(u / 2^e).
+/// 2^(e n) f((l + u z) / (2^e (1 + z))) (1 + z)^n, n being its degree. The first and last are f(l / 2^e), f(u / 2^e).
 inline Poly bernstein(Poly f, const mpz_class& l, const mpz_class& u, unsigned long e) {
   while (!f.empty() && f.back() == 0) f.pop_back();
   Poly sum(f.size(), 0), power = {1};  // power: (l + u z)^k
