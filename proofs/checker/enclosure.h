@@ -99,10 +99,9 @@ class Enclosures {
   }
   Box box(std::size_t v, const Piece& piece) const {
     const std::array<std::int64_t, 2> ends = {end(piece.k, piece.halvings), end(piece.k + 1, piece.halvings)};
-    const auto inner = std::views::iota(motion_.begin[v] + 1, motion_.begin[v + 1] - 1);
-    const auto first_with = [&](auto holds) { return *std::ranges::partition_point(inner, std::not_fn(holds)); };
-    const std::uint64_t s = first_with([&](auto i) { return time(motion_.times[i]) + blur > ends[0]; }) - 1,
-                        e = first_with([&](auto i) { return time(motion_.times[i]) - blur >= ends[1]; });
+    const auto time_of = [&](std::uint64_t i) { return time(motion_.times[i]); };
+    const std::uint64_t s = motion_.segment_end(v, [&](std::uint64_t i) { return time_of(i) + blur <= ends[0]; }) - 1,
+                        e = motion_.segment_end(v, [&](std::uint64_t i) { return time_of(i) - blur < ends[1]; });
     const Point start = place(s), way = difference(place(e), start);
     const std::int64_t begin = time(motion_.times[s]),
                        span = std::max<std::int64_t>(time(motion_.times[e]) - begin, 16);

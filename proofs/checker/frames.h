@@ -91,8 +91,8 @@ inline Frame read_obj(Reader text) {
     const auto shape = shapes.find(keyword);
     text.require(shape != shapes.end(), "expected a statement of a mesh");
     std::vector<std::uint32_t> corners;
-    for (const std::string_view word : words | std::views::drop(1)) {
-      const auto index = text.number<std::int64_t>(word.substr(0, word.find('/')));
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      const auto index = text.number<std::int64_t>(words[i].substr(0, words[i].find('/')));
       const auto known = static_cast<std::int64_t>(frame.x.size());
       text.require(index != 0 && -known <= index && index <= 0xffffffff, "an index is out of range");
       corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : known + index));

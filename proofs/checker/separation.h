@@ -35,8 +35,9 @@ class Integers {
   Integers(const Motion& motion, int p, int q, double eta, const Reader& c) : motion_(motion), p_(p), q_(q) {
     c.require(is_multiple(eta, p), "the least distance is no multiple of the step's unit");
     for (const double t : motion.times) c.require(is_multiple(t, q), "a time is no multiple of the step's unit");
-    for (const double x : motion.x | std::views::join)
-      c.require(is_multiple(x, p), "a position is no multiple of the step's unit");
+    for (const Position& x : motion.x) {
+      for (const double k : x) c.require(is_multiple(k, p), "a position is no multiple of the step's unit");
+    }
     eta_ = integer(eta, p);
     step_ = {integer(motion.t0, q), integer(motion.t1, q)};
   }
@@ -46,10 +47,9 @@ class Integers {
   const Piece& step() const { return step_; }
   Path path(std::uint32_t v, const Piece& piece) const {
     const auto time = [&](std::uint64_t i) { return mpz_class(integer(motion_.times[i], q_) << piece.halvings); };
-    const auto inner = std::views::iota(motion_.begin[v] + 1, motion_.begin[v + 1] - 1);
-    const auto behind = std::ranges::partition_point(inner, [&](std::uint64_t i) { return time(i) <= piece.a; });
+    std::uint64_t i = motion_.segment_end(v, [&](std::uint64_t k) { return time(k) <= piece.a; }) - 1;
     Path result;
-    for (std::uint64_t i = *behind - 1; result.empty() || result.back().t < piece.b; ++i) {
+    for (; result.empty() || result.back().t < piece.b; ++i) {
       const auto& x = motion_.x[i];
       result.push_back({time(i), {integer(x[0], p_), integer(x[1], p_), integer(x[2], p_)}});
     }
@@ -111,15 +111,18 @@ inline std::set<mpz_class> times_of(const Piece& piece, Paths paths) {
 inline bool separated(const Vector& n, const Piece& piece, const mpz_class& eta2, Paths paths, std::size_t of_x) {
   if (of_x == 0 || of_x == paths.size()) return true;
   const mpz_class least = eta2 * dot(n, n);
-  return std::ranges::all_of(times_of(piece, paths), [&](const mpz_class& c) {
-    const auto values = paths | std::views::transform([&](const Path& path) { return value(n, path, c); });
-    const Fraction low = std::ranges::min(values | std::views::take(of_x), less),
-                   high = std::ranges::max(values | std::views::drop(of_x), less);
+  for (const mpz_class& c : times_of(piece, paths)) {
+    Fraction low = value(n, paths.front(), c), high = value(n, paths.back(), c);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      Fraction f = value(n, paths[i], c);
+      if (i < of_x ? less(f, low) : less(high, f)) std::swap(f, i < of_x ? low : high);
+    }
     const mpz_class g = low.numerator * high.denominator - high.numerator * low.denominator,
                     h = low.denominator * high.denominator;
     const bool apart = g > 0 && g * g > least * h * h;
-    return apart;
-  });
+    if (!apart) return false;
+  }
+  return true;
 }
 
 /// P.

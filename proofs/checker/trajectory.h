@@ -42,6 +42,16 @@ struct Motion {
   std::vector<Position> x;
   std::optional<Sha256::Digest> group_hash;  ///< of a window in its file
 
+  /// The first breakpoint of a vertex behind its first one of which this does not hold; if there is none, its last.
+  template <class Holds>
+  std::uint64_t segment_end(std::size_t v, const Holds& holds) const {
+    std::uint64_t low = begin[v], high = begin[v + 1] - 1;
+    while (high - low > 1) {
+      const std::uint64_t middle = (low + high) / 2;
+      (holds(middle) ? low : high) = middle;
+    }
+    return high;
+  }
   Sha256::Digest hash() const {
     if (group_hash) return *group_hash;
     Sha256 hash;
