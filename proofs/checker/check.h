@@ -29,10 +29,12 @@ class Check {
     c.require(!run() || paths.size() == 1, "the proof is of a run: expected its trajectory.blocks, one file");
     if (run()) trajectory_ = std::make_unique<Run>(paths[0]);
     if (!run()) trajectory_ = std::make_unique<Frames>(paths, claim_.source == 1);
-    Scene scene = trajectory_->scene();
+    Scene& scene = trajectory_->scene;
     c.require(!run() || claim_.dimension == scene.dimension, "the run has another dimension");
     read_merged(scene.vertices, c);
-    read_excluded(scene, c);
+    const std::uint32_t pairs = c.u32();
+    claim_.excluded = read_pairs<std::uint32_t>(c, pairs, "excluded pairs are not in order");
+    c.require(!run() || claim_.excluded == scene.excluded, "other pairs are excluded than those of the run");
     c.end();
     make_cells(scene);
     c.require(!claim_.cells.empty(), "a claim about no cells");
@@ -44,13 +46,12 @@ class Check {
   std::optional<std::string> go() {
     for (std::uint64_t read = 0;; ++read) {
       auto block = proof_.next();
-      if (proof_.ended()) {
-        const bool all = refuted_ || !trajectory_->next(motion_);
-        require(all, "the proof, after " + std::to_string(steps_) + " steps", "it ends, but the trajectory goes on");
-        return refuted_;
-      }
+      if (proof_.ended()) break;
       step(proof_.as("STEP", std::move(block)), read);
     }
+    const std::string place = "the proof, after " + std::to_string(steps_) + " steps";
+    require(refuted_ || !trajectory_->next(motion_), place, "it ends, but the trajectory goes on");
+    return refuted_;
   }
 
   const Claim& claim() const { return claim_; }
@@ -60,7 +61,8 @@ class Check {
   bool run() const { return claim_.source == 2; }
 
   void read_merged(std::uint64_t vertices, Reader& c) {
-    for (std::uint64_t v = 0; v < vertices; ++v) claim_.same.push_back(static_cast<std::uint32_t>(v));
+    claim_.same.resize(vertices);
+    std::iota(claim_.same.begin(), claim_.same.end(), 0);
     claim_.merged = c.u32();
     c.require(!run() || claim_.merged == 0, "a run has no merged vertices");
     std::int64_t before = -1;
@@ -73,19 +75,8 @@ class Check {
     }
   }
 
-  void read_excluded(const Scene& scene, Reader& c) {
-    const std::uint32_t n = c.u32();
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const LabelPair pair = {c.u32(), c.u32()};
-      c.require(pair[0] <= pair[1] && (i == 0 || pair > *claim_.excluded.rbegin()), "excluded pairs are not in order");
-      claim_.excluded.insert(pair);
-    }
-    c.require(!scene.excluded || claim_.excluded == *scene.excluded, "other pairs are excluded than those of the run");
-  }
-
   void make_cells(Scene& scene) {
     claim_.cells = std::move(scene.cells);
-    claim_.labels = std::move(scene.labels);
     if (run()) return;
     std::vector<bool> used(scene.vertices, !claim_.points);
     for (const Cell& cell : claim_.cells) {
@@ -97,18 +88,16 @@ class Check {
     for (Cell& cell : claim_.cells) {
       for (std::size_t i = 0; i < cell.size; ++i) cell.v[i] = claim_.same[cell.v[i]];
     }
-    claim_.cells = tidy(std::move(claim_.cells), scene.vertices);
-    claim_.labels.assign(claim_.cells.size(), 0);
+    tidy(claim_.cells, scene.vertices);
   }
 
   Sha256::Digest cells_hash() const {
     Sha256 hash;
-    hash.add_raw(std::uint64_t{claim_.same.size()});
-    hash.add_raw(std::uint64_t{claim_.cells.size()});
-    for (std::size_t i = 0; i < claim_.cells.size(); ++i) {
-      hash.add_raw(claim_.cells[i].size);
-      for (const std::uint32_t v : claim_.cells[i]) hash.add_raw(v);
-      hash.add_raw(claim_.labels[i]);
+    hash.add_raw(std::array<std::uint64_t, 2>{claim_.same.size(), claim_.cells.size()});
+    for (const Cell& cell : claim_.cells) {
+      hash.add_raw(cell.size);
+      for (const std::uint32_t v : cell) hash.add_raw(v);
+      hash.add_raw(cell.label);
     }
     return hash.digest();
   }
@@ -117,8 +106,7 @@ class Check {
     const std::uint64_t number = c.u64();
     c.require(number >= steps_ && (refuted_ || number == read), "a step has the wrong number");
     for (; steps_ <= number; ++steps_) {
-      const bool there = trajectory_->next(motion_);
-      c.require(there, "the trajectory has no such step");
+      c.require(trajectory_->next(motion_), "the trajectory has no such step");
     }
     const double t0 = c.f64(), t1 = c.f64();
     c.require(t0 == motion_.t0 && t1 == motion_.t1, "the trajectory's step has another time");
@@ -134,8 +122,8 @@ class Check {
     for (std::size_t v = 0; v < claim_.same.size(); ++v) {
       const std::uint64_t i = motion_.begin[v], j = motion_.begin[claim_.same[v]];
       const bool merged = claim_.same[v] != v;
-      c.require(!merged || (motion_.x[i] == motion_.x[j] && motion_.x[i + 1] == motion_.x[j + 1]),
-                "a merged vertex is not where the one is that stands for it");
+      const bool together = motion_.x[i] == motion_.x[j] && motion_.x[i + 1] == motion_.x[j + 1];
+      c.require(!merged || together, "a merged vertex is not where the one is that stands for it");
     }
     const Integers motion(motion_, p, q, claim_.eta, c);
     kind == 0 ? prove(motion, c) : refute(motion, number);
@@ -144,7 +132,7 @@ class Check {
   void prove(const Integers& motion, const Reader& c) {
     auto block = proof_.next();
     if (block && block->kind == "TREE") {
-      tree_.emplace(std::move(block->data), claim_);
+      tree_.emplace(std::move(block->data), claim_.cells);
       block = proof_.next();
     }
     c.require(tree_.has_value(), "the first step has no tree");

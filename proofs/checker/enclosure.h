@@ -1,142 +1,155 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick way to see that a direction separates two groups: bounds of where vertices are, in integers of 50 bits. If
-// the bounds are apart, so are the vertices; if not, nothing is known, and separation.h decides.
+// A quick way to see that a direction separates two groups, in integers of 64 bits: boxes around each vertex at both
+// ends of a piece, between which its motion is. If they are apart, so are the vertices; if not, separation.h decides.
 //
-// Notation
-//   unit       a power of two with which all positions of the step are below 2^50 units
-//   x', t'     a position, a time in units (of time, 2^60), rounded down: less than 1 too low, or, where it underflows,
-//              less than 1 too high
-//   from, to   the ends of the interval in units of time: less than 2 too low, or less than 1 too high
-//   [s, e]     two breakpoints around the interval: the first and last of all, or at least `blur` away from it
-//   chord      from x'(s) at t'(s) to x'(e) at t'(e); way = x'(e) - x'(s), span = t'(e) - t'(s), taken for 1 if it is 0
-//   stray      of a breakpoint between s and e: x' less the chord. The vertex is within the least and the greatest of
-//              these and 0 from the chord, with a slack for what is rounded, for a breakpoint and for an end of the
-//              interval: 1 for x', 1 for the chord and |way| / 2^40 for its slope, 2 |way| / span for the time. If
-//              span was 0, the vertex is within the least and the greatest of these, 0 and way from x'(s)
-//   n          with components below 2^40: n.x is below 2^99
+// Notation, and why it is so
+//   unit    a power of two of which all positions and the least distance are less than 2^46
+//   x'      a position in units, cut to an integer: less than 1 off
+//   t'      a time from T0 on, the step being 2^49 to 2^50 long, cut to an integer. The difference from T0 is rounded
+//           as well, so t' is less than 2 off, and an end of a piece, k/d of the step's, less than 3
+//   s, e    breakpoints around the piece: the first and last of all, or such that are `blur` away from it
+//   chord   the line C(t) = x'(s) + way (t - t'(s)) / span; way = x'(e) - x'(s), span = t'(e) - t'(s), at least 16.
+//           It is taken at times up to 5 beyond s and e, so within 1.4 |way| of x'(s). Its differences are exact in
+//           binary64, a quotient and a product are rounded and then cut: less than 2 off
+//   stray   of a breakpoint between s and e, x' less the chord. Those of s and e are 0; if span was made 16, e may be
+//           18 |way| / span away, with what its time is off
+//   slack   of a breakpoint 1 for x', 2 for the chord, and 18 |way| / span for its time; of an end of the piece 2 and
+//           3 |way| / span: less than 6 + 32 |way| / span. Chord and motion are linear between breakpoints, so a
+//           vertex is always within the least and the greatest stray (0 is one), and the slack, from the chord
+//   box     the chord at an end of the piece, with stray and slack: below 2^50. So n.x is below 2^61 where components
+//           of n are up to 512, and below 2^92 where they are below 2^40
+//   gap     the least n.u less the greatest n.w of the boxes, linear from end to end: a lower bound of what S asks for.
+//           2^20 gap > (units of the least distance, rounded up) root, root >= 2^20 |n|, is what S asks for
 #pragma once
 
-#include "scene.h"
+#include "separation.h"
 
 namespace noli::checker {
 
 class Enclosures {
   using Point = std::array<std::int64_t, 3>;
-  struct Bound {
-    std::array<Point, 2> ends{};                         ///< of the chord, at both ends of the interval
-    std::array<std::array<std::int64_t, 2>, 3> stray{};  ///< with slack
-  };
+  using Box = std::array<std::array<Point, 2>, 2>;  ///< [end of the piece][least, greatest]
 
  public:
-  explicit Enclosures(const Motion& motion) : motion_(motion) {
-    double most = 0x1p-900, latest = 0x1p-900;
+  using Vertices = std::span<const std::uint32_t>;
+
+  Enclosures(const Motion& motion, double eta)
+      : motion_(motion), known_(std::min(4 * motion.begin.size(), most_known)) {
+    const double duration = motion.t1 - motion.t0;
+    double most = std::max(eta, 0x1p-900);
     for (const auto& x : motion.x) most = std::max({most, std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
-    for (const double t : motion.times) latest = std::max(latest, std::abs(t));
-    usable_ = most <= 0x1p900 && latest <= 0x1p900;
+    usable_ = most <= 0x1p900 && 0x1p-900 <= duration && duration <= 0x1p900;
     if (!usable_) return;
-    scale_ = 49 - std::ilogb(most);
-    time_scale_ = 59 - std::ilogb(latest);
-    t0_ = whole(motion.t0, time_scale_);
-    duration_ = whole(motion.t1, time_scale_) - t0_;
-    for (std::size_t v = 0; v + 1 < motion.begin.size(); ++v) whole_step_.push_back(bound(v, 0, 0));
+    unit_ = std::ldexp(1, 45 - std::ilogb(most));
+    time_unit_ = std::ldexp(1, 49 - std::ilogb(duration));
+    duration_ = time(motion.t1);
+    eta_ = eta > 0 ? static_cast<std::int64_t>(eta * unit_) + 1 : 0;
+    whole_step_.resize(motion.begin.size() - 1);
+    for (std::size_t v = 0; v < whole_step_.size(); ++v) whole_step_[v] = box(v, {});
   }
 
-  /// Whether a direction n separates, over the interval number k of 2^halvings: the vertices of both groups are added
-  /// one by one, then it is open() or not known.
-  class Gap {
-   public:
-    Gap(const Enclosures& all, const std::array<long, 3>& n, std::int64_t k, int halvings)
-        : all_(all), n_(n), k_(k), halvings_(halvings) {}
-    void add(std::uint32_t v, bool above) {
-      halvings_ == 0 ? add(all_.whole_step_[v], above) : add(all_.bound(v, k_, halvings_), above);
-    }
-    bool open() const {
-      const bool apart = high_[0] < low_[0] && high_[1] < low_[1];
-      return apart;
-    }
-
-   private:
-    void add(const Bound& b, bool above) {
-      Wide away = 0;
-      for (std::size_t i = 0; i < 3; ++i) away += n_[i] * Wide{b.stray[i][(n_[i] < 0) == above ? 1 : 0]};
-      for (std::size_t e = 0; e < 2; ++e) {
-        const auto& x = b.ends[e];
-        const Wide value = Wide{n_[0]} * x[0] + Wide{n_[1]} * x[1] + Wide{n_[2]} * x[2] + away;
-        above ? low_[e] = std::min(low_[e], value) : high_[e] = std::max(high_[e], value);
-      }
-    }
-
-    const Enclosures& all_;
-    std::array<long, 3> n_;
-    std::int64_t k_;
-    int halvings_;
-    std::array<Wide, 2> low_{Wide{1} << 100, Wide{1} << 100}, high_{-(Wide{1} << 100), -(Wide{1} << 100)};
-  };
-
-  static constexpr long limit = 1L << 40;
-  bool usable(const std::array<long, 3>& n, unsigned long halvings) const {
-    const bool usable =
-        usable_ && halvings <= 30 && std::ranges::all_of(n, [](long c) { return -limit < c && c < limit; });
-    return usable;
+  /// Whether a direction surely separates two groups that have vertices, by the least distance or just so.
+  bool apart(const Point& n, const Piece& piece, Vertices x, Vertices y, bool distance) {
+    const std::int64_t most = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
+    const bool usable = usable_ && piece.halvings <= 30 && most < limit;
+    if (!usable) return false;
+    return most <= 512 ? apart<std::int64_t>(n, piece, x, y, distance) : apart<Wide>(n, piece, x, y, distance);
   }
+
+  static constexpr std::int64_t limit = std::int64_t{1} << 40;
 
  private:
-  static std::int64_t whole(double x, int scale) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, scale))); }
-  std::int64_t time(std::uint64_t i) const { return whole(motion_.times[i], time_scale_); }
+  struct Known {
+    std::uint64_t piece = 0;
+    std::uint32_t v = 0;
+    Box box{};
+  };
 
-  Bound bound(std::size_t v, std::int64_t k, int halvings) const {
-    const std::uint64_t first = motion_.begin[v], last = motion_.begin[v + 1] - 1;
-    const std::array<Wide, 2> ends = {t0_ + (Wide{k} * duration_ >> halvings),
-                                      t0_ + (Wide{k + 1} * duration_ >> halvings)};
-    std::uint64_t s = first, e = last;
-    for (std::uint64_t high = last; high - s > 1;) {
-      const std::uint64_t middle = (s + high) / 2;
-      (time(middle) + blur <= ends[0] ? s : high) = middle;
-    }
-    for (std::uint64_t low = s; e - low > 1;) {
-      const std::uint64_t middle = (low + e) / 2;
-      (time(middle) - blur >= ends[1] ? e : low) = middle;
-    }
-    const bool straight = last - first == 1;  // its times are those of the step, so nothing is blurred
-    const std::int64_t begin = straight ? 0 : time(s), span = straight ? 1 : std::max<std::int64_t>(time(e) - begin, 1);
-    const auto slope = [&](Wide t) { return static_cast<std::int64_t>(((t - begin) << 40) / span); };
-    Point start, way;
-    Bound b;
-    for (std::size_t i = 0; i < 3; ++i) {
-      start[i] = whole(motion_.x[s][i], scale_);
-      way[i] = whole(motion_.x[e][i], scale_) - start[i];
-    }
-    for (int i = 0; i < 2; ++i) b.ends[i] = at(start, way, straight ? (k + i) << (40 - halvings) : slope(ends[i]));
-    for (std::uint64_t j = s + 1; j < e; ++j) {
-      const Point chord = at(start, way, slope(time(j)));
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int64_t away = whole(motion_.x[j][i], scale_) - chord[i];
-        b.stray[i] = {std::min(b.stray[i][0], away), std::max(b.stray[i][1], away)};
+  template <class Number>
+  bool apart(const Point& n, const Piece& piece, Vertices x, Vertices y, bool distance) {
+    const auto low = least<Number>(n, piece, x), back = least<Number>({-n[0], -n[1], -n[2]}, piece, y);
+    const auto part = [&](std::size_t i) { return static_cast<double>(n[i]); };
+    const double root = distance ? std::ceil(0x1p20 * (1 + 0x1p-40) * std::hypot(part(0), part(1), part(2))) : 0;
+    const Wide asked = eta_ * static_cast<Wide>(root), room = 1 << 20;
+    const bool apart = room * (Wide{low[0]} + back[0]) > asked && room * (Wide{low[1]} + back[1]) > asked;
+    return apart;
+  }
+  /// The least n.u at both ends of the piece.
+  template <class Number>
+  std::array<Number, 2> least(const Point& n, const Piece& piece, Vertices vertices) {
+    std::array<Number, 2> least;
+    least.fill(Number{1} << (8 * sizeof(Number) - 3));
+    const std::array<bool, 3> side = {n[0] < 0, n[1] < 0, n[2] < 0};
+    for (const std::uint32_t v : vertices) {
+      const Box& box = piece.halvings == 0 ? whole_step_[v] : known(v, piece);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto part = [&](std::size_t k) { return Number{n[k]} * box[i][side[k] ? 1 : 0][k]; };
+        least[i] = std::min(least[i], part(0) + part(1) + part(2));
       }
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t size = std::abs(way[i]),
-                         slack = 6 + (size >> 38) +
-                                 (straight ? 0 : static_cast<std::int64_t>(Wide{4 * blur} * size / span));
-      b.stray[i][0] -= slack;
-      b.stray[i][1] += slack;
-    }
-    return b;
-  }
-  /// The chord where the part f / 2^40 of its time is over.
-  static Point at(const Point& start, const Point& way, std::int64_t f) {
-    const auto on = [&](std::size_t i) { return start[i] + static_cast<std::int64_t>(Wide{way[i]} * f >> 40); };
-    return {on(0), on(1), on(2)};
+    return least;
   }
 
-  static constexpr std::int64_t blur = 4;
+  /// A few boxes are remembered.
+  const Box& known(std::uint32_t v, const Piece& piece) {
+    Known& known = known_[(v + 40503 * piece.id) % known_.size()];
+    if (known.piece != piece.id || known.v != v) known = {piece.id, v, box(v, piece)};
+    return known.box;
+  }
+  Box box(std::size_t v, const Piece& piece) const {
+    const std::array<std::int64_t, 2> ends = {end(piece.k, piece.halvings), end(piece.k + 1, piece.halvings)};
+    const auto time_of = [&](std::uint64_t i) { return time(motion_.times[i]); };
+    const std::uint64_t s = motion_.segment_end(v, [&](std::uint64_t i) { return time_of(i) + blur <= ends[0]; }) - 1,
+                        e = motion_.segment_end(v, [&](std::uint64_t i) { return time_of(i) - blur < ends[1]; });
+    const Point start = place(s), way = difference(place(e), start);
+    const std::int64_t begin = time(motion_.times[s]),
+                       span = std::max<std::int64_t>(time(motion_.times[e]) - begin, 16);
+    const auto chord = [&](std::int64_t t) {
+      const double over = static_cast<double>(t - begin) / static_cast<double>(span);
+      const auto at = [&](std::size_t k) {
+        return start[k] + static_cast<std::int64_t>(static_cast<double>(way[k]) * over);
+      };
+      return Point{at(0), at(1), at(2)};
+    };
+    std::array<Point, 2> stray{};
+    for (std::uint64_t i = s + 1; i < e; ++i) {
+      const Point away = difference(place(i), chord(time(motion_.times[i])));
+      for (std::size_t k = 0; k < 3; ++k) {
+        stray[0][k] = std::min(stray[0][k], away[k]);
+        stray[1][k] = std::max(stray[1][k], away[k]);
+      }
+    }
+    Box box;
+    for (std::size_t i = 0; i < 2; ++i) {
+      box[i].fill(chord(ends[i]));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t slack = 6 + 32 * std::abs(way[k]) / span;
+        box[i][0][k] += stray[0][k] - slack;
+        box[i][1][k] += stray[1][k] + slack;
+      }
+    }
+    return box;
+  }
+  std::int64_t end(std::uint64_t k, std::uint64_t halvings) const {
+    return static_cast<std::int64_t>(Wide{duration_} * static_cast<Wide>(k) >> halvings);
+  }
+  std::int64_t time(double t) const { return static_cast<std::int64_t>((t - motion_.t0) * time_unit_); }
+  Point place(std::uint64_t i) const {
+    const auto at = [&](std::size_t k) { return static_cast<std::int64_t>(motion_.x[i][k] * unit_); };
+    return {at(0), at(1), at(2)};
+  }
+  static Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+  static constexpr std::size_t most_known = 1 << 15;
+  static constexpr std::int64_t blur = 5;
 
   const Motion& motion_;
   bool usable_ = false;
-  int scale_ = 0, time_scale_ = 0;
-  std::int64_t t0_ = 0, duration_ = 1;
-  std::vector<Bound> whole_step_;  ///< by vertex
+  double unit_ = 1, time_unit_ = 1;
+  std::int64_t duration_ = 1, eta_ = 0;
+  std::vector<Box> whole_step_;  ///< by vertex
+  std::vector<Known> known_;
 };
 
 }  // namespace noli::checker

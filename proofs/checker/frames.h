@@ -3,8 +3,6 @@
 // Frames: PLY and OBJ, as proofs/FORMAT.md, section 8, says.
 #pragma once
 
-#include <set>
-
 #include "base.h"
 
 namespace noli::checker {
@@ -15,6 +13,7 @@ using Position = std::array<double, 3>;
 struct Cell {
   std::array<std::uint32_t, 3> v{};
   std::uint8_t size = 0;
+  std::uint32_t label = 0;
 
   auto begin() const { return v.begin(); }
   auto end() const { return v.begin() + size; }
@@ -25,12 +24,19 @@ struct Cell {
 struct Frame {
   std::vector<Position> x;
   std::vector<Cell> cells;
+
+  /// p0 p1 ... pn as faces around p0; two vertices are a loose edge, one is a loose point.
+  void add_polygon(std::span<const std::uint32_t> p) {
+    if (p.size() == 1) cells.push_back({{p[0]}, 1});
+    if (p.size() == 2) cells.push_back({{p[0], p[1]}, 2});
+    for (std::size_t i = 2; i < p.size(); ++i) cells.push_back({{p[0], p[i - 1], p[i]}, 3});
+  }
 };
 
 /// Faces, then loose edges, then loose points, each in their order, without those that are redundant.
-inline std::vector<Cell> tidy(std::vector<Cell> cells, std::size_t vertices) {
+inline void tidy(std::vector<Cell>& cells, std::size_t vertices) {
   std::ranges::stable_sort(cells, std::greater<>{}, &Cell::size);
-  if (cells.empty() || cells.back().size == 3) return cells;
+  if (cells.empty() || cells.back().size == 3) return;
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::vector<bool> used(vertices, false);
   std::erase_if(cells, [&](const Cell& c) {
@@ -42,20 +48,22 @@ inline std::vector<Cell> tidy(std::vector<Cell> cells, std::size_t vertices) {
     for (const std::uint32_t v : c) used[v] = true;
     return redundant;
   });
-  return cells;
 }
 
-/// p0 p1 ... pn as faces around p0; two vertices are a loose edge, one is a loose point.
-inline void add_polygon(std::vector<Cell>& cells, const std::vector<std::uint32_t>& p) {
-  if (p.size() == 1) cells.push_back({{p[0]}, 1});
-  if (p.size() == 2) cells.push_back({{p[0], p[1]}, 2});
-  for (std::size_t i = 2; i < p.size(); ++i) cells.push_back({{p[0], p[i - 1], p[i]}, 3});
+inline std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(" \t", end);
+  }
+  return words;
 }
 
 inline Frame read_obj(Reader text) {
-  static const std::set<std::string_view> skipped = {"vt",    "vn",       "vp",       "g",          "o",        "s",
-                                                     "mg",    "usemtl",   "mtllib",   "usemap",     "maplib",   "lod",
-                                                     "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
+  static const std::map<std::string_view, std::size_t> shapes = {{"p", 1}, {"l", 2}, {"f", 3}};  // least numbers
+  static constexpr std::string_view skipped =
+      "  vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj ";
   Frame frame;
   while (auto line = text.line()) {
     std::string statement(*line);
@@ -66,38 +74,35 @@ inline Frame read_obj(Reader text) {
     }
     auto words = words_of(statement);
     words.erase(std::ranges::find(words, '#', [](std::string_view word) { return word[0]; }), words.end());
-    const std::string_view keyword = words.empty() ? "g" : words[0];
-    Position x{};
-    std::vector<std::uint32_t> corners;
-    for (std::size_t i = 1; i < words.size() && skipped.count(keyword) == 0; ++i) {
-      if (keyword == "v") {
+    const std::string keyword(words.empty() ? "" : words[0]);
+    if (skipped.find(" " + keyword + " ") != std::string_view::npos) continue;
+    if (keyword == "v") {
+      Position x{};
+      for (std::size_t i = 1; i < words.size(); ++i) {
         const auto value = text.number<double>(words[i]);
         text.require(std::isfinite(value), "expected a finite number");
         if (i <= 3) x[i - 1] = value;
-      } else {
-        const auto index = text.number<std::int64_t>(words[i].substr(0, words[i].find('/')));
-        const auto known = static_cast<std::int64_t>(frame.x.size());
-        text.require(index != 0 && -known <= index && index <= 0xffffffff, "an index is out of range");
-        corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : known + index));
       }
-    }
-    if (keyword == "v") {
       text.require(words.size() >= 3 && words.size() != 6 && words.size() <= 8, "expected 2, 3, 4, 6 or 7 numbers");
       text.require(frame.x.size() < 0xffffffff, "too many vertices");
       frame.x.push_back(x);
-    } else if (keyword == "f" || keyword == "l" || keyword == "p") {
-      text.require(corners.size() >= (keyword == "f" ? 3 : keyword == "l" ? 2 : 1), "too few vertices");
-      if (keyword == "f") add_polygon(frame.cells, corners);
-      for (std::size_t i = 0; keyword == "p" && i < corners.size(); ++i) add_polygon(frame.cells, {corners[i]});
-      for (std::size_t i = 1; keyword == "l" && i < corners.size(); ++i)
-        add_polygon(frame.cells, {corners[i - 1], corners[i]});
-    } else {
-      text.require(skipped.count(keyword) != 0, "expected a statement of a mesh");
+      continue;
     }
+    const auto shape = shapes.find(keyword);
+    text.require(shape != shapes.end(), "expected a statement of a mesh");
+    std::vector<std::uint32_t> corners;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      const auto index = text.number<std::int64_t>(words[i].substr(0, words[i].find('/')));
+      const auto known = static_cast<std::int64_t>(frame.x.size());
+      text.require(index != 0 && -known <= index && index <= 0xffffffff, "an index is out of range");
+      corners.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : known + index));
+    }
+    const std::size_t least = shape->second, size = keyword == "f" ? corners.size() : least;
+    text.require(corners.size() >= least, "too few vertices");
+    for (std::size_t i = 0; i + size <= corners.size(); ++i) frame.add_polygon(std::span(corners).subspan(i, size));
   }
   for (const Cell& c : frame.cells)
     text.require(std::ranges::max(c.v) < frame.x.size(), "a vertex that is not there is named");
-  frame.cells = tidy(std::move(frame.cells), frame.x.size());
   return frame;
 }
 
@@ -113,7 +118,6 @@ class PlyReader {
     while (const auto line = ascii_ ? text_.line() : std::nullopt)
       text_.require(words_of(*line).empty(), "expected the end of the file");
     text_.end();
-    frame_.cells = tidy(std::move(frame_.cells), vertices_);
     return std::move(frame_);
   }
 
@@ -150,6 +154,7 @@ class PlyReader {
     text_.require(row != types.end(), "expected the name of a type");
     return row;
   }
+  bool has(std::string_view name) const { return names_.contains(name); }
 
   void header() {
     text_.require(text_.line() == "ply", "expected ply");
@@ -186,7 +191,6 @@ class PlyReader {
     }
     if (!ascii_) text_.no_more_lines();
   }
-  bool has(std::string_view name) const { return names_.count(std::string(name)) != 0; }
 
   void property(Element& e, const std::vector<std::string_view>& w) {
     const bool list = w.size() > 1 && w[1] == "list";
@@ -213,11 +217,8 @@ class PlyReader {
       const long double n = p.count == nullptr ? 1 : (this->*p.count->read)();
       text_.require(n >= 0, "a list has an impossible length");
       for (long double i = 0; i < n; ++i) {
-        if (p.use == uses.size() && ascii_) {
-          word();
-          continue;
-        }
-        const long double value = (this->*p.type->read)();
+        // What is skipped need not be a number.
+        const long double value = p.use == uses.size() && ascii_ ? (word(), 0) : (this->*p.type->read)();
         if (p.use < x.size()) x[p.use] = value;
         if (p.use == 5 || p.use == 6) corners.push_back(vertex(value));
       }
@@ -226,7 +227,7 @@ class PlyReader {
     if (e.name == "vertex") frame_.x.push_back({real(x[0]), real(x[1]), real(x[2])});
     if (e.name == "edge") corners = {vertex(x[3]), vertex(x[4])};
     text_.require(e.name != "face" || !corners.empty(), "a face without vertices");
-    add_polygon(frame_.cells, corners);
+    frame_.add_polygon(corners);
   }
 
   std::string_view word() {
@@ -252,7 +253,7 @@ class PlyReader {
 
   Reader text_;
   bool ascii_ = false, big_ = false;
-  std::set<std::string> names_;  ///< elements, and element and property
+  std::set<std::string, std::less<>> names_;  ///< elements, and element and property
   std::vector<Element> elements_;
   std::vector<std::string_view> words_;
   std::size_t word_ = 0;
@@ -266,7 +267,9 @@ inline Frame read_frame(const std::string& path) {
   require(end == ".ply" || end == ".obj", path, "expected a name that ends in .ply or .obj");
   Reader text(Input(path).read(std::numeric_limits<std::uint64_t>::max()), path);
   text.require(text.left() > 0, "expected a file that is not empty");
-  return end == ".ply" ? PlyReader(std::move(text)).read() : read_obj(std::move(text));
+  Frame frame = end == ".ply" ? PlyReader(std::move(text)).read() : read_obj(std::move(text));
+  tidy(frame.cells, frame.x.size());
+  return frame;
 }
 
 }  // namespace noli::checker

@@ -4,47 +4,40 @@
 //
 // Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What it says and its exit codes are
 // in section 6 there. A proof, or the block file of a run, that is named - is read from the standard input.
-//
-// What this does not do: it trusts nobody but the C++ standard library and GMP, and finds nothing by itself.
 #include <exception>
 
 #include "check.h"
 
 namespace noli::checker {
-namespace {
 
-void print_claim(const Claim& claim, std::uint64_t steps) {
+static void print_claim(const Claim& claim, std::uint64_t steps) {
   constexpr std::array sources = {"frames, straight lines between them", "frames at rest", "a run"};
-  std::printf("%llu steps of %s; dimension %d; %zu cells of %zu vertices.\n", static_cast<unsigned long long>(steps),
-              sources[static_cast<std::size_t>(claim.source)], claim.dimension, claim.cells.size(), claim.same.size());
+  std::printf("%llu steps of %s; dimension %u; %zu cells of %zu vertices.\n", static_cast<unsigned long long>(steps),
+              sources[claim.source], claim.dimension, claim.cells.size(), claim.same.size());
   std::printf("Compared: features of two different cells%s.\n", claim.strict ? ", and of one" : "");
   if (claim.points) std::printf("Vertices without a cell are points.\n");
   if (claim.merged > 0) std::printf("Merged: %u vertices, each always where another is.\n", claim.merged);
   if (claim.eta > 0) std::printf("Least distance %.17g, ring %u.\n", claim.eta, claim.ring);
-  if (claim.excluded.empty()) return;
-  std::printf("Not compared, pairs of labels:");
+  if (!claim.excluded.empty()) std::printf("Not compared, pairs of labels:");
   for (const auto& [a, b] : claim.excluded) std::printf(" %u-%u", a, b);
-  std::printf("\n");
+  if (!claim.excluded.empty()) std::printf("\n");
 }
 
-int run(const std::vector<std::string>& arguments) {
+static int run(const std::vector<std::string>& arguments) {
+  require(arguments.size() >= 2, "the command line", "expected a proof, and frames or a trajectory.blocks");
   Check check(arguments[0], {arguments.begin() + 1, arguments.end()});
   const auto refuted = check.go();
   std::printf("%s%s\n", refuted ? "refuted: " : "accepted: nothing touches", refuted.value_or("").c_str());
   print_claim(check.claim(), check.steps());
-  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  if (!written) throw Rejected{"standard output", "cannot be written"};
+  require(std::fflush(stdout) == 0 && std::ferror(stdout) == 0, "standard output", "cannot be written");
   return refuted ? 1 : 0;
 }
 
-}  // namespace
 }  // namespace noli::checker
 
 int main(int argc, char** argv) {
   try {
-    if (argc < 3)
-      throw noli::checker::Rejected{"the command line", "expected a proof, and frames or a trajectory.blocks"};
-    return noli::checker::run({argv + 1, argv + argc});
+    return noli::checker::run({argv + std::min(argc, 1), argv + argc});
   } catch (const noli::checker::Rejected& r) {
     std::printf("rejected: %s: %s\n", r.where.c_str(), r.why.c_str());
   } catch (const std::exception& e) {

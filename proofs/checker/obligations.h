@@ -1,15 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The stack of obligations, and what each token does to it: proofs/FORMAT.md, sections 3 and 4.
+// The tree over the cells, the stack of obligations, and what each token does to it: proofs/FORMAT.md, sections 2 to 4.
 //
 // Notation
-//   group   a node of the tree, less up to two vertices if it is a leaf
+//   vertices   ids after merging, each once, ascending
+//   group      a node of the tree, less up to two vertices if it is a leaf
 #pragma once
 
 #include "enclosure.h"
-#include "separation.h"
 
 namespace noli::checker {
+
+using Vertices = std::span<const std::uint32_t>;
+
+/// The tree of block TREE. Nodes are numbered in prefix order: the root is 0, the left child of node i is i + 1.
+class Tree {
+ public:
+  struct Node {
+    std::uint32_t right = 0;             ///< a leaf has none, 0
+    std::uint32_t count = 0;             ///< of its vertices
+    std::uint64_t first = 0;             ///< where they begin
+    std::optional<std::uint32_t> label;  ///< that all cells below have, if they have one
+  };
+
+  Tree(Reader c, const std::vector<Cell>& cells) : cells_(cells), seen_(cells.size(), false) {
+    nodes_.reserve(2 * cells.size());
+    vertices_.reserve(24 * cells.size());  // more than it takes if it is balanced; what is not used is not touched
+    add(c, 0);
+    c.end();
+    c.require(nodes_.size() + 1 == 2 * cells.size(), "the tree has not all cells");
+  }
+
+  const Node& node(std::uint32_t i) const { return nodes_[i]; }
+  Vertices vertices(std::uint32_t i) const { return Vertices(vertices_).subspan(nodes_[i].first, nodes_[i].count); }
+
+ private:
+  /// Reads the node that is next, and returns its number.
+  std::uint32_t add(Reader& c, int depth) {
+    const std::uint64_t code = c.uint();
+    const auto i = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+    std::vector<std::uint32_t> all;  // its vertices
+    if (code != 0) {
+      c.require(code <= cells_.size() && !seen_[code - 1], "a cell that is not there, or is in the tree twice");
+      seen_[code - 1] = true;
+      nodes_[i].label = cells_[code - 1].label;
+      all.assign(cells_[code - 1].begin(), cells_[code - 1].end());
+      std::ranges::sort(all);
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+    } else {
+      c.require(depth < 255, "the tree is too deep");
+      const std::uint32_t left = add(c, depth + 1), right = add(c, depth + 1);
+      nodes_[i].right = right;
+      if (nodes_[left].label == nodes_[right].label) nodes_[i].label = nodes_[left].label;
+      std::ranges::set_union(vertices(left), vertices(right), std::back_inserter(all));
+    }
+    nodes_[i].first = vertices_.size();
+    nodes_[i].count = static_cast<std::uint32_t>(all.size());
+    vertices_.insert(vertices_.end(), all.begin(), all.end());
+    return i;
+  }
+
+  const std::vector<Cell>& cells_;
+  std::vector<bool> seen_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> vertices_;
+};
 
 struct Group {
   std::uint32_t node = 0;
@@ -19,20 +75,15 @@ struct Group {
 struct Obligation {
   Group x, y;
   bool self = false, distance = false;
-  std::uint32_t interval = 0;  ///< its number; from the bottom of the stack to its top these numbers do not fall
-};
-
-/// The interval number k of the 2^halvings into which the step is cut; d = 2^halvings.
-struct Piece {
-  mpz_class k = 0;
-  unsigned long halvings = 0;
+  std::uint32_t piece = 0;  ///< its number; from the bottom of the stack to its top these numbers do not fall
 };
 
 class Obligations {
  public:
   Obligations(const Claim& claim, const Integers& motion, const Tree& tree)
-      : claim_(claim), motion_(motion), tree_(tree), enclosures_(motion.motion()) {
+      : claim_(claim), motion_(motion), tree_(tree), enclosures_(motion.motion(), claim.eta) {
     stack_.push_back({{}, {}, true, claim.eta > 0, 0});
+    pieces_.push_back(motion.step());
   }
 
   bool done() const { return stack_.empty(); }
@@ -60,19 +111,16 @@ class Obligations {
       case 0x04:
         c.require(top.self && leaf(top.x), "F is for one cell by itself");
         return c.require(!claim_.strict, "F is for a claim that is not strict");
-      case 0x05: {
+      case 0x05:
         c.require(top.self, "B is for a group with itself");
-        Obligation pair = top;
-        pair.self = false;
-        return push({pair});
-      }
+        return push({{top.x, top.y, false, top.distance, top.piece}});
       case 0x06: return excluded(top, c);
       case 0x10: return packed(top, c);
       case 0x11: {
-        const mpz_class x = c.sint(), y = c.sint(), z = c.sint();
-        const bool small = std::max({abs(x), abs(y), abs(z)}) < Enclosures::limit;
-        if (small) return direction(top, std::array<long, 3>{x.get_si(), y.get_si(), z.get_si()}, c);
-        return direction(top, Vector{x, y, z}, c);
+        const Vector n = {c.sint(), c.sint(), c.sint()};
+        const bool small = std::ranges::all_of(n, [](const mpz_class& k) { return abs(k) < Enclosures::limit; });
+        if (small) return direction(top, {n[0].get_si(), n[1].get_si(), n[2].get_si()}, c);
+        return exactly(top, c, [&](auto&&... rest) { return separated(n, rest...); });
       }
       case 0x12: return half_space(top, c);
       case 0x20:
@@ -82,7 +130,7 @@ class Obligations {
       default: break;
     }
     c.require(0x08 <= code && code <= 0x0e, "the byte before this is no token");
-    std::array<long, 3> n = {0, 0, 0};
+    std::array<std::int64_t, 3> n = {0, 0, 0};
     if (code < 0x0e) n[(code - 8) / 2] = code % 2 == 0 ? 1 : -1;
     direction(top, n, c);
   }
@@ -92,68 +140,62 @@ class Obligations {
     stack_.insert(stack_.end(), std::rbegin(parts), std::rend(parts));
   }
   const Tree::Node& node(const Group& g) const { return tree_.node(g.node); }
-  bool leaf(const Group& g) const { return node(g).leaf(); }
-  /// Calls take(v) for each vertex of a group; for a leaf, ascending.
-  template <class Take>
-  void each(const Group& g, const Take& take) const {
-    std::uint32_t left_out = g.dropped;
-    tree_.each(g.node, [&](std::uint32_t v) {
-      if ((left_out & 1) == 0) take(v);
-      left_out >>= 1;
-    });
-  }
-  std::vector<std::uint32_t> vertices(const Group& g) const {
-    std::vector<std::uint32_t> result;
-    each(g, [&](std::uint32_t v) { result.push_back(v); });
-    return result;
+  bool leaf(const Group& g) const { return node(g).right == 0; }
+  /// What is left of a leaf is put into `room`.
+  using Room = std::array<std::uint32_t, 3>;
+  Vertices vertices(const Group& g, Room& room) const {
+    const Vertices all = tree_.vertices(g.node);
+    if (g.dropped == 0) return all;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if ((g.dropped >> i & 1) == 0) room[left++] = all[i];
+    }
+    return Vertices(room).first(left);
   }
   /// With a leaf less a vertex that it has.
   Obligation less(Obligation o, Side side, std::uint64_t v) const {
-    const auto own = tree_.own((o.*side).node);
-    (o.*side).dropped |= 1u << (std::ranges::find(own, v) - own.begin());
+    const Vertices all = tree_.vertices((o.*side).node);
+    (o.*side).dropped |= 1u << (std::ranges::find(all, v) - all.begin());
     return o;
   }
 
   void halve(const Obligation& top, const Reader& c) {
-    pieces_.resize(top.interval + 1);  // nobody speaks of the others any more
-    const Piece whole = pieces_.back();
-    c.require(whole.halvings < 1024, "the interval is too short for T");
-    pieces_.push_back({2 * whole.k + 1, whole.halvings + 1});
-    pieces_.push_back({2 * whole.k, whole.halvings + 1});
-    Obligation first = top, second = top;
-    second.interval = top.interval + 1;
-    first.interval = top.interval + 2;
-    push({first, second});
+    pieces_.resize(top.piece + 1);  // nobody speaks of the others any more
+    const auto [a, b, k, halvings, id] = pieces_.back();
+    c.require(halvings < 1024, "the interval is too short for T");
+    pieces_.push_back({a + b, 2 * b, 2 * k + 1, halvings + 1, ++pieces_made_});
+    pieces_.push_back({2 * a, a + b, 2 * k, halvings + 1, ++pieces_made_});
+    push(
+        {{top.x, top.y, top.self, top.distance, top.piece + 2}, {top.x, top.y, top.self, top.distance, top.piece + 1}});
   }
 
   void split(const Obligation& top, Side side, const Reader& c) {
     c.require(!top.self && !leaf(top.*side), "L and R are for a pair, the group of which has parts");
     Obligation left = top, right = top;
-    (left.*side).node = node(top.*side).left;
+    (left.*side).node = (top.*side).node + 1;
     (right.*side).node = node(top.*side).right;
     push({left, right});
   }
 
   void parts(const Obligation& top, const Reader& c) {
     c.require(top.self && !leaf(top.x), "N is for a group with itself that has parts");
-    const Group l{node(top.x).left, 0}, r{node(top.x).right, 0};
-    push({{l, l, true, top.distance, top.interval},
-          {l, r, false, top.distance, top.interval},
-          {r, r, true, top.distance, top.interval}});
+    const Group l{top.x.node + 1}, r{node(top.x).right};
+    const auto part = [&](Group x, Group y, bool self) { return Obligation{x, y, self, top.distance, top.piece}; };
+    push({part(l, l, true), part(l, r, false), part(r, r, true)});
   }
 
   void excluded(const Obligation& top, const Reader& c) const {
-    const std::int64_t a = node(top.x).label, b = node(top.y).label;
-    c.require(a >= 0 && b >= 0, "the cells have several labels");
-    c.require(claim_.is_excluded(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)),
-              "the labels are not an excluded pair");
+    const auto a = node(top.x).label, b = node(top.y).label;
+    c.require(a && b, "the cells have several labels");
+    c.require(claim_.is_excluded(*a, *b), "the labels are not an excluded pair");
   }
 
   void drop(const Obligation& top, std::size_t k, const Reader& c) {
     c.require(!top.self && leaf(top.x) && leaf(top.y), "D is for two cells");
-    std::vector<std::uint32_t> common;
-    std::ranges::set_intersection(vertices(top.x), vertices(top.y), std::back_inserter(common));
-    c.require(k < common.size(), "there is no such common vertex");
+    Room of_x, of_y, common;
+    const auto [x, y, end] =
+        std::ranges::set_intersection(vertices(top.x, of_x), vertices(top.y, of_y), common.begin());
+    c.require(common.begin() + k < end, "there is no such common vertex");
     push({less(top, &Obligation::x, common[k]), less(top, &Obligation::y, common[k])});
   }
 
@@ -162,70 +204,67 @@ class Obligations {
     c.require(!top.self && leaf(top.x) && leaf(top.y) && top.distance, "W is for two cells at distance");
     c.require(m < claim_.ring && m <= 255, "a path that is not shorter than the ring, or longer than 255");
     std::uint64_t last = first;
-    for (std::uint64_t i = 0; i < m; ++i) {
-      const std::uint64_t cell = c.uint(), next = c.uint();
-      c.require(cell < claim_.cells.size() && claim_.cells[cell].has(last) && claim_.cells[cell].has(next),
+    for (std::uint64_t k = 0; k < m; ++k) {
+      const std::uint64_t i = c.uint(), next = c.uint();
+      const auto& cells = claim_.cells;
+      c.require(i < cells.size() && cells[i].has(last) && cells[i].has(next),
                 "a cell of the path has not its vertices");
       last = next;
     }
-    const auto x = vertices(top.x), y = vertices(top.y);
-    c.require(std::ranges::count(x, first) == 1 && std::ranges::count(y, last) == 1,
-              "the path does not join the cells");
+    const auto has = [&](const Group& g, std::uint64_t v) {
+      Room room;
+      return std::ranges::count(vertices(g, room), v) == 1;
+    };
+    c.require(has(top.x, first) && has(top.y, last), "the path does not join the cells");
     Obligation third = top;
     third.distance = false;
     push({less(top, &Obligation::x, first), less(top, &Obligation::y, last), third});
   }
 
-  /// Requires holds(interval, eta2, x, y) of a pair.
-  template <class Holds>
-  void decide(const Obligation& top, const Reader& c, const Holds& holds) const {
-    c.require(!top.self, "S and P are for a pair");
-    const Piece& piece = pieces_[top.interval];
-    const mpz_class duration = motion_.end() - motion_.begin(),
-                    a = (motion_.begin() << piece.halvings) + piece.k * duration;
-    std::vector<Path> x, y;
-    each(top.x, [&](std::uint32_t v) { x.push_back(motion_.path(v)); });
-    each(top.y, [&](std::uint32_t v) { y.push_back(motion_.path(v)); });
-    const mpz_class eta = top.distance ? motion_.eta() : mpz_class(0);
-    c.require(holds(Interval{a, a + duration, mpz_class(1) << piece.halvings}, eta * eta, x, y),
-              "this does not separate the pair");
+  /// With small components, quickly if possible.
+  void direction(const Obligation& top, const std::array<std::int64_t, 3>& n, const Reader& c) {
+    Room of_x, of_y;
+    const Vertices x = vertices(top.x, of_x), y = vertices(top.y, of_y);
+    if (!top.self && !x.empty() && !y.empty() && enclosures_.apart(n, pieces_[top.piece], x, y, top.distance)) return;
+    exactly(top, c, [&](auto&&... rest) { return separated(Vector{n[0], n[1], n[2]}, rest...); });
   }
 
-  void direction(const Obligation& top, const Vector& n, const Reader& c) const {
-    decide(top, c, [&](const auto&... rest) { return separated(n, rest...); });
-  }
-  /// With small components, quickly if possible.
-  void direction(const Obligation& top, const std::array<long, 3>& n, const Reader& c) const {
-    const Piece& piece = pieces_[top.interval];
-    if (!top.self && !top.distance && enclosures_.usable(n, piece.halvings)) {
-      Enclosures::Gap gap(enclosures_, n, piece.k.get_si(), static_cast<int>(piece.halvings));
-      each(top.x, [&](std::uint32_t v) { gap.add(v, true); });
-      each(top.y, [&](std::uint32_t v) { gap.add(v, false); });
-      if (gap.open()) return;
-    }
-    direction(top, Vector{n[0], n[1], n[2]}, c);
-  }
-  void packed(const Obligation& top, Reader& c) const {
+  void packed(const Obligation& top, Reader& c) {
     const std::uint32_t word = c.u32();
     c.require(word >> 30 == 0, "the highest bits of a direction are not 0");
-    const auto part = [&](int k) -> long { return static_cast<std::int32_t>(word << (22 - 10 * k)) >> 22; };
-    direction(top, std::array{part(0), part(1), part(2)}, c);
+    const auto part = [&](int k) -> std::int64_t { return static_cast<std::int32_t>(word << (22 - 10 * k)) >> 22; };
+    direction(top, {part(0), part(1), part(2)}, c);
   }
-
   void half_space(const Obligation& top, Reader& c) const {
     const unsigned long s = c.shift();
     Vector n;
     for (auto& part : n) part = c.sint() << s;
     const mpz_class nt = c.scaled(), nd = c.scaled(), w = c.scaled();
-    decide(top, c, [&](const auto&... rest) { return separated(n, nt, nd, w, rest...); });
+    exactly(top, c, [&](auto&&... rest) { return separated(n, nt, nd, w, rest...); });
+  }
+
+  /// Requires holds(piece, eta2, paths, of_x) of a pair.
+  template <class Holds>
+  void exactly(const Obligation& top, const Reader& c, const Holds& holds) const {
+    c.require(!top.self, "S and P are for a pair");
+    Room of_x, of_y;
+    const Vertices x = vertices(top.x, of_x), y = vertices(top.y, of_y);
+    const Piece& piece = pieces_[top.piece];
+    std::vector<Path> paths;
+    for (const Vertices& group : {x, y}) {
+      for (const std::uint32_t v : group) paths.push_back(motion_.path(v, piece));
+    }
+    const mpz_class eta = top.distance ? motion_.eta() : mpz_class(0);
+    c.require(holds(piece, eta * eta, paths, x.size()), "this does not separate the pair");
   }
 
   const Claim& claim_;
   const Integers& motion_;
   const Tree& tree_;
-  std::vector<Obligation> stack_;
   Enclosures enclosures_;
-  std::vector<Piece> pieces_{1};
+  std::vector<Obligation> stack_;
+  std::vector<Piece> pieces_;  ///< those of the obligations, by number
+  std::uint64_t pieces_made_ = 0;
 };
 
 }  // namespace noli::checker

@@ -1,12 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The motion, step by step, from frames or from the block file of a run.
+// The motion, step by step, from frames or from the block file of a run, and what is claimed of it.
 #pragma once
 
 #include "blocks.h"
 #include "frames.h"
 
 namespace noli::checker {
+
+/// a <= b.
+using LabelPair = std::array<std::uint32_t, 2>;
+
+/// What does not change.
+struct Scene {
+  std::uint32_t dimension = 3;
+  std::uint64_t vertices = 0;
+  std::vector<Cell> cells;
+  std::set<LabelPair> excluded;  ///< of a run: just these have to be
+};
+
+/// What the claims of all steps have in common. Its cells are those after merging.
+struct Claim {
+  std::uint32_t source = 0, dimension = 3;
+  bool strict = false, points = false;
+  std::uint32_t ring = 1, merged = 0;
+  double eta = 0;
+  std::vector<std::uint32_t> same;  ///< by vertex: the one that stands for it
+  std::vector<Cell> cells;
+  std::set<LabelPair> excluded;
+
+  bool is_excluded(std::uint32_t a, std::uint32_t b) const {
+    return excluded.contains({std::min(a, b), std::max(a, b)});
+  }
+};
 
 /// The breakpoints of all vertices in one step: those of vertex v are [begin[v], begin[v + 1]).
 struct Motion {
@@ -16,6 +42,16 @@ struct Motion {
   std::vector<Position> x;
   std::optional<Sha256::Digest> group_hash;  ///< of a window in its file
 
+  /// The first breakpoint of a vertex behind its first one of which this does not hold; if there is none, its last.
+  template <class Holds>
+  std::uint64_t segment_end(std::size_t v, const Holds& holds) const {
+    std::uint64_t low = begin[v], high = begin[v + 1] - 1;
+    while (high - low > 1) {
+      const std::uint64_t middle = (low + high) / 2;
+      (holds(middle) ? low : high) = middle;
+    }
+    return high;
+  }
   Sha256::Digest hash() const {
     if (group_hash) return *group_hash;
     Sha256 hash;
@@ -28,24 +64,13 @@ struct Motion {
   }
 };
 
-/// a <= b.
-using LabelPair = std::array<std::uint32_t, 2>;
-
-/// What does not change. Labels: one for each cell.
-struct Scene {
-  int dimension = 3;
-  std::uint64_t vertices = 0;
-  std::vector<Cell> cells;
-  std::vector<std::uint32_t> labels;
-  std::optional<std::set<LabelPair>> excluded;  ///< of a run: just these have to be
-};
-
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
-  virtual Scene scene() = 0;
   /// The next step, if there is one.
   virtual bool next(Motion& motion) = 0;
+
+  Scene scene;
 };
 
 /// Frames, moving or at rest.
@@ -54,16 +79,16 @@ class Frames : public Trajectory {
   Frames(std::vector<std::string> paths, bool rest) : paths_(std::move(paths)), rest_(rest) {
     require(paths_.size() >= (rest ? 1 : 2), "the command line", "expected more frames");
     now_ = read_frame(paths_[0]);
+    scene = {3, now_.x.size(), now_.cells, {}};
   }
-  Scene scene() override { return {3, now_.x.size(), now_.cells, {}, {}}; }
   bool next(Motion& motion) override {
-    if (step_ + (rest_ ? 0 : 1) == paths_.size()) return false;
-    std::vector<Position> before = now_.x;
-    if (!rest_ || step_ > 0) {
-      const std::string& path = paths_[rest_ ? step_ : step_ + 1];
-      Frame frame = read_frame(path);
-      require(frame.x.size() == now_.x.size() && frame.cells == now_.cells, path,
-              "has another mesh than the frame before");
+    const std::size_t wanted = rest_ ? step_ : step_ + 1;
+    if (wanted == paths_.size()) return false;
+    const std::vector<Position> before = now_.x;
+    if (wanted > 0) {
+      Frame frame = read_frame(paths_[wanted]);
+      const bool same = frame.x.size() == now_.x.size() && frame.cells == now_.cells;
+      require(same, paths_[wanted], "has another mesh than the frame before");
       now_ = std::move(frame);
     }
     motion.t0 = rest_ ? 0 : static_cast<double>(step_);
@@ -87,22 +112,30 @@ class Frames : public Trajectory {
   Frame now_;
 };
 
+/// Pairs that ascend strictly, each with a <= b; of integers of this type.
+template <class T>
+std::set<LabelPair> read_pairs(Reader& c, std::uint32_t count, const char* wrong) {
+  std::set<LabelPair> pairs;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const LabelPair pair = {c.raw<T>(), c.raw<T>()};
+    c.require(pair[0] <= pair[1] && (i == 0 || pair > *pairs.rbegin()), wrong);
+    pairs.insert(pair);
+  }
+  return pairs;
+}
+
 /// The block file of a run, recorded in full.
 class Run : public Trajectory {
  public:
-  explicit Run(const std::string& path) : file_(path, "TRAJ") {}
-
-  Scene scene() override {
+  explicit Run(const std::string& path) : file_(path, "TRAJ") {
     Reader c = file_.expect("HEAD");
-    dimension_ = c.u32();
-    c.require(dimension_ == 2 || dimension_ == 3, "expected dimension 2 or 3");
+    scene.dimension = c.u32();
+    c.require(scene.dimension == 2 || scene.dimension == 3, "expected dimension 2 or 3");
     c.require(c.u32() == 0, "the run has recorded frames alone, which are not its motion");
     c.require(c.f64() > 0, "expected a window length above 0");
     c.end();
-    Scene scene{static_cast<int>(dimension_), 0, {}, {}, std::set<LabelPair>{}};
-    mesh(scene);
-    label(scene);
-    return scene;
+    mesh();
+    label();
   }
 
   bool next(Motion& motion) override {
@@ -131,53 +164,50 @@ class Run : public Trajectory {
     return std::memcmp(&a, &b, sizeof a) == 0;
   }
 
-  void mesh(Scene& scene) {
+  void mesh() {
     Reader c = file_.expect("MESH");
-    scene.vertices = vertices_ = c.u64();
-    c.require(vertices_ >= 1 && vertices_ <= std::uint64_t{1} << 32, "an impossible number of vertices");
+    scene.vertices = c.u64();
+    c.require(scene.vertices >= 1 && scene.vertices <= std::uint64_t{1} << 32, "an impossible number of vertices");
     const std::array<std::uint64_t, 3> counts = {c.u64(), c.u64(), c.u64()};
     for (std::uint8_t k = 0; k < 3; ++k) {
       Cell cell{{}, static_cast<std::uint8_t>(3 - k)};
       c.need(counts[k], 4u * cell.size);
       for (std::uint64_t i = 0; i < counts[k]; ++i) {
         for (std::size_t j = 0; j < cell.size; ++j) cell.v[j] = c.u32();
-        c.require(std::ranges::max(cell.v) < vertices_, "a vertex that is not there is named");
+        c.require(std::ranges::max(cell.v) < scene.vertices, "a vertex that is not there is named");
         scene.cells.push_back(cell);
       }
     }
     c.end();
   }
 
-  void label(Scene& scene) {
+  void label() {
     Reader c = file_.expect("LABL");
-    c.require(c.left() == vertices_, "expected a label for each vertex");
-    const std::string scripted(c.take(vertices_));
+    c.require(c.left() == scene.vertices, "expected a label for each vertex");
+    const std::string scripted(c.take(scene.vertices));
     c.require(std::ranges::all_of(scripted, [](char l) { return l == 0 || l == 1; }), "a label is not 0 or 1");
-    std::vector<std::uint16_t> group(vertices_, 0);
+    std::vector<std::uint16_t> group(scene.vertices, 0);
     std::set<LabelPair> pairs;
     if (auto block = file_.next()) {
       Reader e = file_.as("EXCL", std::move(block));
       const std::uint32_t n = e.u32();
       e.require(n > 0, "expected a pair");
-      for (std::uint32_t i = 0; i < n; ++i) {
-        const LabelPair pair = {e.raw<std::uint16_t>(), e.raw<std::uint16_t>()};
-        e.require(pair[0] <= pair[1] && (i == 0 || pair > *pairs.rbegin()), "pairs are not in order");
-        pairs.insert(pair);
-      }
+      pairs = read_pairs<std::uint16_t>(e, n, "pairs are not in order");
       for (auto& g : group) g = e.raw<std::uint16_t>();
       e.end();
       file_.expect_commit();
     }
-    for (const Cell& cell : scene.cells) {
+    std::set<std::uint32_t> labels;
+    for (Cell& cell : scene.cells) {
       const std::uint16_t g = group[cell.v[0]];
       c.require(std::ranges::all_of(cell, [&](auto v) { return group[v] == g; }), "a cell is of two groups");
-      const bool held = std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; });
-      scene.labels.push_back(2u * g + (held ? 1 : 0));
+      cell.label = 2u * g + (std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; }) ? 1 : 0);
+      labels.insert(cell.label);
     }
-    const std::set<std::uint32_t> labels(scene.labels.begin(), scene.labels.end());
     for (const std::uint32_t a : labels) {
       for (const std::uint32_t b : labels) {
-        if (a <= b && ((a % 2 == 1 && b % 2 == 1) || pairs.count({a / 2, b / 2}) != 0)) scene.excluded->insert({a, b});
+        const bool both_scripted = a % 2 == 1 && b % 2 == 1;
+        if (a <= b && (both_scripted || pairs.contains({a / 2, b / 2}))) scene.excluded.insert({a, b});
       }
     }
   }
@@ -185,27 +215,26 @@ class Run : public Trajectory {
   void lines(Motion& motion) {
     Reader c = file_.expect("LINE");
     motion.begin = {0};
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    for (std::size_t v = 0; v < scene.vertices; ++v) {
       const std::uint32_t count = c.u32();
       c.require(count >= 2, "a vertex has fewer than two breakpoints");
       motion.begin.push_back(motion.begin.back() + count);
     }
-    const std::uint64_t all = motion.begin.back();
-    c.need(all, 8 * (1 + std::uint64_t{dimension_}));
-    motion.times.resize(all);
-    motion.x.assign(all, {});
+    c.need(motion.begin.back(), 8 * (1 + std::uint64_t{scene.dimension}));
+    motion.times.resize(motion.begin.back());
+    motion.x.assign(motion.begin.back(), {});
     for (double& t : motion.times) t = c.f64();
     for (auto& x : motion.x) {
-      for (std::size_t k = 0; k < dimension_; ++k) x[k] = c.f64();
+      for (std::size_t k = 0; k < scene.dimension; ++k) x[k] = c.f64();
     }
     c.end();
-    last_.resize(vertices_);
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    last_.resize(scene.vertices);
+    for (std::size_t v = 0; v < scene.vertices; ++v) {
       const std::uint64_t first = motion.begin[v], last = motion.begin[v + 1] - 1;
       for (std::uint64_t i = first; i < last; ++i)
         c.require(motion.times[i] < motion.times[i + 1], "times do not ascend");
-      c.require(same_bits(motion.times[first], motion.t0) && same_bits(motion.times[last], motion.t1),
-                "a world line does not begin and end with its window");
+      const bool covers = same_bits(motion.times[first], motion.t0) && same_bits(motion.times[last], motion.t1);
+      c.require(covers, "a world line does not begin and end with its window");
       c.require(windows_ == 0 || same_bits(last_[v], motion.x[first]),
                 "a vertex does not begin where it was at the end of the window before");
       last_[v] = motion.x[last];
@@ -213,8 +242,7 @@ class Run : public Trajectory {
   }
 
   BlockFile file_;
-  std::uint32_t dimension_ = 3;
-  std::uint64_t vertices_ = 0, windows_ = 0;
+  std::uint64_t windows_ = 0;
   double end_ = 0;
   std::vector<Position> last_;
 };

@@ -7,16 +7,16 @@
 //   l, u, e   the root of g is in [l / 2^e, u / 2^e]
 #pragma once
 
-#include "scene.h"
+#include "separation.h"
 
 namespace noli::checker {
 
 using Poly = std::vector<mpz_class>;
 
 inline Poly operator+(const Poly& f, const Poly& g) {
-  Poly sum = f.size() < g.size() ? g : f;
-  const Poly& shorter = f.size() < g.size() ? f : g;
-  for (std::size_t i = 0; i < shorter.size(); ++i) sum[i] += shorter[i];
+  if (f.size() < g.size()) return g + f;
+  Poly sum = f;
+  for (std::size_t i = 0; i < g.size(); ++i) sum[i] += g[i];
   return sum;
 }
 inline Poly operator*(const Poly& f, const Poly& g) {
@@ -36,19 +36,12 @@ inline bool divides(const Poly& g, Poly f) {
     for (std::size_t i = 0; i < g.size(); ++i) f[f.size() - g.size() + i] -= lead * g[i];
     f.pop_back();
   }
-  return std::all_of(f.begin(), f.end(), [](const mpz_class& k) { return k == 0; });
+  return std::ranges::all_of(f, [](const mpz_class& k) { return k == 0; });
 }
 
-/// 2^(e n) f(at / 2^e), where n is the degree.
-inline mpz_class value(const Poly& f, const mpz_class& at, unsigned long e) {
-  mpz_class sum = 0;
-  for (std::size_t i = f.size(); i-- > 0;) sum = sum * at + (f[i] << (e * (f.size() - 1 - i)));
-  return sum;
-}
-
-/// The least sign of its Bernstein coefficients on [l / 2^e, u / 2^e]: those of f((l + u z) / (2^e (1 + z))) (1 + z)^n,
-/// n being its degree. Of 0 it is 0.
-inline int least_sign(Poly f, const mpz_class& l, const mpz_class& u, unsigned long e) {
+/// The Bernstein coefficients of f on [l / 2^e, u / 2^e], but for positive factors: those of
+/// 2^(e n) f((l + u z) / (2^e (1 + z))) (1 + z)^n, n being its degree. The first and last are f(l / 2^e), f(u / 2^e).
+inline Poly bernstein(Poly f, const mpz_class& l, const mpz_class& u, unsigned long e) {
   while (!f.empty() && f.back() == 0) f.pop_back();
   Poly sum(f.size(), 0), power = {1};  // power: (l + u z)^k
   for (std::size_t k = 0; k < f.size(); ++k) {
@@ -57,35 +50,33 @@ inline int least_sign(Poly f, const mpz_class& l, const mpz_class& u, unsigned l
     sum = sum + term;
     power = power * Poly{l, u};
   }
-  int least = f.empty() ? 0 : 1;
-  for (const mpz_class& k : sum) least = std::min(least, sgn(k));
-  return least;
+  return sum;
 }
 
+/// Rejects what does not hold.
 class Witness {
  public:
-  /// Rejects what does not hold.
   Witness(Reader c, const Claim& claim, const Integers& motion) : claim_(claim), motion_(motion), c_(std::move(c)) {
     const std::uint32_t i = c_.u32(), j = c_.u32();
     require(std::max(i, j) < claim.cells.size(), "a cell that is not there is named");
-    read(p_, claim.cells[i]);
-    read(q_, claim.cells[j]);
+    p_ = read(claim.cells[i]);
+    q_ = read(claim.cells[j]);
     g_ = poly();
-    const std::uint64_t e = c_.uint();
-    require(e <= 1024, "the denominator is too long");
-    e_ = e;
+    e_ = c_.uint();
+    require(e_ <= 1024, "the denominator is too long");
     l_ = c_.sint();
     u_ = c_.sint();
     c_.end();
     require(i != j || claim_.strict, "it is about one cell, and the claim is not strict");
-    require(!claim_.is_excluded(claim_.labels[i], claim_.labels[j]), "the pair is excluded");
-    require((motion_.begin() << e_) <= l_ && l_ <= u_ && u_ <= (motion_.end() << e_), "the time is not in the step");
+    require(!claim_.is_excluded(claim_.cells[i].label, claim_.cells[j].label), "the pair is excluded");
+    const Piece& step = motion_.step();
+    require((step.a << e_) <= l_ && l_ <= u_ && u_ <= (step.b << e_), "the time is not in the step");
     for (const auto& [v, w] : p_) require(std::ranges::count(q_, v, &Corner::v) == 0, "a vertex is on both sides");
     require(g_.back() != 0, "the last coefficient of g is 0");
-    require(sgn(value(g_, l_, e_)) * sgn(value(g_, u_, e_)) <= 0, "g has no change of sign");
+    const Poly signs = bernstein(g_, l_, u_, e_);
+    require(sgn(signs.front()) * sgn(signs.back()) <= 0, "g has no change of sign");
     meet(centre(p_), centre(q_));
-    words_ = "vertices" + names(p_) + " of cell " + std::to_string(i) + " and" + names(q_) + " of cell " +
-             std::to_string(j) + " meet";
+    words_ = "vertices" + names(p_, i) + " and" + names(q_, j) + " meet";
   }
 
   const std::string& words() const { return words_; }
@@ -108,37 +99,45 @@ class Witness {
   Poly poly() {
     const std::uint8_t n = c_.u8();
     require(n >= 1 && n <= 32, "a polynomial has 1 to 32 coefficients");
-    Poly f;
-    for (std::uint8_t i = 0; i < n; ++i) f.push_back(c_.sint());
+    Poly f(n);
+    for (auto& coefficient : f) coefficient = c_.sint();
     return f;
   }
-  void read(Corners& corners, const Cell& cell) {
+  Corners read(const Cell& cell) {
     const std::uint8_t n = c_.u8();
     require(n >= 1 && n <= 3, "expected 1 to 3 vertices");
-    for (std::uint8_t i = 0; i < n; ++i) {
-      const std::uint32_t v = c_.u32();
-      require(cell.has(v), "a vertex is not one of its cell");
-      corners.push_back({v, poly()});
+    Corners corners(n);
+    for (Corner& corner : corners) {
+      corner.v = c_.u32();
+      require(cell.has(corner.v), "a vertex is not one of its cell");
+      corner.weight = poly();
     }
+    return corners;
   }
-  static std::string names(const Corners& corners) {
+  static std::string names(const Corners& corners, std::uint32_t cell) {
     std::string text;
     for (const Corner& corner : corners) text += (text.empty() ? " {" : " ") + std::to_string(corner.v);
-    return text + "}";
+    return text + "} of cell " + std::to_string(cell);
   }
 
-  bool not_negative(const Poly& f) const { return divides(g_, f) || least_sign(f, l_, u_, e_) >= 0; }
+  /// The least sign of its Bernstein coefficients; of 0 it is 0.
+  int least_sign(const Poly& f) const {
+    const Poly coefficients = bernstein(f, l_, u_, e_);
+    return coefficients.empty() ? 0 : sgn(std::ranges::min(coefficients));
+  }
+  bool not_negative(const Poly& f) const { return divides(g_, f) || least_sign(f) >= 0; }
 
   Centre centre(const Corners& corners) const {
     Centre sum;
     for (const auto& [v, w] : corners) {
       require(not_negative(w), "a weight may be negative");
       // On the segment from the last breakpoint at or before l on; at the last of all it rests.
-      const Path path = motion_.path(v);
+      Path path = motion_.path(v, motion_.step());
       std::size_t k = path.size() - 1;
       while (k > 0 && (path[k].t << e_) > l_) --k;
       const bool last = k + 1 == path.size();
-      const Breakpoint &p = path[k], q = last ? Breakpoint{p.t + 1, p.x} : path[k + 1];
+      if (last) path.push_back({path[k].t + 1, path[k].x});
+      const Breakpoint &p = path[k], &q = path[k + 1];
       require(u_ <= ((last ? p : q).t << e_), "a vertex has a breakpoint between l and u");
       const mpz_class duration = q.t - p.t;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -148,7 +147,7 @@ class Witness {
       sum.duration *= duration;
       sum.weight = sum.weight + w;
     }
-    require(least_sign(sum.weight, l_, u_, e_) > 0, "a sum of weights may not be positive");
+    require(least_sign(sum.weight) > 0, "a sum of weights may not be positive");
     return sum;
   }
 
@@ -167,24 +166,22 @@ class Witness {
     require(not_negative(scale * scale + mpz_class(-1) * square), "the points are not as near as the least distance");
   }
 
-  /// Whether a path of fewer than K edges joins the sides.
+  /// Whether a path of fewer than K edges joins the sides: vertices are reached from P, an edge at a time.
   bool near() const {
-    std::vector<std::vector<std::uint32_t>> cells(claim_.same.size());  // by vertex
-    for (std::uint32_t i = 0; i < claim_.cells.size(); ++i) {
-      for (const std::uint32_t v : claim_.cells[i]) cells[v].push_back(i);
-    }
-    std::set<std::uint32_t> reached, border;
-    for (const Corner& corner : p_) border.insert(corner.v);
-    for (std::uint32_t k = 1; !border.empty(); ++k) {
-      reached.insert(border.begin(), border.end());
-      std::set<std::uint32_t> next;
-      for (const std::uint32_t v : border) {
-        for (const std::uint32_t i : cells[v]) next.insert(claim_.cells[i].begin(), claim_.cells[i].end());
+    std::vector<bool> reached(claim_.same.size(), false);
+    for (const Corner& corner : p_) reached[corner.v] = true;
+    const auto is_reached = [&](std::uint32_t v) { return static_cast<bool>(reached[v]); };
+    bool more = true;
+    for (std::uint32_t k = 1; k < claim_.ring && more; ++k) {
+      std::vector<std::uint32_t> next;
+      for (const Cell& cell : claim_.cells) {
+        if (std::ranges::any_of(cell, is_reached))
+          std::ranges::remove_copy_if(cell, std::back_inserter(next), is_reached);
       }
-      border.clear();
-      if (k < claim_.ring) std::ranges::set_difference(next, reached, std::inserter(border, border.end()));
+      for (const std::uint32_t v : next) reached[v] = true;
+      more = !next.empty();
     }
-    return std::ranges::any_of(q_, [&](const Corner& corner) { return reached.count(corner.v) != 0; });
+    return std::ranges::any_of(q_, is_reached, &Corner::v);
   }
 
   const Claim& claim_;
@@ -192,7 +189,7 @@ class Witness {
   Reader c_;
   Corners p_, q_;
   Poly g_;
-  unsigned long e_ = 0;
+  std::uint64_t e_ = 0;
   mpz_class l_, u_;
   std::string words_;
 };

@@ -61,29 +61,35 @@ Motion motion(Draw& draw) {
   return m;
 }
 
+/// The number k of the 2^halvings parts of the step.
+Piece piece(const Integers& exact, std::uint64_t k, std::uint64_t halvings) {
+  const Piece& step = exact.step();
+  const mpz_class duration = step.b - step.a, a = (step.a << halvings) + k * duration;
+  return {a, a + duration, k, halvings, (std::uint64_t{1} << halvings) + k};
+}
+
 int compare(std::uint64_t seed) {
   Draw draw{std::mt19937_64(seed)};
   const Motion m = motion(draw);
-  const Integers exact(m, -1200, -1200, 0, Reader("", "motion"));
-  const Enclosures quick(m);
+  double unit = 1;  // of the positions, about
+  for (const auto& x : m.x) unit = std::max(std::abs(x[0]), std::abs(x[1]));
+  const bool distance = draw.one_in(2);
+  const double eta = distance ? std::ldexp(unit, -static_cast<int>(draw.number(0, 50))) : 0;
+  const Integers exact(m, -1200, -1200, eta, Reader("", "motion"));
+  Enclosures quick(m, eta);
   int open = 0;
   for (int i = 0; i < 40; ++i) {
     const int halvings = draw.one_in(3) ? 0 : static_cast<int>(draw.number(0, 30));
     const long k = draw.number(0, (1L << halvings) - 1), most = draw.one_in(2) ? 1 : 1L << draw.number(0, 40);
-    std::array<long, 3> n{};
-    for (long& c : n) c = draw.number(-most + (most > 1 ? 1 : 0), most - (most > 1 ? 1 : 0));
-    if (!quick.usable(n, static_cast<unsigned long>(halvings))) continue;
-    Enclosures::Gap gap(quick, n, k, halvings);
-    gap.add(0, true);
-    if (draw.one_in(2)) gap.add(0, true);
-    gap.add(2, false);
-    if (!gap.open()) continue;
+    std::array<std::int64_t, 3> n{};
+    for (auto& c : n) c = draw.number(-most + (most > 1 ? 1 : 0), most - (most > 1 ? 1 : 0));
+    const Piece part = piece(exact, static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(halvings));
+    const std::vector<std::uint32_t> x(draw.one_in(2) ? 2 : 1, 0), y = {2};
+    if (!quick.apart(n, part, x, y, distance)) continue;
     ++open;
-    const mpz_class duration = exact.end() - exact.begin(),
-                    a = (exact.begin() << static_cast<unsigned long>(halvings)) + k * duration;
-    const Vector direction = {n[0], n[1], n[2]};
-    EXPECT_TRUE(separated(direction, {a, a + duration, mpz_class(1) << static_cast<unsigned long>(halvings)}, 0,
-                          {exact.path(0)}, {exact.path(2)}))
+    const mpz_class least = exact.eta();
+    const std::vector<Path> paths = {exact.path(0, part), exact.path(2, part)};
+    EXPECT_TRUE(separated({n[0], n[1], n[2]}, part, distance ? mpz_class(least * least) : mpz_class(0), paths, 1))
         << "seed " << seed << ", question " << i;
   }
   return open;
@@ -99,22 +105,44 @@ TEST(Enclosures, NeverSayApartWhatIsNotSlow) {
   for (std::uint64_t seed = 1 << 20; seed < (1 << 20) + 300000; ++seed) compare(seed);
 }
 
-TEST(Enclosures, LeaveWhatIsTooLargeToExactNumbers) {
+/// Two vertices that rest, at this x and at -1.
+Motion two_at_rest(double x, double end = 1) {
   Motion m;
-  m.t0 = 0;
-  m.t1 = 1;
-  m.begin = {0, 2};
-  m.times = {0, 1};
-  m.x = {{0x1p900, 0, 0}, {0, 0, 0}};
-  EXPECT_TRUE(Enclosures(m).usable({1, 0, 0}, 30));
-  EXPECT_FALSE(Enclosures(m).usable({1, 0, 0}, 31));
-  EXPECT_FALSE(Enclosures(m).usable({1, -(1L << 40), 0}, 0));
-  EXPECT_FALSE(Enclosures(m).usable({1, 0, 1L << 40}, 0));
-  m.x[0][1] = -0x1p901;
-  EXPECT_FALSE(Enclosures(m).usable({1, 0, 0}, 0));
-  m.x[0][1] = 0;
-  m.times[1] = m.t1 = 0x1p1000;
-  EXPECT_FALSE(Enclosures(m).usable({1, 0, 0}, 0));
+  m.t1 = end;
+  m.begin = {0, 2, 4};
+  m.times = {0, end, 0, end};
+  m.x = {{x, 0, 0}, {x, 0, 0}, {-1, 0, 0}, {-1, 0, 0}};
+  return m;
+}
+bool apart(const Motion& m, const std::array<std::int64_t, 3>& n, std::uint64_t halvings, double eta = 0) {
+  return Enclosures(m, eta).apart(n, {0, 1, 0, halvings, 1}, std::vector{0u}, std::vector{1u}, eta > 0);
+}
+
+TEST(Enclosures, LeaveWhatIsTooLargeToExactNumbers) {
+  const std::int64_t large = std::int64_t{1} << 40;
+  EXPECT_TRUE(apart(two_at_rest(1), {1, 0, 0}, 0));
+  EXPECT_TRUE(apart(two_at_rest(1), {1, 0, 0}, 30));
+  EXPECT_FALSE(apart(two_at_rest(1), {1, 0, 0}, 31));
+  EXPECT_TRUE(apart(two_at_rest(1), {large - 1, 0, 0}, 0));
+  EXPECT_FALSE(apart(two_at_rest(1), {large, 0, 0}, 0));
+  EXPECT_FALSE(apart(two_at_rest(1), {1, -large, 0}, 0));
+  EXPECT_FALSE(apart(two_at_rest(1), {1, 0, large}, 0));
+  EXPECT_TRUE(apart(two_at_rest(0x1p900), {1, 0, 0}, 0));
+  EXPECT_FALSE(apart(two_at_rest(0x1p901), {1, 0, 0}, 0));
+  EXPECT_TRUE(apart(two_at_rest(1, 0x1p900), {1, 0, 0}, 0));
+  EXPECT_FALSE(apart(two_at_rest(1, 0x1p901), {1, 0, 0}, 0));
+  EXPECT_TRUE(apart(two_at_rest(1, 0x1p-900), {1, 0, 0}, 0));
+  EXPECT_FALSE(apart(two_at_rest(1, 0x1p-901), {1, 0, 0}, 0));
+}
+
+TEST(Enclosures, DecideTheDistanceUnlessItIsNearlyReached) {
+  for (const std::int64_t n : {std::int64_t{1}, std::int64_t{511}, std::int64_t{1} << 39}) {
+    EXPECT_TRUE(apart(two_at_rest(1), {n, 0, 0}, 0, 1.99999));
+    EXPECT_TRUE(apart(two_at_rest(1), {n, 0, 0}, 9, 1.99999));
+    EXPECT_FALSE(apart(two_at_rest(1), {n, 0, 0}, 0, 2));
+    EXPECT_TRUE(apart(two_at_rest(1), {n, n, 0}, 0, 1.4142));
+    EXPECT_FALSE(apart(two_at_rest(1), {n, n, 0}, 0, 1.4143));
+  }
 }
 
 }  // namespace
