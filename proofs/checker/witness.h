@@ -83,9 +83,9 @@ class Witness {
     for (const auto& [v, w] : p_) require(std::ranges::count(q_, v, &Corner::v) == 0, "a vertex is on both sides");
     require(g_.back() != 0, "the last coefficient of g is 0");
     require(sgn(value(g_, l_, e_)) * sgn(value(g_, u_, e_)) <= 0, "g has no change of sign");
-    meet(centre(p_), centre(q_));
+    const bool same = meet(centre(p_), centre(q_));
     words_ = "vertices" + names(p_) + " of cell " + std::to_string(i) + " and" + names(q_) + " of cell " +
-             std::to_string(j) + " meet";
+             std::to_string(j) + (same ? " meet" : " are too near");
   }
 
   const std::string& words() const { return words_; }
@@ -152,7 +152,8 @@ class Witness {
     return sum;
   }
 
-  void meet(const Centre& p, const Centre& q) const {
+  /// Whether they are at one place; else they are too near.
+  bool meet(const Centre& p, const Centre& q) const {
     bool same = true;
     Poly square;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -160,11 +161,12 @@ class Witness {
       same = same && divides(g_, d);
       square = square + d * d;
     }
-    if (same) return;
+    if (same) return true;
     require(claim_.eta > 0, "the points do not meet");
     require(!near(), "the points do not meet, and the distance of what is so near by edges does not count");
     const Poly scale = (motion_.eta() * p.duration * q.duration) * (p.weight * q.weight);
     require(not_negative(scale * scale + mpz_class(-1) * square), "the points are not as near as the least distance");
+    return false;
   }
 
   /// Whether a path of fewer than K edges joins the sides.
