@@ -541,14 +541,40 @@ Definition separated (T0 T1 e : Z) (n : vec) (a b d : Z) (x y : list vertex) : b
 (** ** Groups with their labels and vertices *)
 
 (** A leaf is a cell, or what is left of it, and has a label; a node has the union of
-    the vertices below, and the label of all cells below if that is one. *)
+    the vertices below, if they are [few], and the label of all cells below if that is one. *)
 Inductive tree :=
 | Leaf (l : Z) (vs : list vertex)
 | Node (l : option Z) (vs : list vertex) (x y : tree).
 
-(** The vertices of a group. *)
-Definition verts (x : tree) : list vertex :=
+(** Up to which number a node has them.  Any number does; with this one, large nodes do not take most of the memory. *)
+Definition few : Z := 2 ^ 10.
+
+(** A list is not longer than [k]. *)
+Fixpoint at_most {A} (k : Z) (l : list A) : bool :=
+  match l with [] => true | _ :: r => (0 <? k) && at_most (k - 1) r end.
+
+(** The vertices that it has itself. *)
+Definition own (x : tree) : list vertex :=
   match x with Leaf _ vs => vs | Node _ vs _ _ => vs end.
+
+(** The vertices of two groups as one, in order of their ids, if both have them and they are few. *)
+Definition few_of (x y : tree) : list vertex :=
+  match own x, own y with
+  | (_ :: _) as p, (_ :: _) as q => let vs := union vid p q in if at_most few vs then vs else []
+  | _, _ => []
+  end.
+
+(** The vertices of a group, those of several parts more than once; and [acc]. *)
+Fixpoint collect (x : tree) (acc : list vertex) : list vertex :=
+  match x with
+  | Node _ [] l r => collect l (collect r acc)
+  | Leaf _ vs | Node _ vs _ _ => rev_append vs acc
+  end.
+Definition verts (x : tree) : list vertex :=
+  match x with
+  | Node _ [] _ _ => collect x []
+  | Leaf _ vs | Node _ vs _ _ => vs
+  end.
 
 (** The label of all its cells, if that is one. *)
 Definition label_of (x : tree) : option Z :=
@@ -613,7 +639,7 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
       end
   | Join l r =>
       match build_from table s l, build_from table s r with
-      | Some x, Some y => Some (Node (common_label x y) (union vid (verts x) (verts y)) x y)
+      | Some x, Some y => Some (Node (common_label x y) (few_of x y) x y)
       | _, _ => None
       end
   end.

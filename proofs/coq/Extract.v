@@ -34,6 +34,7 @@ Extract Inlined Constant place_bits => "Zint.place_bits".
 Extract Inlined Constant time_bits => "Zint.time_bits".
 Extract Inlined Constant d_quick => "Zint.d_quick".
 Extract Inlined Constant d_max => "Zint.d_max".
+Extract Inlined Constant few => "Zint.few".
 Extract Inlined Constant most_place => "Zint.most_place".
 Extract Inlined Constant most_direction => "Zint.most_direction".
 Extract Inlined Constant repeatedly => "Zint.repeatedly".

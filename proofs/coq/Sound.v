@@ -1145,7 +1145,7 @@ Fixpoint inv (x : tree) : Prop :=
   match x with
   | Leaf _ vs => Forall resolved vs
   | Node l vs x y =>
-      Forall resolved vs /\ incl (vids (verts x)) (vids vs) /\ incl (vids (verts y)) (vids vs) /\
+      (vs <> [] -> Forall resolved vs /\ incl (vids (verts x)) (vids vs) /\ incl (vids (verts y)) (vids vs)) /\
       inv x /\ inv y /\ (forall m, l = Some m -> label_of x = Some m /\ label_of y = Some m)
   end.
 
@@ -1309,8 +1309,28 @@ Proof.
   destruct (existsb _ us); cbn; now rewrite IH.
 Qed.
 
+Lemma rev_append_in {A} (w : A) l1 l2 : In w (rev_append l1 l2) <-> In w l1 \/ In w l2.
+Proof. rewrite rev_append_rev, in_app_iff, <- in_rev. tauto. Qed.
+
+(** The vertices of a group are those that it has itself, or those of its parts. *)
+Lemma collect_in w x : forall acc, In w (collect x acc) <-> In w (verts x) \/ In w acc.
+Proof.
+  induction x as [l vs|l [|v vs] x IHx y IHy]; intros acc.
+  - apply rev_append_in.
+  - cbn [verts collect]. rewrite !IHx, !IHy. cbn. tauto.
+  - apply rev_append_in.
+Qed.
+
+Lemma verts_in w l x y : In w (verts (Node l [] x y)) <-> In w (verts x) \/ In w (verts y).
+Proof. cbn [verts collect]. rewrite !collect_in. cbn. tauto. Qed.
+
 Lemma inv_verts x : inv x -> Forall resolved (verts x).
-Proof. destruct x; cbn; tauto. Qed.
+Proof.
+  induction x as [l vs|l [|v vs] x IHx y IHy]; cbn [inv]; auto.
+  - intros (_ & Ix & Iy & _). specialize (IHx Ix). specialize (IHy Iy). rewrite Forall_forall in *.
+    intros w H. apply verts_in in H as [H|H]; auto.
+  - intros (H & _). now apply H.
+Qed.
 
 Lemma inv_filter f p : Forall resolved p -> Forall resolved (filter f p).
 Proof. rewrite !Forall_forall; intros H w I; apply filter_In in I; now apply H. Qed.
@@ -1318,9 +1338,14 @@ Proof. rewrite !Forall_forall; intros H w I; apply filter_In in I; now apply H. 
 (** A node has the vertices of its cells. *)
 Lemma leaf_verts x P : inv x -> In P (leaves x) -> incl (snd P) (vids (verts x)).
 Proof.
-  revert P; induction x as [l vs|l vs x IHx y IHy]; cbn; intros P I H.
+  revert P; induction x as [l vs|l vs x IHx y IHy]; cbn [leaves]; intros P I H.
   - destruct H as [<-|[]]. apply incl_refl.
-  - destruct I as (_ & L & R & Ix & Iy & _). apply in_app_or in H as [H|H].
+  - destruct I as (O & Ix & Iy & _).
+    assert (incl (vids (verts x)) (vids (verts (Node l vs x y))) /\
+            incl (vids (verts y)) (vids (verts (Node l vs x y)))) as [L R].
+    { destruct vs as [|v vs]; [|now apply O]. unfold vids.
+      split; intros u Hu; apply in_map_iff in Hu as (w & <- & Hw); apply in_map, verts_in; auto. }
+    apply in_app_or in H as [H|H].
     + eapply incl_tran; [apply IHx|]; eauto.
     + eapply incl_tran; [apply IHy|]; eauto.
 Qed.
@@ -1399,7 +1424,7 @@ Lemma label_sound x l : inv x -> label_of x = Some l -> forall P, In P (leaves x
 Proof.
   induction x as [m vs|m vs x IHx y IHy]; cbn; intros I E P H.
   - injection E as ->. destruct H as [<-|[]]. reflexivity.
-  - destruct I as (_ & _ & _ & Ix & Iy & L). destruct (L l E).
+  - destruct I as (_ & Ix & Iy & L). destruct (L l E).
     apply in_app_or in H as [H|H]; auto.
 Qed.
 
@@ -1453,11 +1478,11 @@ Proof.
     cbn [holds] in *. intros D Ix Iy P Q HP HQ. apply Claimed_halves; [apply H|apply H0]; auto; lia.
   - (* TLeft *)
     destruct x as [|l vs x1 x2]; [discriminate|]. intros [= <-] F. heads F. constructor; auto.
-    cbn in *. intros D (? & ? & ? & I1 & I2 & _) Iy P Q HP HQ.
+    cbn in *. intros D (? & I1 & I2 & _) Iy P Q HP HQ.
     apply in_app_or in HP as [HP|HP]; [apply H|apply H0]; auto.
   - (* TRight *)
     destruct y as [|l vs y1 y2]; [discriminate|]. intros [= <-] F. heads F. constructor; auto.
-    cbn in *. intros D Ix (? & ? & ? & I1 & I2 & _) P Q HP HQ.
+    cbn in *. intros D Ix (? & I1 & I2 & _) P Q HP HQ.
     apply in_app_or in HQ as [HQ|HQ]; [apply H|apply H0]; auto.
   - (* TDrop *)
     destruct x as [l p|]; [|discriminate]. destruct y as [m q|]; [|discriminate].
@@ -1552,9 +1577,6 @@ Lemma union_acc_cons {A} (key : A -> Z) x r1 y r2 acc :
     else if (key y <? key x)%Z then union_acc key (x :: r1) r2 (y :: acc)
     else union_acc key r1 r2 (x :: acc).
 Proof. reflexivity. Qed.
-
-Lemma rev_append_in {A} (w : A) l1 l2 : In w (rev_append l1 l2) <-> In w l1 \/ In w l2.
-Proof. rewrite rev_append_rev, in_app_iff, <- in_rev. tauto. Qed.
 
 Lemma union_acc_in {A} (key : A -> Z) : forall l1 l2 acc w,
   In w (union_acc key l1 l2 acc) -> In w acc \/ In w l1 \/ In w l2.
@@ -1687,10 +1709,17 @@ Proof.
     destruct (build_from table s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
     pose proof (IHl _ eq_refl) as L. pose proof (IHr _ eq_refl) as R.
     pose proof (inv_verts _ L) as VL. pose proof (inv_verts _ R) as VR.
-    rewrite Forall_forall in VL, VR |- *. split; [|split; [|split; [|split; [|split]]]]; auto.
-    + intros w H; apply union_in in H as [H|H]; [now apply VL|now apply VR].
-    + intros v Hv; apply union_keys; auto.
-    + intros v Hv; apply union_keys; auto.
+    split; [|split; [|split]]; auto.
+    + unfold few_of. destruct (own xl) as [|u p] eqn:P; [easy|]. destruct (own xr) as [|v q] eqn:Q; [easy|].
+      rewrite <- P, <- Q. destruct (at_most _ _); [|easy]. intros _.
+      assert (verts xl = own xl /\ verts xr = own xr) as [-> ->].
+      { split; [destruct xl as [|? [|]]|destruct xr as [|? [|]]]; easy. }
+      replace (verts xl) with (own xl) in VL by (destruct xl as [|? [|]]; easy).
+      replace (verts xr) with (own xr) in VR by (destruct xr as [|? [|]]; easy).
+      rewrite Forall_forall in VL, VR |- *. split; [|split].
+      * intros w H; apply union_in in H as [H|H]; [now apply VL|now apply VR].
+      * intros w Hw; apply union_keys; auto.
+      * intros w Hw; apply union_keys; auto.
     + unfold common_label. intros m.
       destruct (label_of xl) as [a|], (label_of xr) as [b|]; try discriminate.
       destruct (Z.eqb_spec a b); [|discriminate]. subst. now intros [= <-].

@@ -646,11 +646,47 @@ type tree =
 | Leaf of Zint.t * vertex list
 | Node of Zint.t option * vertex list * tree * tree
 
-(** val verts : tree -> vertex list **)
+(** val at_most : Zint.t -> 'a1 list -> bool **)
 
-let verts = function
+let rec at_most k = function
+| [] -> true
+| _ :: r -> (&&) (Zint.lt Zint.zero k) (at_most (Zint.sub k Zint.one) r)
+
+(** val own : tree -> vertex list **)
+
+let own = function
 | Leaf (_, vs) -> vs
 | Node (_, vs, _, _) -> vs
+
+(** val few_of : tree -> tree -> vertex list **)
+
+let few_of x y =
+  match own x with
+  | [] -> []
+  | v :: l ->
+    (match own y with
+     | [] -> []
+     | v0 :: l0 ->
+       let vs = union (fun v1 -> v1.vid) (v :: l) (v0 :: l0) in
+       if at_most Zint.few vs then vs else [])
+
+(** val collect : tree -> vertex list -> vertex list **)
+
+let rec collect x acc =
+  match x with
+  | Leaf (_, vs) -> List.rev_append vs acc
+  | Node (_, vs, l, r) ->
+    (match vs with
+     | [] -> collect l (collect r acc)
+     | _ :: _ -> List.rev_append vs acc)
+
+(** val verts : tree -> vertex list **)
+
+let verts x = match x with
+| Leaf (_, vs) -> vs
+| Node (_, vs, _, _) -> (match vs with
+                         | [] -> collect x []
+                         | _ :: _ -> vs)
 
 (** val label_of : tree -> Zint.t option **)
 
@@ -729,9 +765,7 @@ let rec build_from table s = function
   (match build_from table s l with
    | Some x ->
      (match build_from table s r with
-      | Some y ->
-        Some (Node ((common_label x y),
-          (union (fun v -> v.vid) (verts x) (verts y)), x, y))
+      | Some y -> Some (Node ((common_label x y), (few_of x y), x, y))
       | None -> None)
    | None -> None)
 

@@ -178,6 +178,14 @@ type tree =
 | Leaf of Zint.t * vertex list
 | Node of Zint.t option * vertex list * tree * tree
 
+val at_most : Zint.t -> 'a1 list -> bool
+
+val own : tree -> vertex list
+
+val few_of : tree -> tree -> vertex list
+
+val collect : tree -> vertex list -> vertex list
+
 val verts : tree -> vertex list
 
 val label_of : tree -> Zint.t option

@@ -16,6 +16,7 @@ let d_max = shift_left one 1024
 let place_bits = of_int 40
 let time_bits = of_int 20
 let d_quick = of_int 256
+let few = of_int 1024
 let most_place = shift_left one 41
 let most_direction = of_int 512
 
