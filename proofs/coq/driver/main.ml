@@ -151,6 +151,8 @@ let rec check_steps file claim seen tree words =
     let rec go_on k = match next_motion claim with
       | Some m -> if k < number then go_on (k + 1) else m
       | None -> fail c "the trajectory has no such step" in
+    (* What a large step before this one needed is given back first. *)
+    if (Gc.quick_stat ()).heap_words > 1 lsl 23 then Gc.full_major ();
     let m = go_on seen and t0, t1 = both f64 c in let p, q = both i32 c in
     let is_witness = u8 c in
     check c (t0 = m.t0 && t1 = m.t1 && t0 < t1) "the trajectory's step has another time";
@@ -184,7 +186,7 @@ let run proof paths =
 
 let () =
   let reject why = (try Printf.printf "rejected: %s\n%!" why with _ -> ()); 3 in
-  Gc.set { (Gc.get ()) with minor_heap_size = 1 lsl 20 };
+  Gc.set { (Gc.get ()) with minor_heap_size = 1 lsl 20; space_overhead = 200 };
   exit
     (match Array.to_list Sys.argv with
      | _ :: proof :: (_ :: _ as paths) -> (
