@@ -2,6 +2,7 @@
 # What coq/build.sh and gappa/build.sh have in common; each sources this file after it has set $here. It looks at the
 # arguments, copies the theories to a temporary folder, and goes there. Then `compile`, `ask` and `keep` are there.
 
+here=${here:?}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -15,7 +16,7 @@ esac
 fail() { echo "build.sh: $1" >&2; exit 1; }
 
 cp "$here/_CoqProject" "$here"/*.v "$work"
-cd "$work"
+cd "$work" || exit
 mapfile -t theories < <(grep '\.v$' _CoqProject)
 
 # compile NAME: all theories, as the library NAME. Every theory is in the list, and none leaves anything out.

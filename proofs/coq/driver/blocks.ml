@@ -50,11 +50,15 @@ let sint c = let u = groups c 1200 true in Z.logxor (Z.shift_right u 1) (if Z.is
 let shift c = let s = uint c in check c (s <= 4096) "a shift is above 4,096"; s
 let scaled c = let s = shift c in Z.shift_left (sint c) s
 
-(* x / 2^p, which has to be an integer; x is m 2^(e - 53). *)
+(* x / 2^p, which has to be an integer; |x| is m 2^(k + p), with an integer m below 2^53. *)
 let integer c p x =
-  let fraction, e = Float.frexp x in let m = int_of_float (Float.ldexp fraction 53) and k = e - 53 - p in
-  check c (m = 0 || k >= 0 || (k > -54 && m land ((1 lsl -k) - 1) = 0)) "a number is no multiple of the step's unit";
-  if m = 0 then Z.zero else if k >= 0 then Z.shift_left (Z.of_int m) k else Z.of_int (m asr -k)
+  let bits = Int64.to_int (Int64.bits_of_float x) in
+  let e = (bits lsr 52) land 0x7ff and fraction = bits land 0xfffffffffffff in
+  let m = if e = 0 then fraction else fraction lor 0x10000000000000 and k = max e 1 - 1075 - p in
+  check c (m = 0 || k >= 0 || (k > -53 && m land ((1 lsl -k) - 1) = 0)) "a number is no multiple of the step's unit";
+  let m = if x < 0.0 then -m else m in
+  if m = 0 then Z.zero else if k < 0 then Z.of_int (m asr -k)
+  else if k < 9 then Z.of_int (m lsl k) else Z.shift_left (Z.of_int m) k
 
 let crc_table =
   let bit c _ = (c lsr 1) lxor (if c land 1 = 1 then 0x82F63B78 else 0) in
