@@ -38,8 +38,8 @@ class Check {
     c.end();
     make_cells(scene);
     c.require(!claim_.cells.empty(), "a claim about no cells");
+    if (auto block = proof_.next()) read_labels(proof_.as("LABL", std::move(block)));
     c.require(cells_hash() == hash, "the claim is about other cells than those of the trajectory");
-    proof_.expect_commit();
   }
 
   /// Step after step. What the first witness says, if there is one.
@@ -59,6 +59,15 @@ class Check {
 
  private:
   bool run() const { return claim_.source == 2; }
+
+  void read_labels(Reader c) {
+    c.require(!run(), "the labels of a run are those of its trajectory");
+    std::uint32_t all = 0;
+    for (Cell& cell : claim_.cells) all |= cell.label = c.u32();
+    c.require(all != 0, "all labels are 0");
+    c.end();
+    proof_.expect_commit();
+  }
 
   void read_merged(std::uint64_t vertices, Reader& c) {
     claim_.same.resize(vertices);

@@ -5,6 +5,7 @@
 // Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What it says and its exit codes are
 // in section 6 there. A proof, or the block file of a run, that is named - is read from the standard input.
 #include <exception>
+#include <map>
 
 #include "check.h"
 
@@ -18,9 +19,14 @@ static void print_claim(const Claim& claim, std::uint64_t steps) {
   if (claim.points) std::printf("Vertices without a cell are points.\n");
   if (claim.merged > 0) std::printf("Merged: %u vertices, each always where another is.\n", claim.merged);
   if (claim.eta > 0) std::printf("Least distance %.17g, ring %u.\n", claim.eta, claim.ring);
-  if (!claim.excluded.empty()) std::printf("Not compared, pairs of labels:");
+  if (claim.excluded.empty()) return;
+  std::printf("Not compared, pairs of labels:");
   for (const auto& [a, b] : claim.excluded) std::printf(" %u-%u", a, b);
-  if (!claim.excluded.empty()) std::printf("\n");
+  std::map<std::uint32_t, std::size_t> cells;
+  for (const Cell& cell : claim.cells) ++cells[cell.label];
+  std::printf("\nCells with a label:");
+  for (const auto& [label, count] : cells) std::printf(" %zu with %u;", count, label);
+  std::printf(" no others.\n");
 }
 
 static int run(const std::vector<std::string>& arguments) {

@@ -75,8 +75,8 @@ class Witness {
     require(g_.back() != 0, "the last coefficient of g is 0");
     const Poly signs = bernstein(g_, l_, u_, e_);
     require(sgn(signs.front()) * sgn(signs.back()) <= 0, "g has no change of sign");
-    meet(centre(p_), centre(q_));
-    words_ = "vertices" + names(p_, i) + " and" + names(q_, j) + " meet";
+    const bool same = meet(centre(p_), centre(q_));
+    words_ = "vertices" + names(p_, i) + " and" + names(q_, j) + (same ? " meet" : " are too near");
   }
 
   const std::string& words() const { return words_; }
@@ -151,7 +151,8 @@ class Witness {
     return sum;
   }
 
-  void meet(const Centre& p, const Centre& q) const {
+  /// Whether they are at one place; else they are too near.
+  bool meet(const Centre& p, const Centre& q) const {
     bool same = true;
     Poly square;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -159,11 +160,12 @@ class Witness {
       same = same && divides(g_, d);
       square = square + d * d;
     }
-    if (same) return;
+    if (same) return true;
     require(claim_.eta > 0, "the points do not meet");
     require(!near(), "the points do not meet, and the distance of what is so near by edges does not count");
     const Poly scale = (motion_.eta() * p.duration * q.duration) * (p.weight * q.weight);
     require(not_negative(scale * scale + mpz_class(-1) * square), "the points are not as near as the least distance");
+    return false;
   }
 
   /// Whether a path of fewer than K edges joins the sides: vertices are reached from P, an edge at a time.

@@ -185,7 +185,7 @@ Definition inside (h : halfspace) (a b d : Z) (x : search traj) : bool :=
     a group are linear in time, so that two ends tell.
 
     Not here: bounds from the breakpoints of a part of the time alone; trajectories that begin before
-    [T0] or end after [T1], which have no chord.  What bounds do not settle, a plane or the walk below do. *)
+    [T0] or end after [T1], which have no chord; directions and motions that are too long for words.  What bounds do not settle, a plane or the walk below do. *)
 
 (** How many bits positions have, and [u] has, and up to which [d] parts are looked at.  Any numbers
     do; with these, those of a token are below 2^62 for directions of 10 bits, unless vertices leave by far
@@ -250,66 +250,96 @@ Definition chord_of (s T0 T1 : Z) (tr : traj) : option chord :=
       else None
   end.
 
-(** A vertex: its id, the search tree of its trajectory, and its chord if it has one. *)
-Record vertex := Vertex { vid : Z; trail : search traj; line : option chord }.
+(** *** In integers of the machine
 
-(** What one axis, and all, contribute to the least of how far in direction [n] a vertex is. *)
-Definition least_on (n l h : Z) : Z := if 0 <=? n then n * l else n * h.
-Definition least_stray (n : vec) (c : chord) : Z :=
-  least_on (vx n) (vx (lows c)) (vx (highs c)) + least_on (vy n) (vy (lows c)) (vy (highs c))
-  + least_on (vz n) (vz (lows c)) (vz (highs c)).
+    What is looked at for each token is kept in [word]s: integers that the machine adds and multiplies without looking at
+    their length, which it does modulo 2^63. Numbers are compared with bounds before they become words, so that nothing
+    here is 2^62 or more, and what is computed is what integers would give. *)
 
-(** A vertex is at least so far in direction [n], in [d]-th parts of units, when the [j]-th part of
-    the time begins and when it ends. *)
-Definition least_ends (n : vec) (d j : Z) (c : chord) : Z * Z :=
-  let m := dot n (motion c) in
-  let g := d * (dot n (origin c) + least_stray n c) + j * m in
-  (g, g + m).
+(** An integer that is at least -2^62 and less than 2^62. *)
+Inductive word := Word (z : Z).
+Definition val (a : word) : Z := match a with Word z => z end.
+Definition to_word (z : Z) : word := Word ((z + 2 ^ 62) mod 2 ^ 63 - 2 ^ 62).
+Definition word_add (a b : word) : word := to_word (val a + val b).
+Definition word_mul (a b : word) : word := to_word (val a * val b).
+Definition word_lt (a b : word) : bool := val a <? val b.
+Definition word_zero : word := to_word 0.
+Definition word_most : word := to_word (2 ^ 62 - 1).
+Definition word_lesser (a b : word) : word := if word_lt b a then b else a.
 
-(** The least of the vertices [x] and of what those before have, [g0] and [g1]. *)
-Fixpoint least_from (n : vec) (d j : Z) (x : list vertex) (g0 g1 : Z) : option (Z * Z) :=
+(** Up to here, positions and motions become words, and directions do. *)
+Definition most_place : Z := 2 ^ 41.
+Definition most_direction : Z := 2 ^ 9.
+Definition short (most : Z) (p : vec) : bool :=
+  (Z.abs (vx p) <=? most) && (Z.abs (vy p) <=? most) && (Z.abs (vz p) <=? most).
+
+(** A chord in words: a vertex begins between the corners [l] and [h] of a box, which moves by [m]. *)
+Record band := Band { grid : Z; lx : word; ly : word; lz : word; hx : word; hy : word; hz : word;
+                      mx : word; my : word; mz : word }.
+
+Definition band_of (c : chord) : option band :=
+  let l := by_axis Z.add (origin c) (lows c) in
+  let h := by_axis Z.add (origin c) (highs c) in
+  let m := motion c in
+  if short most_place l && short most_place h && short most_place m then
+    Some (Band (grain c) (to_word (vx l)) (to_word (vy l)) (to_word (vz l))
+      (to_word (vx h)) (to_word (vy h)) (to_word (vz h)) (to_word (vx m)) (to_word (vy m)) (to_word (vz m)))
+  else None.
+
+(** A vertex: its id, the search tree of its trajectory, and its band if it has one. *)
+Record vertex := Vertex { vid : Z; trail : search traj; line : option band }.
+
+(** The band of a trajectory that begins at [T0] and ends at [T1]. *)
+Definition line_of (s T0 T1 : Z) (tr : traj) : option band :=
+  match chord_of s T0 T1 tr with Some c => band_of c | None => None end.
+
+(** What one axis contributes to the least of how far in direction [n] a vertex begins. *)
+Definition least_on (n l h : word) : word := word_mul n (if word_lt n word_zero then h else l).
+
+(** All of the vertices [x] are at least so far in direction [nx], [ny], [nz], in [d]-th parts of units, when the [j]-th
+    part of the time begins and when it ends; so are those before, [g0] and [g1]. *)
+Fixpoint least_from (nx ny nz d j : word) (x : list vertex) (g0 g1 : word) : option (word * word) :=
   match x with
   | [] => Some (g0, g1)
   | v :: r =>
       match line v with
       | Some c =>
-          let h := least_ends n d j c in
-          least_from n d j r (lesser g0 (fst h)) (lesser g1 (snd h))
+          let l := word_add (word_add (least_on nx (lx c) (hx c)) (least_on ny (ly c) (hy c)))
+                     (least_on nz (lz c) (hz c)) in
+          let m := word_add (word_add (word_mul nx (mx c)) (word_mul ny (my c))) (word_mul nz (mz c)) in
+          let g := word_add (word_mul d l) (word_mul j m) in
+          least_from nx ny nz d j r (word_lesser g0 g) (word_lesser g1 (word_add g m))
       | None => None
       end
   end.
 
-(** The same of all of a group. *)
-Definition least_of (n : vec) (d j : Z) (x : list vertex) : option (Z * Z) :=
-  match x with
-  | [] => None
-  | v :: r =>
-      match line v with
-      | Some c => let h := least_ends n d j c in least_from n d j r (fst h) (snd h)
-      | None => None
-      end
-  end.
+Definition least_of (n : vec) (d j : Z) (x : list vertex) : option (word * word) :=
+  least_from (to_word (vx n)) (to_word (vy n)) (to_word (vz n)) (to_word d) (to_word j) x word_most word_most.
 
 (** The unit in which a group is. *)
 Definition grain_of (x : list vertex) : option Z :=
   match x with
-  | v :: _ => match line v with Some c => Some (grain c) | None => None end
+  | v :: _ => match line v with Some c => Some (grid c) | None => None end
   | [] => None
   end.
 
 (** Bounds show that at all times of [a/d, b/d], all of [x] is further in direction [n] than all of
     [y], by more than the root of [k].  The greatest of [y] is the least in the other direction. *)
 Definition apart_by_bounds (T0 T1 k : Z) (n : vec) (a b d : Z) (x y : list vertex) : bool :=
-  if d <=? d_quick then
+  if (d <=? d_quick) && short most_direction n then
     let W := T1 - T0 in
     let j := (a - T0 * d) / W in
-    if b <=? T0 * d + (j + 1) * W then
+    if (0 <=? j) && (j <=? d_quick) && (b <=? T0 * d + (j + 1) * W) then
       match least_of n d j x, least_of (opposite n) d j y with
       | Some g, Some h =>
-          let m := lesser (fst g + fst h) (snd g + snd h) in
-          if 0 <? m then
+          let m := word_lesser (word_add (fst g) (fst h)) (word_add (snd g) (snd h)) in
+          if word_lt word_zero m then
             if k =? 0 then true
-            else match grain_of x with Some e => k * (d * d) <? (e * m) * (e * m) | None => false end
+            else
+              match grain_of x with
+              | Some e => let f := e * val m in k * (d * d) <? f * f
+              | None => false
+              end
           else false
       | _, _ => false
       end
@@ -511,14 +541,40 @@ Definition separated (T0 T1 e : Z) (n : vec) (a b d : Z) (x y : list vertex) : b
 (** ** Groups with their labels and vertices *)
 
 (** A leaf is a cell, or what is left of it, and has a label; a node has the union of
-    the vertices below, and the label of all cells below if that is one. *)
+    the vertices below, if they are [few], and the label of all cells below if that is one. *)
 Inductive tree :=
 | Leaf (l : Z) (vs : list vertex)
 | Node (l : option Z) (vs : list vertex) (x y : tree).
 
-(** The vertices of a group. *)
-Definition verts (x : tree) : list vertex :=
+(** Up to which number a node has them.  Any number does; with this one, large nodes do not take most of the memory. *)
+Definition few : Z := 2 ^ 10.
+
+(** A list is not longer than [k]. *)
+Fixpoint at_most {A} (k : Z) (l : list A) : bool :=
+  match l with [] => true | _ :: r => (0 <? k) && at_most (k - 1) r end.
+
+(** The vertices that it has itself. *)
+Definition own (x : tree) : list vertex :=
   match x with Leaf _ vs => vs | Node _ vs _ _ => vs end.
+
+(** The vertices of two groups as one, in order of their ids, if both have them and they are few. *)
+Definition few_of (x y : tree) : list vertex :=
+  match own x, own y with
+  | (_ :: _) as p, (_ :: _) as q => let vs := union vid p q in if at_most few vs then vs else []
+  | _, _ => []
+  end.
+
+(** The vertices of a group, those of several parts more than once; and [acc]. *)
+Fixpoint collect (x : tree) (acc : list vertex) : list vertex :=
+  match x with
+  | Node _ [] l r => collect l (collect r acc)
+  | Leaf _ vs | Node _ vs _ _ => rev_append vs acc
+  end.
+Definition verts (x : tree) : list vertex :=
+  match x with
+  | Node _ [] _ _ => collect x []
+  | Leaf _ vs | Node _ vs _ _ => vs
+  end.
 
 (** The label of all its cells, if that is one. *)
 Definition label_of (x : tree) : option Z :=
@@ -547,13 +603,13 @@ Fixpoint group_ids (f : Z -> Z) (s : scene) (g : group) : list Z :=
 Definition wf_vertex (s : scene) (v : Z) : bool :=
   wf_traj (tbeg s) (tend s) (path s v) && ((same s v =? v) || equal_traj (path s (same s v)) (path s v)).
 
-(** The vertices with these ids, by their ids: each trajectory's search tree and chord are
+(** The vertices with these ids, by their ids: each trajectory's search tree and band are
     made once, in units of 2^e, however many cells the vertex is in.  [acc] has the earlier ones, last first. *)
 Fixpoint vertices (e : Z) (s : scene) (ids : list Z) (acc : list (Z * search vertex)) : list (Z * search vertex) :=
   match ids with
   | [] => rev_append acc []
   | v :: r =>
-      let w := Vertex v (index (path s v)) (chord_of e (tbeg s) (tend s) (path s v)) in
+      let w := Vertex v (index (path s v)) (line_of e (tbeg s) (tend s) (path s v)) in
       vertices e s r ((v, Found w) :: acc)
   end.
 
@@ -583,7 +639,7 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
       end
   | Join l r =>
       match build_from table s l, build_from table s r with
-      | Some x, Some y => Some (Node (common_label x y) (union vid (verts x) (verts y)) x y)
+      | Some x, Some y => Some (Node (common_label x y) (few_of x y) x y)
       | _, _ => None
       end
   end.

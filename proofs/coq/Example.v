@@ -227,6 +227,13 @@ Lemma no_part_small : part 202 256 = false. Proof. computed. Qed.
 Lemma no_part_too_small : part 0 512 = false. Proof. computed. Qed.
 Lemma no_part_across : hd false (ways_over 2 6 4 passing point_first up) = false. Proof. computed. Qed.
 
+(** Words are modulo 2^63; chords that are too long for them have no band. *)
+Lemma ok_word : map (fun z => val (to_word z)) [2 ^ 62 - 1; 2 ^ 62; - 2 ^ 62; - 2 ^ 62 - 1; 2 ^ 63]
+  = [2 ^ 62 - 1; - 2 ^ 62; - 2 ^ 62; 2 ^ 62 - 1; 0]. Proof. computed. Qed.
+Definition has_band x := if band_of (Chord 1 (V3 x 0 0) (V3 0 x 0) (V3 0 0 0) (V3 0 0 0)) then true else false.
+Lemma ok_band : map has_band [2 ^ 41; 2 ^ 41 + 1; - 2 ^ 41; - 2 ^ 41 - 1] = [true; false; true; false].
+Proof. computed. Qed.
+
 (** A chord is from the first time to the last. *)
 Definition has_chord T0 T1 := if chord_of 0 T0 T1 zigzag then true else false.
 Lemma ok_chord : has_chord 0 3 = true. Proof. computed. Qed.

@@ -34,7 +34,21 @@ Extract Inlined Constant place_bits => "Zint.place_bits".
 Extract Inlined Constant time_bits => "Zint.time_bits".
 Extract Inlined Constant d_quick => "Zint.d_quick".
 Extract Inlined Constant d_max => "Zint.d_max".
+Extract Inlined Constant few => "Zint.few".
+Extract Inlined Constant most_place => "Zint.most_place".
+Extract Inlined Constant most_direction => "Zint.most_direction".
 Extract Inlined Constant repeatedly => "Zint.repeatedly".
+
+(** Words are OCaml's integers, which have 63 bits and are added and multiplied modulo 2^63.  They are never taken apart,
+    and made by [to_word] and the operations alone. *)
+Extract Inductive word => "int" [ "Zint.no_word" ] "Zint.no_match".
+Extract Inlined Constant val => "Zint.of_int".
+Extract Inlined Constant to_word => "Zint.to_word".
+Extract Inlined Constant word_add => "Zint.word_add".
+Extract Inlined Constant word_mul => "Zint.word_mul".
+Extract Inlined Constant word_lt => "Zint.word_lt".
+Extract Inlined Constant word_zero => "0".
+Extract Inlined Constant word_most => "max_int".
 
 Extract Inlined Constant fst => "fst".
 Extract Inlined Constant snd => "snd".

@@ -735,11 +735,21 @@ Qed.
 Lemma last_from_time r : forall t p, fst (last_from t p r) = last_time t r.
 Proof. induction r as [|(t1, p1) r IH]; cbn; auto. Qed.
 
+(** What [least_from] has of a vertex, in integers of any length: what one axis, and all, contribute, and both ends. *)
+Definition axis_stray (n l h : Z) : Z := (if 0 <=? n then n * l else n * h)%Z.
+Definition least_stray (n : vec) (c : chord) : Z :=
+  (axis_stray (vx n) (vx (lows c)) (vx (highs c)) + axis_stray (vy n) (vy (lows c)) (vy (highs c))
+   + axis_stray (vz n) (vz (lows c)) (vz (highs c)))%Z.
+Definition least_ends (n : vec) (d j : Z) (c : chord) : Z * Z :=
+  let m := dot n (motion c) in
+  let g := (d * (dot n (origin c) + least_stray n c) + j * m)%Z in
+  (g, g + m)%Z.
+
 (** What one axis contributes is the least of it. *)
-Lemma least_on_sound n l h (G x c : R) : 0 < G -> G * (c + IZR l) <= x <= G * (c + IZR h) ->
-  G * (IZR n * c + IZR (least_on n l h)) <= IZR n * x.
+Lemma axis_stray_sound n l h (G x c : R) : 0 < G -> G * (c + IZR l) <= x <= G * (c + IZR h) ->
+  G * (IZR n * c + IZR (axis_stray n l h)) <= IZR n * x.
 Proof.
-  intros P [L H]. unfold least_on. destruct (0 <=? n)%Z eqn:E; to_R.
+  intros P [L H]. unfold axis_stray. destruct (0 <=? n)%Z eqn:E; to_R.
   - assert (IZR n * (G * (c + IZR l)) <= IZR n * x) by (apply Rmult_le_compat_l; auto). lra.
   - assert (- IZR n * x <= - IZR n * (G * (c + IZR h))) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
@@ -769,9 +779,9 @@ Proof.
     repeat (rewrite plus_IZR || rewrite mult_IZR). rewrite <- !minus_IZR.
     assert (forall n l h x o w, let q := (Z.shiftr x s - (o + Z.shiftr (w * (Z.shiftl (t - T0) time_bits / (T1 - T0))) time_bits))%Z in
       (l <= q)%Z -> (q <= h)%Z ->
-      pow s * (IZR n * (IZR o + IZR w * (IZR (t - T0) / IZR (T1 - T0))) + IZR (least_on n (l - slack w) (h + slack w))) <= IZR n * IZR x)
+      pow s * (IZR n * (IZR o + IZR w * (IZR (t - T0) / IZR (T1 - T0))) + IZR (axis_stray n (l - slack w) (h + slack w))) <= IZR n * IZR x)
       as B.
-    { clear - S P W. intros n l h x o w q L H. apply least_on_sound; auto.
+    { clear - S P W. intros n l h x o w q L H. apply axis_stray_sound; auto.
       destruct (stray_axis s (t - T0) (T1 - T0) o w x S W) as [X1 X2]. fold q in X1, X2.
       apply IZR_le in L, H. rewrite (minus_IZR l), (plus_IZR h).
       split; [apply Rle_trans with (2 := X1)|apply Rle_trans with (1 := X2)];
@@ -793,23 +803,111 @@ Proof.
   - rewrite E. exact Ht.
 Qed.
 
-Lemma least_from_sound n d j x : forall g0 g1 g, least_from n d j x g0 g1 = Some g ->
-  (fst g <= g0 /\ snd g <= g1)%Z /\ forall v, In v x -> exists c, line v = Some c /\
-    (fst g <= fst (least_ends n d j c) /\ snd g <= snd (least_ends n d j c))%Z.
+(** The word [a] is the integer [x], of at most [B]. *)
+Definition is_word (a : word) (x B : Z) : Prop := (val a = x /\ Z.abs x <= B)%Z.
+
+Lemma to_word_val z : (- 2 ^ 62 <= z < 2 ^ 62)%Z -> val (to_word z) = z.
+Proof. intros H. cbn [val to_word]. rewrite Z.mod_small; lia. Qed.
+
+Lemma to_word_sound z B : (Z.abs z <= B)%Z -> (B < 2 ^ 62)%Z -> is_word (to_word z) z B.
+Proof. intros H L. split; auto. apply to_word_val. lia. Qed.
+
+Lemma word_add_sound a b x y A B : is_word a x A -> is_word b y B -> (A + B < 2 ^ 62)%Z ->
+  is_word (word_add a b) (x + y) (A + B).
+Proof. intros [<- Ha] [<- Hb] L. apply to_word_sound; lia. Qed.
+
+Lemma word_mul_sound a b x y A B : is_word a x A -> is_word b y B -> (A * B < 2 ^ 62)%Z ->
+  is_word (word_mul a b) (x * y) (A * B).
 Proof.
-  induction x as [|v x IH]; cbn [least_from]; intros g0 g1 g.
-  - intros [= <-]. cbn. split; [lia|easy].
-  - destruct (line v) as [c|] eqn:E; [|discriminate]. cbv zeta. intros H. apply IH in H as [B H].
-    pose proof (lesser_sound g0 (fst (least_ends n d j c))). pose proof (lesser_sound g1 (snd (least_ends n d j c))).
-    split; [lia|]. intros u [<-|I]; [|now apply H]. exists c. split; auto. lia.
+  intros [<- Ha] [<- Hb] L. apply to_word_sound; auto. rewrite Z.abs_mul. apply Z.mul_le_mono_nonneg; lia.
 Qed.
 
-Lemma least_of_sound n d j x g : least_of n d j x = Some g ->
-  forall v, In v x -> exists c, line v = Some c /\
-    (fst g <= fst (least_ends n d j c) /\ snd g <= snd (least_ends n d j c))%Z.
+Lemma word_lesser_val a b : val (word_lesser a b) = lesser (val a) (val b).
+Proof. unfold word_lesser, word_lt, lesser. now destruct (val b <? val a)%Z. Qed.
+
+Lemma least_on_sound a l h n o x y N L : is_word a n N -> is_word l (o + x) L -> is_word h (o + y) L ->
+  (N * L < 2 ^ 62)%Z -> is_word (least_on a l h) (n * o + axis_stray n x y) (N * L).
 Proof.
-  destruct x as [|w x]; [discriminate|]. cbn [least_of]. destruct (line w) as [c|] eqn:E; [|discriminate].
-  intros H. apply least_from_sound in H as [B H]. intros v [<-|I]; [|now apply H]. exists c; auto.
+  intros Ha Hl Hh B. unfold least_on, word_lt, axis_stray. rewrite (proj1 Ha).
+  replace (val word_zero) with 0%Z by reflexivity. destruct (Z.ltb_spec n 0), (Z.leb_spec 0 n); try lia.
+  - replace (n * o + n * y)%Z with (n * (o + y))%Z by ring. now apply word_mul_sound.
+  - replace (n * o + n * x)%Z with (n * (o + x))%Z by ring. now apply word_mul_sound.
+Qed.
+
+Lemma short_sound B p : short B p = true -> (Z.abs (vx p) <= B /\ Z.abs (vy p) <= B /\ Z.abs (vz p) <= B)%Z.
+Proof. unfold short. rewrite !andb_true_iff, !Z.leb_le. tauto. Qed.
+
+(** What words compute of a vertex is what integers would, and far enough from 2^62. *)
+Definition most_end : Z := (2 ^ 61 - 1)%Z.
+
+Lemma band_ends n d j c q : short most_direction n = true -> (0 < d <= d_quick)%Z -> (0 <= j <= d_quick)%Z ->
+  band_of c = Some q ->
+  let nx := to_word (vx n) in let ny := to_word (vy n) in let nz := to_word (vz n) in
+  let l := word_add (word_add (least_on nx (lx q) (hx q)) (least_on ny (ly q) (hy q)))
+             (least_on nz (lz q) (hz q)) in
+  let m := word_add (word_add (word_mul nx (mx q)) (word_mul ny (my q))) (word_mul nz (mz q)) in
+  let g := word_add (word_mul (to_word d) l) (word_mul (to_word j) m) in
+  is_word g (fst (least_ends n d j c)) most_end /\ is_word (word_add g m) (snd (least_ends n d j c)) most_end.
+Proof.
+  intros N D J. unfold band_of. destruct (_ && _)%bool eqn:E; [|discriminate]. intros [= <-]. cbv zeta.
+  rewrite !andb_true_iff in E. destruct E as [[L H] M]. apply short_sound in N as (N1 & N2 & N3).
+  apply short_sound in L as (L1 & L2 & L3), H as (H1 & H2 & H3), M as (M1 & M2 & M3).
+  cbn [lx ly lz hx hy hz mx my mz by_axis vx vy vz] in *.
+  assert (forall z, (Z.abs z <= most_direction)%Z -> is_word (to_word z) z most_direction) as WN
+    by (intros; now apply to_word_sound).
+  assert (forall z, (Z.abs z <= most_place)%Z -> is_word (to_word z) z most_place) as WP
+    by (intros; now apply to_word_sound).
+  assert (forall z, (0 <= z <= d_quick)%Z -> is_word (to_word z) z d_quick) as WD
+    by (intros; apply to_word_sound; [lia|reflexivity]).
+  assert (is_word (to_word d) d d_quick) as Wd by (apply WD; lia). specialize (WD j J).
+  set (l := word_add (word_add (least_on _ _ _) _) _). set (m := word_add (word_add (word_mul _ _) _) _).
+  assert (is_word l (dot n (origin c) + least_stray n c) (3 * (most_direction * most_place))) as Wl.
+  { unfold l. replace (dot n (origin c) + least_stray n c)%Z with
+      (vx n * vx (origin c) + axis_stray (vx n) (vx (lows c)) (vx (highs c)) +
+       (vy n * vy (origin c) + axis_stray (vy n) (vy (lows c)) (vy (highs c))) +
+       (vz n * vz (origin c) + axis_stray (vz n) (vz (lows c)) (vz (highs c))))%Z
+      by (unfold dot, least_stray; ring).
+    change (3 * (most_direction * most_place))%Z with
+      (most_direction * most_place + most_direction * most_place + most_direction * most_place)%Z.
+    repeat apply word_add_sound; try reflexivity; apply least_on_sound; auto; reflexivity. }
+  assert (is_word m (dot n (motion c)) (3 * (most_direction * most_place))) as Wm.
+  { unfold m, dot. change (3 * (most_direction * most_place))%Z with
+      (most_direction * most_place + most_direction * most_place + most_direction * most_place)%Z.
+    repeat apply word_add_sound; try reflexivity; apply word_mul_sound; auto; reflexivity. }
+  pose proof (word_mul_sound _ _ _ _ _ _ Wd Wl eq_refl) as W1.
+  pose proof (word_mul_sound _ _ _ _ _ _ WD Wm eq_refl) as W2.
+  pose proof (word_add_sound _ _ _ _ _ _ W1 W2 eq_refl) as Wg.
+  pose proof (word_add_sound _ _ _ _ _ _ Wg Wm eq_refl) as We.
+  assert (forall a x A, (A <= most_end)%Z -> is_word a x A -> is_word a x most_end) as Up
+    by (intros a x A HA [V B]; split; [auto|lia]).
+  split; [apply Up with (2 := Wg)|apply Up with (2 := We)]; easy.
+Qed.
+
+(** The lesser of both ends, of all vertices: [P] says which chord a vertex has. *)
+Lemma least_from_sound n d j (P : vertex -> chord -> Prop) x : short most_direction n = true ->
+  (0 < d <= d_quick)%Z -> (0 <= j <= d_quick)%Z ->
+  (forall v q, In v x -> line v = Some q -> exists c, P v c /\ band_of c = Some q) ->
+  forall g0 g1 g, least_from (to_word (vx n)) (to_word (vy n)) (to_word (vz n)) (to_word d) (to_word j) x g0 g1 = Some g ->
+  (- most_end <= val g0)%Z -> (- most_end <= val g1)%Z ->
+  (- most_end <= val (fst g) <= val g0)%Z /\ (- most_end <= val (snd g) <= val g1)%Z /\
+  forall v, In v x -> exists c, P v c /\
+    (val (fst g) <= fst (least_ends n d j c) <= most_end)%Z /\ (val (snd g) <= snd (least_ends n d j c) <= most_end)%Z.
+Proof.
+  intros N D J. induction x as [|v x IH]; cbn [least_from]; intros C g0 g1 g.
+  - intros [= <-] B0 B1. cbn [fst snd]. split; [lia|]. split; [lia|easy].
+  - destruct (line v) as [q|] eqn:E; [|discriminate]. cbv zeta. intros H B0 B1.
+    destruct (C v q (or_introl eq_refl) E) as (c & Pc & Q).
+    destruct (band_ends n d j c q N D J Q) as [[V0 A0] [V1 A1]]. cbv zeta in V0, V1.
+    pose proof (lesser_sound (val g0) (fst (least_ends n d j c))) as S0.
+    pose proof (lesser_sound (val g1) (snd (least_ends n d j c))) as S1.
+    assert (forall a b, (- most_end <= a -> - most_end <= b -> - most_end <= lesser a b)%Z) as S
+      by (intros a b; unfold lesser; destruct (b <? a)%Z; auto).
+    apply IH in H.
+    + rewrite !word_lesser_val, V0, V1 in H. destruct H as (H0 & H1 & H). split; [lia|]. split; [lia|].
+      intros u [<-|I]; [|now apply H]. exists c. split; auto. lia.
+    + intros u r I. apply C. now right.
+    + rewrite word_lesser_val, V0. apply S; lia.
+    + rewrite word_lesser_val, V1. apply S; lia.
 Qed.
 
 Lemma far_opposite n tr t : far (opposite n) tr t = - far n tr t.
@@ -842,26 +940,43 @@ Qed.
 (** What [apart_by_bounds] computes: the least at both ends, and that their sum is large enough. *)
 Lemma bounds_sound k m n a b d s T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z -> (0 <= s)%Z ->
   (forall u, In u x \/ In u y ->
-    line u = chord_of s T0 T1 (path (vid u)) /\ covers_time T0 T1 (path (vid u))) ->
+    line u = line_of s T0 T1 (path (vid u)) /\ covers_time T0 T1 (path (vid u))) ->
   apart_by_bounds T0 T1 k n a b d x y = true -> In w x -> In v y ->
   forall t, IZR a <= t * IZR d <= IZR b -> IZR T0 <= t <= IZR T1 ->
   far n (path (vid v)) t + m < far n (path (vid w)) t.
 Proof.
-  intros [M K] D S C. unfold apart_by_bounds. destruct (d <=? d_quick)%Z; [|discriminate]. cbv zeta.
-  set (j := ((a - T0 * d) / (T1 - T0))%Z). destruct (b <=? _)%Z eqn:B; [|discriminate].
+  intros [M K] D S C. unfold apart_by_bounds. destruct (_ && _)%bool eqn:DN; [|discriminate]. cbv zeta.
+  set (j := ((a - T0 * d) / (T1 - T0))%Z). destruct (_ && _ && _)%bool eqn:B; [|discriminate].
   destruct (least_of n d j x) as [g|] eqn:X; [|discriminate].
   destruct (least_of (opposite n) d j y) as [g'|] eqn:Y; [|discriminate].
-  set (q := lesser _ _). destruct (0 <? q)%Z eqn:Q; [|discriminate]. intros A Hw Hv t Ht HT.
+  set (q' := word_lesser _ _). destruct (word_lt word_zero q') eqn:Q; [|discriminate]. intros A Hw Hv t Ht HT.
+  rewrite !andb_true_iff, !Z.leb_le in B. destruct B as [[J0 J1] B].
+  rewrite andb_true_iff, Z.leb_le in DN. destruct DN as [DQ N].
+  set (P := fun (u : vertex) c => chord_of s T0 T1 (path (vid u)) = Some c).
+  assert (forall z, (forall u, In u z -> In u x \/ In u y) ->
+    forall u r, In u z -> line u = Some r -> exists c, P u c /\ band_of c = Some r) as CP.
+  { intros z Z u r I E. destruct (C u (Z u I)) as [F _]. rewrite E in F. unfold P, line_of in *.
+    destruct (chord_of _ _ _ _) as [c|]; [|discriminate]. exists c. auto. }
   assert (match grain_of x with Some e => e = (2 ^ s)%Z | None => True end) as G.
   { clear - C S. destruct x as [|u x]; cbn; auto. destruct (C u) as [E W]; [left; now left|].
-    destruct (line u) as [c|]; auto. symmetry in E. now apply chord_sound in E as [E _]. }
-  destruct (least_of_sound _ _ _ _ _ X w Hw) as (cw & Ew & Gw).
-  destruct (least_of_sound _ _ _ _ _ Y v Hv) as (cv & Ev & Gv).
-  destruct (C w (or_introl Hw)) as [Lw Ww], (C v (or_intror Hv)) as [Lv Wv].
-  rewrite Ew in Lw. rewrite Ev in Lv. symmetry in Lw, Lv.
+    destruct (line u) as [r|]; auto. unfold line_of in E. destruct (chord_of _ _ _ _) as [c|] eqn:F; [|discriminate].
+    apply chord_sound in F as [F _]; auto. unfold band_of in E. destruct (_ && _)%bool; [|discriminate].
+    injection E as ->. exact F. }
+  assert (short most_direction (opposite n) = true) as N'.
+  { unfold short, opposite in *. cbn [vx vy vz]. now rewrite !Z.abs_opp. }
+  destruct (least_from_sound n d j P x N (conj D DQ) (conj J0 J1) (CP x (fun u I => or_introl I)) _ _ _ X)
+    as (X0 & X1 & Gw); try easy.
+  destruct (least_from_sound (opposite n) d j P y N' (conj D DQ) (conj J0 J1) (CP y (fun u I => or_intror I)) _ _ _ Y)
+    as (Y0 & Y1 & Gv); try easy.
+  destruct (Gw w Hw) as (cw & Lw & Gw0 & Gw1), (Gv v Hv) as (cv & Lv & Gv0 & Gv1). clear Gw Gv. unfold P in Lw, Lv.
+  destruct (C w (or_introl Hw)) as [_ Ww], (C v (or_intror Hv)) as [_ Wv].
+  set (q := lesser (val (fst g) + val (fst g')) (val (snd g) + val (snd g'))).
+  assert (val q' = q) as Eq.
+  { unfold q', q. rewrite word_lesser_val. unfold word_add. rewrite !to_word_val; auto; unfold most_end in *; lia. }
+  unfold word_lt in Q. rewrite Eq in Q. rewrite Eq in A. replace (val word_zero) with 0%Z in Q by reflexivity.
   destruct (chord_sound s T0 T1 _ cw S Ww Lw) as (_ & L & _).
   assert (0 < T1 - T0)%Z as W by lia. pose proof (div_bounds (a - T0 * d) (T1 - T0) W) as [J _]. fold j in J.
-  apply IZR_lt in L, D as D'. apply Z.leb_le, IZR_le in B. apply Z.ltb_lt, IZR_lt in Q.
+  apply IZR_lt in L, D as D'. apply IZR_le in B. apply Z.ltb_lt, IZR_lt in Q.
   repeat (rewrite plus_IZR in B || rewrite mult_IZR in B || rewrite minus_IZR in B).
   repeat (rewrite mult_IZR in J || rewrite minus_IZR in J).
   set (h := ((t - IZR T0) * IZR d - IZR j * (IZR T1 - IZR T0)) / (IZR T1 - IZR T0)).
@@ -869,16 +984,18 @@ Proof.
   assert (0 <= h <= 1) as Hh.
   { split; apply (Rmult_le_reg_r (IZR T1 - IZR T0)); lra. }
   assert ((t - IZR T0) * IZR d = (IZR j + h) * (IZR T1 - IZR T0)) as J' by lra.
-  pose proof (ends_sound s T0 T1 _ cw n d j g h t S D Ww Lw Gw HT Hh J') as Bw.
-  pose proof (ends_sound s T0 T1 _ cv (opposite n) d j g' h t S D Wv Lv Gv HT Hh J') as Bv.
-  rewrite far_opposite in Bv.
-  destruct (lesser_sound (fst g + fst g') (snd g + snd g')) as [Q0 Q1]. fold q in Q0, Q1.
-  apply IZR_le in Q0, Q1. rewrite plus_IZR in Q0, Q1. pose proof (pow_positive s S) as P.
+  pose proof (ends_sound s T0 T1 _ cw n d j (val (fst g), val (snd g)) h t S D Ww Lw
+    (conj (proj1 Gw0) (proj1 Gw1)) HT Hh J') as Bw.
+  pose proof (ends_sound s T0 T1 _ cv (opposite n) d j (val (fst g'), val (snd g')) h t S D Wv Lv
+    (conj (proj1 Gv0) (proj1 Gv1)) HT Hh J') as Bv.
+  rewrite far_opposite in Bv. cbn [fst snd] in Bw, Bv.
+  destruct (lesser_sound (val (fst g) + val (fst g')) (val (snd g) + val (snd g'))) as [Q0 Q1]. fold q in Q0, Q1.
+  apply IZR_le in Q0, Q1. rewrite plus_IZR in Q0, Q1. pose proof (pow_positive s S) as P0.
   assert (pow s * IZR q <= IZR d * (far n (path (vid w)) t - far n (path (vid v)) t)) as F.
-  { apply Rle_trans with (pow s * ((1 - h) * (IZR (fst g) + IZR (fst g')) + h * (IZR (snd g) + IZR (snd g')))); [|lra].
+  { apply Rle_trans with (pow s * ((1 - h) * (IZR (val (fst g)) + IZR (val (fst g'))) + h * (IZR (val (snd g)) + IZR (val (snd g'))))); [|lra].
     apply Rmult_le_compat_l; [lra|].
-    assert ((1 - h) * IZR q <= (1 - h) * (IZR (fst g) + IZR (fst g'))) by (apply Rmult_le_compat_l; lra).
-    assert (h * IZR q <= h * (IZR (snd g) + IZR (snd g'))) by (apply Rmult_le_compat_l; lra). lra. }
+    assert ((1 - h) * IZR q <= (1 - h) * (IZR (val (fst g)) + IZR (val (fst g')))) by (apply Rmult_le_compat_l; lra).
+    assert (h * IZR q <= h * (IZR (val (snd g)) + IZR (val (snd g')))) by (apply Rmult_le_compat_l; lra). lra. }
   assert (IZR d * m < pow s * IZR q) as R.
   { assert (0 < pow s * IZR q) by (apply Rmult_lt_0_compat; lra).
     destruct (Z.eqb_spec k 0) as [->|_].
@@ -892,7 +1009,7 @@ Qed.
 (** All ways to see that a direction separates, but for planes. *)
 Lemma further_sound k m n a b d s T0 T1 (path : Z -> traj) x y w v : below_root k m -> (0 < d)%Z -> (0 <= s)%Z ->
   (forall u, In u x \/ In u y -> trail u = index (path (vid u)) /\
-    covers_time T0 T1 (path (vid u)) /\ line u = chord_of s T0 T1 (path (vid u))) ->
+    covers_time T0 T1 (path (vid u)) /\ line u = line_of s T0 T1 (path (vid u))) ->
   (empty x || empty y || apart_by_bounds T0 T1 k n a b d x y || apart_by_walk k n a b d x y)%bool = true ->
   In w x -> In v y ->
   forall t, IZR a <= t * IZR d <= IZR b -> IZR T0 <= t <= IZR T1 ->
@@ -1019,7 +1136,7 @@ Fixpoint SelfApart (o : mode) (a b d : Z) (x : tree) : Prop :=
 
 Definition resolved (w : vertex) : Prop :=
   trail w = index (path s (vid w)) /\ covers_time (tbeg s) (tend s) (path s (vid w)) /\
-  line w = chord_of bits (tbeg s) (tend s) (path s (vid w)).
+  line w = line_of bits (tbeg s) (tend s) (path s (vid w)).
 
 Definition vids (l : list vertex) := map vid l.
 
@@ -1028,7 +1145,7 @@ Fixpoint inv (x : tree) : Prop :=
   match x with
   | Leaf _ vs => Forall resolved vs
   | Node l vs x y =>
-      Forall resolved vs /\ incl (vids (verts x)) (vids vs) /\ incl (vids (verts y)) (vids vs) /\
+      (vs <> [] -> Forall resolved vs /\ incl (vids (verts x)) (vids vs) /\ incl (vids (verts y)) (vids vs)) /\
       inv x /\ inv y /\ (forall m, l = Some m -> label_of x = Some m /\ label_of y = Some m)
   end.
 
@@ -1192,8 +1309,28 @@ Proof.
   destruct (existsb _ us); cbn; now rewrite IH.
 Qed.
 
+Lemma rev_append_in {A} (w : A) l1 l2 : In w (rev_append l1 l2) <-> In w l1 \/ In w l2.
+Proof. rewrite rev_append_rev, in_app_iff, <- in_rev. tauto. Qed.
+
+(** The vertices of a group are those that it has itself, or those of its parts. *)
+Lemma collect_in w x : forall acc, In w (collect x acc) <-> In w (verts x) \/ In w acc.
+Proof.
+  induction x as [l vs|l [|v vs] x IHx y IHy]; intros acc.
+  - apply rev_append_in.
+  - cbn [verts collect]. rewrite !IHx, !IHy. cbn. tauto.
+  - apply rev_append_in.
+Qed.
+
+Lemma verts_in w l x y : In w (verts (Node l [] x y)) <-> In w (verts x) \/ In w (verts y).
+Proof. cbn [verts collect]. rewrite !collect_in. cbn. tauto. Qed.
+
 Lemma inv_verts x : inv x -> Forall resolved (verts x).
-Proof. destruct x; cbn; tauto. Qed.
+Proof.
+  induction x as [l vs|l [|v vs] x IHx y IHy]; cbn [inv]; auto.
+  - intros (_ & Ix & Iy & _). specialize (IHx Ix). specialize (IHy Iy). rewrite Forall_forall in *.
+    intros w H. apply verts_in in H as [H|H]; auto.
+  - intros (H & _). now apply H.
+Qed.
 
 Lemma inv_filter f p : Forall resolved p -> Forall resolved (filter f p).
 Proof. rewrite !Forall_forall; intros H w I; apply filter_In in I; now apply H. Qed.
@@ -1201,9 +1338,14 @@ Proof. rewrite !Forall_forall; intros H w I; apply filter_In in I; now apply H. 
 (** A node has the vertices of its cells. *)
 Lemma leaf_verts x P : inv x -> In P (leaves x) -> incl (snd P) (vids (verts x)).
 Proof.
-  revert P; induction x as [l vs|l vs x IHx y IHy]; cbn; intros P I H.
+  revert P; induction x as [l vs|l vs x IHx y IHy]; cbn [leaves]; intros P I H.
   - destruct H as [<-|[]]. apply incl_refl.
-  - destruct I as (_ & L & R & Ix & Iy & _). apply in_app_or in H as [H|H].
+  - destruct I as (O & Ix & Iy & _).
+    assert (incl (vids (verts x)) (vids (verts (Node l vs x y))) /\
+            incl (vids (verts y)) (vids (verts (Node l vs x y)))) as [L R].
+    { destruct vs as [|v vs]; [|now apply O]. unfold vids.
+      split; intros u Hu; apply in_map_iff in Hu as (w & <- & Hw); apply in_map, verts_in; auto. }
+    apply in_app_or in H as [H|H].
     + eapply incl_tran; [apply IHx|]; eauto.
     + eapply incl_tran; [apply IHy|]; eauto.
 Qed.
@@ -1282,7 +1424,7 @@ Lemma label_sound x l : inv x -> label_of x = Some l -> forall P, In P (leaves x
 Proof.
   induction x as [m vs|m vs x IHx y IHy]; cbn; intros I E P H.
   - injection E as ->. destruct H as [<-|[]]. reflexivity.
-  - destruct I as (_ & _ & _ & Ix & Iy & L). destruct (L l E).
+  - destruct I as (_ & Ix & Iy & L). destruct (L l E).
     apply in_app_or in H as [H|H]; auto.
 Qed.
 
@@ -1336,11 +1478,11 @@ Proof.
     cbn [holds] in *. intros D Ix Iy P Q HP HQ. apply Claimed_halves; [apply H|apply H0]; auto; lia.
   - (* TLeft *)
     destruct x as [|l vs x1 x2]; [discriminate|]. intros [= <-] F. heads F. constructor; auto.
-    cbn in *. intros D (? & ? & ? & I1 & I2 & _) Iy P Q HP HQ.
+    cbn in *. intros D (? & I1 & I2 & _) Iy P Q HP HQ.
     apply in_app_or in HP as [HP|HP]; [apply H|apply H0]; auto.
   - (* TRight *)
     destruct y as [|l vs y1 y2]; [discriminate|]. intros [= <-] F. heads F. constructor; auto.
-    cbn in *. intros D Ix (? & ? & ? & I1 & I2 & _) P Q HP HQ.
+    cbn in *. intros D Ix (? & I1 & I2 & _) P Q HP HQ.
     apply in_app_or in HQ as [HQ|HQ]; [apply H|apply H0]; auto.
   - (* TDrop *)
     destruct x as [l p|]; [|discriminate]. destruct y as [m q|]; [|discriminate].
@@ -1435,9 +1577,6 @@ Lemma union_acc_cons {A} (key : A -> Z) x r1 y r2 acc :
     else if (key y <? key x)%Z then union_acc key (x :: r1) r2 (y :: acc)
     else union_acc key r1 r2 (x :: acc).
 Proof. reflexivity. Qed.
-
-Lemma rev_append_in {A} (w : A) l1 l2 : In w (rev_append l1 l2) <-> In w l1 \/ In w l2.
-Proof. rewrite rev_append_rev, in_app_iff, <- in_rev. tauto. Qed.
 
 Lemma union_acc_in {A} (key : A -> Z) : forall l1 l2 acc w,
   In w (union_acc key l1 l2 acc) -> In w acc \/ In w l1 \/ In w l2.
@@ -1570,10 +1709,17 @@ Proof.
     destruct (build_from table s r) as [xr|]; [|discriminate]. injection B as <-. cbn.
     pose proof (IHl _ eq_refl) as L. pose proof (IHr _ eq_refl) as R.
     pose proof (inv_verts _ L) as VL. pose proof (inv_verts _ R) as VR.
-    rewrite Forall_forall in VL, VR |- *. split; [|split; [|split; [|split; [|split]]]]; auto.
-    + intros w H; apply union_in in H as [H|H]; [now apply VL|now apply VR].
-    + intros v Hv; apply union_keys; auto.
-    + intros v Hv; apply union_keys; auto.
+    split; [|split; [|split]]; auto.
+    + unfold few_of. destruct (own xl) as [|u p] eqn:P; [easy|]. destruct (own xr) as [|v q] eqn:Q; [easy|].
+      rewrite <- P, <- Q. destruct (at_most _ _); [|easy]. intros _.
+      assert (verts xl = own xl /\ verts xr = own xr) as [-> ->].
+      { split; [destruct xl as [|? [|]]|destruct xr as [|? [|]]]; easy. }
+      replace (verts xl) with (own xl) in VL by (destruct xl as [|? [|]]; easy).
+      replace (verts xr) with (own xr) in VR by (destruct xr as [|? [|]]; easy).
+      rewrite Forall_forall in VL, VR |- *. split; [|split].
+      * intros w H; apply union_in in H as [H|H]; [now apply VL|now apply VR].
+      * intros w Hw; apply union_keys; auto.
+      * intros w Hw; apply union_keys; auto.
     + unfold common_label. intros m.
       destruct (label_of xl) as [a|], (label_of xr) as [b|]; try discriminate.
       destruct (Z.eqb_spec a b); [|discriminate]. subst. now intros [= <-].

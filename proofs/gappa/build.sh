@@ -7,34 +7,12 @@
 # Needs coqc 8.16, gappa, and the Coq libraries Flocq and Gappa.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=proofs/formal.sh
+. "$here/../formal.sh"
 
-renew=no
-case "${1-}" in
-  '') ;;
-  --renew) renew=yes ;;
-  *) echo "build.sh: unknown argument '$1'; expected --renew or nothing" >&2; exit 3 ;;
-esac
-
-fail() { echo "build.sh: $1" >&2; exit 1; }
-
-# Every theory is in the list, and none leaves anything out.
-cp "$here/_CoqProject" "$here"/*.v "$work"
-cd "$work"
-mapfile -t theories < <(grep '\.v$' _CoqProject)
-[ "$(printf '%s\n' "${theories[@]}" | sort)" = "$(printf '%s\n' *.v | sort)" ] ||
-  fail "_CoqProject does not list the .v files that are here"
-# What would let a theorem stand without its proof. These words are looked for so that they are not there.
-forbidden='Admitted|admit|give_up|Abort|Axioms?|Parameters?|Conjecture|Primitive|bypass_check'
-forbidden+='|Unset +(Guard|Positivity|Universe) +Checking|Admit +Obligations'
-if grep -nwE "$forbidden" ./*.v; then fail "a word that a proof must not have"; fi
-for theory in "${theories[@]}"; do
-  coqc -q -Q . NoliGappa "$theory" > "$theory.out" || fail "$theory does not compile"
-done
+compile NoliGappa
 
 # What the theorems say and rest on: of all that is called Theorem.
-mkdir ask
 {
   echo 'Require Import Reals.'
   echo 'From NoliGappa Require Import Constants Rounding Formulas Differences.'
@@ -47,13 +25,7 @@ mkdir ask
       echo "Print Assumptions $module.$theorem."
     done
   done
-} > ask/Ask.v
-coqc -q -Q . NoliGappa ask/Ask.v > assumptions.txt || fail "a theorem is missing"
+} | ask NoliGappa
 
-if [ "$renew" = yes ]; then
-  cp assumptions.txt "$here"
-else
-  diff "$here/assumptions.txt" assumptions.txt ||
-    fail "the theorems, or what they rest on, differ from assumptions.txt"
-fi
+keep assumptions.txt "the theorems, or what they rest on, differ from assumptions.txt"
 echo "all bounds hold"

@@ -129,7 +129,8 @@ TEST(Witnesses, PointsThatComeNear) {
     proof.claim.eta = eta;
     return proof;
   };
-  EXPECT_VERDICT(check(half, at(3, 4)), 1, "");
+  EXPECT_VERDICT(check(half, at(3, 4)), 1, "vertices {0} of cell 0 and {1} of cell 1 are too near");
+  EXPECT_VERDICT(check(half, at(0, 4)), 1, "vertices {0} of cell 0 and {1} of cell 1 meet");
   EXPECT_VERDICT(check(half, at(3, 3)), 1, "");
   EXPECT_REJECTED(check(half, at(3, 2)), "not as near");
   EXPECT_REJECTED(check(half, at(3, 0)), "do not meet");

@@ -146,6 +146,7 @@ prove("points", [write(f"p{k}.ply", ply("ascii", positions(k), cells=mixed)) for
 flat = [[(x, y + (k if v > 3 else 0), 0) for v, (x, y, z) in enumerate(positions(0))] for k in two]
 prove("plane", [write(f"q{k}.ply", ply("ascii", flat[k], cells=[(0, 1), (1, 3), (4, 5)])) for k in two], 1)
 through = [(x, y, z - (4 if v < 4 else 0)) for v, (x, y, z) in enumerate(positions(1))]
+prove("near", same["a"], 1, "--min-distance", "1.2")
 prove("contact", [same["a"][0], write("z.ply", ply("ascii", through))], 1)
 texts = [[FLOATS[(3 * v + k) % len(FLOATS)] for k in range(3)] for v in range(8)]
 rounded = ply("ascii", positions(0), real="float", texts=texts, cells=[(0, 1)])

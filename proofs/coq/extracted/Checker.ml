@@ -271,62 +271,87 @@ let chord_of s t0 t1 = function
        highs = (by_axis (fun h w0 -> Zint.add h (slack w0)) (snd lh) w) }
   else None
 
-type vertex = { vid : Zint.t; trail : traj search; line : chord option }
+(** val word_lesser : int -> int -> int **)
 
-(** val least_on : Zint.t -> Zint.t -> Zint.t -> Zint.t **)
+let word_lesser a b =
+  if Zint.word_lt b a then b else a
+
+(** val short : Zint.t -> vec -> bool **)
+
+let short most p =
+  (&&) ((&&) (Zint.leq (Zint.abs p.vx) most) (Zint.leq (Zint.abs p.vy) most))
+    (Zint.leq (Zint.abs p.vz) most)
+
+type band = { grid : Zint.t; lx : int; ly : int; lz : int; hx : int;
+              hy : int; hz : int; mx : int; my : int; mz : int }
+
+(** val band_of : chord -> band option **)
+
+let band_of c =
+  let l = by_axis Zint.add c.origin c.lows in
+  let h = by_axis Zint.add c.origin c.highs in
+  let m = c.motion in
+  if (&&) ((&&) (short Zint.most_place l) (short Zint.most_place h))
+       (short Zint.most_place m)
+  then Some { grid = c.grain; lx = (Zint.to_word l.vx); ly =
+         (Zint.to_word l.vy); lz = (Zint.to_word l.vz); hx =
+         (Zint.to_word h.vx); hy = (Zint.to_word h.vy); hz =
+         (Zint.to_word h.vz); mx = (Zint.to_word m.vx); my =
+         (Zint.to_word m.vy); mz = (Zint.to_word m.vz) }
+  else None
+
+type vertex = { vid : Zint.t; trail : traj search; line : band option }
+
+(** val line_of : Zint.t -> Zint.t -> Zint.t -> traj -> band option **)
+
+let line_of s t0 t1 tr =
+  match chord_of s t0 t1 tr with
+  | Some c -> band_of c
+  | None -> None
+
+(** val least_on : int -> int -> int -> int **)
 
 let least_on n l h =
-  if Zint.leq Zint.zero n then Zint.mul n l else Zint.mul n h
-
-(** val least_stray : vec -> chord -> Zint.t **)
-
-let least_stray n c =
-  Zint.add
-    (Zint.add (least_on n.vx c.lows.vx c.highs.vx)
-      (least_on n.vy c.lows.vy c.highs.vy))
-    (least_on n.vz c.lows.vz c.highs.vz)
-
-(** val least_ends : vec -> Zint.t -> Zint.t -> chord -> Zint.t * Zint.t **)
-
-let least_ends n d j c =
-  let m = dot n c.motion in
-  let g =
-    Zint.add (Zint.mul d (Zint.add (dot n c.origin) (least_stray n c)))
-      (Zint.mul j m)
-  in
-  (g, (Zint.add g m))
+  Zint.word_mul n (if Zint.word_lt n 0 then h else l)
 
 (** val least_from :
-    vec -> Zint.t -> Zint.t -> vertex list -> Zint.t -> Zint.t ->
-    (Zint.t * Zint.t) option **)
+    int -> int -> int -> int -> int -> vertex list -> int -> int ->
+    (int * int) option **)
 
-let rec least_from n d j x g0 g1 =
+let rec least_from nx ny nz d j x g0 g1 =
   match x with
   | [] -> Some (g0, g1)
   | v :: r ->
     (match v.line with
      | Some c ->
-       let h = least_ends n d j c in
-       least_from n d j r (lesser g0 (fst h)) (lesser g1 (snd h))
+       let l =
+         Zint.word_add
+           (Zint.word_add (least_on nx c.lx c.hx) (least_on ny c.ly c.hy))
+           (least_on nz c.lz c.hz)
+       in
+       let m =
+         Zint.word_add
+           (Zint.word_add (Zint.word_mul nx c.mx) (Zint.word_mul ny c.my))
+           (Zint.word_mul nz c.mz)
+       in
+       let g = Zint.word_add (Zint.word_mul d l) (Zint.word_mul j m) in
+       least_from nx ny nz d j r (word_lesser g0 g)
+         (word_lesser g1 (Zint.word_add g m))
      | None -> None)
 
 (** val least_of :
-    vec -> Zint.t -> Zint.t -> vertex list -> (Zint.t * Zint.t) option **)
+    vec -> Zint.t -> Zint.t -> vertex list -> (int * int) option **)
 
-let least_of n d j = function
-| [] -> None
-| v :: r ->
-  (match v.line with
-   | Some c ->
-     let h = least_ends n d j c in least_from n d j r (fst h) (snd h)
-   | None -> None)
+let least_of n d j x =
+  least_from (Zint.to_word n.vx) (Zint.to_word n.vy) (Zint.to_word n.vz)
+    (Zint.to_word d) (Zint.to_word j) x max_int max_int
 
 (** val grain_of : vertex list -> Zint.t option **)
 
 let grain_of = function
 | [] -> None
 | v :: _ -> (match v.line with
-             | Some c -> Some c.grain
+             | Some c -> Some c.grid
              | None -> None)
 
 (** val apart_by_bounds :
@@ -334,26 +359,28 @@ let grain_of = function
     list -> vertex list -> bool **)
 
 let apart_by_bounds t0 t1 k n a b d x y =
-  if Zint.leq d Zint.d_quick
+  if (&&) (Zint.leq d Zint.d_quick) (short Zint.most_direction n)
   then let w = Zint.sub t1 t0 in
        let j = Zint.fdiv (Zint.sub a (Zint.mul t0 d)) w in
-       if Zint.leq b
-            (Zint.add (Zint.mul t0 d) (Zint.mul (Zint.add j Zint.one) w))
+       if (&&) ((&&) (Zint.leq Zint.zero j) (Zint.leq j Zint.d_quick))
+            (Zint.leq b
+              (Zint.add (Zint.mul t0 d) (Zint.mul (Zint.add j Zint.one) w)))
        then (match least_of n d j x with
              | Some g ->
                (match least_of (opposite n) d j y with
                 | Some h ->
                   let m =
-                    lesser (Zint.add (fst g) (fst h))
-                      (Zint.add (snd g) (snd h))
+                    word_lesser (Zint.word_add (fst g) (fst h))
+                      (Zint.word_add (snd g) (snd h))
                   in
-                  if Zint.lt Zint.zero m
+                  if Zint.word_lt 0 m
                   then if Zint.equal k Zint.zero
                        then true
                        else (match grain_of x with
                              | Some e ->
+                               let f = Zint.mul e (Zint.of_int m) in
                                Zint.lt (Zint.mul k (Zint.mul d d))
-                                 (Zint.mul (Zint.mul e m) (Zint.mul e m))
+                                 (Zint.mul f f)
                              | None -> false)
                   else false
                 | None -> false)
@@ -619,11 +646,47 @@ type tree =
 | Leaf of Zint.t * vertex list
 | Node of Zint.t option * vertex list * tree * tree
 
-(** val verts : tree -> vertex list **)
+(** val at_most : Zint.t -> 'a1 list -> bool **)
 
-let verts = function
+let rec at_most k = function
+| [] -> true
+| _ :: r -> (&&) (Zint.lt Zint.zero k) (at_most (Zint.sub k Zint.one) r)
+
+(** val own : tree -> vertex list **)
+
+let own = function
 | Leaf (_, vs) -> vs
 | Node (_, vs, _, _) -> vs
+
+(** val few_of : tree -> tree -> vertex list **)
+
+let few_of x y =
+  match own x with
+  | [] -> []
+  | v :: l ->
+    (match own y with
+     | [] -> []
+     | v0 :: l0 ->
+       let vs = union (fun v1 -> v1.vid) (v :: l) (v0 :: l0) in
+       if at_most Zint.few vs then vs else [])
+
+(** val collect : tree -> vertex list -> vertex list **)
+
+let rec collect x acc =
+  match x with
+  | Leaf (_, vs) -> List.rev_append vs acc
+  | Node (_, vs, l, r) ->
+    (match vs with
+     | [] -> collect l (collect r acc)
+     | _ :: _ -> List.rev_append vs acc)
+
+(** val verts : tree -> vertex list **)
+
+let verts x = match x with
+| Leaf (_, vs) -> vs
+| Node (_, vs, _, _) -> (match vs with
+                         | [] -> collect x []
+                         | _ :: _ -> vs)
 
 (** val label_of : tree -> Zint.t option **)
 
@@ -669,7 +732,7 @@ let rec vertices e s ids acc =
   | [] -> List.rev_append acc []
   | v :: r ->
     let w = { vid = v; trail = (index (s.path v)); line =
-      (chord_of e s.tbeg s.tend (s.path v)) }
+      (line_of e s.tbeg s.tend (s.path v)) }
     in
     vertices e s r ((v, (Found w)) :: acc)
 
@@ -702,9 +765,7 @@ let rec build_from table s = function
   (match build_from table s l with
    | Some x ->
      (match build_from table s r with
-      | Some y ->
-        Some (Node ((common_label x y),
-          (union (fun v -> v.vid) (verts x) (verts y)), x, y))
+      | Some y -> Some (Node ((common_label x y), (few_of x y), x, y))
       | None -> None)
    | None -> None)
 

@@ -91,20 +91,26 @@ val strays :
 
 val chord_of : Zint.t -> Zint.t -> Zint.t -> traj -> chord option
 
-type vertex = { vid : Zint.t; trail : traj search; line : chord option }
+val word_lesser : int -> int -> int
 
-val least_on : Zint.t -> Zint.t -> Zint.t -> Zint.t
+val short : Zint.t -> vec -> bool
 
-val least_stray : vec -> chord -> Zint.t
+type band = { grid : Zint.t; lx : int; ly : int; lz : int; hx : int;
+              hy : int; hz : int; mx : int; my : int; mz : int }
 
-val least_ends : vec -> Zint.t -> Zint.t -> chord -> Zint.t * Zint.t
+val band_of : chord -> band option
+
+type vertex = { vid : Zint.t; trail : traj search; line : band option }
+
+val line_of : Zint.t -> Zint.t -> Zint.t -> traj -> band option
+
+val least_on : int -> int -> int -> int
 
 val least_from :
-  vec -> Zint.t -> Zint.t -> vertex list -> Zint.t -> Zint.t ->
-  (Zint.t * Zint.t) option
+  int -> int -> int -> int -> int -> vertex list -> int -> int -> (int * int)
+  option
 
-val least_of :
-  vec -> Zint.t -> Zint.t -> vertex list -> (Zint.t * Zint.t) option
+val least_of : vec -> Zint.t -> Zint.t -> vertex list -> (int * int) option
 
 val grain_of : vertex list -> Zint.t option
 
@@ -171,6 +177,14 @@ val separated :
 type tree =
 | Leaf of Zint.t * vertex list
 | Node of Zint.t option * vertex list * tree * tree
+
+val at_most : Zint.t -> 'a1 list -> bool
+
+val own : tree -> vertex list
+
+val few_of : tree -> tree -> vertex list
+
+val collect : tree -> vertex list -> vertex list
 
 val verts : tree -> vertex list
 
