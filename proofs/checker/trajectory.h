@@ -161,7 +161,7 @@ class Run : public Trajectory {
  private:
   template <class T>
   static bool same_bits(const T& a, const T& b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
+    return std::bit_cast<std::array<char, sizeof a>>(a) == std::bit_cast<std::array<char, sizeof b>>(b);
   }
 
   void mesh() {
