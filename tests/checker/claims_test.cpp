@@ -61,9 +61,32 @@ TEST(Claims, EachField) {
   EXPECT_REJECTED(two_edges().check(block_file("PROF", groups)), "expected more bytes");
   groups = two_edges().groups();
   groups[0].push_back(groups[0][0]);
-  EXPECT_REJECTED(two_edges().check(block_file("PROF", groups)), "expected a commit");
+  EXPECT_REJECTED(two_edges().check(block_file("PROF", groups)), "expected a block LABL");
   groups[0][0].first = "MALC";
   EXPECT_REJECTED(two_edges().check(block_file("PROF", groups)), "expected a block CLAM");
+}
+
+TEST(Claims, LabelsOfFrames) {
+  Proof proof = two_edges();
+  proof.labels = {3, 5};
+  proof.claim.excluded = {{3, 5}};
+  EXPECT_ACCEPTED(proof.with(token::N + token::F + token::X + token::F));
+  EXPECT_ACCEPTED(proof.check());
+  proof.claim.excluded = {{3, 3}, {5, 5}};
+  EXPECT_REJECTED(proof.with(token::N + token::F + token::X + token::F), "not an excluded pair");
+  auto groups = proof.groups();
+  groups[0].push_back(groups[0][1]);
+  EXPECT_REJECTED(proof.check(block_file("PROF", groups)), "expected a commit");
+  groups = proof.groups();
+  groups[0][1].second[0] = 4;
+  EXPECT_REJECTED(proof.check(block_file("PROF", groups)), "other cells");
+  groups = proof.groups();
+  groups[0][1].second += '\0';
+  EXPECT_REJECTED(proof.check(block_file("PROF", groups)), "expected the end");
+  proof.labels = {3};
+  EXPECT_REJECTED(proof.check(), "expected more bytes");
+  proof.labels = {0, 0};
+  EXPECT_REJECTED(proof.check(), "all labels are 0");
 }
 
 TEST(Claims, NoCells) {

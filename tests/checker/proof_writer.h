@@ -175,17 +175,21 @@ struct Proof {
   std::vector<std::string> tokens{""};
   std::vector<std::string> witness{};  ///< by step; empty where it has none
   ClaimFields claim{};
+  std::vector<std::uint32_t> labels{};  ///< block LABL, if there are any
   StepFields step{};  ///< of all; number, times, hash and kind are set where `keep` does not say otherwise
   bool keep = false;
 
   const Lists& listed() const { return cells_after.empty() ? cells : cells_after; }
   std::vector<Blocks> groups() const {
     ClaimFields c = claim;
-    if (c.hash.empty()) c.hash = hash_of_cells(frames[0].size(), listed());
+    if (c.hash.empty()) c.hash = hash_of_cells(frames[0].size(), listed(), labels);
     std::string default_tree;
     for (std::size_t i = 0; i < listed().size(); ++i)
       default_tree += (i + 1 < listed().size() ? uint(0) : "") + uint(i + 1);
     std::vector<Blocks> result = {{{"CLAM", c.encode()}}};
+    std::string of_cells;
+    for (const std::uint32_t label : labels) of_cells += raw(label);
+    if (!labels.empty()) result[0].emplace_back("LABL", of_cells);
     bool has_tree = false;
     for (std::size_t k = 0; k < std::max(tokens.size(), witness.size()); ++k) {
       StepFields s = step;

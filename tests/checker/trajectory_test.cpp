@@ -84,12 +84,13 @@ struct RunProof {
   std::string witness{};
 
   Verdict check() const { return check(run.blocks()); }
-  Verdict check(const std::vector<Blocks>& trajectory) const {
+  Verdict check(const std::vector<Blocks>& trajectory, const Blocks& behind_claim = {}) const {
     ClaimFields c = claim;
     c.source = 2;
     c.dimension = static_cast<int>(run.dimension);
     if (c.hash.empty()) c.hash = hash_of_cells(run.labels.size(), run.cells, labels);
     std::vector<Blocks> groups = {{{"CLAM", c.encode()}}};
+    groups[0].insert(groups[0].end(), behind_claim.begin(), behind_claim.end());
     for (std::size_t k = 0; k < run.windows.size(); ++k) {
       StepFields s{
           k, run.times[k], run.times[k + 1], -4, -4, witness.empty() ? 0 : 1, group_hash(trajectory.at(k + 1))};
@@ -125,6 +126,11 @@ TEST(Runs, AreAccepted) {
     proof.tokens = {N + F + s + F};
     EXPECT_ACCEPTED(proof.check());
   }
+}
+
+TEST(Runs, HaveTheirOwnLabels) {
+  const RunProof proof;
+  EXPECT_REJECTED(proof.check(proof.run.blocks(), {{"LABL", raw(1u) + raw(2u)}}), "labels of a run");
 }
 
 TEST(Runs, TheBreakpointsBetweenCount) {
