@@ -69,8 +69,8 @@ class Enclosures {
   template <class Number>
   bool apart(const Point& n, const Piece& piece, Vertices x, Vertices y, bool distance) {
     const auto low = least<Number>(n, piece, x), back = least<Number>({-n[0], -n[1], -n[2]}, piece, y);
-    const auto part = [&](std::size_t i) { return static_cast<double>(n[i]); };
-    const double root = distance ? std::ceil(0x1p20 * (1 + 0x1p-40) * std::hypot(part(0), part(1), part(2))) : 0;
+    const auto square = [&](std::size_t i) { return static_cast<double>(n[i]) * static_cast<double>(n[i]); };
+    const double root = distance ? std::ceil(0x1p20 * (1 + 0x1p-40) * std::sqrt(square(0) + square(1) + square(2))) : 0;
     const Wide asked = eta_ * static_cast<Wide>(root), room = 1 << 20;
     const bool apart = room * (Wide{low[0]} + back[0]) > asked && room * (Wide{low[1]} + back[1]) > asked;
     return apart;

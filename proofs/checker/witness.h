@@ -20,7 +20,7 @@ inline Poly operator+(const Poly& f, const Poly& g) {
   return sum;
 }
 inline Poly operator*(const Poly& f, const Poly& g) {
-  Poly product(f.empty() || g.empty() ? 0 : f.size() + g.size() - 1, 0);
+  Poly product(g.empty() ? 0 : f.size() + g.size() - 1, 0);
   for (std::size_t i = 0; i < f.size(); ++i) {
     for (std::size_t j = 0; j < g.size(); ++j) product[i + j] += f[i] * g[j];
   }

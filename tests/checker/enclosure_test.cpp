@@ -118,6 +118,26 @@ bool apart(const Motion& m, const std::array<std::int64_t, 3>& n, std::uint64_t 
   return Enclosures(m, eta).apart(n, {0, 1, 0, halvings, 1}, std::vector{0u}, std::vector{1u}, eta > 0);
 }
 
+TEST(Enclosures, RememberVerticesApart) {
+  // More vertices than boxes are remembered of; they rest at x = their number.
+  Motion m;
+  m.t1 = 1;
+  m.begin = {0};
+  for (std::uint32_t v = 0; v < 40000; ++v) {
+    for (const double t : {0.0, 1.0}) {
+      m.times.push_back(t);
+      m.x.push_back({static_cast<double>(v), 0, 0});
+    }
+    m.begin.push_back(m.times.size());
+  }
+  Enclosures all(m, 0);
+  const Piece half{0, 1, 0, 1, 2};
+  for (std::uint32_t v = 0; v + 32768 < 40000; v += 1000) {
+    EXPECT_TRUE(all.apart({1, 0, 0}, half, std::vector{v + 32768}, std::vector{v}, false));
+    EXPECT_FALSE(all.apart({1, 0, 0}, half, std::vector{v}, std::vector{v + 32768}, false));
+  }
+}
+
 TEST(Enclosures, LeaveWhatIsTooLargeToExactNumbers) {
   const std::int64_t large = std::int64_t{1} << 40;
   EXPECT_TRUE(apart(two_at_rest(1), {1, 0, 0}, 0));

@@ -416,7 +416,8 @@ TEST(Frames, PlyHeaders) {
   };
   EXPECT_WRONG("a.ply", "plx\n", "line 1: expected ply");
   EXPECT_WRONG("a.ply", "ply\nformat ascii 1.0\n" + xyz, "end_header");
-  EXPECT_WRONG("a.ply", "ply\nformat ascii 1.1\nend_header\n", "a line of a header");
+  for (const char* line : {"format ascii 1.1", "format ascii", "element vertex"})
+    EXPECT_WRONG("a.ply", std::string("ply\n") + line + "\nend_header\n", "a line of a header");
   EXPECT_WRONG("a.ply", "ply\nend_header\n", "expected a format");
   EXPECT_WRONG("a.ply", ply("binary", xyz + face, positions), "expected a format");
   expect("format ascii 1.0\n" + xyz + face, "a line of a header");
