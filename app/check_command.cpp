@@ -35,7 +35,11 @@ ExitCode run(const CheckArguments& arguments) {
   const fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
   const std::vector<fs::path> trajectory =
       folder ? arguments.files : std::vector<fs::path>(arguments.files.begin() + 1, arguments.files.end());
-  if (!fs::exists(proof)) throw InputError(proof.string(), "", "is not there; expected a proof");
+  if (!fs::exists(proof)) {
+    const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
+    throw InputError(proof.string(), "", std::string("is not there; expected a proof") + why);
+  }
+  if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
   const Output output(arguments.json, arguments.files);
   CheckerProcess checker(arguments.verified ? Checker::verified : Checker::plain, proof,
                          trajectory_for_checker(trajectory), std::nullopt);

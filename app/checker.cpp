@@ -27,6 +27,9 @@ namespace fs = std::filesystem;
 
 const char* name_of(Checker checker) { return checker == Checker::plain ? "noli_check" : "noli_check_verified"; }
 
+/// The name - is standard input's.
+std::string name_of_file(const fs::path& path) { return path == "-" ? "./-" : path.string(); }
+
 /// The checker lies beside this program.
 fs::path path_of(Checker checker) {
   std::error_code error;
@@ -105,8 +108,8 @@ pid_t start(const std::vector<std::string>& arguments, int input, int output) {
 CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
                                const std::vector<fs::path>& trajectory, Deadline deadline)
     : checker_(checker), deadline_(deadline), words_(std::make_unique<Pipe>()) {
-  std::vector<std::string> arguments = {path_of(checker).string(), proof ? proof->string() : "-"};
-  for (const fs::path& path : trajectory) arguments.push_back(path.string());
+  std::vector<std::string> arguments = {path_of(checker).string(), proof ? name_of_file(*proof) : "-"};
+  for (const fs::path& path : trajectory) arguments.push_back(name_of_file(path));
   if (!proof) {
     proof_ = std::make_unique<Pipe>();
     proof_->never_wait(1);

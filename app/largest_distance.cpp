@@ -35,8 +35,8 @@ class Cells {
   Cells(const Mesh& mesh, const WorldLines& rest, int dimension, const MeshPaths& paths)
       : mesh_(mesh), rest_(rest), dimension_(dimension), paths_(paths) {}
 
-  /// The greatest double below the distance of those features of two cells that no short path joins.
-  double below_distance(std::uint32_t i, std::uint32_t j) const {
+  /// The least double that is not less than the distance of those features of two cells that no short path joins.
+  double above_distance(std::uint32_t i, std::uint32_t j) const {
     double least = std::numeric_limits<double>::infinity();
     for (unsigned m = 1; m < 1U << corner_count(mesh_, i); ++m) {
       for (unsigned n = 1; n < 1U << corner_count(mesh_, j); ++n) {
@@ -46,7 +46,7 @@ class Cells {
         if (!pair || joined(p, q)) continue;
         std::array<VertexId, 4> vertices{};
         std::ranges::copy(q, std::ranges::copy(p, vertices.begin()).out);
-        least = std::min(least, exact_gap(rest_, dimension_, *pair, vertices).above);
+        least = std::min(least, exact_gap(rest_, dimension_, *pair, vertices).up_to);
       }
     }
     return least;
@@ -67,19 +67,19 @@ class Cells {
 
 }  // namespace
 
-std::optional<double> largest_distance(const StepProver& prover, const Mesh& mesh, std::span<const Position> x,
-                                       double eta, const VerifyOptions& options) {
+std::optional<LargestDistance> largest_distance(const StepProver& prover, const Mesh& mesh, std::span<const Position> x,
+                                                double eta, const VerifyOptions& options) {
   const WorldLines rest = WorldLines::from_frames(x, x);
   const MeshPaths paths(prover.tree(), mesh.vertex_count, prover.claim().ring);
   const Cells cells(mesh, rest, prover.claim().dimension, paths);
-  for (double allowed = eta;;) {
+  for (LargestDistance found{eta, eta};;) {
     try {
-      const bool whole = prover.with_distance(allowed).prove(rest, options, [](std::string_view) {});
-      return whole && allowed < eta ? std::optional(allowed) : std::nullopt;
+      const bool whole = prover.with_distance(found.allowed).prove(rest, options, [](std::string_view) {});
+      return whole && found.allowed < eta ? std::optional(found) : std::nullopt;
     } catch (const TooNear& near) {
-      const double next = cells.below_distance(near.first_cell, near.second_cell);
-      if (!(next < allowed) || next == 0) return std::nullopt;
-      allowed = next;
+      const double limit = cells.above_distance(near.first_cell, near.second_cell);
+      if (!(limit * (1 - 0x1p-20) < found.allowed) || limit == 0) return std::nullopt;
+      found = {limit * (1 - 0x1p-20), limit};
     } catch (const NoProof&) {
       return std::nullopt;
     }

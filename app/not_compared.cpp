@@ -48,8 +48,8 @@ NotCompared not_compared(const Mesh& mesh, std::span<const std::uint8_t> held, c
   NotCompared result;
   const std::vector<VertexId> cells = held_cells(mesh, held);
   result.held = names.bodies_of(cells);
-  result.any_held = names.known() ? result.held.size() > 1 : cells.size() > 1;
-  if (result.held.size() < 2) result.held.clear();
+  result.any_held = cells.size() > 1;
+  if (!result.any_held) result.held.clear();
   for (const auto& [a, b] : exclusions.pairs) {
     result.excluded.push_back({group_name(a, exclusions, names), group_name(b, exclusions, names)});
   }

@@ -3,8 +3,7 @@
 // Which pairs of a run's cells are not compared, by the names of their bodies: what says that nothing touches has to
 // say of what it does not speak.
 //
-// What this does not do: cells of one body that are all scripted or pinned are not compared with each other either;
-// that alone is not told here, as most bodies that a script moves are moved as a whole.
+// What this does not do: it does not say which cells, nor whether they touch.
 #pragma once
 
 #include <array>
@@ -21,8 +20,8 @@
 namespace noli::app {
 
 struct NotCompared {
-  bool any_held = false;  ///< two bodies, or bodies without a name, have cells that are scripted or pinned throughout
-  std::vector<std::string> held;                     ///< these bodies; none unless two are known
+  bool any_held = false;                             ///< two cells are scripted or pinned throughout
+  std::vector<std::string> held;                     ///< their bodies, as far as they are known
   std::vector<std::array<std::string, 2>> excluded;  ///< bodies that the scene lets pass through each other
 
   bool any() const { return any_held || !excluded.empty(); }
@@ -35,7 +34,7 @@ NotCompared not_compared(const Mesh& mesh, std::span<const std::uint8_t> held, c
 /// Both of a pair on one line: "a and b"; or "a", if it is one body.
 std::string pair_text(const std::array<std::string, 2>& pair);
 
-/// "two cells of a and b whose vertices are all scripted or pinned"; without names, if not two are known, and not more
+/// "two cells of a and b whose vertices are all scripted or pinned"; without names, if none are known, and not more
 /// than a few.
 std::string held_text(const NotCompared& left_out);
 

@@ -91,8 +91,9 @@ Command add_simulate(CLI::App& app) {
   command->add_flag("--short", request.brief, "The scene's short form");
   auto* const resume = command->add_flag("--resume", request.resume, "Go on with the run that is in the folder");
   command
-      ->add_flag("!--no-proof", request.prove,
-                 "Write no proofs of the windows (only with \"record\": \"full\" there are any)")
+      ->add_flag_callback(
+          "--no-proof", [&request] { request.prove = false; },
+          "Write no proofs of the windows (only with \"record\": \"full\" there are any)")
       ->excludes(resume);
   auto* const force =
       command->add_flag("--force", request.force, "Replace the run that is in the folder")->excludes(resume);

@@ -66,9 +66,15 @@ void require_place_of_proof(const VerifyArguments& arguments) {
   const std::filesystem::path& proof = *arguments.request.proof;
   auto others = with_files_of_runs(arguments.request.frames);
   if (arguments.request.ignore) others.push_back(*arguments.request.ignore);
-  if (arguments.json && *arguments.json != "-") others.emplace_back(*arguments.json);
   require_other_file(proof, others, "--proof");
   std::error_code error;
+  const auto same = [&](const std::filesystem::path& other) {
+    return std::filesystem::weakly_canonical(proof, error) == std::filesystem::weakly_canonical(other, error);
+  };
+  if (arguments.json && *arguments.json != "-" && same(*arguments.json)) {
+    throw UsageError("--proof " + proof.string() + ": --json goes there too; expected another file");
+  }
+  if (proof == "-") throw UsageError("--proof -: a proof is no text for standard output; expected the name of a file");
   if (std::filesystem::exists(proof, error) && !std::filesystem::is_regular_file(proof, error)) {
     throw UsageError("--proof " + proof.string() + ": is no regular file; expected the name of a file");
   }
@@ -181,6 +187,15 @@ class ProofRoute {
   std::optional<CheckerProcess> checker_;
 };
 
+/// --merge-identical reads them twice.
+void require_files(const std::vector<std::filesystem::path>& frames) {
+  std::error_code error;
+  for (const auto& frame : frames) {
+    if (!std::filesystem::exists(frame, error) || std::filesystem::is_regular_file(frame, error)) continue;
+    throw UsageError("--merge-identical: reads frames twice; expected a file, not " + frame.string());
+  }
+}
+
 /// Before anything else is said about a single one.
 void require_there(const std::vector<std::filesystem::path>& frames) {
   std::error_code error;
@@ -202,6 +217,7 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
   if (request.proof) require_place_of_proof(arguments);
+  if (request.merge_identical) require_files(request.frames);
   ProofRoute route(request);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
   route.check(outcome);
@@ -254,8 +270,8 @@ void add_flags(CLI::App& command, VerifyRequest& request) {
   command.add_flag("--static", request.constant_motion, "Each frame by itself, at rest");
   command.add_flag("--merge-identical", request.merge_identical,
                    "Make one vertex of those whose coordinates are equal in all frames (reads them twice)");
-  command.add_flag(
-      "!--no-check", request.check,
+  command.add_flag_callback(
+      "--no-check", [&request] { request.check = false; },
       "Do without the checker, and without a proof if --proof does not ask for one: the verdict stays no_contact");
 }
 

@@ -108,12 +108,14 @@ class MotionRun {
     if (drop) drop_contacts_at_begin(window, result);
     outcome_.complete = result.complete;
     add(result);
-    if (request_.open_proof && result.complete && !outcome_.no_proof) prove(window, result);
+    const bool found = result.contact_count() + result.initial_intersections > 0;
+    if (request_.open_proof && (result.complete || found) && !outcome_.no_proof) prove(window, result);
   }
 
   void prove(const RunWindow& window, const WindowResult& result) {
     const Stopwatch watch;
     if (!proof_) {
+      outcome_.proof_begun = true;
       const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
       proof_ = std::make_unique<RunProof>(request_.open_proof(), reader_.scene(), beginning(window), claim);
     }

@@ -19,9 +19,19 @@ const char* motion(const VerifyRequest& request) {
                                  : "every vertex moves linearly from each frame to the next";
 }
 
+std::string claim(const VerifyRequest& request) {
+  const std::string who = fmt::format("no two features of two different cells{} that share no vertex",
+                                      request.strict ? ", or of one," : "");
+  if (request.min_distance == 0) return who + " meet at any time of a step";
+  const std::string which =
+      request.ring > 1 ? fmt::format(" (but for what fewer than {} edges of the mesh join)", request.ring) : "";
+  return fmt::format("{} meet at any time of a step, or come within {} of each other{}", who,
+                     digits17(request.min_distance), which);
+}
+
 Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json list = Json::array();
-  if (request.run) list.push_back(held_text(outcome.not_compared));
+  if (outcome.not_compared.any_held) list.push_back(held_text(outcome.not_compared));
   for (const auto& pair : outcome.not_compared.excluded) {
     list.push_back(fmt::format("two cells of {}, which {}", pair_text(pair),
                                request.run ? "the run's scene excludes" : "--ignore leaves out"));
@@ -31,7 +41,7 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 
 Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return {
-      {"claim", "no two features of two different cells that share no vertex meet at any time of a step"},
+      {"claim", claim(request)},
       {request.run ? "windows" : "frames", request.run ? outcome.steps_total : request.frames.size()},
       {"motion", motion(request)},
       {"time", request.run ? "seconds; each window, both ends included" : "[0, 1] in each step, both ends included"},
@@ -178,8 +188,9 @@ class Text {
     switch (outcome_.verdict) {
       case Verdict::no_contact:
       case Verdict::proved:
-        line("{}", nothing_touches(outcome_.not_compared,
-                                   fmt::format("in {} {}(s)", outcome_.steps_total, request_.run ? "window" : "step")));
+        line("{}",
+             nothing_touches(outcome_.not_compared, fmt::format("in {} {}(s){}", outcome_.steps_total,
+                                                                request_.run ? "window" : "step", distance_text())));
         break;
       case Verdict::contact:
         line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());
@@ -192,7 +203,8 @@ class Text {
       case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
     }
     if (outcome_.largest_distance) {
-      line("The largest distance that the first frame allows is {}{}.", digits17(*outcome_.largest_distance),
+      line("The first frame allows {}, and not {}{}.", digits17(outcome_.largest_distance->allowed),
+           digits17(outcome_.largest_distance->limit),
            request_.ring == 1 ? " (neighbours by the mesh are near; see --min-distance-from-ring)" : "");
     }
     proof();
@@ -202,6 +214,13 @@ class Text {
       line("What is said is of what was settled so far ({}): there may be more contacts, and earlier ones.",
            why_incomplete(outcome_));
     }
+  }
+
+  std::string distance_text() const {
+    if (request_.min_distance == 0) return "";
+    const std::string which =
+        request_.ring > 1 ? fmt::format(", but for what fewer than {} edges join", request_.ring) : "";
+    return fmt::format(", and it is all more than {} apart{}", digits17(request_.min_distance), which);
   }
 
   void ending() {
@@ -223,9 +242,12 @@ class Text {
     const std::string file = request_.proof->string();
     if (outcome_.checked) line("The checker says of {}: {}.", file, *outcome_.checked);
     if (outcome_.not_checked) line("{} was not checked: {}.", file, *outcome_.not_checked);
-    if (touches && outcome_.witnesses == 0) line("No witness was found for {}: it proves nothing.", file);
+    if (touches && outcome_.witnesses == 0 && outcome_.proof_begun)
+      line("No witness was found for {}: it proves nothing.", file);
     if (outcome_.verdict == Verdict::no_contact && !request_.check) line("The proof in {} was not checked.", file);
-    if (outcome_.verdict == Verdict::undecided) line("{} is not complete, and proves nothing.", file);
+    if (!outcome_.proof_begun) line("No proof was written to {}.", file);
+    if (outcome_.verdict == Verdict::undecided && outcome_.proof_begun)
+      line("{} is not complete, and proves nothing.", file);
   }
 
   std::size_t touching_steps() const {
@@ -306,7 +328,10 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   json["points"] = outcome.points;
   json["stages"] = work_json(outcome);
   json["near"] = near_json(outcome);
-  json["largest_distance_at_first"] = outcome.largest_distance ? Json(*outcome.largest_distance) : Json(nullptr);
+  json["first_frame"] = nullptr;
+  if (outcome.largest_distance) {
+    json["first_frame"] = {{"allowed", outcome.largest_distance->allowed}, {"not", outcome.largest_distance->limit}};
+  }
   if (request.open_proof) json["proof"] = proof_json(request, outcome);
   json["timing"] = {{"seconds", outcome.seconds},
                     {"read_seconds", outcome.read_seconds},

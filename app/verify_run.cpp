@@ -200,12 +200,14 @@ class Run {
     add_counts(result);
     add_reports(result);
     if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
-    if (request_.open_proof && result.complete && !outcome_.no_proof) prove(asked, result);
+    const bool found = result.contact_count() + result.initial_intersections > 0;
+    if (request_.open_proof && (result.complete || found) && !outcome_.no_proof) prove(asked, result);
   }
 
   void prove(const VerifyOptions& options, const VerifyResult& result) {
     const Stopwatch watch;
     if (!proof_) {
+      outcome_.proof_begun = true;
       proof_.emplace(request_, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr,
                      groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
     }

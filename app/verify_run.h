@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "noli/app/contact_report.h"
+#include "noli/app/largest_distance.h"
 #include "noli/app/not_compared.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/proofs/prover/too_near.h"
@@ -130,16 +131,17 @@ struct VerifyOutcome {
   StageCounters stages;
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
-  double seconds = 0;                      ///< wall clock without reading
-  double read_seconds = 0;                 ///< wall clock of reading
-  bool no_proof = false;                   ///< nothing touches, but no proof of it was found
-  std::optional<ListedNear> near;          ///< who comes too near
-  std::optional<double> largest_distance;  ///< that the mesh allows at the first time, if it is less than was asked for
-  std::size_t witnesses = 0;               ///< written to the proof
-  std::optional<std::string> checked;      ///< what the checker said of the proof
-  std::optional<std::string> not_checked;  ///< why it was not asked, though the user did not say so
-  double proof_seconds = 0;                ///< wall clock of making the proof
-  double check_seconds = 0;                ///< wall clock of waiting for the checker
+  double seconds = 0;                               ///< wall clock without reading
+  double read_seconds = 0;                          ///< wall clock of reading
+  bool no_proof = false;                            ///< nothing touches, but no proof of it was found
+  std::optional<ListedNear> near;                   ///< who comes too near
+  std::optional<LargestDistance> largest_distance;  ///< that the first time allows, if it is less than was asked for
+  bool proof_begun = false;                         ///< something was written where the proof goes
+  std::size_t witnesses = 0;                        ///< written to the proof
+  std::optional<std::string> checked;               ///< what the checker said of the proof
+  std::optional<std::string> not_checked;           ///< why it was not asked, though the user did not say so
+  double proof_seconds = 0;                         ///< wall clock of making the proof
+  double check_seconds = 0;                         ///< wall clock of waiting for the checker
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }

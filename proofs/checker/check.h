@@ -50,12 +50,15 @@ class Check {
       step(proof_.as("STEP", std::move(block)), read);
     }
     const std::string place = "the proof, after " + std::to_string(steps_) + " steps";
+    require(steps_ > 0, "the proof", "a claim about no steps");
     require(refuted_ || !trajectory_->next(motion_), place, "it ends, but the trajectory goes on");
     return refuted_;
   }
 
   const Claim& claim() const { return claim_; }
   std::uint64_t steps() const { return steps_; }
+  /// The first T0 and the last T1 that a proof or witness is about.
+  std::array<double, 2> times() const { return times_; }
 
  private:
   bool run() const { return claim_.source == 2; }
@@ -119,6 +122,7 @@ class Check {
     }
     const double t0 = c.f64(), t1 = c.f64();
     c.require(t0 == motion_.t0 && t1 == motion_.t1, "the trajectory's step has another time");
+    times_ = {read == 0 ? t0 : times_[0], t1};
     const auto p = c.raw<std::int32_t>(), q = c.raw<std::int32_t>();
     c.require(-1200 <= p && p <= 1200 && -1200 <= q && q <= 1200, "an impossible unit");
     const std::uint8_t kind = c.u8();
@@ -166,6 +170,7 @@ class Check {
   std::optional<Tree> tree_;
   Motion motion_;
   std::uint64_t steps_ = 0;
+  std::array<double, 2> times_{};
   std::optional<std::string> refuted_;
 };
 

@@ -11,10 +11,11 @@
 
 namespace noli::checker {
 
-static void print_claim(const Claim& claim, std::uint64_t steps) {
+static void print_claim(const Claim& claim, std::uint64_t steps, const std::array<double, 2>& times) {
   constexpr std::array sources = {"frames, straight lines between them", "frames at rest", "a run"};
-  std::printf("%llu steps of %s; dimension %u; %zu cells of %zu vertices.\n", static_cast<unsigned long long>(steps),
-              sources[claim.source], claim.dimension, claim.cells.size(), claim.same.size());
+  std::printf("%llu steps of %s; from %.17g to %.17g; dimension %u; %zu cells of %zu vertices.\n",
+              static_cast<unsigned long long>(steps), sources[claim.source], times[0] + 0.0, times[1] + 0.0,
+              claim.dimension, claim.cells.size(), claim.same.size());
   std::printf("Compared: features of two different cells%s.\n", claim.strict ? ", and of one" : "");
   if (claim.points) std::printf("Vertices without a cell are points.\n");
   if (claim.merged > 0) std::printf("Merged: %u vertices, each always where another is.\n", claim.merged);
@@ -33,8 +34,9 @@ static int run(const std::vector<std::string>& arguments) {
   require(arguments.size() >= 2, "the command line", "expected a proof, and frames or a trajectory.blocks");
   Check check(arguments[0], {arguments.begin() + 1, arguments.end()});
   const auto refuted = check.go();
-  std::printf("%s%s\n", refuted ? "refuted: " : "accepted: nothing touches", refuted.value_or("").c_str());
-  print_claim(check.claim(), check.steps());
+  const char* what = check.claim().excluded.empty() ? "nothing touches" : "nothing that is compared touches";
+  std::printf("%s%s\n", refuted ? "refuted: " : "accepted: ", refuted.value_or(what).c_str());
+  print_claim(check.claim(), check.steps(), check.times());
   require(std::fflush(stdout) == 0 && std::ferror(stdout) == 0, "standard output", "cannot be written");
   return refuted ? 1 : 0;
 }

@@ -63,7 +63,7 @@ TEST_P(EndedBySignal, WhileAPipeIsWaitedFor) {
   const auto pipe = folder.path("pipe.ply"), queries = folder.path("edge-edge.csv");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600) + ::mkfifo(queries.c_str(), 0600), 0);
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", pipe, good},
-                                                    {"verify", good, pipe, "--merge-identical"},
+                                                    {"verify", good, pipe},
                                                     {"ccd", queries}}) {
     auto with_json = arguments;
     with_json.insert(with_json.end(), {"--json", "-"});

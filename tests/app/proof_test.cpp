@@ -197,6 +197,28 @@ TEST_F(Proof, IsWrittenToAFileOfItsOwn) {
   const std::string result = folder.write("result.json", "{}");
   EXPECT_EQ(verify(frames, {"--proof", result, "--json", result}).exit_code, 3);
   EXPECT_EQ(bytes_of(result), "{}");
+  const std::string both = folder.path("both");
+  EXPECT_EQ(verify(frames, {"--proof", both, "--json", folder.path("./both")}).exit_code, 3);
+  EXPECT_FALSE(fs::exists(both));
+  EXPECT_EQ(verify(frames, {"--proof", "-"}).exit_code, 3);
+}
+
+TEST_F(Proof, IsNotTouchedBeforeThereIsANewOne) {
+  const auto frames = triangles({1, 0.5});
+  ASSERT_EQ(prove(frames).exit_code, 0);
+  const std::string before = bytes_of(proof());
+  const Process process = prove(frames, {"--time-limit", "0.001ms"});
+  EXPECT_EQ(process.exit_code, 2);
+  EXPECT_NE(process.out.find("No proof was written to"), std::string::npos) << process.out;
+  EXPECT_EQ(bytes_of(proof()), before);
+}
+
+TEST_F(Proof, AnyContactHasAWitness) {
+  const auto frames = triangles({1, 0.5, -2});
+  const Process process = prove(frames, {"--first-only"});
+  EXPECT_EQ(process.exit_code, 1);
+  EXPECT_NE(process.out.find("The checker says of"), std::string::npos) << process.out;
+  EXPECT_EQ(check(frames).exit_code, 1);
 }
 
 TEST_F(Proof, GoesToTheCheckerAtOnceIfNobodyWantsAFile) {

@@ -227,6 +227,12 @@ TEST_F(Verify, ReadsAFrameFromAPipe) {
   EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
 }
 
+TEST_F(Verify, MergingNeedsFiles) {
+  const auto pipe = folder.path("pipe.ply");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(run_noli({"verify", pipe, folder.write("b.ply", two_triangles(1)), "--merge-identical"}).exit_code, 3);
+}
+
 TEST_F(Verify, WhatCanBeReadOnlyOnceIsNotChecked) {
   const auto pipe = folder.path("pipe.ply");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -89,6 +89,12 @@ TEST(Claims, LabelsOfFrames) {
   EXPECT_REJECTED(proof.check(), "all labels are 0");
 }
 
+TEST(Claims, NoSteps) {
+  auto groups = two_edges().groups();
+  groups.resize(1);
+  EXPECT_REJECTED(two_edges().check(block_file("PROF", groups)), "no steps");
+}
+
 TEST(Claims, NoCells) {
   Proof proof = two_edges();
   proof.cells.clear();

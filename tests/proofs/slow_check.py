@@ -389,6 +389,7 @@ def examine(proof, files):
             need(tree is not None, "no TREE")
             need(all(kind == b"TOKS" for kind in kinds), "expected TOKS")
             step.prove(tree, [payload for _, payload in blocks[1:]])
+    need(expected > 0, "a claim about no steps")
     if refuted is not None:
         return 1, f"refuted: step {refuted} has a witness"
     need(next(steps, None) is None, "steps are missing")

@@ -147,11 +147,15 @@ let refute file claim scene =
   let names side = String.concat " " (List.map (fun (v, _) -> Z.to_string v) side) in
   Printf.sprintf "vertices {%s} of cell %d and {%s} of cell %d %s" (names wp) (Z.to_int wi) (names wq) (Z.to_int wj) how
 
+(* T0 of the first step of the proof, T1 of its last. *)
+let span = [| 0.0; 0.0 |]
+
 (* How many steps the proof knows of, and the first witness if there is one. seen is how many of the trajectory's
    steps have been read, tree that of the last proof step. *)
 let rec check_steps file claim seen tree words =
   match next file with
   | "", c ->
+    check c (seen > 0) "a claim about no steps";
     check c (words <> None || next_motion claim = None) "the proof ends, but the trajectory goes on";
     (seen, words)
   | kind, c ->
@@ -165,6 +169,7 @@ let rec check_steps file claim seen tree words =
     let m = go_on seen and t0, t1 = both f64 c in let p, q = both i32 c in
     let is_witness = u8 c in
     check c (t0 = m.t0 && t1 = m.t1 && t0 < t1) "the trajectory's step has another time";
+    if seen = 0 then span.(0) <- t0 +. 0.0; span.(1) <- t1 +. 0.0;
     check c (abs p <= 1200 && abs q <= 1200 && is_witness <= 1) "a field of the step has an impossible value";
     check c (take c 32 = Lazy.force m.hash && left c = 0) "the step is about another motion than the trajectory's";
     let at_one_place v s = check c (v = s || m.lines.(v) = m.lines.(s)) "merged vertices are not at one place" in
@@ -180,9 +185,11 @@ let rec check_steps file claim seen tree words =
 let run proof paths =
   let file = open_file proof "PROF" in let claim = read_claim file paths in
   let steps, words = check_steps file claim 0 None None in
-  print_endline (Option.value words ~default:"accepted: nothing touches");
-  Printf.printf "%d steps of %s; dimension %d; %d cells of %d vertices.\n" steps
-    [| "frames, straight lines between them"; "frames at rest"; "a run" |].(claim.source) claim.motion.dimension
+  let what = if claim.excluded = [] then "nothing touches" else "nothing that is compared touches" in
+  print_endline (Option.value words ~default:("accepted: " ^ what));
+  Printf.printf "%d steps of %s; from %.17g to %.17g; dimension %d; %d cells of %d vertices.\n" steps
+    [| "frames, straight lines between them"; "frames at rest"; "a run" |].(claim.source) span.(0) span.(1)
+    claim.motion.dimension
     (Array.length claim.cells) (Array.length claim.same);
   Printf.printf "Compared: features of two different cells%s.\n" (if claim.strict then ", and of one" else "");
   if claim.points then print_endline "Vertices without a cell are points.";
