@@ -124,7 +124,7 @@ CheckerProcess::~CheckerProcess() { end_it(); }
 
 void CheckerProcess::end_it() {
   if (pid_ < 0) return;
-  ::kill(pid_, SIGKILL);
+  ::kill(-pid_, SIGKILL);  // and whatever it may have started
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
@@ -149,7 +149,19 @@ void CheckerProcess::write(std::string_view bytes) {
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
     if (written >= 0 || errno == EINTR) continue;
     if (errno != EAGAIN && errno != EPIPE) fail("the proof on its way to the checker");
-    if (errno == EPIPE || !ready(proof_->end(1), POLLOUT)) proof_->close(1);
+    if (errno == EPIPE)
+      throw std::runtime_error(fmt::format("{} reads no more of the proof{}", name_of(checker_), why()));
+    if (!ready(proof_->end(1), POLLOUT)) proof_->close(1);
+  }
+}
+
+/// What it said before it ended, if anything.
+std::string CheckerProcess::why() {
+  try {
+    const auto verdict = finish();
+    return verdict ? ": " + verdict->words.substr(0, verdict->words.find('\n')) : "";
+  } catch (const std::runtime_error& error) {
+    return std::string(": ") + error.what();
   }
 }
 
@@ -173,6 +185,11 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
   verdict.code = WEXITSTATUS(status);
   if (verdict.code != 0 && verdict.code != 1 && verdict.code != 3) {
     throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker_), verdict.code));
+  }
+  const char* const first = verdict.code == 0 ? "accepted: " : verdict.code == 1 ? "refuted: " : "rejected: ";
+  if (!verdict.words.starts_with(first)) {
+    throw std::runtime_error(
+        fmt::format("{} ended with code {}, but does not say so", name_of(checker_), verdict.code));
   }
   return verdict;
 }

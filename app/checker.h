@@ -39,8 +39,8 @@ class CheckerProcess {
   CheckerProcess(const CheckerProcess&) = delete;
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
-  /// The next bytes of the proof. Nothing is written any more after an interruption, the deadline, or when the checker
-  /// reads no more; finish() tells.
+  /// The next bytes of the proof. Nothing is written any more after an interruption or the deadline; finish() tells.
+  /// Throws std::runtime_error when the checker reads no more.
   void write(std::string_view bytes);
   /// Waits until it has read all that was written and has ended; nothing if it was interrupted (app::interrupted()) or
   /// the deadline came. Throws std::runtime_error when it was ended by a signal, or with another code than it may.
@@ -50,6 +50,7 @@ class CheckerProcess {
   class Pipe;
   /// Whether the pipe's end can be read or written; false once the wait is over.
   bool ready(int end, short event) const;
+  std::string why();
   void end_it();
 
   Checker checker_;

@@ -52,6 +52,7 @@ class GroupsReader {
 
   void group(const std::string& name, const Json& list) {
     const std::string at = "/groups/" + name;
+    require(!name.empty(), at, "expected a group with a name");
     require(groups_.names.size() <= std::numeric_limits<std::uint16_t>::max(), at, "expected at most 65,535 groups");
     require(list.is_array() && !list.empty(), at, "expected an array of vertices, or of [first, last]");
     const auto number = static_cast<std::uint16_t>(groups_.names.size());

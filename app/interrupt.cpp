@@ -40,6 +40,7 @@ void install_signal_handlers() {
   on_signal(SIGALRM, remind);
   on_signal(SIGINT, request_stop);
   on_signal(SIGTERM, request_stop);
+  on_signal(SIGHUP, request_stop);
   on_signal(SIGPIPE, SIG_IGN);
   on_signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is then an error of write
 }

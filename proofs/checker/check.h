@@ -34,7 +34,7 @@ class Check {
     read_merged(scene.vertices, c);
     const std::uint32_t pairs = c.u32();
     claim_.excluded = read_pairs<std::uint32_t>(c, pairs, "excluded pairs are not in order");
-    c.require(!run() || claim_.excluded == scene.excluded, "other pairs are excluded than those of the run");
+    c.require(!run() || claim_.excluded == scene.excluded(pairs), "other pairs are excluded than those of the run");
     c.end();
     make_cells(scene);
     c.require(!claim_.cells.empty(), "a claim about no cells");

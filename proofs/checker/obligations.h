@@ -18,7 +18,7 @@ class Tree {
  public:
   struct Node {
     std::uint32_t right = 0;             ///< a leaf has none, 0
-    std::uint32_t count = 0;             ///< of its vertices
+    std::uint32_t count = 0;             ///< of its vertices; 0 if it has more than `few`
     std::uint64_t first = 0;             ///< where they begin
     std::optional<std::uint32_t> label;  ///< that all cells below have, if they have one
   };
@@ -32,9 +32,25 @@ class Tree {
   }
 
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
-  Vertices vertices(std::uint32_t i) const { return Vertices(vertices_).subspan(nodes_[i].first, nodes_[i].count); }
+  /// Those of a large node are not kept, or memory would grow with the depth: they are gathered in `room`.
+  Vertices vertices(std::uint32_t i, std::vector<std::uint32_t>& room) const {
+    if (nodes_[i].count > 0) return kept(i);
+    gather(i, room);
+    std::ranges::sort(room);
+    room.erase(std::unique(room.begin(), room.end()), room.end());
+    return room;
+  }
 
  private:
+  static constexpr std::size_t few = 1024;
+
+  Vertices kept(std::uint32_t i) const { return Vertices(vertices_).subspan(nodes_[i].first, nodes_[i].count); }
+  void gather(std::uint32_t i, std::vector<std::uint32_t>& all) const {
+    all.insert(all.end(), kept(i).begin(), kept(i).end());
+    if (nodes_[i].count > 0) return;
+    gather(i + 1, all);
+    gather(nodes_[i].right, all);
+  }
   /// Reads the node that is next, and returns its number.
   std::uint32_t add(Reader& c, int depth) {
     const std::uint64_t code = c.uint();
@@ -53,7 +69,9 @@ class Tree {
       const std::uint32_t left = add(c, depth + 1), right = add(c, depth + 1);
       nodes_[i].right = right;
       if (nodes_[left].label == nodes_[right].label) nodes_[i].label = nodes_[left].label;
-      std::ranges::set_union(vertices(left), vertices(right), std::back_inserter(all));
+      const bool large = nodes_[left].count == 0 || nodes_[right].count == 0;
+      if (!large) std::ranges::set_union(kept(left), kept(right), std::back_inserter(all));
+      if (all.size() > few) all.clear();
     }
     nodes_[i].first = vertices_.size();
     nodes_[i].count = static_cast<std::uint32_t>(all.size());
@@ -142,19 +160,19 @@ class Obligations {
   const Tree::Node& node(const Group& g) const { return tree_.node(g.node); }
   bool leaf(const Group& g) const { return node(g).right == 0; }
   /// What is left of a leaf is put into `room`.
-  using Room = std::array<std::uint32_t, 3>;
+  using Room = std::vector<std::uint32_t>;
   Vertices vertices(const Group& g, Room& room) const {
-    const Vertices all = tree_.vertices(g.node);
+    const Vertices all = tree_.vertices(g.node, room);
     if (g.dropped == 0) return all;
-    std::size_t left = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if ((g.dropped >> i & 1) == 0) room[left++] = all[i];
+      if ((g.dropped >> i & 1) == 0) room.push_back(all[i]);
     }
-    return Vertices(room).first(left);
+    return room;
   }
   /// With a leaf less a vertex that it has.
   Obligation less(Obligation o, Side side, std::uint64_t v) const {
-    const Vertices all = tree_.vertices((o.*side).node);
+    Room room;
+    const Vertices all = tree_.vertices((o.*side).node, room);
     (o.*side).dropped |= 1u << (std::ranges::find(all, v) - all.begin());
     return o;
   }
@@ -193,9 +211,8 @@ class Obligations {
   void drop(const Obligation& top, std::size_t k, const Reader& c) {
     c.require(!top.self && leaf(top.x) && leaf(top.y), "D is for two cells");
     Room of_x, of_y, common;
-    const auto [x, y, end] =
-        std::ranges::set_intersection(vertices(top.x, of_x), vertices(top.y, of_y), common.begin());
-    c.require(common.begin() + k < end, "there is no such common vertex");
+    std::ranges::set_intersection(vertices(top.x, of_x), vertices(top.y, of_y), std::back_inserter(common));
+    c.require(k < common.size(), "there is no such common vertex");
     push({less(top, &Obligation::x, common[k]), less(top, &Obligation::y, common[k])});
   }
 

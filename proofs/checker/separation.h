@@ -131,8 +131,11 @@ inline bool separated(const Vector& n, const mpz_class& nt, const mpz_class& nd,
   const mpz_class d = piece.d();
   bool above = true, below = true;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    for (const mpz_class& c : times_of(piece, paths.subspan(i, 1))) {
-      const auto [f, scale] = value(n, paths[i], c);
+    const Path& path = paths[i];
+    for (std::size_t k = 0; k < path.size(); ++k) {  // instead of the first and last breakpoint, the ends of the piece
+      const bool inner = k > 0 && k + 1 < path.size();
+      const mpz_class& c = inner ? path[k].t : k == 0 ? piece.a : piece.b;
+      const auto [f, scale] = inner ? Fraction{dot(n, path[k].x), 1} : value(n, path, c);
       const mpz_class away = f * d + (nt * c - nd * d) * scale;  // n.u + nt c / d - nd, over d and its denominator
       above = above && (i >= of_x || away > 0);
       below = below && (i < of_x || away < -w * d * scale);

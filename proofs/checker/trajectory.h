@@ -16,7 +16,25 @@ struct Scene {
   std::uint32_t dimension = 3;
   std::uint64_t vertices = 0;
   std::vector<Cell> cells;
-  std::set<LabelPair> excluded;  ///< of a run: just these have to be
+  std::set<std::uint32_t> labels;  ///< of a run: those that its cells have
+  std::set<LabelPair> groups;      ///< of a run: those that its scene excludes
+
+  /// Of a run: just these pairs of labels have to be excluded. If they are more than `most`, so many and one more.
+  std::set<LabelPair> excluded(std::size_t most) const {
+    std::set<LabelPair> pairs;
+    const auto add = [&](std::uint32_t a, std::uint32_t b) {
+      if (labels.contains(a) && labels.contains(b)) pairs.insert({std::min(a, b), std::max(a, b)});
+    };
+    for (const auto& [g, h] : groups) {
+      for (std::uint32_t k = 0; k < 4; ++k) add(2 * g + k % 2, 2 * h + k / 2);
+    }
+    for (auto a = labels.begin(); a != labels.end(); ++a) {
+      for (auto b = a; b != labels.end() && pairs.size() <= most; ++b) {
+        if (*a % 2 == 1 && *b % 2 == 1) pairs.insert({*a, *b});  // both scripted
+      }
+    }
+    return pairs;
+  }
 };
 
 /// What the claims of all steps have in common. Its cells are those after merging.
@@ -79,7 +97,7 @@ class Frames : public Trajectory {
   Frames(std::vector<std::string> paths, bool rest) : paths_(std::move(paths)), rest_(rest) {
     require(paths_.size() >= (rest ? 1 : 2), "the command line", "expected more frames");
     now_ = read_frame(paths_[0]);
-    scene = {3, now_.x.size(), now_.cells, {}};
+    scene = {3, now_.x.size(), now_.cells, {}, {}};
   }
   bool next(Motion& motion) override {
     const std::size_t wanted = rest_ ? step_ : step_ + 1;
@@ -187,28 +205,20 @@ class Run : public Trajectory {
     const std::string scripted(c.take(scene.vertices));
     c.require(std::ranges::all_of(scripted, [](char l) { return l == 0 || l == 1; }), "a label is not 0 or 1");
     std::vector<std::uint16_t> group(scene.vertices, 0);
-    std::set<LabelPair> pairs;
     if (auto block = file_.next()) {
       Reader e = file_.as("EXCL", std::move(block));
       const std::uint32_t n = e.u32();
       e.require(n > 0, "expected a pair");
-      pairs = read_pairs<std::uint16_t>(e, n, "pairs are not in order");
+      scene.groups = read_pairs<std::uint16_t>(e, n, "pairs are not in order");
       for (auto& g : group) g = e.raw<std::uint16_t>();
       e.end();
       file_.expect_commit();
     }
-    std::set<std::uint32_t> labels;
     for (Cell& cell : scene.cells) {
       const std::uint16_t g = group[cell.v[0]];
       c.require(std::ranges::all_of(cell, [&](auto v) { return group[v] == g; }), "a cell is of two groups");
       cell.label = 2u * g + (std::ranges::all_of(cell, [&](auto v) { return scripted[v] == 1; }) ? 1 : 0);
-      labels.insert(cell.label);
-    }
-    for (const std::uint32_t a : labels) {
-      for (const std::uint32_t b : labels) {
-        const bool both_scripted = a % 2 == 1 && b % 2 == 1;
-        if (a <= b && (both_scripted || pairs.contains({a / 2, b / 2}))) scene.excluded.insert({a, b});
-      }
+      scene.labels.insert(cell.label);
     }
   }
 

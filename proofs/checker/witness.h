@@ -170,20 +170,24 @@ class Witness {
 
   /// Whether a path of fewer than K edges joins the sides: vertices are reached from P, an edge at a time.
   bool near() const {
-    std::vector<bool> reached(claim_.same.size(), false);
-    for (const Corner& corner : p_) reached[corner.v] = true;
-    const auto is_reached = [&](std::uint32_t v) { return static_cast<bool>(reached[v]); };
-    bool more = true;
-    for (std::uint32_t k = 1; k < claim_.ring && more; ++k) {
-      std::vector<std::uint32_t> next;
-      for (const Cell& cell : claim_.cells) {
-        if (std::ranges::any_of(cell, is_reached))
-          std::ranges::remove_copy_if(cell, std::back_inserter(next), is_reached);
-      }
-      for (const std::uint32_t v : next) reached[v] = true;
-      more = !next.empty();
+    std::vector<std::vector<std::uint32_t>> cells(claim_.same.size());  // by vertex
+    for (std::uint32_t i = 0; i < claim_.cells.size(); ++i) {
+      for (const std::uint32_t v : claim_.cells[i]) cells[v].push_back(i);
     }
-    return std::ranges::any_of(q_, is_reached, &Corner::v);
+    std::set<std::uint32_t> reached, border;
+    for (const Corner& corner : p_) border.insert(corner.v);
+    for (std::uint32_t k = 1; !border.empty(); ++k) {
+      reached.merge(std::set(border));
+      std::set<std::uint32_t> next;
+      for (const std::uint32_t v : border) {
+        for (const std::uint32_t i : cells[v]) {
+          for (const std::uint32_t w : claim_.cells[i])
+            if (k < claim_.ring && !reached.contains(w)) next.insert(w);
+        }
+      }
+      border = std::move(next);
+    }
+    return std::ranges::any_of(q_, [&](const Corner& corner) { return reached.contains(corner.v); });
   }
 
   const Claim& claim_;

@@ -409,7 +409,7 @@ class Search {
     for (const VertexId v : vertices) {
       const auto times = step_.lines.times(v);
       const auto time = [&](double t) { return mpz_class(motion_.time(t) << first_bits); };
-      auto t = std::partition_point(times.begin(), times.end(), [&](double t) { return time(t) <= from; });
+      auto t = std::partition_point(times.begin(), times.end(), [&](double b) { return time(b) <= from; });
       for (; t != times.end() && time(*t) < to; ++t) cuts.insert(time(*t));
     }
     return {cuts.begin(), cuts.end()};

@@ -58,7 +58,8 @@ TEST_F(Ignore, IsPartOfTheClaim) {
   const Process plain = run_noli(arguments);
   EXPECT_EQ(plain.exit_code, 0) << plain.out;
   EXPECT_NE(plain.out.find("Not compared, pairs of labels: 1-3 2-3"), std::string::npos) << plain.out;
-  EXPECT_NE(plain.out.find("Cells with a label: 1 with 1; 1 with 2; 1 with 3; no others."), std::string::npos) << plain.out;
+  EXPECT_NE(plain.out.find("Cells with a label: 1 with 1; 1 with 2; 1 with 3; no others."), std::string::npos)
+      << plain.out;
   if (!fs::exists(fs::path(NOLI_COMMAND).parent_path() / "noli_check_verified")) {
     std::fputs("skipped: the verified checker, which is not built\n", stderr);
     return;
@@ -91,6 +92,7 @@ TEST_F(Ignore, RefusesWhatItCannotMean) {
       {R"({"groups": {"a": [0.5]}, "ignore": [["a", "a"]]})", "/groups/a/0"},
       {R"({"groups": {"a": [[0, 2]], "b": [2]}, "ignore": [["a", "b"]]})", "in group a already"},
       {R"({"groups": {"a": [0]}, "ignore": [["a", "a"]]})", "two groups"},
+      {R"({"groups": {"": [0]}, "ignore": [["", ""]]})", "with a name"},
       {R"({"groups": {"a": []}, "ignore": [["a", "a"]]})", "/groups/a"},
       {R"({"groups": {"a": [0]}, "more": 1, "ignore": [["a", "a"]]})", "/more"},
   };

@@ -91,12 +91,12 @@ let read_obj c =
   let places = ref [] and known = ref 0 and cells = ref [] in
   let cell corners = cells := polygon !cells corners in
   (* A line that ends with a backslash goes on in the next. *)
-  let rec statement () =
+  let rec statement earlier =
     let text, words = line c in let n = String.length text in
-    if n = 0 || text.[n - 1] <> '\\' || String.contains text '#' then words
+    if n = 0 || text.[n - 1] <> '\\' || String.contains text '#' then List.rev_append earlier words
     else
       let _, before = line (cursor c.file 0 (String.sub text 0 (n - 1))) in
-      List.rev_append (List.rev before) (statement ()) in
+      statement (List.rev_append before earlier) in
   let vertex numbers =
     let n = List.length numbers in
     check c (n >= 2 && n <> 5 && n <= 7 && !known < mask) "one vertex too many, or not 2, 3, 4, 6, 7 numbers";
@@ -111,7 +111,7 @@ let read_obj c =
     List.rev (List.rev_map corner words) in
   while left c > 0 do
     let comment = ref false in let is_code w = comment := !comment || w.[0] = '#'; not !comment in
-    match List.filter is_code (statement ()) with
+    match List.filter is_code (statement []) with
     | "v" :: numbers -> vertex numbers | "f" :: r -> cell (corners 3 r)
     | "p" :: r -> List.iter (fun v -> cell [v]) (corners 1 r)
     | "l" :: r -> ignore (List.fold_left (fun a b -> if a >= 0 then cell [a; b]; b) (-1) (corners 2 r))
@@ -215,6 +215,7 @@ let read_ply c =
 let read_frame path =
   let channel = open_in_bin path in
   let c = cursor path 0 (really_input_string channel (in_channel_length channel)) in close_in channel;
-  match String.lowercase_ascii (Filename.extension path) with
+  let n = String.length path in
+  match String.lowercase_ascii (String.sub path (max 0 (n - 4)) (min 4 n)) with
   | ".ply" -> read_ply c | ".obj" when c.bytes <> "" -> read_obj c
   | _ -> fail c "is empty, or its name does not end in .ply or .obj"

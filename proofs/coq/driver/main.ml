@@ -61,7 +61,7 @@ let read_claim file paths =
   let cells = if is_run then motion.mesh.cells else cells_of motion.mesh same (flags >= 2) in
   check c (not is_run || (dimension = motion.dimension && same = Array.init (Array.length same) Fun.id))
     "the run has another dimension, or merged vertices, which a run has not";
-  check c (Option.value motion.excluded ~default:excluded = excluded) "other pairs are excluded than those of the run";
+  check c (motion.fits excluded) "other pairs are excluded than those of the run";
   let labels = read_labels file is_run cells (if is_run then motion.labels else Array.map (fun _ -> 0) cells) in
   check c (cells <> [||] && cells_hash same cells labels = hash) "the claim is about other cells, or about none";
   let motion = { motion with dimension; labels } in
@@ -199,10 +199,11 @@ let run proof paths =
   let pairs = List.map (fun (a, b) -> Printf.sprintf " %d-%d" a b) claim.excluded in
   if pairs <> [] then begin
     print_endline ("Not compared, pairs of labels:" ^ String.concat "" pairs);
-    let cells label = List.length (List.filter (( = ) label) (Array.to_list claim.motion.labels)) in
-    let count label = Printf.sprintf " %d with %d;" (cells label) label in
-    let used = List.sort_uniq compare (Array.to_list claim.motion.labels) in
-    print_endline ("Cells with a label:" ^ String.concat "" (List.map count used) ^ " no others.")
+    let cells = Hashtbl.create 64 in let count label = Option.value (Hashtbl.find_opt cells label) ~default:0 in
+    Array.iter (fun label -> Hashtbl.replace cells label (count label + 1)) claim.motion.labels;
+    let used = List.sort compare (Hashtbl.fold (fun label n all -> (label, n) :: all) cells []) in
+    let text (label, n) = Printf.sprintf " %d with %d;" n label in
+    print_endline ("Cells with a label:" ^ String.concat "" (List.map text used) ^ " no others.")
   end;
   flush stdout; if words = None then 0 else 1
 

@@ -5,8 +5,8 @@ open Blocks
 (* By vertex its breakpoints, time and place. *)
 type motion = { t0 : float; t1 : float; lines : (float * float array) array array; hash : string Lazy.t }
 
-(* Labels are one a cell; of a run, there are the pairs of them that have to be excluded, just these. *)
-type trajectory = { dimension : int; mesh : Frames.mesh; labels : int array; excluded : (int * int) list option;
+(* Labels are one a cell; of a run, fits tells whether a list of their pairs is that of those which it excludes. *)
+type trajectory = { dimension : int; mesh : Frames.mesh; labels : int array; fits : (int * int) list -> bool;
                     next : unit -> motion option }
 
 let hash_of lines =
@@ -29,7 +29,7 @@ let of_frames paths at_rest =
     rest := List.tl !rest; now := x; step := !step +. 1.0;
     { t0; t1; lines; hash = lazy (hash_of lines) } in
   let next () = Option.map read (List.nth_opt !rest 0) in
-  { dimension = 3; mesh; labels = Array.map (fun _ -> 0) mesh.cells; excluded = None; next }
+  { dimension = 3; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next }
 
 let read_mesh c =
   let vertices = u64 c and faces, edges = both u64 c in
@@ -39,24 +39,36 @@ let read_mesh c =
   let cells = Array.concat (List.map cells [(faces, 3); (edges, 2); (u64 c, 1)]) in
   finish c; { Frames.vertices; cells }
 
-(* Behind MESH: LABL, perhaps EXCL. The labels of the cells, and the pairs of them that are excluded. *)
+(* Behind MESH: LABL, perhaps EXCL. The labels of the cells, and whether pairs of them are those that are excluded. *)
 let read_labels file (mesh : Frames.mesh) =
-  let c = expect file "LABL" in let scripted = many mesh.vertices u8 c in
+  let c = expect file "LABL" in need c mesh.vertices 1;
+  let scripted = many mesh.vertices u8 c in
   check c (left c = 0 && Array.for_all (fun l -> l <= 1) scripted) "expected a label for each vertex, 0 or 1";
   let kind, c = next file in
   check c (kind = "EXCL" || kind = "CMIT") "expected a block EXCL or a commit here";
   let pairs = if kind = "EXCL" then pairs u16 c else [] in
+  if kind = "EXCL" then need c mesh.vertices 2;
   let groups = if kind = "EXCL" then many mesh.vertices u16 c else Array.make mesh.vertices 0 in
   if kind = "EXCL" then (check c (pairs <> [] && left c = 0) "expected pairs and groups"; ignore (expect file "CMIT"));
   let label cell =
     let g = groups.(cell.(0)) in
     check c (Array.for_all (fun v -> groups.(v) = g) cell) "a cell is of two groups";
     (2 * g) + Array.fold_left (fun s v -> s land scripted.(v)) 1 cell in
-  let labels = Array.map label mesh.cells and known = Hashtbl.create 64 in
-  List.iter (fun pair -> Hashtbl.replace known pair ()) pairs;
-  let used = List.sort_uniq compare (Array.to_list labels) in
-  let is_excluded a b = a <= b && (a land b land 1 = 1 || Hashtbl.mem known (a / 2, b / 2)) in
-  (labels, List.concat_map (fun a -> List.map (fun b -> (a, b)) (List.filter (is_excluded a) used)) used)
+  let labels = Array.map label mesh.cells and used = Hashtbl.create 64 in
+  Array.iter (fun l -> Hashtbl.replace used l ()) labels;
+  (* By groups; those of two scripted cells, which may be many, are counted only. *)
+  let by_groups = Hashtbl.create 64 and both_scripted (a, b) = a land b land 1 = 1 in
+  let add a b =
+    let pair = (min a b, max a b) in
+    if Hashtbl.mem used a && Hashtbl.mem used b && not (both_scripted pair) then Hashtbl.replace by_groups pair () in
+  List.iter (fun (g, h) -> List.iter (fun k -> add ((2 * g) + (k land 1)) ((2 * h) + (k lsr 1))) [0; 1; 2; 3]) pairs;
+  let scripted = Hashtbl.fold (fun l () n -> n + (l land 1)) used 0 in
+  let fits claimed =
+    let both, others = List.partition both_scripted claimed in
+    List.length both = scripted * (scripted + 1) / 2 && List.length others = Hashtbl.length by_groups
+    && List.for_all (fun (a, b) -> Hashtbl.mem used a && Hashtbl.mem used b) both
+    && List.for_all (Hashtbl.mem by_groups) others in
+  (labels, fits)
 
 (* LINE: all world lines of a window. *)
 let read_lines c dimension vertices t0 t1 =
@@ -78,7 +90,7 @@ let of_run path =
   check c ((dimension = 2 || dimension = 3) && record = 0 && f64 c > 0.0 && left c = 0)
     "not of dimension 2 or 3, or recorded frames alone, which are not its motion, or without a window length";
   let mesh = read_mesh (expect file "MESH") in
-  let labels, excluded = read_labels file mesh and windows = ref 0 and before = ref None in
+  let labels, fits = read_labels file mesh and windows = ref 0 and before = ref None in
   (* Each vertex begins where it was at the end of the window before. *)
   let follows old line =
     let t, x = old.(Array.length old - 1) and u, y = line.(0) in same_bits t u && Array.for_all2 same_bits x y in
@@ -93,4 +105,4 @@ let of_run path =
       check c goes_on "a window does not go on from the one before"; before := Some lines; incr windows;
       List.iter (fun kind -> ignore (expect file kind)) ["VELO"; "STAT"; "CMIT"];
       Some { t0; t1; lines; hash = Lazy.from_val file.last } in
-  { dimension; mesh; labels; excluded = Some excluded; next }
+  { dimension; mesh; labels; fits; next }
