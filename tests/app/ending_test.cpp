@@ -62,9 +62,8 @@ TEST_P(EndedBySignal, WhileAPipeIsWaitedFor) {
   const auto good = folder.write("good.ply", two_triangles(1));
   const auto pipe = folder.path("pipe.ply"), queries = folder.path("edge-edge.csv");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600) + ::mkfifo(queries.c_str(), 0600), 0);
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", pipe, good},
-                                                    {"verify", good, pipe},
-                                                    {"ccd", queries}}) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"verify", pipe, good}, {"verify", good, pipe}, {"ccd", queries}}) {
     auto with_json = arguments;
     with_json.insert(with_json.end(), {"--json", "-"});
     const Process process = run_noli(with_json, sends(GetParam()));
@@ -97,8 +96,9 @@ TEST_P(EndedBySignal, AMomentBeforeAPipeIsWaitedFor) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(run_noli({"info", pipe}, at_once).exit_code, 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EndedBySignal, testing::Values(SIGINT, SIGTERM),
-                         [](const auto& test) { return test.param == SIGINT ? "Interrupt" : "Terminate"; });
+INSTANTIATE_TEST_SUITE_P(All, EndedBySignal, testing::Values(SIGINT, SIGTERM, SIGHUP), [](const auto& test) {
+  return test.param == SIGINT ? "Interrupt" : test.param == SIGTERM ? "Terminate" : "HangUp";
+});
 
 TEST(Ending, ATimeLimitGivesWhatWasSettledSoFar) {
   const Folder folder;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 
 #include "noli/tests/app/killer.h"
@@ -160,7 +161,8 @@ TEST_F(Proof, KeepsADistance) {
     EXPECT_EQ(check(frames).exit_code, 1) << distance;
   }
   EXPECT_EQ(verify(frames, {"--min-distance", "0.1"}).verdict_line().substr(0, 15), "verdict proved ");
-  EXPECT_EQ(verify(frames, {"--min-distance", "0.1", "--no-check"}).verdict_line().substr(0, 19), "verdict no_contact ");
+  EXPECT_EQ(verify(frames, {"--min-distance", "0.1", "--no-check"}).verdict_line().substr(0, 19),
+            "verdict no_contact ");
   EXPECT_EQ(verify(frames, {"--min-distance", "0.5", "--no-check"}).exit_code, 1);
   EXPECT_EQ(verify(frames, {"--min-distance", "0.5"}).verdict_line().substr(0, 17), "verdict too_near ");
   EXPECT_EQ(prove(frames, {"--min-distance", "-1"}).exit_code, 3);
@@ -226,16 +228,38 @@ TEST_F(Proof, GoesToTheCheckerAtOnceIfNobodyWantsAFile) {
   const Process process = verify(frames, {"--json", folder.path("result.json")});
   EXPECT_EQ(process.verdict_line().substr(0, 15), "verdict proved ");
   const Json proof = Json::parse(read_text(folder.path("result.json")))["proof"];
-  EXPECT_EQ(proof, (Json{{"file", nullptr},
-                         {"witnesses", 0},
-                         {"checked", "accepted: nothing touches"},
-                         {"not_checked", nullptr}}));
+  EXPECT_EQ(
+      proof,
+      (Json{{"file", nullptr}, {"witnesses", 0}, {"checked", "accepted: nothing touches"}, {"not_checked", nullptr}}));
   const Process touching = verify(triangles({1, 0.5, -2}), {});
   EXPECT_EQ(touching.exit_code, 1);
   EXPECT_NE(touching.out.find("The checker says of the proof: refuted: in step 2, vertices {3} of cell 1"),
             std::string::npos)
       << touching.out;
   EXPECT_EQ(verify(triangles({1, 0.5, -2}), {"--no-check"}).out.find("The checker says"), std::string::npos);
+}
+
+TEST_F(Proof, ACheckerIsNotTrustedBlindly) {
+  const auto frames = triangles({1, 0.5});
+  fs::copy_file(NOLI_COMMAND, folder.path("noli"));
+  const auto verify_with = [&](const std::string& script) {
+    const std::string checker = folder.write("noli_check", "#!/bin/sh\n" + script + "\n");
+    fs::permissions(checker, fs::perms::owner_all);
+    const std::string command = folder.path("noli") + " verify " + frames[0] + " " + frames[1] + " >" +
+                                folder.path("out") + " 2>" + folder.path("err");
+    const int status = std::system(command.c_str());
+    return std::pair(WEXITSTATUS(status), read_text(folder.path("err")));
+  };
+  EXPECT_EQ(verify_with("cat >/dev/null; echo accepted: as I was told").first, 0);
+  for (const char* script : {"exit 0", "cat >/dev/null", "cat >/dev/null; echo accepted: no; exit 3",
+                             "cat >/dev/null; echo refuted: so; exit 1", "exit 7", "kill -9 $$"}) {
+    const auto [code, error] = verify_with(script);
+    EXPECT_EQ(code, 4) << script;
+    EXPECT_NE(error.find("check"), std::string::npos) << script << error;
+  }
+  fs::remove(folder.path("noli_check"));
+  const std::string command = folder.path("noli") + " verify " + frames[0] + " " + frames[1] + " 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
 }
 
 TEST_F(Proof, CutOffItIsRejected) {

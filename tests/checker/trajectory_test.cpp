@@ -128,6 +128,24 @@ TEST(Runs, AreAccepted) {
   }
 }
 
+/// Points of as many groups as there are, or all scripted: pairs of them would be too many to list.
+TEST(Runs, PairsOfLabelsAreCounted) {
+  RunProof proof;
+  const std::size_t points = 65536;
+  proof.run.cells.clear();
+  proof.run.labels.assign(points, '\1');
+  proof.run.pairs = {{0, 1}};
+  for (std::uint32_t v = 0; v < points; ++v) {
+    proof.run.cells.push_back({v});
+    proof.run.groups.push_back(static_cast<std::uint16_t>(v));
+  }
+  EXPECT_REJECTED(proof.check(), "other pairs");
+  proof.run.labels.assign(points, '\0');
+  EXPECT_REJECTED(proof.check(), "other pairs");
+  proof.claim.excluded = {{0, 2}};
+  EXPECT_REJECTED(proof.check(), "other cells");  // as those of the claim are without labels
+}
+
 TEST(Runs, HaveTheirOwnLabels) {
   const RunProof proof;
   EXPECT_REJECTED(proof.check(proof.run.blocks(), {{"LABL", raw(1u) + raw(2u)}}), "labels of a run");
