@@ -107,12 +107,12 @@ Groups read_groups(const std::filesystem::path& file, std::size_t vertices) {
 void require_whole_cells(const std::filesystem::path& file, const Groups& groups, const Mesh& mesh) {
   for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
     const auto vertices = corners(mesh, c);
-    const auto group = [&](std::size_t i) { return groups.exclusions.groups[vertices[i]]; };
-    for (std::size_t i = 1; i < corner_count(mesh, c); ++i) {
+    const auto group = [&](int i) { return groups.exclusions.groups[vertices[static_cast<std::size_t>(i)]]; };
+    for (int i = 1; i < corner_count(mesh, c); ++i) {
       if (group(i) == group(0)) continue;
-      throw InputError(
-          file.string(), "",
-          fmt::format("vertices {} and {} of cell {} are of two groups; expected one", vertices[0], vertices[i], c));
+      throw InputError(file.string(), "",
+                       fmt::format("vertices {} and {} of cell {} are of two groups; expected one", vertices[0],
+                                   vertices[static_cast<std::size_t>(i)], c));
     }
   }
 }

@@ -16,7 +16,7 @@ namespace {
 /// Some of a cell's vertices.
 std::vector<VertexId> chosen(const Mesh& mesh, std::uint32_t cell, unsigned mask) {
   std::vector<VertexId> vertices;
-  for (std::size_t i = 0; i < corner_count(mesh, cell); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(mesh, cell)); ++i) {
     if ((mask >> i & 1) != 0) vertices.push_back(corners(mesh, cell)[i]);
   }
   return vertices;

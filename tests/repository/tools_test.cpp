@@ -21,7 +21,7 @@ CommandResult verify_generated(const std::string& kind) {
 TEST(DemoFrames, TheCleanSequenceIsClean) {
   const auto [exit_code, output] = verify_generated("clean");
   EXPECT_EQ(exit_code, 0) << output;
-  EXPECT_TRUE(output.starts_with("verdict no_contact ")) << output;
+  EXPECT_TRUE(output.starts_with("verdict proved ")) << output;
 }
 
 TEST(DemoFrames, TheOtherTouchesBetweenFramesThreeAndFour) {
