@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -42,6 +43,7 @@ constexpr const char* ccd_footer =
 struct AuditArguments {
   audit::AuditRequest request;
   std::string query_limit = "1s";
+  std::uint64_t megabytes = 2000;
   std::optional<std::string> time_limit, json, svg;
 };
 
@@ -78,6 +80,7 @@ ExitCode run(AuditArguments& arguments) {
   audit::AuditRequest& request = arguments.request;
   request.host.host = host();
   request.host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
+  request.host.most_memory = arguments.megabytes * 1'000'000;
   request.host.stop = &interrupted();
   if (arguments.time_limit) {
     request.host.deadline = std::chrono::steady_clock::now() + parse_duration(*arguments.time_limit, "--time-limit");
@@ -129,6 +132,12 @@ Command add_audit_ccd(CLI::App& app) {
       ->capture_default_str()
       ->type_name("TIME");
   command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 60s, 5m, 1h")->type_name("TIME");
+  command
+      ->add_option("--memory-limit", arguments->megabytes,
+                   "End the process in which a library runs when it has more than so many megabytes")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("MB");
   command
       ->add_option("--max-hangs", request.host.most_hangs,
                    "After so many hangs on a file a library is asked no more of it")

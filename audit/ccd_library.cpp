@@ -70,6 +70,7 @@ pid_t start(const fs::path& program, const std::optional<fs::path>& library, int
   std::vector<std::string> words = {program.string()};
   if (library) words.push_back(fs::absolute(*library).string());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -26,8 +26,8 @@ struct HostOptions {
   std::filesystem::path host;              ///< the program noli_ccd_host
   std::chrono::nanoseconds query_limit{};  ///< a call that has computed for so long, or waited ten times as long, hangs
   double repeat_seconds = 0.2;             ///< about how long all queries are asked again
-  std::uint64_t most_memory = std::uint64_t{2} << 30;
-  std::uint64_t most_hangs = 10;  ///< then the rest is not asked
+  std::uint64_t most_memory = 2'000'000'000;  ///< resident bytes of the process
+  std::uint64_t most_hangs = 10;              ///< then the rest is not asked
   const std::atomic<bool>* stop = nullptr;
   Deadline deadline;
 };

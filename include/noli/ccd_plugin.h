@@ -23,6 +23,7 @@
  */
 #pragma once
 
+/* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): this is C. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -78,3 +79,4 @@ int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1,
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(modernize-deprecated-headers, modernize-use-using) */

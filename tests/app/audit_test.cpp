@@ -135,6 +135,14 @@ TEST_F(AuditCcd, FindsMemoryThatGrows) {
   EXPECT_EQ(document["findings"], 1);
 }
 
+TEST_F(AuditCcd, GoesOnBehindWhatTakesAllMemory) {
+  const Json audit = json(faulty("takes_memory"), 1, {"--memory-limit", "300", "--query-limit", "60s"})["audits"][0];
+  EXPECT_EQ(audit["memory"], 2);
+  EXPECT_EQ(audit["answered"], 2);
+  EXPECT_EQ(audit["files"][0]["reports"][0]["finding"], "memory");
+  EXPECT_EQ(audit["files"][0]["reports"][0]["words"], "more than 300000000 bytes");
+}
+
 TEST_F(AuditCcd, FindsTimesThatAreLateOrNone) {
   const Json late = json(faulty("lies_about_time"), 1)["audits"][0];
   EXPECT_EQ(late["late"]["count"], 2);

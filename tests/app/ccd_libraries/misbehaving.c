@@ -14,6 +14,7 @@ enum behaviour {
   ends_the_program, /* the same */
   hangs,            /* the same */
   sleeps,           /* the same */
+  takes_memory,     /* the same */
   leaks,
   lies_about_time,
   has_wild_times,
@@ -39,6 +40,12 @@ static void crash(void) { raise(SIGSEGV); }
 __attribute__((constructor)) static void at_once(void) { crash(); }
 #endif
 
+/* Through a volatile pointer, for a compiler leaves out memory that nobody uses. */
+static void leak(size_t bytes) {
+  void* volatile const lost = malloc(bytes);
+  if (lost != NULL) memset(lost, 1, bytes);
+}
+
 static void at_some_queries(double first) {
   if (!(first > 0)) return;
   if (IS(crashes)) crash();
@@ -46,12 +53,7 @@ static void at_some_queries(double first) {
   for (volatile int again = 1; again && IS(hangs);) {
   }
   while (IS(sleeps)) pause();
-}
-
-/* Through a volatile pointer, for a compiler leaves out memory that nobody uses. */
-static void leak(void) {
-  void* volatile const lost = malloc(4096);
-  if (lost != NULL) memset(lost, 1, 4096);
+  while (IS(takes_memory)) leak((size_t)1 << 20);
 }
 
 static int is_asked_again(void) {
@@ -62,7 +64,7 @@ static int is_asked_again(void) {
 int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], double tolerance, double* time_of_impact) {
   (void)kind, (void)x_t1, (void)tolerance;
   at_some_queries(x_t0[0]);
-  if (IS(leaks)) leak();
+  if (IS(leaks)) leak(4096);
   if (IS(fails)) return NOLI_CCD_FAILED;
   if (IS(crashes_when_asked_again) && is_asked_again()) crash();
   if (IS(changes_its_mind)) return is_asked_again() ? NOLI_CCD_HIT : NOLI_CCD_NO_HIT;
