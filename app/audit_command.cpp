@@ -16,8 +16,10 @@
 #include "noli/app/interrupt.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/pipeline_report.h"
 #include "noli/app/progress.h"
 #include "noli/audit/ccd_audit.h"
+#include "noli/audit/ccd_pipeline.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::app {
@@ -32,19 +34,23 @@ constexpr const char* ccd_footer =
     "query (also as a\n"
     "multiple of the textbook method's). A library has two functions of C, declared in include/noli/ccd_plugin.h; it "
     "runs in a process of\n"
-    "its own. audit/CCD.md has a worked example. Exit 0: no finding (false positives and early times are none); "
-    "1: findings;\n"
-    "2: interrupted or out of time; 3: a library or file is not as it has to be.\n"
+    "its own. With --frames a whole pipeline: the library's search for candidates, a third function, and its query for "
+    "each of them, against\n"
+    "all contacts between the two frames. audit/CCD.md has a worked example. Exit 0: no finding (false positives and "
+    "early times are none);\n"
+    "1: findings; 2: interrupted or out of time; 3: a library or file is not as it has to be.\n"
     "Examples:\n"
     "  noli audit ccd --library ./mine.so unit-tests-edge-edge-0.csv unit-tests-vertex-face-0.csv\n"
     "  noli audit ccd --library ./mine.so --library ./theirs.so --tolerance 1e-6,1e-3 queries-edge-edge.csv --svg "
-    "out.svg";
+    "out.svg\n"
+    "  noli audit ccd --library ./mine.so --frames before.ply after.ply";
 
 struct AuditArguments {
   audit::AuditRequest request;
   std::string query_limit = "1s";
   std::uint64_t megabytes = 2000;
   std::optional<std::string> time_limit, json, svg;
+  std::vector<fs::path> frames;
 };
 
 /// It lies beside this program.
@@ -65,15 +71,26 @@ CLI::Validator is_not_negative() {
       "");
 }
 
-ExitCode exit_code(const audit::AuditOutcome& outcome) {
-  if (outcome.findings() > 0 || outcome.wrong_labels() > 0) return ExitCode::refuted;
-  return outcome.complete ? ExitCode::holds : ExitCode::undecided;
+ExitCode exit_code(std::uint64_t findings, bool complete) {
+  if (findings > 0) return ExitCode::refuted;
+  return complete ? ExitCode::holds : ExitCode::undecided;
 }
 
-std::vector<fs::path> inputs(const audit::AuditRequest& request) {
-  std::vector<fs::path> all = request.files;
-  all.insert(all.end(), request.libraries.begin(), request.libraries.end());
+std::vector<fs::path> inputs(const AuditArguments& arguments) {
+  std::vector<fs::path> all = arguments.request.files;
+  all.insert(all.end(), arguments.request.libraries.begin(), arguments.request.libraries.end());
+  all.insert(all.end(), arguments.frames.begin(), arguments.frames.end());
   return all;
+}
+
+ExitCode run_pipeline(const AuditArguments& arguments) {
+  const audit::AuditRequest& request = arguments.request;
+  if (arguments.svg) throw UsageError("--svg: there is no picture of --frames");
+  const Output output(arguments.json, inputs(arguments));
+  const audit::PipelineOutcome outcome = audit::audit_pipeline(
+      {request.libraries, arguments.frames[0], arguments.frames[1], request.tolerances, request.host});
+  output.write(pipeline_text(outcome), pipeline_json(outcome));
+  return exit_code(outcome.findings(), outcome.complete);
 }
 
 ExitCode run(AuditArguments& arguments) {
@@ -85,9 +102,13 @@ ExitCode run(AuditArguments& arguments) {
   if (arguments.time_limit) {
     request.host.deadline = std::chrono::steady_clock::now() + parse_duration(*arguments.time_limit, "--time-limit");
   }
-  const Output output(arguments.json, inputs(request));
+  if (request.files.empty() == arguments.frames.empty()) {
+    throw UsageError("expected files of queries, or --frames, and not both");
+  }
+  if (!arguments.frames.empty()) return run_pipeline(arguments);
+  const Output output(arguments.json, inputs(arguments));
   if (arguments.svg) {
-    std::vector<fs::path> others = inputs(request);
+    std::vector<fs::path> others = inputs(arguments);
     if (arguments.json) others.emplace_back(*arguments.json);
     require_other_file(*arguments.svg, others, "--svg");
     require_writable_file(*arguments.svg, "--svg");
@@ -99,7 +120,7 @@ ExitCode run(AuditArguments& arguments) {
   }();
   if (arguments.svg) write_file(*arguments.svg, audit_svg(outcome));
   output.write(audit_text(outcome), audit_json(outcome));
-  return exit_code(outcome);
+  return exit_code(outcome.findings() + outcome.wrong_labels(), outcome.complete);
 }
 
 }  // namespace
@@ -119,8 +140,11 @@ Command add_audit_ccd(CLI::App& app) {
       ->allow_extra_args(false)
       ->type_name("LIB.so");
   command->add_option("files", request.files, "Files of queries (CSV, as for `noli ccd`), vertex-face or edge-edge")
-      ->required()
       ->type_name("QUERIES.csv");
+  command
+      ->add_option("--frames", arguments->frames, "In place of queries: two frames, and a whole pipeline between them")
+      ->expected(2)
+      ->type_name("BEFORE AFTER");
   command
       ->add_option("--tolerance", request.tolerances,
                    "What the libraries are told, a length; several with commas between them [1e-6]")

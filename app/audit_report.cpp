@@ -19,14 +19,6 @@ using audit::LibraryAudit;
 
 // --- JSON ------------------------------------------------------------------------------------------------------------
 
-Json errors_json(const audit::TimeErrors& errors) {
-  return {{"count", errors.count()},
-          {"median", errors.median()},
-          {"worst", errors.worst()},
-          {"median_relative", errors.median_relative()},
-          {"worst_relative", errors.worst_relative()}};
-}
-
 Json counts_json(const AuditCounts& counts) {
   return {{"queries", counts.queries},
           {"answered", counts.answered},
@@ -101,24 +93,7 @@ AuditCounts sum_of(const AuditOutcome& outcome) {
   return sum;
 }
 
-using Row = std::vector<std::string>;
-
-/// Columns as wide as their widest cell; the first `words` columns to the left, the rest to the right.
-std::string table(const std::vector<Row>& rows, std::size_t words) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line = " ";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line += i < words ? fmt::format(" {:<{}}", row[i], widths[i]) : fmt::format(" {:>{}}", row[i], widths[i]);
-    }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-  }
-  return text;
-}
+using Row = TableRow;
 
 Row heading(const std::string& first) {
   return {first,        "tolerance",    "queries",     "false+",    "false-",    "late",
@@ -155,7 +130,7 @@ std::string table_of_libraries(const AuditOutcome& outcome) {
   for (const LibraryAudit& audit : outcome.audits) {
     rows.push_back(row_of(audit_name(outcome, audit.library), audit.tolerance, audit.total));
   }
-  return table(rows, 1);
+  return table_text(rows, 1);
 }
 
 std::string table_of_file(const AuditOutcome& outcome, std::size_t file) {
@@ -166,7 +141,7 @@ std::string table_of_file(const AuditOutcome& outcome, std::size_t file) {
       rows.push_back(row_of(audit_name(outcome, audit.library), audit.tolerance, part.counts));
     }
   }
-  return table(rows, 1);
+  return table_text(rows, 1);
 }
 
 void append_file(const AuditOutcome& outcome, std::size_t i, std::string& text) {
@@ -197,6 +172,31 @@ void append_findings(const AuditOutcome& outcome, const LibraryAudit& audit, std
 }
 
 }  // namespace
+
+Json errors_json(const audit::TimeErrors& errors) {
+  return {{"count", errors.count()},
+          {"median", errors.median()},
+          {"worst", errors.worst()},
+          {"median_relative", errors.median_relative()},
+          {"worst_relative", errors.worst_relative()}};
+}
+
+/// Columns as wide as their widest cell; the first `words` columns to the left, the rest to the right.
+std::string table_text(const std::vector<TableRow>& rows, std::size_t words) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const TableRow& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const TableRow& row : rows) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      line += i < words ? fmt::format(" {:<{}}", row[i], widths[i]) : fmt::format(" {:>{}}", row[i], widths[i]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
+}
 
 const char* audit_verdict(const AuditOutcome& outcome) {
   if (outcome.findings() > 0) return "finding";

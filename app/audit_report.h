@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "noli/app/json.h"
 #include "noli/audit/ccd_audit.h"
@@ -22,5 +23,14 @@ std::string audit_svg(const audit::AuditOutcome& outcome);
 
 /// How a library is called in tables: the name of its file, without folders unless two are then the same.
 std::string audit_name(const audit::AuditOutcome& outcome, const std::filesystem::path& library);
+
+/// How far times are off, for JSON.
+Json errors_json(const audit::TimeErrors& errors);
+
+using TableRow = std::vector<std::string>;
+
+/// Columns as wide as their widest cell; the first `words` columns to the left, the rest to the right. Precondition:
+/// all rows have as many cells, and there is one.
+std::string table_text(const std::vector<TableRow>& rows, std::size_t words);
 
 }  // namespace noli::app

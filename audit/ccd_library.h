@@ -7,8 +7,6 @@
 // What this does not do: it does not know what is right (audit/ccd_audit.h).
 #pragma once
 
-#include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,21 +14,9 @@
 #include <vector>
 
 #include "noli/audit/host/exchange.h"
+#include "noli/audit/host_process.h"
 
 namespace noli::audit {
-
-using Deadline = std::optional<std::chrono::steady_clock::time_point>;
-
-/// How libraries are run.
-struct HostOptions {
-  std::filesystem::path host;              ///< the program noli_ccd_host
-  std::chrono::nanoseconds query_limit{};  ///< a call that has computed for so long, or waited ten times as long, hangs
-  double repeat_seconds = 0.2;             ///< about how long all queries are asked again
-  std::uint64_t most_memory = 2'000'000'000;  ///< resident bytes of the process
-  std::uint64_t most_hangs = 10;              ///< then the rest is not asked
-  const std::atomic<bool>* stop = nullptr;
-  Deadline deadline;
-};
 
 /// Throws InputError, which says what it is that is not there or not as it has to be: no file, no shared library, one
 /// for another machine, one that cannot be loaded, one without the functions or of another version of them.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // noli_ccd_host [LIBRARY]: asks a library the queries in the shared memory that its descriptor 3 is, and ends. Without
-// a library it asks the textbook method that is built in. All of it for `noli audit ccd`: whatever a library does to a
-// process, it does to this one.
+// a library it asks the textbook method that is built in. noli_ccd_host --frames LIBRARY: the same for a step of a mesh
+// (host/pipeline.h). All of it for `noli audit ccd`: whatever a library does to a process, it does to this one.
 //
 // First each query once, its time taken by itself. Then all again and again, without a look at the clock in between but
 // every so often: how long a query takes on the average, whether memory grows, whether answers stay the same.
-#include <dlfcn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -14,7 +13,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -22,6 +20,8 @@
 #include <limits>
 
 #include "noli/audit/host/exchange.h"
+#include "noli/audit/host/library.h"
+#include "noli/audit/host/pipeline.h"
 #include "noli/audit/plugins/textbook.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -31,10 +31,6 @@ extern "C" const char* __asan_default_options() { return "quarantine_size_mb=0:d
 
 namespace noli::audit {
 namespace {
-
-using Ask = int (*)(int, const double*, const double*, double, double*);
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// In bytes; 0 where it cannot be found out.
 std::uint64_t resident_bytes() {
@@ -55,38 +51,17 @@ class Host {
  public:
   explicit Host(Exchange& exchange) : e_(exchange), queries_(queries_of(e_)), answers_(answers_of(e_)) {}
 
-  /// Nothing: the library has not what it has to have; the exchange says why.
-  Ask load(const char* library) {
-    void* const handle = ::dlopen(library, RTLD_NOW | RTLD_LOCAL);
-    if (handle == nullptr) return refuse(LoadResult::not_loaded, ::dlerror());
-    const auto version = reinterpret_cast<std::uint32_t (*)()>(::dlsym(handle, "noli_ccd_version"));
-    if (version == nullptr) return refuse(LoadResult::no_version, "");
-    e_.version = version();
-    if (e_.version != NOLI_CCD_VERSION) return refuse(LoadResult::other_version, "");
-    const auto ask = reinterpret_cast<Ask>(::dlsym(handle, "noli_ccd_query"));
-    return ask != nullptr ? ask : refuse(LoadResult::no_query, "");
-  }
-
   void run(Ask ask) {
     ask_ = ask;
-    enter(HostPhase::answering);
+    enter(e_, HostPhase::answering);
     for (std::uint64_t i = e_.first; i < e_.count; ++i) answer(i);
     e_.first = e_.count;
-    enter(HostPhase::repeating);
+    enter(e_, HostPhase::repeating);
     repeat();
-    enter(HostPhase::done);
+    enter(e_, HostPhase::done);
   }
 
  private:
-  Ask refuse(LoadResult why, const char* message) {
-    e_.loaded = why;
-    std::strncpy(e_.message.data(), message, e_.message.size() - 1);
-    enter(HostPhase::done);
-    return nullptr;
-  }
-
-  void enter(HostPhase phase) { e_.phase.store(phase, std::memory_order_release); }
-
   /// Asks, and leaves word of what is under way.
   int call(std::uint64_t i, double& time) {
     e_.at.store(i, std::memory_order_relaxed);
@@ -169,16 +144,27 @@ class Host {
   bool grown_ = false;
 };
 
-Exchange* shared_memory() {
+/// Nothing where it is not there, or too small.
+void* shared_memory() {
   constexpr int descriptor = 3;
   struct stat status = {};
-  if (::fstat(descriptor, &status) != 0 || status.st_size < static_cast<off_t>(sizeof(Exchange))) return nullptr;
-  const auto size = static_cast<std::size_t>(status.st_size);
-  void* const memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  if (::fstat(descriptor, &status) != 0 || status.st_size < static_cast<off_t>(sizeof(HostStatus))) return nullptr;
+  void* const memory =
+      ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
   ::close(descriptor);
-  if (memory == MAP_FAILED) return nullptr;
-  auto* const exchange = static_cast<Exchange*>(memory);
-  return exchange_bytes(exchange->count) <= size ? exchange : nullptr;
+  return memory == MAP_FAILED ? nullptr : memory;
+}
+
+void ask_queries(void* memory, const char* library) {
+  auto& exchange = *static_cast<Exchange*>(memory);
+  const Ask ask = library != nullptr ? load(exchange, library, false).ask : ask_textbook;
+  if (ask != nullptr) Host(exchange).run(ask);
+}
+
+void ask_pipeline(void* memory, const char* path) {
+  auto& exchange = *static_cast<PipelineExchange*>(memory);
+  const Library library = load(exchange, path, true);
+  if (library.ask != nullptr) Pipeline(exchange, library).run();
 }
 
 }  // namespace
@@ -189,13 +175,16 @@ int main(int argc, char** argv) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const struct rlimit none = {0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
-  Exchange* const exchange = shared_memory();
-  if (exchange == nullptr) {
+  void* const memory = shared_memory();
+  if (memory == nullptr) {
     std::fputs("noli_ccd_host: a part of noli; expected to be started by `noli audit`\n", stderr);
     return 3;
   }
-  Host host(*exchange);
-  const Ask ask = argc > 1 ? host.load(argv[1]) : ask_textbook;
-  if (ask != nullptr) host.run(ask);
+  const bool pipeline = argc > 2 && std::strcmp(argv[1], "--frames") == 0;
+  if (pipeline) {
+    ask_pipeline(memory, argv[2]);
+  } else {
+    ask_queries(memory, argc > 1 ? argv[1] : nullptr);
+  }
   std::_Exit(0);  // without what the library registered for the end
 }

@@ -59,8 +59,8 @@ uint32_t noli_ccd_version(void);
 int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], double tolerance, double* time_of_impact);
 
 /*
- * Optional: the search of candidates, for audits of whole pipelines. Version 1 declares it, so that libraries can be
- * written; `noli audit ccd` does not call it yet.
+ * Optional: the search of candidates. `noli audit ccd --frames BEFORE AFTER` needs it: it asks for the candidates of a
+ * step, and then noli_ccd_query for each of them.
  *
  * x_t0, x_t1       3 * vertices doubles each
  * edges, faces     indices of vertices: two for each edge, three for each face

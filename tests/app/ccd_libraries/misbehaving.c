@@ -24,7 +24,10 @@ enum behaviour {
   has_no_query,
   has_another_version,
   crashes_when_asked_again,
-  crashes_when_loaded
+  crashes_when_loaded,
+  finds_nothing,
+  finds_neighbours,
+  crashes_when_searching
 };
 
 #define IS(behaviour) (MISBEHAVIOUR == (behaviour))
@@ -71,5 +74,18 @@ int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], doubl
   if (IS(never_hits)) return NOLI_CCD_NO_HIT;
   *time_of_impact = IS(lies_about_time) ? 1 : IS(has_wild_times) ? -7 : 0;
   return NOLI_CCD_HIT;
+}
+#endif
+
+#if defined(WITH_CANDIDATES)
+int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1, size_t edges,
+                        const uint32_t* edge_vertices, size_t faces, const uint32_t* face_vertices, double distance,
+                        noli_ccd_candidate found, void* data) {
+  (void)x_t0, (void)x_t1, (void)edges, (void)edge_vertices, (void)face_vertices, (void)distance;
+  if (IS(crashes_when_searching)) crash();
+  for (uint32_t v = 0; IS(finds_neighbours) && v < vertices; ++v) {
+    for (uint32_t f = 0; f < faces; ++f) found(data, NOLI_CCD_VERTEX_FACE, v, f);
+  }
+  return 0;
 }
 #endif
