@@ -24,9 +24,17 @@
 #include "noli/audit/host/pipeline.h"
 #include "noli/audit/plugins/textbook.h"
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) && !defined(__SANITIZE_ADDRESS__)
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
 #if defined(__SANITIZE_ADDRESS__)
-/// Freed memory would look like a leak; what is not freed at the end is no fault of the host's.
-extern "C" const char* __asan_default_options() { return "quarantine_size_mb=0:detect_leaks=0"; }
+/// What the sanitizer keeps of freed memory, for all threads and for each, would look like a leak; what is not freed at
+/// the end is no fault of the host's.
+extern "C" const char* __asan_default_options() {
+  return "quarantine_size_mb=0:thread_local_quarantine_size_kb=0:detect_leaks=0";
+}
 #endif
 
 namespace noli::audit {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// noli_ccd_candidates of all the libraries here: the boxes in which features stay during the step, sorted along the axis
-// on which their centres spread most, and swept (Cohen, Lin, Manocha and Ponamgi 1995, "I-COLLIDE", section 4, along one
-// axis).
+// noli_ccd_candidates of all the libraries here: the boxes in which features stay during the step, sorted along the
+// axis on which their centres spread most, and swept (Cohen, Lin, Manocha and Ponamgi 1995, "I-COLLIDE", section 4,
+// along one axis).
 //
 // What was not done: threads, and the inflation of boxes for methods whose tolerance reaches further than contact.
 #include <algorithm>
