@@ -24,5 +24,6 @@ Command add_explain(CLI::App& app);
 Command add_export(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_fuzz_queries(CLI::App& app);
+Command add_audit_ccd(CLI::App& app);
 
 }  // namespace noli::app

@@ -31,6 +31,7 @@ constexpr const char* footer =
     "  noli simulate scene.json -o run        run a scene, certified window by window\n"
     "  noli info frame.obj                    what is in a file\n"
     "  noli fuzz queries --for 60s --seed 1   adversarial queries, kernel against oracle\n"
+    "  noli audit ccd --library lib.so edge-edge-queries.csv   somebody else's library against the truth\n"
     "`noli COMMAND --help` says more.";
 
 ExitCode complain(ExitCode code, const std::string& message) {
@@ -50,8 +51,9 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.footer(footer);
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
-  const std::vector<Command> commands = {add_verify(app),   add_check(app),   add_ccd(app),    add_info(app),
-                                         add_simulate(app), add_explain(app), add_export(app), add_fuzz_queries(app)};
+  const std::vector<Command> commands = {add_verify(app), add_check(app),        add_ccd(app),
+                                         add_info(app),   add_simulate(app),     add_explain(app),
+                                         add_export(app), add_fuzz_queries(app), add_audit_ccd(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

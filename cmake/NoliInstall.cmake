@@ -5,10 +5,12 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS noli_kernel noli_trajectory noli_proofs noli_flags noli_rounding EXPORT noliTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS noli noli_check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS noli noli_check noli_ccd_host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(layer kernel trajectory proofs)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/noli FILES_MATCHING PATTERN "*.h")
 endforeach()
+install(FILES include/noli/ccd_plugin.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/noli)
+install(TARGETS ${NOLI_CCD_PLUGINS} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/noli/ccd)
 install(FILES LICENSE README.md THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/noli)

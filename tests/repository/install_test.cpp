@@ -64,7 +64,9 @@ TEST(InstallSlow, WhatIsInstalledStandsOnItsOwn) {
   EXPECT_GT(seen, 5);
   EXPECT_TRUE(fs::exists(folder.path() / "include" / "noli" / "kernel" / "contact.h"));
   EXPECT_TRUE(fs::exists(folder.path() / "include" / "noli" / "proofs" / "prover" / "verifier.h"));
+  EXPECT_TRUE(fs::exists(folder.path() / "include" / "noli" / "ccd_plugin.h"));
   EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli"));
+  EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli_ccd_host"));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST_P(PlantedInclude, IsJudged) {
   const TemporaryFolder root;
   for (const char* header :
        {"kernel/k.h", "trajectory/t.h", "certificates/c.h", "integrator/i.h", "proofs/prover/p.h", "proofs/checker/c.h",
-        "audit/a.h", "app/a.h", "tests/oracle/o.h", "tests/app/t.h", "bench/b.h"}) {
+        "audit/a.h", "app/a.h", "tests/oracle/o.h", "tests/app/t.h", "bench/b.h", "include/noli/n.h"}) {
     write_file(root.path() / header, "#pragma once\n");
   }
   write_file(root.path() / GetParam().file, std::string("#pragma once\n") + GetParam().line + "\n");
@@ -90,6 +90,9 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"AuditKnowsTheOracle", "audit/x.h", "#include \"noli/tests/oracle/o.h\"", false},
         Planted{"AuditKnowsNoApp", "audit/x.h", "#include \"noli/app/a.h\"", true},
         Planted{"AuditKnowsNoOtherTests", "audit/x.h", "#include \"noli/tests/app/t.h\"", true},
+        Planted{"AuditKnowsWhatPlugInsKnow", "audit/x.h", "#include <noli/n.h>", false},
+        Planted{"WhatPlugInsKnowIsNotInTheKernel", "kernel/x.h", "#include <noli/n.h>", true},
+        Planted{"WhatPlugInsKnowKnowsNobody", "include/noli/x.h", "#include <noli/kernel/k.h>", true},
         Planted{"OracleKnowsNoKernel", "tests/oracle/x.h", "#include \"noli/kernel/k.h\"", true},
         Planted{"AppKnowsAudit", "app/x.h", "#include \"noli/audit/a.h\"", false},
         Planted{"AppKnowsNoBench", "app/x.h", "#include \"noli/bench/b.h\"", true},

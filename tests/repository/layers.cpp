@@ -16,13 +16,14 @@ using Row = std::set<std::string>;
 
 const std::map<std::string, Row>& table() {
   static const Row all_but_app = {"kernel", "trajectory",     "certificates", "integrator",
-                                  "proofs", "proofs/checker", "tests/oracle"};
+                                  "proofs", "proofs/checker", "tests/oracle", "include"};
   static const Row all = [] {
     Row row = all_but_app;
     row.insert("audit");
     return row;
   }();
   static const std::map<std::string, Row> rows = {
+      {"include", {}},
       {"kernel", {}},
       {"trajectory", {}},
       {"certificates", {"kernel", "trajectory"}},
@@ -32,7 +33,7 @@ const std::map<std::string, Row>& table() {
       {"tests/oracle", {}},
       {"audit", all_but_app},
       {"app", all},
-      {"examples", {"kernel", "trajectory", "proofs"}},  // what is installed
+      {"examples", {"include", "kernel", "trajectory", "proofs"}},  // what is installed
   };
   return rows;
 }
@@ -65,6 +66,7 @@ std::string layer_of(const fs::path& relative) {
 
 std::optional<std::string> included_layer(const fs::path& root, const fs::path& file, const std::string& target) {
   const fs::path path(target);
+  if (target.starts_with("noli/") && exists_in(root, "include" / path)) return "include";
   if (target.starts_with("noli/")) return layer_of(path.lexically_normal().lexically_relative("noli"));
   if (path.is_absolute()) {
     const fs::path inside = path.lexically_normal().lexically_relative(root);

@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The layers whose code is in the libraries or in the command.
-const std::set<std::string> shipped = {"kernel",         "trajectory", "certificates", "integrator",  "proofs",
-                                       "proofs/checker", "audit",      "app",          "tests/oracle"};
+const std::set<std::string> shipped = {"kernel",         "trajectory", "certificates", "integrator",   "proofs",
+                                       "proofs/checker", "audit",      "app",          "tests/oracle", "include"};
 
 fs::path in_project(const fs::path& file) { return file.lexically_relative(NOLI_SOURCE_DIR); }
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "noli/app/audit_report.h"
+#include "noli/app/commands.h"
+#include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/app/pipeline_report.h"
+#include "noli/app/progress.h"
+#include "noli/audit/ccd_audit.h"
+#include "noli/audit/ccd_pipeline.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* ccd_footer =
+    "Asks libraries of continuous collision detection each query of the files, and compares with what is exactly true: "
+    "false positives,\n"
+    "false negatives, times of impact that are late or early, failures, crashes, hangs, memory that grows, time per "
+    "query (also as a\n"
+    "multiple of the textbook method's). A library has two functions of C, declared in include/noli/ccd_plugin.h; it "
+    "runs in a process of\n"
+    "its own. With --frames a whole pipeline: the library's search for candidates, a third function, and its query for "
+    "each of them, against\n"
+    "all contacts between the two frames. audit/CCD.md has a worked example. Exit 0: no finding (false positives and "
+    "early times are none);\n"
+    "1: findings; 2: interrupted or out of time; 3: a library or file is not as it has to be.\n"
+    "Examples:\n"
+    "  noli audit ccd --library ./mine.so unit-tests-edge-edge-0.csv unit-tests-vertex-face-0.csv\n"
+    "  noli audit ccd --library ./mine.so --library ./theirs.so --tolerance 1e-6,1e-3 queries-edge-edge.csv --svg "
+    "out.svg\n"
+    "  noli audit ccd --library ./mine.so --frames before.ply after.ply";
+
+struct AuditArguments {
+  audit::AuditRequest request;
+  std::string query_limit = "1s";
+  std::uint64_t megabytes = 2000;
+  std::optional<std::string> time_limit, json, svg;
+  std::vector<fs::path> frames;
+};
+
+/// It lies beside this program.
+fs::path host() {
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  return self.parent_path() / "noli_ccd_host";
+}
+
+CLI::Validator is_not_negative() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        double number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        return whole && number >= 0 && std::isfinite(number) ? "" : text + ": expected a number from 0";
+      },
+      "");
+}
+
+ExitCode exit_code(std::uint64_t findings, bool complete) {
+  if (findings > 0) return ExitCode::refuted;
+  return complete ? ExitCode::holds : ExitCode::undecided;
+}
+
+std::vector<fs::path> inputs(const AuditArguments& arguments) {
+  std::vector<fs::path> all = arguments.request.files;
+  all.insert(all.end(), arguments.request.libraries.begin(), arguments.request.libraries.end());
+  all.insert(all.end(), arguments.frames.begin(), arguments.frames.end());
+  return all;
+}
+
+ExitCode run_pipeline(const AuditArguments& arguments) {
+  const audit::AuditRequest& request = arguments.request;
+  if (arguments.svg) throw UsageError("--svg: there is no picture of --frames");
+  const Output output(arguments.json, inputs(arguments));
+  const audit::PipelineOutcome outcome = audit::audit_pipeline(
+      {request.libraries, arguments.frames[0], arguments.frames[1], request.tolerances, request.host});
+  output.write(pipeline_text(outcome), pipeline_json(outcome));
+  return exit_code(outcome.findings(), outcome.complete);
+}
+
+ExitCode run(AuditArguments& arguments) {
+  audit::AuditRequest& request = arguments.request;
+  request.host.host = host();
+  request.host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
+  request.host.most_memory = arguments.megabytes * 1'000'000;
+  request.host.stop = &interrupted();
+  if (arguments.time_limit) {
+    request.host.deadline = std::chrono::steady_clock::now() + parse_duration(*arguments.time_limit, "--time-limit");
+  }
+  if (request.files.empty() == arguments.frames.empty()) {
+    throw UsageError("expected files of queries, or --frames, and not both");
+  }
+  if (!arguments.frames.empty()) return run_pipeline(arguments);
+  const Output output(arguments.json, inputs(arguments));
+  if (arguments.svg) {
+    std::vector<fs::path> others = inputs(arguments);
+    if (arguments.json) others.emplace_back(*arguments.json);
+    require_other_file(*arguments.svg, others, "--svg");
+    require_writable_file(*arguments.svg, "--svg");
+  }
+  const audit::AuditOutcome outcome = [&] {
+    Progress bar("audit ccd");
+    request.progress = [&](double share) { bar.show(share); };
+    return audit::audit_ccd(request);
+  }();
+  if (arguments.svg) write_file(*arguments.svg, audit_svg(outcome));
+  output.write(audit_text(outcome), audit_json(outcome));
+  return exit_code(outcome.findings() + outcome.wrong_labels(), outcome.complete);
+}
+
+}  // namespace
+
+Command add_audit_ccd(CLI::App& app) {
+  CLI::App* const audit = app.add_subcommand("audit", "How far can somebody else's code be trusted?");
+  audit->require_subcommand(1);
+  audit->footer(
+      "Examples:\n  noli audit ccd --library ./mine.so queries-edge-edge.csv\n`noli audit ccd --help` says more.");
+  CLI::App* const command =
+      audit->add_subcommand("ccd", "Libraries of continuous collision detection, against the truth");
+  command->footer(ccd_footer);
+  const auto arguments = std::make_shared<AuditArguments>();
+  audit::AuditRequest& request = arguments->request;
+  command->add_option("--library", request.libraries, "A library to ask; may be given more than once")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("LIB.so");
+  command->add_option("files", request.files, "Files of queries (CSV, as for `noli ccd`), vertex-face or edge-edge")
+      ->type_name("QUERIES.csv");
+  command
+      ->add_option("--frames", arguments->frames, "In place of queries: two frames, and a whole pipeline between them")
+      ->expected(2)
+      ->type_name("BEFORE AFTER");
+  command
+      ->add_option("--tolerance", request.tolerances,
+                   "What the libraries are told, a length; several with commas between them [1e-6]")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(is_not_negative())
+      ->type_name("T");
+  command->add_option("--query-limit", arguments->query_limit, "A query that computes for longer hangs: 500ms, 10s")
+      ->capture_default_str()
+      ->type_name("TIME");
+  command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 60s, 5m, 1h")->type_name("TIME");
+  command
+      ->add_option("--memory-limit", arguments->megabytes,
+                   "End the process in which a library runs when it has more than so many megabytes")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("MB");
+  command
+      ->add_option("--max-hangs", request.host.most_hangs,
+                   "After so many hangs on a file a library is asked no more of it")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--max-reports", request.max_reports,
+                   "List at most so many findings for each library, tolerance and file; counts are always exact")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--svg", arguments->svg, "Draw wrong answers against time per query")->type_name("OUT.svg");
+  add_json_option(*command, arguments->json);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

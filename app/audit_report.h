@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `noli audit ccd` says: text, JSON, and a picture of errors against run time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "noli/app/json.h"
+#include "noli/audit/ccd_audit.h"
+
+namespace noli::app {
+
+/// "finding", "disagreement" (a label in a file is wrong), "undecided", "no_finding".
+const char* audit_verdict(const audit::AuditOutcome& outcome);
+
+std::string audit_text(const audit::AuditOutcome& outcome);
+
+Json audit_json(const audit::AuditOutcome& outcome);
+
+/// Wrong answers over time per query, one point for each library and tolerance, both logarithmic.
+std::string audit_svg(const audit::AuditOutcome& outcome);
+
+/// How a library is called in tables: the name of its file, without folders unless two are then the same.
+std::string audit_name(const audit::AuditOutcome& outcome, const std::filesystem::path& library);
+
+/// How far times are off, for JSON.
+Json errors_json(const audit::TimeErrors& errors);
+
+using TableRow = std::vector<std::string>;
+
+/// Columns as wide as their widest cell; the first `words` columns to the left, the rest to the right. Precondition:
+/// all rows have as many cells, and there is one.
+std::string table_text(const std::vector<TableRow>& rows, std::size_t words);
+
+}  // namespace noli::app

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/pipeline_report.h"
+
+#include <fmt/format.h>
+
+#include "noli/app/audit_report.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+using audit::PipelineAudit;
+using audit::PipelineOutcome;
+
+const char* verdict(const PipelineOutcome& outcome) {
+  if (outcome.findings() > 0) return "finding";
+  return outcome.complete ? "no_finding" : "undecided";
+}
+
+const char* ending(const PipelineAudit& audit) {
+  switch (audit.end) {
+    case audit::Ending::Kind::finished: return "finished";
+    case audit::Ending::Kind::crashed: return "crash";
+    case audit::Ending::Kind::hung: return "hang";
+    case audit::Ending::Kind::too_much_memory: return "memory";
+    case audit::Ending::Kind::stopped: return "stopped";
+  }
+  return "";
+}
+
+Json pair_json(const std::array<std::uint64_t, 2>& numbers) {
+  return {{"vertex_face", numbers[0]}, {"edge_edge", numbers[1]}};
+}
+
+Json audit_json(const PipelineAudit& audit) {
+  return {{"library", audit.library.string()},
+          {"tolerance", audit.tolerance},
+          {"candidates", pair_json(audit.candidates)},
+          {"not_found", audit.not_found},
+          {"false_positives", pair_json(audit.false_positives)},
+          {"false_negatives", audit.false_negatives},
+          {"late", errors_json(audit.late)},
+          {"early", errors_json(audit.early)},
+          {"bad_times", audit.bad_times},
+          {"failures", audit.failures},
+          {"bad_pairs", audit.bad_pairs},
+          {"ending", ending(audit)},
+          {"words", audit.ending}};
+}
+
+TableRow row_of(const PipelineAudit& audit) {
+  return {on_one_line(audit.library.stem().string()),
+          fmt::format("{:g}", audit.tolerance),
+          std::to_string(audit.candidates[0]),
+          std::to_string(audit.candidates[1]),
+          std::to_string(audit.not_found),
+          std::to_string(audit.false_positives[0] + audit.false_positives[1]),
+          std::to_string(audit.false_negatives),
+          std::to_string(audit.late.count()),
+          fmt::format("{:.3g}", audit.late.worst()),
+          std::to_string(audit.bad_times),
+          std::to_string(audit.failures),
+          std::to_string(audit.bad_pairs),
+          ending(audit),
+          fmt::format("{:.3g}", audit.search_seconds),
+          fmt::format("{:.3g}", audit.query_seconds)};
+}
+
+}  // namespace
+
+std::string pipeline_text(const PipelineOutcome& outcome) {
+  std::string text = fmt::format(
+      "verdict {} audits {} contacts.vertex_face {} contacts.edge_edge {} findings {} complete {}\n", verdict(outcome),
+      outcome.audits.size(), outcome.contacts[0], outcome.contacts[1], outcome.findings(), outcome.complete);
+  text += fmt::format("{} vertices, {} edges, {} faces. Noli finds all contacts in {:.3g} s, on one thread.\n",
+                      outcome.vertices, outcome.edges, outcome.faces, outcome.noli_seconds);
+  std::vector<TableRow> rows = {{"library", "tolerance", "vertex-face", "edge-edge", "not-found", "false+", "false-",
+                                 "late", "worst-late", "bad-times", "failures", "bad-pairs", "ending", "search-s",
+                                 "queries-s"}};
+  for (const PipelineAudit& audit : outcome.audits) rows.push_back(row_of(audit));
+  text += table_text(rows, 1);
+  for (const PipelineAudit& audit : outcome.audits) {
+    if (audit.ending.empty()) continue;
+    text += fmt::format("{}, tolerance {:g}: {}: {}\n", on_one_line(audit.library.string()), audit.tolerance,
+                        ending(audit), audit.ending);
+  }
+  return text;
+}
+
+Json pipeline_json(const PipelineOutcome& outcome) {
+  Json json = {{"verdict", verdict(outcome)},
+               {"findings", outcome.findings()},
+               {"complete", outcome.complete},
+               {"vertices", outcome.vertices},
+               {"edges", outcome.edges},
+               {"faces", outcome.faces},
+               {"contacts", pair_json(outcome.contacts)}};
+  json["audits"] = Json::array();
+  Json timing = {{"noli_seconds", outcome.noli_seconds}, {"audits", Json::array()}};
+  for (const PipelineAudit& audit : outcome.audits) {
+    json["audits"].push_back(audit_json(audit));
+    timing["audits"].push_back({{"library", audit.library.string()},
+                                {"tolerance", audit.tolerance},
+                                {"search_seconds", audit.search_seconds},
+                                {"query_seconds", audit.query_seconds}});
+  }
+  json["timing"] = timing;
+  return json;
+}
+
+}  // namespace noli::app

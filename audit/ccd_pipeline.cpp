@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/audit/ccd_pipeline.h"
+
+#include <noli/ccd_plugin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <new>
+#include <span>
+#include <utility>
+
+#include "noli/audit/elf_header.h"
+#include "noli/kernel/first_contact.h"
+#include "noli/proofs/prover/verifier.h"
+#include "noli/trajectory/frames.h"
+
+namespace noli::audit {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Edge = std::array<VertexId, 2>;
+using Face = std::array<VertexId, 3>;
+
+/// A step as libraries are told it: without vertices that nothing refers to, and with the edges of faces as a list.
+struct Step {
+  std::vector<Position> x_t0, x_t1;
+  std::vector<Edge> edges;  ///< ascending, each once
+  std::vector<Face> faces;
+  std::vector<MeshContact> contacts;  ///< sorted by kind, first, second
+  std::vector<double> times;          ///< the exact first time of each, rounded down
+};
+
+/// Numbers for the vertices that some cell has.
+class Renumbering {
+ public:
+  explicit Renumbering(const Mesh& mesh) : number_(mesh.vertex_count, 0) {
+    for (const Face& face : mesh.faces) mark(face);
+    for (const Edge& edge : mesh.edges) mark(edge);
+    for (const VertexId v : mesh.points) number_[v] = 1;
+    VertexId next = 0;
+    for (VertexId& n : number_) n = n != 0 ? next++ : none;
+  }
+
+  template <std::size_t N>
+  std::array<VertexId, N> operator()(std::array<VertexId, N> vertices) const {
+    for (VertexId& v : vertices) v = number_[v];
+    return vertices;
+  }
+  std::vector<Position> kept(std::span<const Position> x) const {
+    std::vector<Position> result;
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      if (number_[v] != none) result.push_back(x[v]);
+    }
+    return result;
+  }
+
+ private:
+  static constexpr VertexId none = std::numeric_limits<VertexId>::max();
+
+  template <std::size_t N>
+  void mark(const std::array<VertexId, N>& vertices) {
+    for (const VertexId v : vertices) number_[v] = 1;
+  }
+
+  std::vector<VertexId> number_;
+};
+
+std::vector<Edge> edges_of(const Mesh& mesh) {
+  std::vector<Edge> edges;
+  const auto add = [&](VertexId a, VertexId b) {
+    if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
+  };
+  for (const Face& f : mesh.faces) {
+    for (std::size_t i = 0; i < 3; ++i) add(f[i], f[(i + 1) % 3]);
+  }
+  for (const Edge& e : mesh.edges) add(e[0], e[1]);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+auto key(const MeshContact& c) { return std::array{c.kind, c.first, c.second}; }
+
+/// All numbers of the two features of a contact: a face may be listed more than once.
+void add_contact(const FeatureContact& contact, const std::vector<Edge>& edges,
+                 const std::multimap<Face, std::uint32_t>& faces, std::vector<MeshContact>& out) {
+  const auto& v = contact.vertices;
+  MeshContact found;
+  if (contact.pair == FeaturePair::edge_edge) {
+    const auto number = [&](const Edge& edge) {
+      return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
+    };
+    found.kind = NOLI_CCD_EDGE_EDGE;
+    std::tie(found.first, found.second) = std::minmax({number({v[0], v[1]}), number({v[2], v[3]})});
+    out.push_back(found);
+  } else if (contact.pair == FeaturePair::vertex_face) {
+    found.kind = NOLI_CCD_VERTEX_FACE;
+    found.first = v[0];
+    const auto [begin, end] = faces.equal_range({v[1], v[2], v[3]});
+    for (auto face = begin; face != end; ++face) {
+      found.second = face->second;
+      out.push_back(found);
+    }
+  }
+}
+
+template <class Query>
+double first_time(const Step& step, const std::array<VertexId, 4>& vertices) {
+  Query query;
+  for (std::size_t i = 0; i < 4; ++i) {
+    query.x_t0[i] = step.x_t0[vertices[i]];
+    query.x_t1[i] = step.x_t1[vertices[i]];
+  }
+  return first_contact(query).value().time.lower();
+}
+
+double first_time(const Step& step, const MeshContact& contact) {
+  if (contact.kind == NOLI_CCD_EDGE_EDGE) {
+    const Edge &a = step.edges[contact.first], &b = step.edges[contact.second];
+    return first_time<EdgeEdge3>(step, {a[0], a[1], b[0], b[1]});
+  }
+  const Face& f = step.faces[contact.second];
+  return first_time<VertexFace3>(step, {contact.first, f[0], f[1], f[2]});
+}
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+class PipelineRun {
+ public:
+  explicit PipelineRun(const PipelineRequest& request) : request_(request) {}
+
+  PipelineOutcome run() {
+    for (const fs::path& library : request_.libraries) require_shared_library(library);
+    FrameSequence frames({request_.before, request_.after});
+    frames.next();
+    if (!prepare(frames)) {
+      outcome_.complete = false;
+      return std::move(outcome_);
+    }
+    for (const fs::path& library : request_.libraries) {
+      for (const double tolerance : request_.tolerances) {
+        if (!over_) ask(library, tolerance);
+      }
+    }
+    return std::move(outcome_);
+  }
+
+ private:
+  bool stopped() const { return request_.host.stop != nullptr && request_.host.stop->load(std::memory_order_relaxed); }
+
+  /// Finds all contacts; false if the user would not wait for it.
+  bool prepare(const FrameSequence& frames) {
+    const Mesh& mesh = frames.mesh();
+    const Renumbering renumbered(mesh);
+    step_.x_t0 = renumbered.kept(frames.x_t0());
+    step_.x_t1 = renumbered.kept(frames.x_t1());
+    Mesh kept{step_.x_t0.size(), {}, {}, {}};
+    for (const Face& face : mesh.faces) kept.faces.push_back(renumbered(face));
+    for (const Edge& edge : mesh.edges) kept.edges.push_back(renumbered(edge));
+    for (const VertexId v : mesh.points) kept.points.push_back(renumbered(std::array{v})[0]);
+    step_.edges = edges_of(kept);
+    step_.faces = kept.faces;
+    outcome_.vertices = kept.vertex_count;
+    outcome_.edges = step_.edges.size();
+    outcome_.faces = step_.faces.size();
+    return find_contacts(kept) && find_times();
+  }
+
+  bool find_contacts(const Mesh& mesh) {
+    VerifyOptions options;
+    options.threads = 1;
+    options.initial = false;
+    options.max_reports = std::numeric_limits<std::size_t>::max();
+    options.stop = request_.host.stop;
+    options.deadline = request_.host.deadline;
+    const auto begin = Clock::now();
+    const VerifyResult result = verify_step(mesh, step_.x_t0, step_.x_t1, options);
+    outcome_.noli_seconds = seconds_since(begin);
+    std::multimap<Face, std::uint32_t> faces;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) faces.emplace(mesh.faces[f], f);
+    auto& contacts = step_.contacts;
+    for (const FeatureContact& contact : result.reports) add_contact(contact, step_.edges, faces, contacts);
+    std::sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return key(a) < key(b); });
+    const auto same = [](const MeshContact& a, const MeshContact& b) { return key(a) == key(b); };
+    contacts.erase(std::unique(contacts.begin(), contacts.end(), same), contacts.end());
+    for (const MeshContact& contact : contacts) ++outcome_.contacts[contact.kind];
+    return result.complete;
+  }
+
+  bool find_times() {
+    for (const MeshContact& contact : step_.contacts) {
+      if (stopped()) return false;
+      step_.times.push_back(first_time(step_, contact));
+    }
+    return true;
+  }
+
+  void ask(const fs::path& library, double tolerance) {
+    const MeshSizes sizes{step_.x_t0.size(), step_.contacts.size(), step_.edges.size(), step_.faces.size()};
+    const SharedMemory memory(exchange_bytes(sizes));
+    auto& exchange = *new (memory.begin()) PipelineExchange;
+    exchange.sizes = sizes;
+    exchange.tolerance = tolerance;
+    const MeshArrays arrays(exchange);
+    for (std::size_t v = 0; v < sizes.vertices; ++v) {
+      std::copy(step_.x_t0[v].begin(), step_.x_t0[v].end(), arrays.x_t0 + 3 * v);
+      std::copy(step_.x_t1[v].begin(), step_.x_t1[v].end(), arrays.x_t1 + 3 * v);
+    }
+    std::uninitialized_copy(step_.contacts.begin(), step_.contacts.end(), arrays.contacts);
+    for (std::size_t e = 0; e < sizes.edges; ++e) std::copy_n(step_.edges[e].begin(), 2, arrays.edges + 2 * e);
+    for (std::size_t f = 0; f < sizes.faces; ++f) std::copy_n(step_.faces[f].begin(), 3, arrays.faces + 3 * f);
+    const Ending ending = HostProcess(library, memory, exchange, request_.host, true).wait();
+    require_loaded(library, exchange, ending);
+    outcome_.complete = outcome_.complete && ending.kind == Ending::Kind::finished;
+    over_ = ending.kind == Ending::Kind::stopped;
+    outcome_.audits.push_back(marked(library, exchange, arrays, ending));
+  }
+
+  PipelineAudit marked(const fs::path& library, const PipelineExchange& exchange, const MeshArrays& arrays,
+                       const Ending& ending) const {
+    PipelineAudit audit;
+    audit.library = library;
+    audit.tolerance = exchange.tolerance;
+    audit.candidates = exchange.candidates;
+    audit.false_positives = exchange.false_positives;
+    audit.failures = exchange.failures + (exchange.search_code < 0 ? 1 : 0);
+    audit.bad_pairs = exchange.bad_pairs;
+    audit.end = ending.kind;
+    audit.ending = ending.words;
+    audit.search_seconds = exchange.search_seconds;
+    audit.query_seconds = exchange.query_seconds;
+    if (ending.kind != Ending::Kind::finished || exchange.search_code < 0) return audit;
+    for (std::size_t i = 0; i < step_.contacts.size(); ++i) mark(arrays.contacts[i], step_.times[i], audit);
+    return audit;
+  }
+
+  static void mark(const MeshContact& contact, double exact, PipelineAudit& audit) {
+    if (contact.found == 0) {
+      ++audit.not_found;
+    } else if (contact.hit == 0 && contact.failed == 0) {
+      ++audit.false_negatives;
+    } else if (contact.failed == 0 && !std::isnan(contact.time)) {
+      const double error = exact - contact.time, relative = exact > 0 ? std::abs(error) / exact : 0;
+      if (!(contact.time >= 0 && contact.time <= 1)) {
+        ++audit.bad_times;
+      } else if (contact.time > exact) {
+        audit.late.add(-error, relative);
+      } else {
+        audit.early.add(error, relative);
+      }
+    }
+  }
+
+  const PipelineRequest& request_;
+  Step step_;
+  PipelineOutcome outcome_;
+  bool over_ = false;
+};
+
+}  // namespace
+
+std::uint64_t PipelineAudit::findings() const {
+  const bool ended = end != Ending::Kind::finished && end != Ending::Kind::stopped;
+  return not_found + false_negatives + late.count() + bad_times + failures + bad_pairs + (ended ? 1 : 0);
+}
+
+std::uint64_t PipelineOutcome::findings() const {
+  std::uint64_t sum = 0;
+  for (const PipelineAudit& audit : audits) sum += audit.findings();
+  return sum;
+}
+
+PipelineOutcome audit_pipeline(const PipelineRequest& request) { return PipelineRun(request).run(); }
+
+}  // namespace noli::audit

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/audit/host_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <noli/ccd_plugin.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "noli/trajectory/error.h"
+
+extern char** environ;
+
+namespace noli::audit {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using std::chrono::nanoseconds;
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+/// Starts a program with the memory as its descriptor 3 and no other input or output, in a group of processes of its
+/// own, so that it does not share the signals of the terminal.
+pid_t start(std::vector<std::string> words, int memory) {
+  if (::access(words[0].c_str(), X_OK) != 0) {
+    throw std::runtime_error(words[0] + " is not there; expected it beside this program");
+  }
+  std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, memory, 3);
+  for (int end = 0; end < 3; ++end) posix_spawn_file_actions_addopen(&actions, end, "/dev/null", O_RDWR, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  pid_t pid = 0;
+  const int error = ::posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw std::system_error(error, std::generic_category(), words[0]);
+  return pid;
+}
+
+std::vector<std::string> words(const fs::path& host, const std::optional<fs::path>& library, bool pipeline) {
+  std::vector<std::string> result = {host.string()};
+  if (pipeline) result.emplace_back("--frames");
+  if (library) result.push_back(fs::absolute(*library).string());
+  return result;
+}
+
+double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+
+}  // namespace
+
+SharedMemory::SharedMemory(std::size_t size) : size_(size), memory_(MAP_FAILED) {
+  descriptor_ = ::memfd_create("noli_ccd", MFD_CLOEXEC);
+  if (descriptor_ >= 0 && ::ftruncate(descriptor_, static_cast<off_t>(size_)) == 0) {
+    memory_ = ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
+  }
+  if (memory_ != MAP_FAILED) return;
+  const int error = errno;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  throw std::system_error(error, std::generic_category(), "shared memory");
+}
+
+SharedMemory::~SharedMemory() {
+  ::munmap(memory_, size_);
+  ::close(descriptor_);
+}
+
+HostProcess::HostProcess(const std::optional<fs::path>& library, const SharedMemory& memory, const HostStatus& status,
+                         const HostOptions& options, bool pipeline)
+    : options_(options), status_(status), pid_(start(words(options.host, library, pipeline), memory.descriptor())) {}
+
+Ending HostProcess::wait() {
+  nanoseconds pause = std::chrono::microseconds(100);
+  begin_call();
+  for (;;) {
+    if (const auto status = ended()) return ending(*status);
+    if (stopped()) return ended_by_us(Ending::Kind::stopped, "stopped");
+    if (hangs()) return ended_by_us(Ending::Kind::hung, fmt::format("no answer after {:g} s", seconds(limit())));
+    if (resident_bytes() > options_.most_memory) {
+      return ended_by_us(Ending::Kind::too_much_memory, fmt::format("more than {} bytes", options_.most_memory));
+    }
+    std::this_thread::sleep_for(pause);
+    pause = std::min<nanoseconds>(2 * pause, std::chrono::milliseconds(5));
+  }
+}
+
+bool HostProcess::stopped() const {
+  if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) return true;
+  return options_.deadline && Clock::now() >= *options_.deadline;
+}
+
+std::optional<int> HostProcess::ended() {
+  int status = 0;
+  const pid_t pid = ::waitpid(pid_, &status, WNOHANG);
+  if (pid < 0 && errno != EINTR) fail("waiting for a process");
+  if (pid != pid_) return std::nullopt;
+  pid_ = -1;
+  return status;
+}
+
+Ending HostProcess::ending(int status) const {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    return {Ending::Kind::crashed, fmt::format("signal {} ({})", signal, ::strsignal(signal))};
+  }
+  const bool done = status_.phase.load(std::memory_order_acquire) == HostPhase::done;
+  if (done && WEXITSTATUS(status) == 0) return {};
+  return {Ending::Kind::crashed, fmt::format("it ended the program, with code {}", WEXITSTATUS(status))};
+}
+
+Ending HostProcess::ended_by_us(Ending::Kind kind, const std::string& words) {
+  end_it();
+  return {kind, words};
+}
+
+void HostProcess::end_it() {
+  if (pid_ < 0) return;
+  ::kill(-pid_, SIGKILL);
+  ::kill(pid_, SIGKILL);  // before it has a group of its own
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+}
+
+/// What the process has computed so far, all its threads together.
+nanoseconds HostProcess::computed() const {
+  clockid_t clock = 0;
+  struct timespec time = {};
+  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return nanoseconds(0);
+  return std::chrono::seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
+}
+
+void HostProcess::begin_call() {
+  calls_ = status_.calls.load(std::memory_order_relaxed);
+  begin_ = Clock::now();
+  computed_ = computed();
+}
+
+nanoseconds HostProcess::limit() const {
+  const HostPhase phase = status_.phase.load(std::memory_order_relaxed);
+  if (phase == HostPhase::searching) return search_limit * options_.query_limit;
+  if (phase == HostPhase::loading) return std::max<nanoseconds>(options_.query_limit, std::chrono::seconds(10));
+  return options_.query_limit;
+}
+
+/// On a busy machine a process may not run for long: what counts is what it computes, or ten times the limit.
+bool HostProcess::hangs() {
+  if (status_.calls.load(std::memory_order_relaxed) != calls_) {
+    begin_call();
+    return false;
+  }
+  const auto waited = Clock::now() - begin_;
+  return waited >= limit() && (computed() - computed_ >= limit() || waited >= 10 * limit());
+}
+
+std::uint64_t HostProcess::resident_bytes() const {
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/statm");
+  std::uint64_t all = 0, resident = 0;
+  if (!(file >> all >> resident)) return 0;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void require_loaded(const std::optional<fs::path>& library, const HostStatus& status, const Ending& ending) {
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(library ? library->string() : "textbook", "", problem);
+  };
+  if (ending.kind == Ending::Kind::stopped) return;
+  if (ending.kind != Ending::Kind::finished) {
+    if (status.phase.load() == HostPhase::loading) refuse("cannot be loaded: " + ending.words + " meanwhile");
+    return;
+  }
+  const auto lacks = [&](const char* function) {
+    refuse(fmt::format("has no function {} (include/noli/ccd_plugin.h)", function));
+  };
+  switch (status.loaded) {
+    case LoadResult::ok: return;
+    case LoadResult::not_loaded: refuse(fmt::format("cannot be loaded: {}", status.message.data())); break;
+    case LoadResult::no_version: lacks("noli_ccd_version"); break;
+    case LoadResult::no_query: lacks("noli_ccd_query"); break;
+    case LoadResult::no_candidates: lacks("noli_ccd_candidates"); break;
+    case LoadResult::other_version:
+      refuse(fmt::format("is for version {} of the interface; expected {}", status.version, NOLI_CCD_VERSION));
+  }
+}
+
+}  // namespace noli::audit

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli audit ccd --frames`: whole pipelines.
+#include <gtest/gtest.h>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+
+namespace noli::app_tests {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string faulty(const std::string& name) { return std::string(NOLI_TEST_LIBRARIES) + "/" + name + ".so"; }
+std::string plugin(const std::string& name) { return std::string(NOLI_CCD_PLUGINS) + "/" + name + ".so"; }
+
+/// A triangle falls through another one: its three vertices meet the lower face, and nothing else meets.
+class AuditFrames : public testing::Test {
+ protected:
+  std::vector<std::string> command(const std::string& library, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"audit", "ccd", "--library", library, "--frames", before, after};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  void refused(const std::vector<std::string>& line, const std::string& words) const {
+    const Process process = run_noli(line);
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(process.err.find(words), std::string::npos) << process.err;
+  }
+
+  Folder folder;
+  std::string before = folder.write("before.ply", two_triangles(1)),
+              after = folder.write("after.ply", two_triangles(-1));
+};
+
+TEST_F(AuditFrames, FindsNothingInWhatIsRight) {
+  const Process process = run_noli(command(plugin("noli")));
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(process.verdict_line(),
+            "verdict no_finding audits 1 contacts.vertex_face 3 contacts.edge_edge 0 findings 0 complete true");
+  const Json document = json_of(command(plugin("noli"), {"--tolerance", "0"}), 0);
+  EXPECT_EQ(document["faces"], 2);
+  EXPECT_EQ(document["edges"], 6);
+  EXPECT_EQ(document["audits"][0]["early"]["count"], 3);
+  EXPECT_EQ(document["audits"][0]["early"]["worst"], 0);
+  EXPECT_GE(document["audits"][0]["candidates"]["vertex_face"], 3);
+  EXPECT_EQ(document["audits"][0]["false_positives"]["edge_edge"], 0);
+  EXPECT_EQ(without_timing(document), without_timing(json_of(command(plugin("noli"), {"--tolerance", "0"}), 0)));
+}
+
+TEST_F(AuditFrames, FindsWhatTheSearchMisses) {
+  const Json audit = json_of(command(faulty("finds_nothing")), 1)["audits"][0];
+  EXPECT_EQ(audit["not_found"], 3);
+  EXPECT_EQ(audit["false_negatives"], 0);
+}
+
+TEST_F(AuditFrames, FindsCandidatesThatAreNone) {
+  const Json audit = json_of(command(faulty("finds_neighbours")), 1)["audits"][0];
+  EXPECT_EQ(audit["bad_pairs"], 6);
+  EXPECT_EQ(audit["candidates"]["vertex_face"], 6);
+  EXPECT_EQ(audit["false_positives"]["vertex_face"], 3);
+  EXPECT_EQ(audit["not_found"], 0);
+}
+
+TEST_F(AuditFrames, GoesOnWithTheNextLibraryAfterACrash) {
+  const Json document = json_of(command(faulty("crashes_when_searching"), {"--library", plugin("noli")}), 1);
+  EXPECT_EQ(document["audits"][0]["ending"], "crash");
+  EXPECT_EQ(document["audits"][1]["ending"], "finished");
+  EXPECT_EQ(document["findings"], 1);
+  EXPECT_EQ(document["complete"], false);
+}
+
+TEST_F(AuditFrames, RefusesWhatItCannotDo) {
+  refused(command(faulty("always_hits")), "has no function noli_ccd_candidates");
+  refused(command(plugin("noli"), {"--svg", folder.path("a.svg")}), "--svg");
+  refused({"audit", "ccd", "a-edge-edge.csv", "--library", plugin("noli"), "--frames", before, after}, "and not both");
+  refused({"audit", "ccd", "--library", plugin("noli")}, "expected files of queries, or --frames");
+  refused({"audit", "ccd", "--library", plugin("noli"), "--frames", before, folder.path("absent.ply")}, "absent.ply");
+}
+
+TEST_F(AuditFrames, AgreesOnRealFramesSlow) {
+  const auto first = real_data("frames/cloth-funnel/227.ply"), second = real_data("frames/cloth-funnel/228.ply");
+  if (!first || !second) GTEST_SKIP() << "no real data";
+  const Json document = json_of({"audit", "ccd", "--library", plugin("noli"), "--frames", *first, *second}, 0);
+  EXPECT_EQ(document["contacts"]["vertex_face"], 27);
+  EXPECT_EQ(document["contacts"]["edge_edge"], 107);
+  EXPECT_EQ(document["audits"][0]["false_positives"]["edge_edge"], 0);
+}
+
+}  // namespace
+}  // namespace noli::app_tests

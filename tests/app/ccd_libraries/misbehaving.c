@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Libraries for the tests of `noli audit ccd`, one for each way to behave (MISBEHAVIOUR, below), in C99. */
+#define _DEFAULT_SOURCE
+#include <noli/ccd_plugin.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum behaviour {
+  always_hits,
+  never_hits,
+  crashes,          /* at queries whose first coordinate is above 0 */
+  ends_the_program, /* the same */
+  hangs,            /* the same */
+  sleeps,           /* the same */
+  takes_memory,     /* the same */
+  leaks,
+  lies_about_time,
+  has_wild_times,
+  fails,
+  changes_its_mind,
+  has_no_version,
+  has_no_query,
+  has_another_version,
+  crashes_when_asked_again,
+  crashes_when_loaded,
+  finds_nothing,
+  finds_neighbours,
+  crashes_when_searching
+};
+
+#define IS(behaviour) (MISBEHAVIOUR == (behaviour))
+
+#if !defined(NO_VERSION)
+uint32_t noli_ccd_version(void) { return IS(has_another_version) ? NOLI_CCD_VERSION + 1 : NOLI_CCD_VERSION; }
+#endif
+
+#if !defined(NO_QUERY)
+static void crash(void) { raise(SIGSEGV); }
+
+#if defined(CRASH_WHEN_LOADED)
+__attribute__((constructor)) static void at_once(void) { crash(); }
+#endif
+
+/* Through a volatile pointer, for a compiler leaves out memory that nobody uses. */
+static void leak(size_t bytes) {
+  void* volatile const lost = malloc(bytes);
+  if (lost != NULL) memset(lost, 1, bytes);
+}
+
+static void at_some_queries(double first) {
+  if (!(first > 0)) return;
+  if (IS(crashes)) crash();
+  if (IS(ends_the_program)) exit(0);
+  for (volatile int again = 1; again && IS(hangs);) {
+  }
+  while (IS(sleeps)) pause();
+  while (IS(takes_memory)) leak((size_t)1 << 20);
+}
+
+static int is_asked_again(void) {
+  static int calls = 0;
+  return ++calls > 3;
+}
+
+int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], double tolerance, double* time_of_impact) {
+  (void)kind, (void)x_t1, (void)tolerance;
+  at_some_queries(x_t0[0]);
+  if (IS(leaks)) leak(4096);
+  if (IS(fails)) return NOLI_CCD_FAILED;
+  if (IS(crashes_when_asked_again) && is_asked_again()) crash();
+  if (IS(changes_its_mind)) return is_asked_again() ? NOLI_CCD_HIT : NOLI_CCD_NO_HIT;
+  if (IS(never_hits)) return NOLI_CCD_NO_HIT;
+  *time_of_impact = IS(lies_about_time) ? 1 : IS(has_wild_times) ? -7 : 0;
+  return NOLI_CCD_HIT;
+}
+#endif
+
+#if defined(WITH_CANDIDATES)
+int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1, size_t edges,
+                        const uint32_t* edge_vertices, size_t faces, const uint32_t* face_vertices, double distance,
+                        noli_ccd_candidate found, void* data) {
+  (void)x_t0, (void)x_t1, (void)edges, (void)edge_vertices, (void)face_vertices, (void)distance;
+  if (IS(crashes_when_searching)) crash();
+  for (uint32_t v = 0; IS(finds_neighbours) && v < vertices; ++v) {
+    for (uint32_t f = 0; f < faces; ++f) found(data, NOLI_CCD_VERTEX_FACE, v, f);
+  }
+  return 0;
+}
+#endif
