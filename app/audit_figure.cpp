@@ -90,7 +90,7 @@ std::string audit_svg(const AuditOutcome& outcome) {
   std::map<std::string, const char*> colour_of;
   double line = top;
   for (const LibraryAudit& audit : outcome.audits) {
-    const std::string name = audit_name(outcome, audit.library);
+    const std::string name = audit_name(outcome, audit.plugin);
     const auto place = colour_of.try_emplace(name, colours[colour_of.size() % std::size(colours)]).first;
     const audit::AuditCounts& counts = audit.total;
     const bool missed = counts.false_negatives > 0 || counts.late.count() > 0;

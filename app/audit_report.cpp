@@ -49,7 +49,7 @@ Json file_audit_json(const AuditOutcome& outcome, const FileAudit& file) {
 }
 
 Json library_json(const AuditOutcome& outcome, const LibraryAudit& audit) {
-  Json json = {{"library", audit.library.string()}, {"tolerance", audit.tolerance}};
+  Json json = {{"library", audit.plugin.string()}, {"tolerance", audit.tolerance}};
   json.update(counts_json(audit.total));
   json["files"] = Json::array();
   for (const FileAudit& file : audit.files) json["files"].push_back(file_audit_json(outcome, file));
@@ -72,7 +72,7 @@ Json timing_json(const AuditOutcome& outcome) {
     json["textbook"].push_back({{"file", file.path.string()}, {"ns_per_query", file.unit_ns}});
   }
   for (const LibraryAudit& audit : outcome.audits) {
-    Json times = {{"library", audit.library.string()}, {"tolerance", audit.tolerance}};
+    Json times = {{"library", audit.plugin.string()}, {"tolerance", audit.tolerance}};
     times.update(times_json(audit.total));
     times["files"] = Json::array();
     for (const FileAudit& file : audit.files) {
@@ -128,7 +128,7 @@ Row row_of(const std::string& first, double tolerance, const AuditCounts& counts
 std::string table_of_libraries(const AuditOutcome& outcome) {
   std::vector<Row> rows = {heading("library")};
   for (const LibraryAudit& audit : outcome.audits) {
-    rows.push_back(row_of(audit_name(outcome, audit.library), audit.tolerance, audit.total));
+    rows.push_back(row_of(audit_name(outcome, audit.plugin), audit.tolerance, audit.total));
   }
   return table_text(rows, 1);
 }
@@ -138,7 +138,7 @@ std::string table_of_file(const AuditOutcome& outcome, std::size_t file) {
   for (const LibraryAudit& audit : outcome.audits) {
     for (const FileAudit& part : audit.files) {
       if (part.file != file) continue;
-      rows.push_back(row_of(audit_name(outcome, audit.library), audit.tolerance, part.counts));
+      rows.push_back(row_of(audit_name(outcome, audit.plugin), audit.tolerance, part.counts));
     }
   }
   return table_text(rows, 1);
@@ -156,7 +156,7 @@ void append_file(const AuditOutcome& outcome, std::size_t i, std::string& text) 
 }
 
 void append_findings(const AuditOutcome& outcome, const LibraryAudit& audit, std::string& text) {
-  const std::string name = on_one_line(audit_name(outcome, audit.library));
+  const std::string name = on_one_line(audit_name(outcome, audit.plugin));
   const auto out = std::back_inserter(text);
   for (const FileAudit& file : audit.files) {
     const std::string path = on_one_line(outcome.files[file.file].path.string());
@@ -206,7 +206,7 @@ const char* audit_verdict(const AuditOutcome& outcome) {
 
 std::string audit_name(const AuditOutcome& outcome, const std::filesystem::path& library) {
   const auto same = [&](const LibraryAudit& other) {
-    return other.library != library && other.library.stem() == library.stem();
+    return other.plugin != library && other.plugin.stem() == library.stem();
   };
   const bool unique = std::none_of(outcome.audits.begin(), outcome.audits.end(), same);
   return on_one_line(unique ? library.stem().string() : library.string());

@@ -3,32 +3,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "noli/app/exact_gap.h"
-#include "noli/proofs/prover/features.h"
+#include "noli/proofs/prover/feature_sides.h"
 #include "noli/proofs/prover/mesh_paths.h"
 #include "noli/proofs/prover/too_near.h"
 
 namespace noli::app {
 namespace {
-
-/// Some of a cell's vertices.
-std::vector<VertexId> chosen(const Mesh& mesh, std::uint32_t cell, unsigned mask) {
-  std::vector<VertexId> vertices;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(mesh, cell)); ++i) {
-    if ((mask >> i & 1) != 0) vertices.push_back(corners(mesh, cell)[i]);
-  }
-  return vertices;
-}
-
-std::optional<FeaturePair> pair_of(std::size_t p, std::size_t q, int dimension) {
-  if (p == 1 && q == 1) return FeaturePair::vertex_vertex;
-  if (p == 1 && q == 2) return FeaturePair::vertex_edge;
-  if (p == 1 && q == 3 && dimension == 3) return FeaturePair::vertex_face;
-  if (p == 2 && q == 2 && dimension == 3) return FeaturePair::edge_edge;
-  return std::nullopt;
-}
 
 class Cells {
  public:
@@ -38,14 +20,16 @@ class Cells {
   /// The least double that is not less than the distance of those features of two cells that no short path joins.
   double above_distance(std::uint32_t i, std::uint32_t j) const {
     double least = std::numeric_limits<double>::infinity();
-    for (unsigned m = 1; m < 1U << corner_count(mesh_, i); ++m) {
-      for (unsigned n = 1; n < 1U << corner_count(mesh_, j); ++n) {
-        auto p = chosen(mesh_, i, m), q = chosen(mesh_, j, n);
-        if (p.size() > q.size()) std::swap(p, q);
-        const auto pair = pair_of(p.size(), q.size(), dimension_);
-        if (!pair || joined(p, q)) continue;
+    const auto a = vertices_of(mesh_, i), b = vertices_of(mesh_, j);
+    for (unsigned m = 1; m < 1U << a.size(); ++m) {
+      for (unsigned n = 1; n < 1U << b.size(); ++n) {
+        FeatureSides s{chosen(a, m), chosen(b, n)};
+        if (s.p.size() > s.q.size()) std::swap(s.p, s.q);
+        const auto pair = pair_of(s);
+        const bool in_space = pair == FeaturePair::vertex_face || pair == FeaturePair::edge_edge;
+        if (!pair || (in_space && dimension_ == 2) || joined(s, paths_)) continue;
         std::array<VertexId, 4> vertices{};
-        std::ranges::copy(q, std::ranges::copy(p, vertices.begin()).out);
+        std::ranges::copy(s.both(), vertices.begin());
         least = std::min(least, exact_gap(rest_, dimension_, *pair, vertices).up_to);
       }
     }
@@ -53,12 +37,6 @@ class Cells {
   }
 
  private:
-  bool joined(const std::vector<VertexId>& p, const std::vector<VertexId>& q) const {
-    return std::ranges::any_of(p, [&](VertexId v) {
-      return std::ranges::any_of(q, [&](VertexId w) { return paths_.find(v, w).has_value(); });
-    });
-  }
-
   const Mesh& mesh_;
   const WorldLines& rest_;
   int dimension_;

@@ -33,7 +33,7 @@ Json pair_json(const std::array<std::uint64_t, 2>& numbers) {
 }
 
 Json audit_json(const PipelineAudit& audit) {
-  return {{"library", audit.library.string()},
+  return {{"library", audit.plugin.string()},
           {"tolerance", audit.tolerance},
           {"candidates", pair_json(audit.candidates)},
           {"not_found", audit.not_found},
@@ -49,7 +49,7 @@ Json audit_json(const PipelineAudit& audit) {
 }
 
 TableRow row_of(const PipelineAudit& audit) {
-  return {on_one_line(audit.library.stem().string()),
+  return {on_one_line(audit.plugin.stem().string()),
           fmt::format("{:g}", audit.tolerance),
           std::to_string(audit.candidates[0]),
           std::to_string(audit.candidates[1]),
@@ -81,7 +81,7 @@ std::string pipeline_text(const PipelineOutcome& outcome) {
   text += table_text(rows, 1);
   for (const PipelineAudit& audit : outcome.audits) {
     if (audit.ending.empty()) continue;
-    text += fmt::format("{}, tolerance {:g}: {}: {}\n", on_one_line(audit.library.string()), audit.tolerance,
+    text += fmt::format("{}, tolerance {:g}: {}: {}\n", on_one_line(audit.plugin.string()), audit.tolerance,
                         ending(audit), audit.ending);
   }
   return text;
@@ -99,7 +99,7 @@ Json pipeline_json(const PipelineOutcome& outcome) {
   Json timing = {{"noli_seconds", outcome.noli_seconds}, {"audits", Json::array()}};
   for (const PipelineAudit& audit : outcome.audits) {
     json["audits"].push_back(audit_json(audit));
-    timing["audits"].push_back({{"library", audit.library.string()},
+    timing["audits"].push_back({{"library", audit.plugin.string()},
                                 {"tolerance", audit.tolerance},
                                 {"search_seconds", audit.search_seconds},
                                 {"query_seconds", audit.query_seconds}});

@@ -181,7 +181,7 @@ class Audit {
     outcome_.files[file].unit_ns = unit.ns_per_query;
     for (LibraryAudit& audit : outcome_.audits) {
       const LibraryAnswers answers =
-          ask_library(audit.library, exam->kind, exam->queries, audit.tolerance, request_.host);
+          ask_library(audit.plugin, exam->kind, exam->queries, audit.tolerance, request_.host);
       FileAudit marked = Marking(*exam, answers, request_.max_reports).run();
       marked.file = file;
       marked.counts.unit_seconds = unit.ns_per_query * 1e-9 * static_cast<double>(exam->queries.size());

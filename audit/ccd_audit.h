@@ -91,7 +91,7 @@ struct FileAudit {
 
 /// One library with one tolerance.
 struct LibraryAudit {
-  std::filesystem::path library;
+  std::filesystem::path plugin;
   double tolerance = 0;
   std::vector<FileAudit> files;
   AuditCounts total;

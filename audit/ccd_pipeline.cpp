@@ -223,7 +223,7 @@ class PipelineRun {
   PipelineAudit marked(const fs::path& library, const PipelineExchange& exchange, const MeshArrays& arrays,
                        const Ending& ending) const {
     PipelineAudit audit;
-    audit.library = library;
+    audit.plugin = library;
     audit.tolerance = exchange.tolerance;
     audit.candidates = exchange.candidates;
     audit.false_positives = exchange.false_positives;

@@ -31,7 +31,7 @@ struct PipelineRequest {
 
 /// One library with one tolerance. Pairs of numbers are [vertex-face, edge-edge].
 struct PipelineAudit {
-  std::filesystem::path library;
+  std::filesystem::path plugin;
   double tolerance = 0;
   std::array<std::uint64_t, 2> candidates{}, false_positives{};
   std::uint64_t not_found = 0, false_negatives = 0, bad_times = 0;

@@ -8,7 +8,9 @@
 #include <span>
 
 #include "noli/kernel/scaled_integers.h"
+#include "noli/proofs/prover/feature_sides.h"
 #include "noli/proofs/prover/features.h"
+#include "noli/proofs/prover/integer_motion.h"
 #include "noli/proofs/prover/polynomials.h"
 #include "noli/proofs/prover/tokens.h"
 #include "noli/trajectory/bytes.h"
@@ -19,7 +21,6 @@ namespace {
 
 using namespace witness;
 
-using PolyVector = std::array<Poly, 3>;
 using Weights = std::vector<std::pair<VertexId, Poly>>;
 
 struct Found {
@@ -72,117 +73,9 @@ PolyVector cross(const PolyVector& a, const PolyVector& b) {
   return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
 
-/// The step in integers: time in units of 2^q, of which `first_bits` more are taken for times between them.
-class Motion {
- public:
-  static constexpr unsigned long first_bits = 64;
-
-  explicit Motion(const WitnessStep& step) : step_(step) {
-    exact::ExponentRange space, time;
-    for (VertexId v = 0; v < step.lines.vertex_count(); ++v) {
-      for (const double t : step.lines.times(v)) time.add(t + step.shift);
-      for (const Position& p : step.lines.positions(v)) {
-        for (std::size_t k = 0; k < dimension(); ++k) space.add(p[k]);
-      }
-    }
-    space.add(step.eta);
-    space_ = space.high < space.low ? 0 : space.low;
-    time_ = time.high < time.low ? 0 : time.low;
-  }
-
-  std::size_t dimension() const { return static_cast<std::size_t>(step_.dimension); }
-  const WorldLines& lines() const { return step_.lines; }
-  /// A coordinate in the unit of all of them.
-  mpz_class length(double x) const { return integer(x, space_); }
-  /// A time of a breakpoint.
-  mpz_class time(double t) const { return integer(t + step_.shift, time_); }
-  /// Any time of the lines, times 2^first_bits; rounded down, or up.
-  mpz_class fraction(double t, bool up) const {
-    mpq_class exact(t);
-    exact += mpq_class(step_.shift);
-    const long bits = static_cast<long>(first_bits) - time_;
-    exact *= bits >= 0 ? mpq_class(mpz_class(1) << static_cast<unsigned long>(bits))
-                       : mpq_class(1, mpz_class(1) << static_cast<unsigned long>(-bits));
-    mpz_class result;
-    (up ? mpz_cdiv_q : mpz_fdiv_q)(result.get_mpz_t(), exact.get_num_mpz_t(), exact.get_den_mpz_t());
-    return result;
-  }
-
- private:
-  static mpz_class integer(double x, int unit) {
-    if (x == 0) return 0;
-    const exact::OddBinary parts(x);
-    return mpz_class(static_cast<long>(parts.mantissa)) << static_cast<unsigned long>(parts.exponent - unit);
-  }
-
-  const WitnessStep& step_;
-  int space_ = 0, time_ = 0;
-};
-
-/// Some vertices from a time on, each on the segment that begins there or has it within; at the end of the step they
-/// rest. All positions are multiplied by the same number, which makes them integers.
-class Segments {
- public:
-  Segments(const Motion& motion, std::span<const VertexId> vertices, const mpz_class& from, unsigned long e) {
-    for (const VertexId v : vertices) {
-      const auto times = motion.lines().times(v);
-      const auto positions = motion.lines().positions(v);
-      std::size_t low = 0;
-      for (std::size_t high = times.size(); high - low > 1;) {
-        const std::size_t middle = (low + high) / 2;
-        (motion.time(times[middle]) << e <= from ? low : high) = middle;
-      }
-      const bool rests = low + 1 == times.size();
-      Segment s{v, motion.time(times[low]), 0, {}, {}};
-      s.t1 = rests ? mpz_class(s.t0 + 1) : motion.time(times[low + 1]);
-      for (std::size_t k = 0; k < motion.dimension(); ++k) {
-        s.x0[k] = motion.length(positions[low][k]);
-        s.x1[k] = motion.length(positions[rests ? low : low + 1][k]);
-      }
-      scale_ = lcm(scale_, mpz_class(s.t1 - s.t0));
-      segments_.push_back(std::move(s));
-    }
-  }
-
-  const mpz_class& scale() const { return scale_; }
-  /// Of a vertex, in integer time.
-  PolyVector position(VertexId v) const {
-    const Segment& s = of(v);
-    const mpz_class factor = scale_ / (s.t1 - s.t0);
-    PolyVector x;
-    for (std::size_t k = 0; k < 3; ++k) {
-      x[k] = trimmed({factor * (s.x0[k] * s.t1 - s.x1[k] * s.t0), factor * (s.x1[k] - s.x0[k])});
-    }
-    return x;
-  }
-  /// At the time at / 2^e, times 2^e.
-  std::array<mpz_class, 3> position_at(VertexId v, const mpz_class& at, unsigned long e) const {
-    const Segment& s = of(v);
-    const mpz_class factor = scale_ / (s.t1 - s.t0);
-    std::array<mpz_class, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) {
-      x[k] = factor * (s.x0[k] * ((s.t1 << e) - at) + s.x1[k] * (at - (s.t0 << e)));
-    }
-    return x;
-  }
-
- private:
-  struct Segment {
-    VertexId v;
-    mpz_class t0, t1;
-    std::array<mpz_class, 3> x0, x1;
-  };
-  const Segment& of(VertexId v) const { return *std::ranges::find(segments_, v, &Segment::v); }
-
-  std::vector<Segment> segments_;
-  mpz_class scale_ = 1;
-};
+using Sides = FeatureSides;
 
 /// The two features of a contact.
-struct Sides {
-  std::vector<VertexId> p, q;
-};
-
 Sides sides_of(const FeatureContact& contact) {
   const auto& v = contact.vertices;
   switch (contact.pair) {
@@ -196,7 +89,7 @@ Sides sides_of(const FeatureContact& contact) {
 
 class Search {
  public:
-  explicit Search(const WitnessStep& step) : step_(step), motion_(step) {}
+  explicit Search(const WitnessStep& step) : step_(step), motion_(step.lines, step.shift, step.dimension, step.eta) {}
 
   std::optional<Found> of_features(const FeatureContact& contact) {
     const Sides sides = sides_of(contact);
@@ -218,7 +111,7 @@ class Search {
   /// At a time, the nearest points of some features of two cells that no short path joins.
   std::optional<Found> of_near(const TooNear& near, const MeshPaths& paths) const {
     const mpz_class at = part_of_step(near.time);
-    const auto a = vertices_of(near.first_cell), b = vertices_of(near.second_cell);
+    const auto a = vertices_of(step_.mesh, near.first_cell), b = vertices_of(step_.mesh, near.second_cell);
     for (unsigned m = 1; m < 1U << a.size(); ++m) {
       for (unsigned n = 1; n < 1U << b.size(); ++n) {
         Sides s{chosen(a, m), chosen(b, n)};
@@ -240,40 +133,12 @@ class Search {
   std::optional<Found> of_cells(std::uint32_t i, std::uint32_t j) { return at_rest(i, j, begin(), 0); }
 
  private:
-  static constexpr unsigned long first_bits = Motion::first_bits, most_bits = 900;
+  static constexpr unsigned long first_bits = IntegerMotion::first_bits, most_bits = 900;
   static constexpr std::size_t most_cells = 64;
-
-  static std::vector<VertexId> chosen(const std::vector<VertexId>& all, unsigned mask) {
-    std::vector<VertexId> result;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if ((mask >> k & 1) != 0) result.push_back(all[k]);
-    }
-    return result;
-  }
-
-  static std::optional<FeaturePair> pair_of(const Sides& s) {
-    if (s.p.size() == 1 && s.q.size() == 3) return FeaturePair::vertex_face;
-    if (s.p.size() == 2 && s.q.size() == 2) return FeaturePair::edge_edge;
-    if (s.p.size() == 1 && s.q.size() == 2) return FeaturePair::vertex_edge;
-    if (s.p.size() == 1 && s.q.size() == 1) return FeaturePair::vertex_vertex;
-    return std::nullopt;
-  }
-
-  static bool joined(const Sides& s, const MeshPaths& paths) {
-    return std::ranges::any_of(s.p, [&](VertexId v) {
-      return std::ranges::any_of(s.q, [&](VertexId w) { return paths.find(v, w).has_value(); });
-    });
-  }
-
-  static std::vector<VertexId> all_of(const Sides& s) {
-    std::vector<VertexId> all = s.p;
-    all.insert(all.end(), s.q.begin(), s.q.end());
-    return all;
-  }
 
   /// If the nearest points of the features' planes and lines are in the features, and near enough.
   std::optional<Found> near_at(FeaturePair pair, const Sides& s, const mpz_class& at) const {
-    const Segments segments(motion_, all_of(s), at, first_bits);
+    const Segments segments(motion_, s.both(), at, first_bits);
     const auto place = [&](VertexId v) {
       PolyVector x;
       const auto numbers = segments.position_at(v, at, first_bits);
@@ -389,7 +254,7 @@ class Search {
   /// At the root of the condition within the time of the contact, one after another of the parts into which
   /// breakpoints cut that.
   std::optional<Found> at_root(const FeatureContact& contact, const Sides& sides) const {
-    const auto vertices = all_of(sides);
+    const auto vertices = sides.both();
     const mpz_class end = motion_.fraction(contact.first.end, true);
     mpz_class from = motion_.fraction(contact.first.begin, false);
     const auto cuts = breakpoints_between(vertices, from, end);
@@ -499,17 +364,9 @@ class Search {
     return std::nullopt;
   }
 
-  std::vector<VertexId> vertices_of(std::uint32_t cell) const {
-    const auto v = corners(step_.mesh, cell);
-    std::vector<VertexId> result(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(corner_count(step_.mesh, cell)));
-    std::ranges::sort(result);
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  }
-
   /// Whether two cells meet at a time: some vertices of theirs, none of them common, have just one way to do so.
   std::optional<Found> at_rest(std::uint32_t i, std::uint32_t j, const mpz_class& at, unsigned long e) const {
-    const auto a = vertices_of(i), b = vertices_of(j);
+    const auto a = vertices_of(step_.mesh, i), b = vertices_of(step_.mesh, j);
     for (unsigned m = 1; m < 1U << a.size(); ++m) {
       for (unsigned n = 1; n < 1U << b.size(); ++n) {
         if (std::popcount(m) + std::popcount(n) > 5) continue;
@@ -531,7 +388,7 @@ class Search {
                                                    const mpz_class& at, unsigned long e) const {
     const std::size_t n = p.size() + q.size();
     std::vector<std::vector<mpq_class>> rows(4, std::vector<mpq_class>(n));
-    const auto vertices = all_of({p, q});
+    const auto vertices = FeatureSides{p, q}.both();
     const Segments segments(motion_, vertices, at, e);
     for (std::size_t c = 0; c < n; ++c) {
       const bool first = c < p.size();
@@ -589,7 +446,7 @@ class Search {
   }
 
   const WitnessStep& step_;
-  Motion motion_;
+  IntegerMotion motion_;
 };
 
 std::optional<std::string> payload(const std::optional<Found>& found) {

@@ -300,7 +300,7 @@ TEST_F(AuditCcd, TheWorkedExampleIsTrue) {
 }
 
 struct Expected {
-  const char* library;
+  const char* method;
   std::array<int, 6> wrong;  ///< false positives and negatives of each file
 };
 
@@ -319,15 +319,15 @@ TEST_F(AuditCcd, MethodsErrAsMeasuredSlow) {
                                      {"root_parity", {0, 1, 0, 0, 0, 63}},
                                      {"noli", {0, 0, 0, 0, 0, 0}}};
   words.insert(words.end(), {"--query-limit", "60s"});
-  for (const Expected& one : all) words.insert(words.end(), {"--library", plugin(one.library)});
+  for (const Expected& one : all) words.insert(words.end(), {"--library", plugin(one.method)});
   const Json document = json_of(words, 1);
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t file = 0; file < 3; ++file) {
       const Json& part = document["audits"][i]["files"][file];
-      EXPECT_EQ(part["false_positives"], all[i].wrong[2 * file]) << all[i].library << " " << file;
-      EXPECT_EQ(part["false_negatives"], all[i].wrong[2 * file + 1]) << all[i].library << " " << file;
-      EXPECT_EQ(part["failures"], 0) << all[i].library;
-      EXPECT_EQ(part["crashes"], 0) << all[i].library;
+      EXPECT_EQ(part["false_positives"], all[i].wrong[2 * file]) << all[i].method << " " << file;
+      EXPECT_EQ(part["false_negatives"], all[i].wrong[2 * file + 1]) << all[i].method << " " << file;
+      EXPECT_EQ(part["failures"], 0) << all[i].method;
+      EXPECT_EQ(part["crashes"], 0) << all[i].method;
     }
   }
   for (const char* const finding : {"false_negatives", "bad_times", "changed", "leaks", "hangs"}) {
