@@ -14,6 +14,7 @@
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/pipeline_report.h"
@@ -53,24 +54,6 @@ struct AuditArguments {
   std::vector<fs::path> frames;
 };
 
-/// It lies beside this program.
-fs::path host() {
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  return self.parent_path() / "noli_ccd_host";
-}
-
-CLI::Validator is_not_negative() {
-  return CLI::Validator(
-      [](const std::string& text) -> std::string {
-        double number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool whole = error == std::errc() && end == text.data() + text.size();
-        return whole && number >= 0 && std::isfinite(number) ? "" : text + ": expected a number from 0";
-      },
-      "");
-}
-
 ExitCode exit_code(std::uint64_t findings, bool complete) {
   if (findings > 0) return ExitCode::refuted;
   return complete ? ExitCode::holds : ExitCode::undecided;
@@ -95,7 +78,7 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
 
 ExitCode run(AuditArguments& arguments) {
   audit::AuditRequest& request = arguments.request;
-  request.host.host = host();
+  request.host.host = beside_this_program("noli_ccd_host");
   request.host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
   request.host.most_memory = arguments.megabytes * 1'000'000;
   request.host.stop = &interrupted();

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,9 +15,9 @@
 #include <utility>
 
 #include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/audit/start_process.h"
 #include "noli/trajectory/run_file.h"
-
-extern char** environ;
 
 namespace noli::app {
 namespace {
@@ -29,18 +28,6 @@ const char* name_of(Checker checker) { return checker == Checker::plain ? "noli_
 
 /// The name - is standard input's.
 std::string name_of_file(const fs::path& path) { return path == "-" ? "./-" : path.string(); }
-
-/// The checker lies beside this program.
-fs::path path_of(Checker checker) {
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  const fs::path path = self.parent_path() / name_of(checker);
-  if (error || ::access(path.c_str(), X_OK) != 0) {
-    throw std::runtime_error(
-        fmt::format("the checker {} is not there; expected it beside this program", path.string()));
-  }
-  return path;
-}
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
@@ -81,41 +68,20 @@ class CheckerProcess::Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-namespace {
-
-/// Starts a program, in a group of processes of its own.
-pid_t start(const std::vector<std::string>& arguments, int input, int output) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  if (input >= 0) posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::system_error(error, std::generic_category(), arguments[0]);
-  return pid;
-}
-
-}  // namespace
-
 CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
                                const std::vector<fs::path>& trajectory, Deadline deadline)
     : checker_(checker), deadline_(deadline), words_(std::make_unique<Pipe>()) {
-  std::vector<std::string> arguments = {path_of(checker).string(), proof ? name_of_file(*proof) : "-"};
+  std::vector<std::string> arguments = {beside_this_program(name_of(checker)).string(),
+                                        proof ? name_of_file(*proof) : "-"};
   for (const fs::path& path : trajectory) arguments.push_back(name_of_file(path));
   if (!proof) {
     proof_ = std::make_unique<Pipe>();
     proof_->never_wait(1);
   }
   words_->never_wait(0);
-  pid_ = start(arguments, proof_ ? proof_->end(0) : -1, words_->end(1));
+  std::vector<audit::GivenDescriptor> descriptors = {{STDOUT_FILENO, words_->end(1)}};
+  if (proof_) descriptors.push_back({STDIN_FILENO, proof_->end(0)});
+  pid_ = audit::start_process(std::move(arguments), descriptors);
   words_->close(1);
   if (proof_) proof_->close(0);
 }

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <string>
 
 namespace noli::app {
 
@@ -15,6 +17,9 @@ std::uint64_t peak_memory_bytes();
 /// and makes sure that descriptors 0 to 2 exist, so that no file that is opened later takes the place of a closed
 /// standard output.
 void prepare_for_the_worst();
+
+/// Where a program of this name lies if it lies beside this one. It need not be there.
+std::filesystem::path beside_this_program(const std::string& name);
 
 /// Seconds since it was made.
 class Stopwatch {

@@ -20,15 +20,28 @@ void add_threads_option(CLI::App& command, int& threads) {
       ->type_name("N");
 }
 
-CLI::Validator is_positive() {
+namespace {
+
+/// Finite numbers, of which `accepts` is true; `what` is what is expected.
+CLI::Validator numbers(bool (*accepts)(double), const char* what) {
   return CLI::Validator(
-      [](const std::string& text) -> std::string {
+      [accepts, what](const std::string& text) -> std::string {
         double number = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         const bool whole = error == std::errc() && end == text.data() + text.size();
-        return whole && number > 0 && std::isfinite(number) ? "" : text + ": expected a number above 0";
+        return whole && accepts(number) && std::isfinite(number) ? "" : text + ": expected a number " + what;
       },
       "");
+}
+
+}  // namespace
+
+CLI::Validator is_positive() {
+  return numbers([](double x) { return x > 0; }, "above 0");
+}
+
+CLI::Validator is_not_negative() {
+  return numbers([](double x) { return x >= 0; }, "from 0");
 }
 
 CLI::Validator is_count() {

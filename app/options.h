@@ -18,6 +18,9 @@ void add_threads_option(CLI::App& command, int& threads);
 /// Accepts numbers above 0 that are finite.
 CLI::Validator is_positive();
 
+/// Accepts 0 too.
+CLI::Validator is_not_negative();
+
 /// Accepts 0, 1, 2, ...
 CLI::Validator is_count();
 

@@ -4,12 +4,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <noli/ccd_plugin.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -19,9 +19,8 @@
 #include <thread>
 #include <vector>
 
+#include "noli/audit/start_process.h"
 #include "noli/trajectory/error.h"
-
-extern char** environ;
 
 namespace noli::audit {
 namespace {
@@ -32,29 +31,11 @@ using std::chrono::nanoseconds;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// Starts a program with the memory as its descriptor 3 and no other input or output, in a group of processes of its
-/// own, so that it does not share the signals of the terminal.
+/// With the memory as its descriptor 3, and no other input or output.
 pid_t start(std::vector<std::string> words, int memory) {
-  if (::access(words[0].c_str(), X_OK) != 0) {
-    throw std::runtime_error(words[0] + " is not there; expected it beside this program");
-  }
-  std::vector<char*> argv;
-  argv.reserve(words.size() + 1);
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, memory, 3);
-  for (int end = 0; end < 3; ++end) posix_spawn_file_actions_addopen(&actions, end, "/dev/null", O_RDWR, 0);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::system_error(error, std::generic_category(), words[0]);
-  return pid;
+  constexpr int nothing = GivenDescriptor::nothing;
+  return start_process(std::move(words),
+                       std::array<GivenDescriptor, 4>{{{3, memory}, {0, nothing}, {1, nothing}, {2, nothing}}});
 }
 
 std::vector<std::string> words(const fs::path& host, const std::optional<fs::path>& library, bool pipeline) {

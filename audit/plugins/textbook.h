@@ -26,10 +26,10 @@ inline Weights weights(const Vec& a, const Vec& b, const Vec& d) {
   return {(ad * bb - ab * bd) / determinant, (bd * aa - ab * ad) / determinant};
 }
 
-/// noli_ccd_query of the textbook method.
-inline int textbook_query(int kind, const double x_t0[12], const double x_t1[12], double* time_of_impact) {
-  const Differences d(kind, points(x_t0), points(x_t1));
-  const double root = first_root(d.coplanarity(), [&](double t) {
+/// When the features meet, as the textbook method thinks; a negative number if they do not.
+inline double textbook_root(int kind, const Points& x_t0, const Points& x_t1) {
+  const Differences d(kind, x_t0, x_t1);
+  return first_root(d.coplanarity(), [&](double t) {
     if (kind == NOLI_CCD_EDGE_EDGE) {
       const auto [u, w] = weights(d.p.at(t), d.q.at(t), d.r.at(t));
       return u >= 0 && u <= 1 && w <= 0 && w >= -1;
@@ -38,6 +38,11 @@ inline int textbook_query(int kind, const double x_t0[12], const double x_t1[12]
     const auto [u, w] = weights(d.q.at(t) - corner, d.r.at(t) - corner, -1.0 * corner);
     return u >= 0 && w >= 0 && u + w <= 1;
   });
+}
+
+/// noli_ccd_query of the textbook method.
+inline int textbook_query(int kind, const double x_t0[12], const double x_t1[12], double* time_of_impact) {
+  const double root = textbook_root(kind, points(x_t0), points(x_t1));
   if (root < 0) return NOLI_CCD_NO_HIT;
   *time_of_impact = root;
   return NOLI_CCD_HIT;
