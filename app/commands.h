@@ -23,7 +23,11 @@ Command add_simulate(CLI::App& app);
 Command add_explain(CLI::App& app);
 Command add_export(CLI::App& app);
 Command add_info(CLI::App& app);
-Command add_fuzz_queries(CLI::App& app);
-Command add_audit_ccd(CLI::App& app);
+
+/// `noli fuzz` and `noli audit`, which are nothing but their subcommands.
+CLI::App& add_fuzz(CLI::App& app);
+CLI::App& add_audit(CLI::App& app);
+Command add_fuzz_queries(CLI::App& fuzz);
+Command add_audit_ccd(CLI::App& audit);
 
 }  // namespace noli::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/options.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -35,6 +37,17 @@ CLI::Validator numbers(bool (*accepts)(double), const char* what) {
 }
 
 }  // namespace
+
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
+  const auto problem = [=](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
+    if (whole && value >= least && value <= greatest) return {};
+    return fmt::format("{}: expected a whole number from {} to {}", text, least, greatest);
+  };
+  return CLI::Validator(problem, "");
+}
 
 CLI::Validator is_positive() {
   return numbers([](double x) { return x > 0; }, "above 0");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,10 @@ void add_json_option(CLI::App& command, std::optional<std::string>& path);
 
 /// --threads N: 0 for all there are.
 void add_threads_option(CLI::App& command, int& threads);
+
+/// Accepts whole numbers from least to greatest, in decimal digits only: what CLI11 makes of signs, leading zeros and
+/// numbers that do not fit is not what a reader would expect.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest);
 
 /// Accepts numbers above 0 that are finite.
 CLI::Validator is_positive();

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -108,13 +106,9 @@ ExitCode run(AuditArguments& arguments) {
 
 }  // namespace
 
-Command add_audit_ccd(CLI::App& app) {
-  CLI::App* const audit = app.add_subcommand("audit", "How far can somebody else's code be trusted?");
-  audit->require_subcommand(1);
-  audit->footer(
-      "Examples:\n  noli audit ccd --library ./mine.so queries-edge-edge.csv\n`noli audit ccd --help` says more.");
+Command add_audit_ccd(CLI::App& audit) {
   CLI::App* const command =
-      audit->add_subcommand("ccd", "Libraries of continuous collision detection, against the truth");
+      audit.add_subcommand("ccd", "Libraries of continuous collision detection, against the truth");
   command->footer(ccd_footer);
   const auto arguments = std::make_shared<AuditArguments>();
   audit::AuditRequest& request = arguments->request;

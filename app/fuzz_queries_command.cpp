@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -36,19 +35,6 @@ constexpr const char* queries_footer =
     "  noli fuzz queries --for 60s --seed 1\n"
     "  noli fuzz queries --count 1000000 --threads 2 --out findings --json result.json\n"
     "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv";
-
-/// Decimal digits only: what CLI11 makes of signs, leading zeros and numbers that do not fit is not what a reader would
-/// expect.
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
-  const auto problem = [=](const std::string& text) -> std::string {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
-    if (whole && value >= least && value <= greatest) return {};
-    return fmt::format("{}: expected a whole number from {} to {}", text, least, greatest);
-  };
-  return CLI::Validator(problem, "");
-}
 
 struct FuzzArguments {
   audit::FuzzOptions options;
@@ -207,12 +193,9 @@ ExitCode run(FuzzArguments& arguments, bool for_given) {
 
 }  // namespace
 
-Command add_fuzz_queries(CLI::App& app) {
-  CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
-  fuzz->require_subcommand(1);
-  fuzz->footer("Examples:\n  noli fuzz queries --for 60s --seed 1\n`noli fuzz queries --help` says more.");
+Command add_fuzz_queries(CLI::App& fuzz) {
   CLI::App* const command =
-      fuzz->add_subcommand("queries", "Contact, distance, failure times of two features: kernel against oracle");
+      fuzz.add_subcommand("queries", "Contact, distance, failure times of two features: kernel against oracle");
   command->footer(queries_footer);
   const auto arguments = std::make_shared<FuzzArguments>();
   audit::FuzzOptions& options = arguments->options;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/commands.h"
+
+namespace noli::app {
+
+CLI::App& add_fuzz(CLI::App& app) {
+  CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
+  fuzz->require_subcommand(1);
+  fuzz->footer("Examples:\n  noli fuzz queries --for 60s --seed 1\n`noli fuzz queries --help` says more.");
+  return *fuzz;
+}
+
+CLI::App& add_audit(CLI::App& app) {
+  CLI::App* const audit = app.add_subcommand("audit", "How far can numbers, and somebody else's code, be trusted?");
+  audit->require_subcommand(1);
+  audit->footer(
+      "Examples:\n  noli audit ccd --library ./mine.so queries-edge-edge.csv\n`noli audit ccd --help` says more.");
+  return *audit;
+}
+
+}  // namespace noli::app
