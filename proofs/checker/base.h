@@ -49,6 +49,7 @@ class Input {
   /// So many bytes, or all up to the end. No length is believed: memory grows with what has come.
   std::string read(std::uint64_t bytes) {
     std::string result;
+    result.reserve(std::min<std::uint64_t>(bytes, 1 << 24));
     for (std::size_t got = 1; got > 0 && result.size() < bytes;) {
       const std::size_t have = result.size(), part = std::min<std::uint64_t>(bytes - have, 1 << 20);
       result.resize(have + part);
@@ -71,7 +72,9 @@ class Reader {
       : bytes_(std::move(bytes)), file_(std::move(file)), offset_(offset) {}
 
   void require(bool condition, const char* why) const {
-    if (condition) return;
+    if (!condition) reject(why);
+  }
+  [[noreturn]] void reject(const char* why) const {
     const std::string place = line_ > 0 ? "line " + std::to_string(line_) : "byte " + std::to_string(offset_ + at_);
     throw Rejected{file_ + ", " + place, why};
   }
