@@ -54,7 +54,7 @@ let scaled c = let s = shift c in Z.shift_left (sint c) s
 let integer c p x =
   let bits = Int64.to_int (Int64.bits_of_float x) in
   let e = (bits lsr 52) land 0x7ff and fraction = bits land 0xfffffffffffff in
-  let m = if e = 0 then fraction else fraction lor 0x10000000000000 and k = max e 1 - 1075 - p in
+  let m = if e = 0 then fraction else fraction lor 0x10000000000000 and k = (if e = 0 then 1 else e) - 1075 - p in
   check c (m = 0 || k >= 0 || (k > -53 && m land ((1 lsl -k) - 1) = 0)) "a number is no multiple of the step's unit";
   let m = if x < 0.0 then -m else m in
   if m = 0 then Z.zero else if k < 0 then Z.of_int (m asr -k)
