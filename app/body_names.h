@@ -30,6 +30,7 @@ class BodyNames {
 
   /// Whether there are any.
   bool known() const { return !bodies_.empty(); }
+  const std::vector<Body>& bodies() const { return bodies_; }
   /// The bodies that have any of these vertices, in the order of bodies; of vertices without a body nothing.
   std::vector<std::string> bodies_of(std::span<const VertexId> vertices) const;
   /// A vertex by its body and its number there.

@@ -30,6 +30,7 @@ constexpr const char* footer =
     "  noli ccd edge-edge-queries.csv         decide queries, compare with their labels\n"
     "  noli simulate scene.json -o run        run a scene, certified window by window\n"
     "  noli info frame.obj                    what is in a file\n"
+    "  noli report run -o report.html         a page about it, for a browser\n"
     "  noli fuzz queries --for 60s --seed 1   adversarial queries, kernel against oracle\n"
     "  noli audit ccd --library lib.so edge-edge-queries.csv   somebody else's library against the truth\n"
     "`noli COMMAND --help` says more.";
@@ -52,9 +53,9 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
   CLI::App &fuzz = add_fuzz(app), &audit = add_audit(app);
-  const std::vector<Command> commands = {add_verify(app), add_check(app),         add_ccd(app),
-                                         add_info(app),   add_simulate(app),      add_explain(app),
-                                         add_export(app), add_fuzz_queries(fuzz), add_audit_ccd(audit)};
+  const std::vector<Command> commands = {add_verify(app),        add_check(app),      add_ccd(app),    add_info(app),
+                                         add_simulate(app),      add_explain(app),    add_export(app), add_report(app),
+                                         add_fuzz_queries(fuzz), add_audit_ccd(audit)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -7,11 +7,14 @@ jobs=$(nproc)
 
 say() { printf '\n== %s\n' "$*"; }
 
-# build PRESET [TARGET...]: configures and builds, everything or the targets.
+# build PRESET [TARGET...]: configures and builds, everything or the targets; what ships with reports, where there is npm.
 build() {
-  local preset=$1
+  local preset=$1 options=()
   shift
-  cmake --preset "$preset" >/dev/null
+  if [ "$preset" = release ]; then
+    if command -v npm >/dev/null; then options+=(-DNOLI_WITH_REPORT=ON); else echo "skipped: noli report, because there is no npm"; fi
+  fi
+  cmake --preset "$preset" "${options[@]}" >/dev/null
   cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
 }
 

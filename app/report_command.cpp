@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/app/commands.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/app/report_assets.h"
+#include "noli/app/report_page.h"
+#include "noli/app/report_results.h"
+#include "noli/app/report_run.h"
+#include "noli/app/run_folder.h"
+#include "noli/app/version.h"
+#include "noli/trajectory/base64.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "One page with everything in it, for any browser, without a network: verdict and statement, the motion with its "
+    "contacts, energies,\n"
+    "steps and gaps over time, tables of audits and pictures. Inputs in any order: the folder of one run; results that "
+    "noli wrote with\n"
+    "--json; the frames that one of them, of verify, is about; pictures (.svg). Nothing is decided again.\n"
+    "Examples:\n"
+    "  noli report runs/cloth -o cloth.html\n"
+    "  noli verify a.ply b.ply --json ab.json; noli report ab.json a.ply b.ply -o ab.html\n"
+    "  noli verify runs/cloth --json cloth.json; noli report runs/cloth cloth.json -o cloth.html\n"
+    "  noli report audit.json audit.svg -o audit.html";
+
+struct ReportArguments {
+  std::vector<fs::path> inputs;
+  fs::path output;
+  ReportLimits limits;
+  bool force = false;
+  std::optional<std::string> title;
+};
+
+/// What was given, by kind.
+struct Inputs {
+  std::optional<fs::path> run;
+  std::vector<fs::path> frames, results, pictures;
+};
+
+std::string extension(const fs::path& path) {
+  std::string text = path.extension().string();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return text;
+}
+
+Inputs sorted(const std::vector<fs::path>& paths) {
+  Inputs inputs;
+  for (const fs::path& path : paths) {
+    const std::string end = extension(path);
+    if (fs::is_directory(path)) {
+      if (inputs.run) throw UsageError(path.string() + ": expected one run at most");
+      inputs.run = path;
+    } else if (end == ".json") {
+      inputs.results.push_back(path);
+    } else if (end == ".svg") {
+      inputs.pictures.push_back(path);
+    } else if (end == ".ply" || end == ".obj") {
+      inputs.frames.push_back(path);
+    } else {
+      throw UsageError(path.string() + ": expected the folder of a run, or a file .json, .svg, .ply or .obj");
+    }
+  }
+  if (inputs.run && !inputs.frames.empty()) throw UsageError("expected a run or frames, and not both");
+  return inputs;
+}
+
+/// A result of verify, about what is shown.
+struct VerifyResult {
+  fs::path path;
+  Json json;
+};
+
+class Report {
+ public:
+  explicit Report(const ReportArguments& arguments) : arguments_(arguments), inputs_(sorted(arguments.inputs)) {
+    report_.page = {
+        {"title", ""},
+        {"made", fmt::format("Made by noli {}. Nothing on this page is fetched from elsewhere.", version_number())},
+        {"verdict", {{"word", "report"}, {"lines", Json::array()}}},
+        {"facts", Json::array()},
+        {"statement", Json::array()},
+        {"scene", nullptr},
+        {"contacts", nullptr},
+        {"plots", Json::array()},
+        {"pictures", Json::array()},
+        {"results", Json::array()}};
+  }
+
+  const ReportPage& operator()() {
+    read_results();
+    if (inputs_.run) report_run(*inputs_.run, arguments_.limits, report_);
+    if (!inputs_.frames.empty()) put_frames();
+    if (verified_) put_verdict_of_verify();
+    for (const fs::path& path : inputs_.pictures) {
+      const std::string image = "data:image/svg+xml;base64," + base64(read_whole_file(path));
+      report_.page["pictures"].push_back({{"name", path.stem().string()}, {"image", image}});
+    }
+    put_title();
+    return report_;
+  }
+
+ private:
+  void read_results() {
+    for (const fs::path& path : inputs_.results) {
+      Json result = read_result(path);
+      if (is_of_verify(result)) {
+        if (verified_) throw UsageError(path.string() + ": expected one result of noli verify at most");
+        verified_ = VerifyResult{path, std::move(result)};
+        continue;
+      }
+      if (result.contains("verdict") && result["verdict"].is_string() && inputs_.results.size() == 1 && !inputs_.run) {
+        report_.page["verdict"]["word"] = result["verdict"];
+      }
+      report_.page["results"].push_back({{"name", path.stem().string()}, {"result", std::move(result)}});
+    }
+  }
+
+  void put_frames() {
+    if (!verified_) throw UsageError("frames, but no result of noli verify that is about them (--json)");
+    const VerifiedSteps steps = verified_steps(verified_->json, verified_->path);
+    if (steps.run || steps.count != inputs_.frames.size()) {
+      throw InputError(verified_->path.string(), "",
+                       fmt::format("is about {} {}, but {} frames were given", steps.count,
+                                   steps.run ? "windows of a run" : "frames", inputs_.frames.size()));
+    }
+    report_frames(inputs_.frames, steps.at_rest, arguments_.limits, report_);
+  }
+
+  void put_verdict_of_verify() {
+    const auto& [path, json] = *verified_;
+    std::optional<std::uint64_t> vertices;
+    if (!report_.page["scene"].is_null()) vertices = report_.page["scene"]["vertices"].get<std::uint64_t>();
+    if (inputs_.run) {
+      const VerifiedSteps steps = verified_steps(json, path);
+      const std::size_t windows = report_.page["scene"]["steps"]["list"].size();
+      if (!steps.run || steps.count != windows) {
+        throw InputError(path.string(), "",
+                         fmt::format("is about {} {}, but the run has {} windows", steps.count,
+                                     steps.run ? "windows" : "frames", windows));
+      }
+    }
+    put_verdict(json, path, vertices, report_);
+    if (report_.page["title"] == "") report_.page["title"] = path.stem().string();
+  }
+
+  void put_title() {
+    if (arguments_.title) report_.page["title"] = *arguments_.title;
+    if (report_.page["title"] == "") report_.page["title"] = arguments_.inputs.front().stem().string();
+  }
+
+  const ReportArguments& arguments_;
+  Inputs inputs_;
+  std::optional<VerifyResult> verified_;
+  ReportPage report_;
+};
+
+ExitCode run(const ReportArguments& arguments) {
+  if (!has_report_page())
+    throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
+  require_other_file(arguments.output, arguments.inputs, "-o");
+  require_place_of_run(arguments.output, arguments.inputs.front(), arguments.force);
+  Report report(arguments);
+  const ReportPage& page = report();
+  const std::string html = report_html(page);
+  replace_file(arguments.output, html);
+  const Json& scene = page.page["scene"];
+  write_standard_output(fmt::format("report bytes {} frames {}\n", html.size(),
+                                    scene.is_null() ? 0 : scene["frames"].get<std::uint64_t>()));
+  return ExitCode::holds;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("report", "A page about a run, a verdict or an audit, for a browser");
+  command->footer(footer);
+  const auto arguments = std::make_shared<ReportArguments>();
+  command->add_option("inputs", arguments->inputs, "A run; results (--json); frames; pictures")
+      ->required()
+      ->type_name("RUN | RESULT.json");
+  command->add_option("-o,--output", arguments->output, "The page")->required()->type_name("OUT.html");
+  command->add_option("--title", arguments->title, "What stands at its head")->type_name("TEXT");
+  command->add_option("--fps", arguments->limits.fps, "Frames a second of simulated time, at most")
+      ->check(is_positive())
+      ->capture_default_str();
+  command->add_flag("--force", arguments->force, "Replace a page that is there");
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app
