@@ -224,21 +224,28 @@ class LibraryFuzzing {
     for (LibraryFinding& finding : asked.findings) keep(std::move(finding));
   }
 
-  /// The first of each fault and generator, saved as it is: it is shrunk later, and should not be lost until then.
+  /// The simplest of each fault and generator, saved as it is: it is shrunk later, and should not be lost until then.
   void keep(LibraryFinding finding) {
     const auto same = [&](const LibraryFinding& other) {
       return other.fault == finding.fault && other.generator == finding.generator;
     };
     auto& all = report_.findings;
-    if (const auto found = std::find_if(all.begin(), all.end(), same); found != all.end()) {
-      ++found->alike;
-      return;
-    }
-    if (all.size() >= options_.max_findings) return;
+    const auto found = std::find_if(all.begin(), all.end(), same);
+    if (found == all.end() && all.size() >= options_.max_findings) return;
     finding.alike = 1;
+    if (found != all.end()) {
+      ++found->alike;
+      if (complexity(found->query) <= complexity(finding.query)) return;
+      finding.alike = found->alike;
+      if (!found->file.empty()) fs::remove(found->file);
+    }
     if (!options_.out.empty()) finding.file = options_.out / file_name(finding);
     save(finding);
-    all.push_back(std::move(finding));
+    if (found != all.end()) {
+      *found = std::move(finding);
+    } else {
+      all.push_back(std::move(finding));
+    }
   }
 
   std::string file_name(const LibraryFinding& finding) const {

@@ -59,11 +59,14 @@ class Minimiser {
 
   AnyQuery run() {
     for (bool progress = true; progress && budget_ > 0;) {
-      progress = scale_axes();
+      progress = flatten_axes();
+      progress |= scale_axes();
+      progress |= cut_the_step();
       progress |= merge_points();
       progress |= move_axes();
       progress |= shear_axes();
       progress |= replace_numbers();
+      progress |= stop_along_axes();
       progress |= simplify_coordinates();
     }
     return query_;
@@ -100,6 +103,44 @@ class Minimiser {
       change(candidate.x_t1[i]);
     }
     return candidate;
+  }
+
+  /// All in a plane, or on a line.
+  bool flatten_axes() {
+    std::vector<AnyQuery> candidates;
+    for (std::size_t axis = 0; axis < axes(); ++axis) {
+      candidates.push_back(with_points([&](Point3& x) { x[axis] = 0; }));
+    }
+    return accept_one(candidates);
+  }
+
+  /// Only the first or the last half of the step.
+  bool cut_the_step() {
+    std::vector<AnyQuery> candidates(2, query_);
+    for (std::size_t i = 0; i < query_.size(); ++i) {
+      for (std::size_t axis = 0; axis < axes(); ++axis) {
+        const double middle = query_.x_t0[i][axis] / 2 + query_.x_t1[i][axis] / 2;
+        candidates[0].x_t1[i][axis] = candidates[1].x_t0[i][axis] = middle;
+      }
+    }
+    return accept_one(candidates);
+  }
+
+  /// A coordinate of a point that is the same throughout.
+  bool stop_along_axes() {
+    bool progress = false;
+    for (std::size_t i = 0; i < query_.size(); ++i) {
+      for (std::size_t axis = 0; axis < axes(); ++axis) {
+        std::vector<double> values = numbers(query_);
+        values.insert(values.begin(), {0, 1, -1});
+        std::vector<AnyQuery> candidates(values.size(), query_);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+          candidates[k].x_t0[i][axis] = candidates[k].x_t1[i][axis] = values[k];
+        }
+        progress |= accept_one(candidates);
+      }
+    }
+    return progress;
   }
 
   bool scale_axes() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/saved_query.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <string_view>
@@ -24,7 +26,20 @@ std::optional<SavedProbe> saved_probe(const std::string& text) {
   return std::nullopt;
 }
 
+std::string type_line(const QueryType& type) { return fmt::format("# query {} {}d", name(type.pair), type.dimension); }
+
 }  // namespace
+
+std::optional<QueryType> saved_type(std::string_view text) {
+  Lines lines(text);
+  std::string_view line;
+  while (lines.next(line)) {
+    for (const QueryType& type : all_query_types) {
+      if (line == type_line(type)) return type;
+    }
+  }
+  return std::nullopt;
+}
 
 std::string file_suffix(const QueryType& type) {
   std::string pair(name(type.pair));
@@ -37,6 +52,7 @@ void save_query(const std::filesystem::path& file, const AnyQuery& query, bool c
   std::ostringstream text;
   const QueryRecord record{query.x_t0, query.x_t1, contact};
   write_query_csv(text, file_kind(query.pair), std::span(&record, 1));
+  text << type_line({query.pair, query.dimension}) << '\n';
   for (const std::string& comment : comments) text << comment << '\n';
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   write_file(file, text.str());
@@ -47,7 +63,10 @@ std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {
   if (!kind) throw InputError(file.string(), "", "its name tells no kind of query, such as edge-edge");
   const std::string text = read_whole_file(file);
   const auto saved = saved_probe(text);
-  AnyQuery query{static_cast<FeaturePair>(*kind), saved ? saved->dimension : 3, {}, {}};
+  const auto type = saved_type(text);
+  AnyQuery query{static_cast<FeaturePair>(*kind), saved ? saved->dimension : type ? type->dimension : 3, {}, {}};
+  const bool fitting = !type || *type == QueryType{query.pair, query.dimension};
+  if (!fitting) throw InputError(file.string(), "", "its name, its line query and its line noli-fuzz do not agree");
   if (saved && !fits(query, saved->probe)) {
     throw InputError(file.string(), "", "the line noli-fuzz asks for what a query of this kind has not");
   }
