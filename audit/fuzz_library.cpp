@@ -40,8 +40,9 @@ struct Asked {
 };
 
 struct Situation {
-  const LibraryFuzzOptions& options;
-  bool knows_times;
+  LibraryUnderTest library;  ///< to be asked until the time of the run is over
+  bool knows_times = false;
+  bool with_corpus = false;
 };
 
 std::optional<Stage> deciding_stage(const AnyQuery& query) {
@@ -64,9 +65,8 @@ std::string whole_signature(const AnyQuery& query, const LibraryAnswer& answer, 
 /// `blank`: generator and block of the findings.
 Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const LibraryFinding& blank) {
   Asked result;
-  const LibraryUnderTest& library = situation.options.library;
-  const bool with_corpus = !situation.options.corpus.empty();
-  const std::vector<LibraryAnswer> answers = ask(library, queries.at(0).pair, queries);
+  const bool with_corpus = situation.with_corpus;
+  const std::vector<LibraryAnswer> answers = ask(situation.library, queries.at(0).pair, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (answers[i].given.state == AnswerState::not_asked) continue;
     const std::optional<double> exact = exact_first_time(queries[i]);
@@ -77,7 +77,7 @@ Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const L
     const auto fault = fault_of(answers[i], exact, situation.knows_times);
     if (!fault) continue;
     ++result.faults[static_cast<std::size_t>(fault->fault)];
-    if (!counts(fault->fault, library.exact)) continue;
+    if (!counts(fault->fault, situation.library.exact)) continue;
     LibraryFinding finding = blank;
     finding.fault = fault->fault;
     finding.words = fault->words;
@@ -102,7 +102,8 @@ class Shrinking {
 
   std::optional<std::size_t> first_failure(std::span<const AnyQuery> queries) {
     constexpr int most_costly = 12;
-    if (costly_ >= most_costly) return std::nullopt;
+    const std::atomic<bool>* const stop = library_.host.stop;
+    if (costly_ >= most_costly || (stop != nullptr && stop->load())) return std::nullopt;
     const std::vector<LibraryAnswer> answers = ask(library_, queries[0].pair, queries);
     for (const LibraryAnswer& answer : answers) {
       const AnswerState state = answer.given.state;
@@ -145,7 +146,13 @@ class LibraryFuzzing {
 
   LibraryFuzzReport run() {
     require_ccd_library(options_.library.path, options_.library.host);
-    report_.knows_times = knows_times(options_.library);
+    situation_.library = options_.library;
+    if (const auto& limit = options_.limits.time_limit) {
+      using Clock = std::chrono::steady_clock;
+      situation_.library.host.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*limit);
+    }
+    situation_.knows_times = report_.knows_times = knows_times(options_.library);
+    situation_.with_corpus = corpus_.has_value();
     replay_corpus();
     if (!enough()) {
       const auto end = run_blocks(
@@ -174,8 +181,6 @@ class LibraryFuzzing {
 
   bool enough() const { return options_.first_only && report_.findings_total > 0; }
 
-  Situation situation() const { return {options_, report_.knows_times}; }
-
   Asked run_block(std::uint64_t block, std::size_t count) const {
     const QueryGenerator& generator = generators_[block % generators_.size()];
     Random random(options_.seed, block);
@@ -184,7 +189,7 @@ class LibraryFuzzing {
     LibraryFinding blank;
     blank.generator = generator.name();
     blank.block = block;
-    return ask_all(situation(), std::move(queries), blank);
+    return ask_all(situation_, std::move(queries), blank);
   }
 
   /// Each query by itself, so that it does not matter what else is in the folder.
@@ -198,7 +203,7 @@ class LibraryFuzzing {
     parallel_for(queries.size(), options_.limits.threads, [&](std::size_t i) {
       LibraryFinding blank;
       blank.generator = "corpus/" + queries[i]->name;
-      results[i] = ask_all(situation(), {queries[i]->saved.query}, blank);
+      results[i] = ask_all(situation_, {queries[i]->saved.query}, blank);
       for (LibraryFinding& finding : results[i].findings) finding.index = queries[i]->index;
     });
     report_.corpus.replayed = queries.size();
@@ -248,7 +253,7 @@ class LibraryFuzzing {
     }
   }
 
-  std::string file_name(const LibraryFinding& finding) const {
+  std::string file_name(const LibraryFinding& finding) {
     const bool corpus = finding.generator.starts_with("corpus/");
     const std::string origin = corpus ? fmt::format("corpus{}", ++corpus_findings_)
                                       : fmt::format("seed{}-block{}", options_.seed, finding.block);
@@ -296,7 +301,8 @@ class LibraryFuzzing {
   std::vector<QueryGenerator> generators_;
   std::optional<QueryCorpus> corpus_;
   std::uint64_t next_block_ = 0;
-  mutable std::uint64_t corpus_findings_ = 0;
+  Situation situation_;
+  std::uint64_t corpus_findings_ = 0;
   LibraryFuzzReport report_;
 };
 
