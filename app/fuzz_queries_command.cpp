@@ -147,8 +147,8 @@ class OneFile {
         finding.index = i;
         finding.query = saved_[i].query;
         finding.shrunk = shrunk.query;
-        finding.difference = shrunk.words;
-        finding.truth = audit::exact_first_time(shrunk.query) ? ContactKind::touching : ContactKind::apart;
+        finding.difference = shrunk.found.words;
+        finding.truth = shrunk.found.kind;
         keep(std::move(finding));
       }
     }
@@ -186,13 +186,6 @@ ExitCode replay(const FuzzArguments& arguments) {
                        {"probe", file.queries().at(0).probe.has_value()},
                        {"differences", differences}});
   return fuzz_exit_code(differences.size(), queries, interrupted());
-}
-
-/// "queries-edge-edge.csv" becomes "queries-edge-edge-minimised.csv", beside it or in the folder of --out.
-fs::path minimised_name(const FuzzArguments& arguments) {
-  const fs::path file = *arguments.minimise;
-  const fs::path folder = arguments.out_given ? fs::path(arguments.out) : file.parent_path();
-  return folder / (file.stem().string() + "-minimised.csv");
 }
 
 /// "queries-edge-edge.csv" gives "queries-edge-edge-query3-minimised.csv", beside it or in the folder of --out.

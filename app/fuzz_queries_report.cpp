@@ -122,8 +122,9 @@ Json query_json(const audit::AnyQuery& query) {
 }
 
 Json finding_json(const audit::LibraryFinding& finding, const std::string& command) {
-  return {{"finding", name(finding.fault)},
-          {"words", finding.words},
+  return {{"finding", name(finding.found.fault)},
+          {"contact", name(finding.found.kind)},
+          {"words", finding.found.words},
           {"generator", finding.generator},
           {"block", finding.block},
           {"index", finding.index},
@@ -232,8 +233,8 @@ std::string library_fuzz_text(const audit::LibraryFuzzOptions& options, const au
                   report.queries, report.contacts, report.findings_total, faults_text(report.faults), options.seed);
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
-    fmt::format_to(out, "{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n", finding.words,
-                   finding.generator, finding.block, finding.index, finding.alike,
+    fmt::format_to(out, "{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
+                   finding.found.words, finding.generator, finding.block, finding.index, finding.alike,
                    audit::distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
   }
   if (!options.corpus.empty()) text += corpus_text(report.corpus);

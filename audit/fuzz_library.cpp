@@ -54,12 +54,11 @@ std::optional<Stage> deciding_stage(const AnyQuery& query) {
   return std::nullopt;
 }
 
-std::string whole_signature(const AnyQuery& query, const LibraryAnswer& answer, const std::optional<double>& exact) {
-  const ContactKind kind = visit(query, [](const auto& typed) {
-    const auto first = first_contact(typed);
-    return first ? first->kind : ContactKind::apart;
-  });
-  return signature(query, deciding_stage(query), kind, exact.value_or(0)) + "-" + signature_of_answer(answer, exact);
+std::string whole_signature(const AnyQuery& query, const LibraryAnswer& answer,
+                            const std::optional<ExactContact>& exact) {
+  const std::optional<double> time = exact ? std::optional(exact->time) : std::nullopt;
+  return signature(query, deciding_stage(query), exact ? exact->kind : ContactKind::apart, time.value_or(0)) + "-" +
+         signature_of_answer(answer, time);
 }
 
 /// `blank`: generator and block of the findings.
@@ -69,7 +68,7 @@ Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const L
   const std::vector<LibraryAnswer> answers = ask(situation.library, queries.at(0).pair, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (answers[i].given.state == AnswerState::not_asked) continue;
-    const std::optional<double> exact = exact_first_time(queries[i]);
+    const std::optional<ExactContact> exact = exact_contact(queries[i]);
     ++result.asked;
     result.contacts += exact ? 1 : 0;
     if (with_corpus) result.reached.try_emplace(whole_signature(queries[i], answers[i], exact), i);
@@ -79,11 +78,9 @@ Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const L
     ++result.faults[static_cast<std::size_t>(fault->fault)];
     if (!counts(fault->fault, situation.library.exact)) continue;
     LibraryFinding finding = blank;
-    finding.fault = fault->fault;
-    finding.words = fault->words;
+    finding.found = *fault;
     finding.index = i;
     finding.query = finding.shrunk = queries[i];
-    finding.contact = exact.has_value();
     result.findings.push_back(std::move(finding));
   }
   if (with_corpus) result.queries = std::move(queries);
@@ -94,8 +91,8 @@ Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const L
 /// all day.
 class Shrinking {
  public:
-  Shrinking(const LibraryUnderTest& library, LibraryFault fault, bool knows_times)
-      : library_(library), fault_(fault), knows_times_(knows_times) {
+  Shrinking(const LibraryUnderTest& library, const FaultFound& found, bool knows_times)
+      : library_(library), found_(found), knows_times_(knows_times) {
     library_.host.most_hangs = 1;
     library_.host.deadline.reset();
   }
@@ -117,12 +114,12 @@ class Shrinking {
 
  private:
   bool fails(const AnyQuery& query, const LibraryAnswer& answer) const {
-    const auto fault = fault_of(answer, exact_first_time(query), knows_times_);
-    return fault && fault->fault == fault_;
+    const auto fault = fault_of(answer, exact_contact(query), knows_times_);
+    return fault && fault->is_like(found_);
   }
 
   LibraryUnderTest library_;
-  LibraryFault fault_;
+  FaultFound found_;
   bool knows_times_;
   int costly_ = 0;
 };
@@ -130,8 +127,10 @@ class Shrinking {
 /// The kernel is what a finding is judged by, so the oracle looks at what is told to the world.
 void require_that_the_oracle_agrees(const AnyQuery& query) {
   const Truth truth = truth_of(query);
-  const std::optional<double> exact = exact_first_time(query);
-  if (truth.time.has_value() == exact.has_value() && (!exact || truth.time->lower() == *exact)) return;
+  const std::optional<ExactContact> exact = exact_contact(query);
+  const bool same =
+      !exact ? truth.kind == ContactKind::apart : truth.kind == exact->kind && truth.time->lower() == exact->time;
+  if (same) return;
   throw std::logic_error("kernel and oracle disagree on a query that a library was found wrong on");
 }
 
@@ -232,7 +231,7 @@ class LibraryFuzzing {
   /// The simplest of each fault and generator, saved as it is: it is shrunk later, and should not be lost until then.
   void keep(LibraryFinding finding) {
     const auto same = [&](const LibraryFinding& other) {
-      return other.fault == finding.fault && other.generator == finding.generator;
+      return other.found.is_like(finding.found) && other.generator == finding.generator;
     };
     auto& all = report_.findings;
     const auto found = std::find_if(all.begin(), all.end(), same);
@@ -257,7 +256,7 @@ class LibraryFuzzing {
     const bool corpus = finding.generator.starts_with("corpus/");
     const std::string origin = corpus ? fmt::format("corpus{}", ++corpus_findings_)
                                       : fmt::format("seed{}-block{}", options_.seed, finding.block);
-    std::string fault(name(finding.fault));
+    std::string fault(name(finding.found.fault));
     std::replace(fault.begin(), fault.end(), '_', '-');
     return fmt::format("{}-{}-index{}-{}.csv", fault, origin, finding.index,
                        file_suffix({finding.query.pair, finding.query.dimension}));
@@ -265,26 +264,24 @@ class LibraryFuzzing {
 
   void save(const LibraryFinding& finding) const {
     if (finding.file.empty()) return;
-    std::vector<std::string> comments = {"# " + finding.words, "# from " + finding.generator};
+    std::vector<std::string> comments = {"# " + finding.found.words, "# from " + finding.generator};
     if (options_.command) comments.push_back("# " + options_.command(finding.file));
-    save_query(finding.file, finding.shrunk, finding.contact, comments);
+    save_query(finding.file, finding.shrunk, finding.found.kind != ContactKind::apart, comments);
   }
 
   void shrink_findings() {
     std::vector<LibraryFinding>& findings = report_.findings;
     parallel_for(findings.size(), options_.limits.threads, [&](std::size_t i) {
       LibraryFinding& finding = findings[i];
-      const ShrunkForLibrary shrunk =
-          shrink_for_library(options_.library, finding.query, {finding.fault, finding.words}, report_.knows_times);
+      ShrunkForLibrary shrunk = shrink_for_library(options_.library, finding.query, finding.found, report_.knows_times);
       finding.shrunk = shrunk.query;
-      finding.words = shrunk.words;
-      finding.contact = exact_first_time(finding.shrunk).has_value();
+      finding.found = std::move(shrunk.found);
       require_that_the_oracle_agrees(finding.shrunk);
     });
     std::vector<LibraryFinding> different;
     for (LibraryFinding& finding : findings) {
       const auto same = [&](const LibraryFinding& other) {
-        return other.fault == finding.fault && other.shrunk == finding.shrunk;
+        return other.found.is_like(finding.found) && other.shrunk == finding.shrunk;
       };
       if (const auto found = std::find_if(different.begin(), different.end(), same); found != different.end()) {
         found->alike += finding.alike;
@@ -312,16 +309,16 @@ LibraryFuzzReport fuzz_library(const LibraryFuzzOptions& options) { return Libra
 
 ShrunkForLibrary shrink_for_library(const LibraryUnderTest& library, const AnyQuery& query, const FaultFound& fault,
                                     bool knows_times) {
-  Shrinking shrinking(library, fault.fault, knows_times);
+  Shrinking shrinking(library, fault, knows_times);
   const FirstFailure first_failure = [&](std::span<const AnyQuery> queries) {
     return shrinking.first_failure(queries);
   };
   const AnyQuery shrunk = minimise(query, first_failure);
-  if (shrunk == query) return {query, fault.words};
+  if (shrunk == query) return {query, fault};
   const std::vector<LibraryAnswer> again = ask(library, shrunk.pair, std::span(&shrunk, 1));
-  const auto found = fault_of(again[0], exact_first_time(shrunk), knows_times);
-  if (!found || found->fault != fault.fault) return {query, fault.words};  // another answer than before
-  return {shrunk, found->words};
+  const auto found = fault_of(again[0], exact_contact(shrunk), knows_times);
+  if (!found || !found->is_like(fault)) return {query, fault};  // another answer than before
+  return {shrunk, *found};
 }
 
 std::vector<std::optional<FaultFound>> faults_of(const LibraryUnderTest& library, FeaturePair pair,
@@ -329,7 +326,7 @@ std::vector<std::optional<FaultFound>> faults_of(const LibraryUnderTest& library
   std::vector<std::optional<FaultFound>> result(queries.size());
   const std::vector<LibraryAnswer> answers = ask(library, pair, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const auto fault = fault_of(answers[i], exact_first_time(queries[i]), knows_times);
+    const auto fault = fault_of(answers[i], exact_contact(queries[i]), knows_times);
     if (fault && counts(fault->fault, library.exact)) result[i] = fault;
   }
   return result;

@@ -8,8 +8,9 @@
 // Notation
 //   block    as in audit/block_loop.h; block b is of generator b mod (number of those generators)
 //   finding  a query on which the library has a fault that counts (audit/library_answers.h)
-// Of the findings the simplest of each fault and generator is shrunk against the library and saved, at most
-// `max_findings` of them; all are counted. Findings that are equal when shrunk become one.
+// Of the findings the simplest of each fault, kind of contact and generator is shrunk against the library and saved, at
+// most `max_findings` of them; all are counted. What is shrunk keeps its fault and its kind of contact. Findings that are
+// equal when shrunk become one.
 //
 // What this does not do: ask anything twice, measure time, or look for leaks (audit/ccd_audit.h).
 #pragma once
@@ -46,14 +47,12 @@ struct LibraryFuzzOptions {
 using FaultCounts = std::array<std::uint64_t, library_fault_count>;
 
 struct LibraryFinding {
-  LibraryFault fault = LibraryFault::false_negative;
-  std::string words;           ///< of the shrunk query
+  FaultFound found{};          ///< of the shrunk query
   std::string generator;       ///< or "corpus/NAME"
   std::uint64_t block = 0;     ///< options.seed, block and index make the query again
   std::size_t index = 0;       ///< within the block, or the corpus' file
   AnyQuery query, shrunk;      ///< as generated; simpler, with the same fault
-  bool contact = false;        ///< whether the features of `shrunk` meet
-  std::uint64_t alike = 0;     ///< how many findings had this fault and this generator
+  std::uint64_t alike = 0;     ///< how many findings were like it, with this generator
   std::filesystem::path file;  ///< where `shrunk` is
 };
 
@@ -85,7 +84,7 @@ LibraryFuzzReport fuzz_library(const LibraryFuzzOptions& options);
 /// A simpler query with the same fault, and the fault of it. Precondition: it has that fault.
 struct ShrunkForLibrary {
   AnyQuery query;
-  std::string words;
+  FaultFound found;
 };
 ShrunkForLibrary shrink_for_library(const LibraryUnderTest& library, const AnyQuery& query, const FaultFound& fault,
                                     bool knows_times);

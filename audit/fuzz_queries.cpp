@@ -173,9 +173,9 @@ std::string file_name(const FuzzOptions& options, const Finding& finding) {
 
 void save(Finding& finding, const FuzzOptions& options) {
   finding.file = options.out / file_name(options, finding);
-  std::vector<std::string> comments = {probe_line(finding.shrunk, finding.probe),
-                                       "# " + on_one_line(finding.difference)};
+  std::vector<std::string> comments = {"# " + on_one_line(finding.difference)};
   if (options.command) comments.push_back("# " + options.command(finding.file));
+  comments.push_back(probe_line(finding.shrunk, finding.probe));
   save_query(finding.file, finding.shrunk, finding.truth != ContactKind::apart, comments);
 }
 

@@ -6,8 +6,6 @@
 
 #include <cmath>
 
-#include "noli/kernel/first_contact.h"
-
 namespace noli::audit {
 
 namespace {
@@ -36,14 +34,18 @@ AnyQuery plain_query(FeaturePair pair) {
   return query;
 }
 
-std::optional<FaultFound> fault_of_time(double time, double exact, bool knows_times) {
+std::string words(const ExactContact& exact) {
+  return fmt::format("they meet at {:.17g} ({})", exact.time, name(exact.kind));
+}
+
+std::optional<FaultFound> fault_of_time(double time, const ExactContact& exact, bool knows_times) {
   const auto found = [&](LibraryFault fault) {
-    return FaultFound{fault, fmt::format("{}: {:.17g}, exact first time {:.17g}", name(fault), time, exact)};
+    return FaultFound{fault, exact.kind, fmt::format("{}: {:.17g}, {}", name(fault), time, words(exact))};
   };
   if (std::isnan(time)) return knows_times ? std::optional(found(LibraryFault::no_time)) : std::nullopt;
   if (!(time >= 0 && time <= 1)) return found(LibraryFault::bad_time);
-  if (time == exact) return std::nullopt;
-  return found(time > exact ? LibraryFault::late : LibraryFault::early);
+  if (time == exact.time) return std::nullopt;
+  return found(time > exact.time ? LibraryFault::late : LibraryFault::early);
 }
 
 }  // namespace
@@ -70,32 +72,32 @@ bool knows_times(const LibraryUnderTest& library) {
   return false;
 }
 
-std::optional<double> exact_first_time(const AnyQuery& query) {
+std::optional<ExactContact> exact_contact(const AnyQuery& query) {
   return visit(query, [](const auto& typed) {
     const auto first = first_contact(typed);
-    return first ? std::optional(first->time.lower()) : std::nullopt;
+    return first ? std::optional(ExactContact{first->time.lower(), first->kind}) : std::nullopt;
   });
 }
 
-std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optional<double>& exact, bool knows_times) {
-  const auto ended = [&](LibraryFault fault) {
-    return FaultFound{fault, fmt::format("{}: {}", name(fault), answer.ending)};
+std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optional<ExactContact>& exact,
+                                   bool knows_times) {
+  const auto found = [&](LibraryFault fault, const std::string& more) {
+    return FaultFound{fault, exact ? exact->kind : ContactKind::apart, fmt::format("{}: {}", name(fault), more)};
   };
   switch (answer.given.state) {
     case AnswerState::not_asked: return std::nullopt;
-    case AnswerState::crashed: return ended(LibraryFault::crash);
-    case AnswerState::hung: return ended(LibraryFault::hang);
-    case AnswerState::too_much_memory: return ended(LibraryFault::memory);
+    case AnswerState::crashed: return found(LibraryFault::crash, answer.ending);
+    case AnswerState::hung: return found(LibraryFault::hang, answer.ending);
+    case AnswerState::too_much_memory: return found(LibraryFault::memory, answer.ending);
     case AnswerState::answered: break;
   }
   const int code = answer.given.code;
-  if (code < 0) return FaultFound{LibraryFault::failure, fmt::format("failure: code {}", code)};
+  if (code < 0) return found(LibraryFault::failure, fmt::format("code {}", code));
   const bool hit = code != NOLI_CCD_NO_HIT;
   if (hit && exact) return fault_of_time(answer.given.time, *exact, knows_times);
-  if (hit) return FaultFound{LibraryFault::false_positive, "false_positive: hit, but they stay apart"};
+  if (hit) return found(LibraryFault::false_positive, "hit, but they stay apart");
   if (!exact) return std::nullopt;
-  return FaultFound{LibraryFault::false_negative,
-                    fmt::format("false_negative: no hit, exact first time {:.17g}", *exact)};
+  return found(LibraryFault::false_negative, "no hit, " + words(*exact));
 }
 
 }  // namespace noli::audit

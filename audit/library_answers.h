@@ -29,6 +29,7 @@
 
 #include "noli/audit/any_query.h"
 #include "noli/audit/ccd_library.h"
+#include "noli/kernel/first_contact.h"
 
 namespace noli::audit {
 
@@ -80,17 +81,27 @@ std::vector<LibraryAnswer> ask(const LibraryUnderTest& library, FeaturePair pair
 /// cross. One that does not leaves them NaN.
 bool knows_times(const LibraryUnderTest& library);
 
-/// The exact first time rounded down, as the kernel says; nothing when the features stay apart.
-std::optional<double> exact_first_time(const AnyQuery& query);
+/// What the kernel says of features that meet.
+struct ExactContact {
+  double time;  ///< the first, rounded down
+  ContactKind kind;
+};
+
+/// Nothing when they stay apart.
+std::optional<ExactContact> exact_contact(const AnyQuery& query);
 
 struct FaultFound {
   LibraryFault fault;
-  std::string words;  ///< "late: 0.50000000000000011, exact first time 0.5"
+  ContactKind kind;   ///< of the contact; apart where there is none
+  std::string words;  ///< "late: 0.50000000000000011, they meet at 0.5 (crossing)"
+  /// Whether it is the same fault with the same kind of contact.
+  bool is_like(const FaultFound& other) const { return fault == other.fault && kind == other.kind; }
 };
 
 /// What is wrong with an answer, false positives and early times included: whether they count is the caller's to say
 /// (`counts`). Nothing for a query that was not asked.
-std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optional<double>& exact, bool knows_times);
+std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optional<ExactContact>& exact,
+                                   bool knows_times);
 
 /// Whether it is a finding with a library that claims that.
 constexpr bool counts(LibraryFault fault, bool exact) {

@@ -159,12 +159,13 @@ class Minimiser {
   bool merge_points() {
     bool progress = false;
     for (std::size_t i = 0; i < query_.size(); ++i) {
-      std::vector<AnyQuery> candidates(1, query_);
-      candidates[0].x_t1[i] = candidates[0].x_t0[i];
-      for (std::size_t j = 0; j < query_.size(); ++j) {
-        candidates.push_back(query_);
-        candidates.back().x_t0[i] = query_.x_t0[j];
-        candidates.back().x_t1[i] = query_.x_t1[j];
+      std::vector<AnyQuery> candidates(1 + query_.size(), query_);
+      for (std::size_t axis = 0; axis < axes(); ++axis) {
+        candidates[0].x_t1[i][axis] = query_.x_t0[i][axis];
+        for (std::size_t j = 0; j < query_.size(); ++j) {
+          candidates[1 + j].x_t0[i][axis] = query_.x_t0[j][axis];
+          candidates[1 + j].x_t1[i][axis] = query_.x_t1[j][axis];
+        }
       }
       progress |= accept_one(candidates);
     }
