@@ -135,10 +135,11 @@ Json finding_json(const audit::LibraryFinding& finding, const std::string& comma
           {"command", command}};
 }
 
-/// A line for each generator.
+/// A line for each generator that had its turn.
 std::string generators_text(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report) {
   std::string text;
   for (const audit::LibraryTally& tally : report.generators) {
+    if (tally.asked == 0) continue;
     std::uint64_t findings = 0;
     for (const audit::LibraryFault fault : faults) {
       if (audit::counts(fault, options.library.exact)) findings += tally.faults[static_cast<std::size_t>(fault)];
