@@ -1,128 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
-#include <iterator>
+#include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/fuzz_queries_report.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
-#include "noli/audit/fuzz_queries.h"
-#include "noli/kernel/parallel.h"
+#include "noli/audit/minimise_query.h"
+#include "noli/audit/saved_query.h"
 #include "noli/trajectory/error.h"
-#include "noli/trajectory/query_csv.h"
-#include "noli/trajectory/text.h"
 
 namespace noli::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* queries_footer =
     "Adversarial queries made backwards from a known contact, each decided by the kernel and by a slow independent "
     "oracle: contact, distance\n"
-    "(within a bound or not, and when first), and the failure time of a certificate for two of its points. A "
-    "difference "
-    "is shrunk and saved as a\n"
-    "file that `noli ccd` reads, labelled with the truth about contact; --replay asks it again. Exit 0: no difference; "
-    "1: findings; 2: interrupted.\n"
-    "With --count the result depends on the seed alone.\n"
+    "(within a bound or not, and when first), and the failure time of a certificate for two of its points. With "
+    "--library somebody else's\n"
+    "library is asked instead (include/noli/ccd_plugin.h), in a process of its own, and the kernel is the truth: "
+    "contacts that it misses,\n"
+    "times that are late or none, failures, crashes, hangs; of a library that claims to be --exact also false "
+    "positives and early times.\n"
+    "What is found is shrunk and saved as a file that `noli ccd` and `noli audit ccd` read, labelled with the truth "
+    "about contact and with the\n"
+    "command that asks it again. audit/FUZZ.md has a worked example and says what each generator attacks. With --count "
+    "the result depends on\n"
+    "the seed alone (and the corpus, where there is one). Exit 0: no finding; 1: findings; 2: interrupted; 3: a "
+    "library or file is not as it\n"
+    "has to be.\n"
     "Examples:\n"
     "  noli fuzz queries --for 60s --seed 1\n"
-    "  noli fuzz queries --count 1000000 --threads 2 --out findings --json result.json\n"
+    "  noli fuzz queries --count 1000000 --threads 2 --out findings --corpus corpus --json result.json\n"
+    "  noli fuzz queries --library ./mine.so --for 60s --tolerance 1e-6\n"
+    "  noli fuzz queries --library ./mine.so --minimise queries-edge-edge.csv\n"
     "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv";
 
+constexpr const char* default_folder = "fuzz-findings";
+
 struct FuzzArguments {
-  audit::FuzzOptions options;
+  audit::FuzzOptions kernel;        ///< what the run against a library does not use is in here
+  audit::LibraryUnderTest library;  ///< path empty: none
+  std::uint64_t megabytes = 2000;
+  bool first_only = false;
   std::string duration = "60s";
-  std::string out = "fuzz-findings";
-  std::optional<std::string> replay;
-  std::optional<std::string> json;
+  std::string query_limit = "1s";
+  std::string out = default_folder;
+  std::optional<std::string> corpus, replay, minimise, json;
+  bool for_given = false, out_given = false;
+
+  bool asks_a_library() const { return !library.path.empty(); }
 };
 
-constexpr std::array<ContactKind, 4> kinds = {ContactKind::apart, ContactKind::touching, ContactKind::crossing,
-                                              ContactKind::persistent};
-
-const char* verdict(const audit::FuzzReport& report) {
-  if (report.findings_total > 0) return "finding";
-  return report.interrupted || report.queries == 0 ? "undecided" : "no_difference";
-}
-
-ExitCode exit_code(const audit::FuzzReport& report) {
-  if (report.findings_total > 0) return ExitCode::refuted;
-  return report.interrupted || report.queries == 0 ? ExitCode::undecided : ExitCode::holds;
-}
-
-Json answers_json(const std::array<std::uint64_t, 4>& answers) {
-  Json json = Json::object();
-  for (const ContactKind kind : kinds) json[std::string(name(kind))] = answers[static_cast<std::size_t>(kind)];
-  return json;
-}
-
-Json finding_json(const audit::Finding& finding) {
-  return {{"generator", finding.generator},   {"block", finding.block},       {"index", finding.index},
-          {"difference", finding.difference}, {"truth", name(finding.truth)}, {"file", finding.file.string()}};
-}
-
-Json generator_json(const audit::GeneratorTally& generator) {
-  return {{"name", generator.name},
-          {"pair", name(generator.type.pair)},
-          {"dimension", generator.type.dimension},
-          {"answers", answers_json(generator.answers)}};
-}
-
-Json probes_json(const audit::ProbeTally& probes) {
-  return {{"distance", {{"apart", probes.apart}, {"within", probes.within}}},
-          {"failure_time",
-           {{"failed", probes.failed}, {"failing", probes.failing}, {"never_failing", probes.never_failing}}}};
-}
-
-Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
-  Json json = {{"verdict", verdict(report)},
-               {"seed", options.seed},
-               {"queries", report.queries},
-               {"findings", report.findings_total},
-               {"answers", answers_json(report.answers)}};
-  json["probes"] = probes_json(report.probes);
-  json["reports"] = Json::array();
-  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(finding));
-  json["generators"] = Json::array();
-  for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
-  json["stages"] = stages_json(report.stages);
-  json["timing"] = {{"seconds", seconds}, {"threads", options.threads > 0 ? options.threads : hardware_threads()}};
-  return json;
-}
-
-void append_generator(const audit::GeneratorTally& generator, std::string& text) {
-  text += fmt::format("  {} ({}, {}D):", generator.name, name(generator.type.pair), generator.type.dimension);
-  for (const ContactKind kind : kinds) {
-    text += fmt::format(" {} {}", name(kind), generator.answers[static_cast<std::size_t>(kind)]);
+/// "noli fuzz queries --library ./mine.so --tolerance 1e-06 --replay FILE"
+std::string again(const FuzzArguments& arguments, const fs::path& file) {
+  std::string command = "noli fuzz queries";
+  if (arguments.asks_a_library()) {
+    command += " --library " + audit::quoted(arguments.library.path.string());
+    command += fmt::format(" --tolerance {}", arguments.library.tolerance);
+    if (arguments.query_limit != "1s") command += " --query-limit " + audit::quoted(arguments.query_limit);
+    if (arguments.library.exact) command += " --exact";
   }
-  text += '\n';
-}
-
-std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
-  std::string text = fmt::format("verdict {} queries {} findings {} seed {}\n", verdict(report), report.queries,
-                                 report.findings_total, options.seed);
-  const auto out = std::back_inserter(text);
-  for (const auto& finding : report.findings) {
-    fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
-                   finding.difference,
-                   finding.file.empty() ? "not saved" : "saved as " + on_one_line(finding.file.string()));
-  }
-  text += "Answers of the oracle:\n";
-  for (const auto& generator : report.generators) append_generator(generator, text);
-  const audit::ProbeTally& probes = report.probes;
-  fmt::format_to(out, "Distances: apart {} within {}. Certificates: failed {} failing {} never_failing {}.\n",
-                 probes.apart, probes.within, probes.failed, probes.failing, probes.never_failing);
-  text += "Stages:";
-  for (const Stage stage : all_stages) fmt::format_to(out, " {} {}", name(stage), report.stages[stage]);
-  fmt::format_to(out, "\nTime: {:.1f} s.\n", seconds);
-  return text;
+  return on_one_line(command + " --replay " + audit::quoted(file.string()));
 }
 
 /// Share of the run that is done, by count or by time, whichever is further.
@@ -131,55 +85,154 @@ double share(const audit::FuzzOptions& options, const audit::FuzzProgress& progr
   return progress.seconds / options.time_limit->count();
 }
 
-/// The line of a saved finding that says what it was asked beside contact, if the file has one.
-std::optional<audit::SavedProbe> saved_probe(const std::string& text) {
-  Lines lines(text);
-  std::string_view line;
-  while (lines.next(line)) {
-    if (const auto saved = audit::parse_probe_line(line)) return saved;
+std::vector<fs::path> inputs(const FuzzArguments& arguments) {
+  std::vector<fs::path> files;
+  if (arguments.asks_a_library()) files.push_back(arguments.library.path);
+  for (const auto& file : {arguments.replay, arguments.minimise}) {
+    if (file) files.emplace_back(*file);
   }
-  return std::nullopt;
+  return files;
 }
+
+// --- single files ----------------------------------------------------------------------------------------------------
+
+/// Queries of a file, and what each of them shows.
+class OneFile {
+ public:
+  OneFile(const FuzzArguments& arguments, const fs::path& file)
+      : arguments_(arguments), saved_(audit::read_saved_queries(file)) {
+    const audit::AnyQuery& first = saved_.at(0).query;
+    if (!arguments_.asks_a_library()) return;
+    if (!audit::is_library_query({first.pair, first.dimension})) {
+      throw InputError(file.string(), "", "a library is asked about a vertex and a face or two edges in 3D");
+    }
+    audit::require_ccd_library(arguments_.library.path, arguments_.library.host);
+    knows_times_ = audit::knows_times(arguments_.library);
+  }
+
+  const std::vector<audit::SavedQuery>& queries() const { return saved_; }
+
+  /// In words, one line each; nothing for what is right.
+  std::vector<std::string> differences() const {
+    std::vector<std::string> result;
+    for (const auto& fault : faults()) {
+      if (fault) result.push_back(fault->words);
+    }
+    if (arguments_.asks_a_library()) return result;
+    for (const audit::SavedQuery& saved : saved_) {
+      const auto found = audit::replay(saved.query, saved.probe);
+      result.insert(result.end(), found.begin(), found.end());
+    }
+    return result;
+  }
+
+  /// What fails, made simpler; equal ones once.
+  std::vector<audit::Finding> minimised() const {
+    std::vector<audit::Finding> result;
+    const auto keep = [&](audit::Finding finding) {
+      const auto same = [&](const audit::Finding& other) { return other.shrunk == finding.shrunk; };
+      if (std::none_of(result.begin(), result.end(), same)) result.push_back(std::move(finding));
+    };
+    const auto all_faults = faults();
+    for (std::size_t i = 0; i < saved_.size() && !interrupted(); ++i) {
+      if (!arguments_.asks_a_library()) {
+        auto finding = audit::shrunk_finding(saved_[i].query, saved_[i].probe);
+        if (!finding) continue;
+        finding->index = i;
+        keep(std::move(*finding));
+      } else if (all_faults[i]) {
+        const auto shrunk =
+            audit::shrink_for_library(arguments_.library, saved_[i].query, *all_faults[i], knows_times_);
+        audit::Finding finding;
+        finding.index = i;
+        finding.query = saved_[i].query;
+        finding.shrunk = shrunk.query;
+        finding.difference = shrunk.found.words;
+        finding.truth = shrunk.found.kind;
+        keep(std::move(finding));
+      }
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::optional<audit::FaultFound>> faults() const {
+    if (!arguments_.asks_a_library()) return {};
+    std::vector<audit::AnyQuery> queries;
+    for (const audit::SavedQuery& saved : saved_) queries.push_back(saved.query);
+    return audit::faults_of(arguments_.library, queries.at(0).pair, queries, knows_times_);
+  }
+
+  const FuzzArguments& arguments_;
+  std::vector<audit::SavedQuery> saved_;
+  bool knows_times_ = false;
+};
 
 /// Decides the queries of a file again. Throws InputError.
 ExitCode replay(const FuzzArguments& arguments) {
-  const std::filesystem::path file = *arguments.replay;
-  const auto kind = kind_from_file_name(file);
-  if (!kind) throw InputError(file.string(), "", "its name tells no kind of query, such as edge-edge");
-  const Output output(arguments.json, {file});
-  const std::string text = read_whole_file(file);
-  const auto saved = saved_probe(text);
-  audit::AnyQuery query{static_cast<FeaturePair>(*kind), saved ? saved->dimension : 3, {}, {}};
-  if (saved && !audit::fits(query, saved->probe)) {
-    throw InputError(file.string(), "", "the line noli-fuzz asks for what a query of this kind has not");
-  }
-  std::vector<std::string> differences;
-  const auto records = parse_query_csv(text, file.string(), *kind);
-  for (const QueryRecord& record : records) {
-    query.x_t0 = record.x_t0;
-    query.x_t1 = record.x_t1;
-    const auto found = audit::replay(query, saved ? std::optional(saved->probe) : std::nullopt);
-    differences.insert(differences.end(), found.begin(), found.end());
-  }
-  const char* const word = differences.empty() ? "no_difference" : "finding";
-  std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, records.size(), differences.size());
+  const Output output(arguments.json, inputs(arguments));
+  const OneFile file(arguments, *arguments.replay);
+  const std::vector<std::string> differences = file.differences();
+  const std::size_t queries = file.queries().size();
+  const char* const word = interrupted()                ? "undecided"
+                           : !differences.empty()       ? "finding"
+                           : arguments.asks_a_library() ? "no_finding"
+                                                        : "no_difference";
+  std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, queries, differences.size());
   for (const std::string& difference : differences) lines += difference + '\n';
   output.write(lines, {{"verdict", word},
-                       {"queries", records.size()},
+                       {"queries", queries},
                        {"findings", differences.size()},
-                       {"probe", saved.has_value()},
+                       {"probe", file.queries().at(0).probe.has_value()},
                        {"differences", differences}});
-  return differences.empty() ? ExitCode::holds : ExitCode::refuted;
+  return fuzz_exit_code(differences.size(), queries, interrupted());
 }
 
-ExitCode run(FuzzArguments& arguments, bool for_given) {
-  if (arguments.replay) return replay(arguments);
-  audit::FuzzOptions& options = arguments.options;
-  if (for_given || !options.count) options.time_limit = parse_duration(arguments.duration, "--for");
-  const Output output(arguments.json, {});
-  require_writable_folder(arguments.out, "--out");
-  options.out = arguments.out;
-  options.stop = &interrupted();
+/// "queries-edge-edge.csv" gives "queries-edge-edge-query3-minimised.csv", beside it or in the folder of --out.
+fs::path minimised_name(const FuzzArguments& arguments, std::size_t query) {
+  const fs::path file = *arguments.minimise;
+  const fs::path folder = arguments.out_given ? fs::path(arguments.out) : file.parent_path();
+  return folder / fmt::format("{}-query{}-minimised.csv", file.stem().string(), query);
+}
+
+void save(const audit::Finding& finding, const fs::path& file, bool with_probe, const std::string& command) {
+  std::vector<std::string> comments = {"# " + on_one_line(finding.difference), "# " + command};
+  if (with_probe) comments.push_back(audit::probe_line(finding.shrunk, finding.probe));
+  audit::save_query(file, finding.shrunk, finding.truth != ContactKind::apart, comments);
+}
+
+ExitCode minimise(const FuzzArguments& arguments) {
+  const Output output(arguments.json, inputs(arguments));
+  const OneFile file(arguments, *arguments.minimise);
+  if (arguments.out_given) make_writable_folder(arguments.out, "--out");
+  require_writable_file(minimised_name(arguments, 1), arguments.out_given ? "--out" : "--minimise");
+  const std::vector<audit::Finding> findings = file.minimised();
+  const std::size_t queries = file.queries().size();
+  const ExitCode code = fuzz_exit_code(findings.size(), queries, interrupted());
+  const char* const word = code == ExitCode::undecided ? "undecided" : findings.empty() ? "nothing_fails" : "finding";
+  std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, queries, findings.size());
+  Json json = {{"verdict", word}, {"queries", queries}, {"findings", findings.size()}, {"reports", Json::array()}};
+  for (const audit::Finding& finding : findings) {
+    const fs::path result = minimised_name(arguments, finding.index + 1);
+    const std::string command = again(arguments, result);
+    save(finding, result, file.queries()[finding.index].probe.has_value(), command);
+    lines += fmt::format("query {}: {}; {} different numbers; saved as {}\n  again: {}\n", finding.index + 1,
+                         finding.difference, audit::distinct_coordinates(finding.shrunk), on_one_line(result.string()),
+                         command);
+    json["reports"].push_back({{"query", finding.index + 1},
+                               {"difference", finding.difference},
+                               {"distinct_coordinates", audit::distinct_coordinates(finding.shrunk)},
+                               {"file", result.string()},
+                               {"command", command}});
+  }
+  output.write(lines, json);
+  return code;
+}
+
+// --- runs ------------------------------------------------------------------------------------------------------------
+
+ExitCode run_kernel(const FuzzArguments& arguments, const Output& output) {
+  audit::FuzzOptions options = arguments.kernel;
   const Stopwatch watch;
   const audit::FuzzReport report = [&] {
     Progress bar("fuzz queries");
@@ -188,40 +241,136 @@ ExitCode run(FuzzArguments& arguments, bool for_given) {
   }();
   const double seconds = watch.seconds();
   output.write(fuzz_text(options, report, seconds), fuzz_json(options, report, seconds));
-  return exit_code(report);
+  return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
+}
+
+ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
+  const audit::FuzzOptions& kernel = arguments.kernel;
+  audit::LibraryFuzzOptions options;
+  options.library = arguments.library;
+  options.seed = kernel.seed;
+  options.limits = {kernel.count, kernel.time_limit, kernel.threads, kernel.stop};
+  options.first_only = arguments.first_only;
+  options.max_findings = kernel.max_findings;
+  options.out = kernel.out;
+  options.corpus = kernel.corpus;
+  options.command = kernel.command;
+  const Stopwatch watch;
+  const audit::LibraryFuzzReport report = [&] {
+    Progress bar("fuzz queries");
+    options.progress = [&](const audit::FuzzProgress& progress) { bar.show(share(kernel, progress)); };
+    return audit::fuzz_library(options);
+  }();
+  const double seconds = watch.seconds();
+  output.write(library_fuzz_text(options, report, seconds), library_fuzz_json(options, report, seconds));
+  return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
+}
+
+void prepare_library(FuzzArguments& arguments) {
+  audit::HostOptions& host = arguments.library.host;
+  host.host = beside_this_program("noli_ccd_host");
+  host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
+  host.most_memory = arguments.megabytes * 1'000'000;
+  host.most_hangs = 2;
+  host.stop = &interrupted();
+}
+
+ExitCode run(FuzzArguments& arguments) {
+  prepare_library(arguments);
+  if (arguments.replay) return replay(arguments);
+  if (arguments.minimise) return minimise(arguments);
+  audit::FuzzOptions& options = arguments.kernel;
+  if (arguments.for_given || !options.count) options.time_limit = parse_duration(arguments.duration, "--for");
+  const Output output(arguments.json, inputs(arguments));
+  require_writable_folder(arguments.out, "--out");
+  if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
+  options.out = arguments.out;
+  options.corpus = arguments.corpus.value_or("");
+  options.stop = &interrupted();
+  options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
+  return arguments.asks_a_library() ? run_library(arguments, output) : run_kernel(arguments, output);
+}
+
+/// Options that only a library needs.
+void add_library_options(CLI::App& command, FuzzArguments& arguments) {
+  audit::LibraryUnderTest& library = arguments.library;
+  CLI::Option* const path =
+      command.add_option("--library", library.path, "Ask this library of collision detection, in place of the kernel")
+          ->type_name("LIB.so");
+  command.add_option("--tolerance", library.tolerance, "What the library is told, a length")
+      ->check(is_not_negative())
+      ->capture_default_str()
+      ->type_name("T")
+      ->needs(path);
+  command.add_flag("--exact", library.exact, "It claims to be exact: false positives and early times are findings too")
+      ->needs(path);
+  command.add_flag("--first-only", arguments.first_only, "Stop at the first finding")->needs(path);
+  command.add_option("--query-limit", arguments.query_limit, "A query that computes for longer hangs: 500ms, 10s")
+      ->capture_default_str()
+      ->type_name("TIME")
+      ->needs(path);
+  command
+      .add_option("--memory-limit", arguments.megabytes,
+                  "End the process in which the library runs when it has more than so many megabytes")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("MB")
+      ->needs(path);
+}
+
+void add_run_options(CLI::App& command, FuzzArguments& arguments, std::vector<CLI::Option*>& of_runs) {
+  audit::FuzzOptions& options = arguments.kernel;
+  of_runs.push_back(command.add_option("--for", arguments.duration, "Stop after this time: 500ms, 60s, 5m, 1h")
+                        ->capture_default_str()
+                        ->type_name("TIME"));
+  of_runs.push_back(command.add_option("--count", options.count, "Stop after so many queries")
+                        ->check(whole_number(1, std::uint64_t{1} << 60))
+                        ->type_name("N"));
+  of_runs.push_back(command.add_option("--seed", options.seed, "What the queries depend on")
+                        ->capture_default_str()
+                        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+                        ->type_name("S"));
+  of_runs.push_back(command
+                        .add_option("--corpus", arguments.corpus,
+                                    "Folder of queries that reached something new: asked first, and added to")
+                        ->type_name("DIR"));
+  of_runs.push_back(command.add_option("--max-findings", options.max_findings, "Shrink and save at most so many")
+                        ->check(CLI::Range(0, 1'000'000))
+                        ->capture_default_str()
+                        ->type_name("N"));
+  add_threads_option(command, options.threads);
 }
 
 }  // namespace
 
 Command add_fuzz_queries(CLI::App& fuzz) {
-  CLI::App* const command =
-      fuzz.add_subcommand("queries", "Contact, distance, failure times of two features: kernel against oracle");
+  CLI::App* const command = fuzz.add_subcommand(
+      "queries", "Contact, distance, failure times of two features: kernel against oracle, or somebody's library");
   command->footer(queries_footer);
   const auto arguments = std::make_shared<FuzzArguments>();
-  audit::FuzzOptions& options = arguments->options;
-  CLI::Option* const duration =
-      command->add_option("--for", arguments->duration, "Stop after this time: 500ms, 60s, 5m, 1h")
-          ->capture_default_str()
-          ->type_name("TIME");
-  command->add_option("--count", options.count, "Stop after so many queries")
-      ->check(whole_number(1, std::uint64_t{1} << 60))
-      ->type_name("N");
-  command->add_option("--seed", options.seed, "What the queries depend on")
-      ->capture_default_str()
-      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
-      ->type_name("S");
-  add_threads_option(*command, options.threads);
-  command->add_option("--out", arguments->out, "Folder for findings, made when there is one")
-      ->capture_default_str()
-      ->type_name("DIR");
+  std::vector<CLI::Option*> of_runs;
+  add_run_options(*command, *arguments, of_runs);
+  CLI::Option* const out = command->add_option("--out", arguments->out, "Folder for findings, made when there is one")
+                               ->capture_default_str()
+                               ->type_name("DIR");
+  add_library_options(*command, *arguments);
+  of_runs.push_back(command->get_option("--first-only"));
   CLI::Option* const again =
       command->add_option("--replay", arguments->replay, "Decide the queries of this file again instead")
           ->type_name("FILE");
-  for (CLI::Option* const other : command->get_options()) {
-    if (other != again && other->get_name() != "--help" && other->get_name() != "--threads") again->excludes(other);
-  }
+  CLI::Option* const smaller = command
+                                   ->add_option("--minimise", arguments->minimise,
+                                                "Instead, make what fails in this file simpler, and save it beside "
+                                                "the file or in --out")
+                                   ->type_name("FILE");
+  again->excludes(smaller)->excludes(out);
+  for (CLI::Option* const option : of_runs) again->excludes(option), smaller->excludes(option);
   add_json_option(*command, arguments->json);
-  return {command, [arguments, duration] { return run(*arguments, duration->count() > 0); }};
+  return {command, [arguments, command, out] {
+            arguments->for_given = command->get_option("--for")->count() > 0;
+            arguments->out_given = out->count() > 0;
+            return run(*arguments);
+          }};
 }
 
 }  // namespace noli::app

@@ -5,22 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "noli/audit/judge.h"
 #include "noli/audit/minimise_query.h"
 #include "noli/audit/query_generators.h"
+#include "noli/audit/saved_query.h"
 #include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::audit {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// What went wrong. What a generator promises holds for its own queries: that cannot be shrunk.
 enum class Fault { contact, probe, promise };
@@ -33,21 +31,39 @@ struct RawFinding {
 
 /// Probes are made from the streams from here on, which no block is numbered by.
 constexpr std::uint64_t probe_stream = std::uint64_t{1} << 63;
+constexpr std::uint64_t corpus_stream = std::uint64_t{1} << 62;
+
+/// A query to be asked, where it came from, and what its generator says of it.
+struct Item {
+  Generated generated;
+  Probe probe;
+  std::string generator;
+  std::uint64_t block = 0;
+  std::size_t index = 0;
+  Answers declared = {true, true, true, true};
+};
+
+struct Reached {
+  std::string signature;
+  SavedQuery saved;
+  bool contact;
+};
 
 struct BlockResult {
   std::array<std::uint64_t, 4> answers{};
   ProbeTally probes;
   StageCounters stages;
   std::vector<RawFinding> findings;
+  std::vector<Reached> reached;  ///< where there is a corpus: the first of each signature
 };
 
 /// What is wrong with the query itself, if the oracle's answer is not what its generator says.
-std::optional<std::string> broken_promise(const QueryGenerator& generator, const Generated& generated,
-                                          ContactKind truth) {
-  if (generated.truth && *generated.truth != truth) {
-    return fmt::format("construction: made to be {}, the oracle says {}", name(*generated.truth), name(truth));
+std::optional<std::string> broken_promise(const Item& item, ContactKind truth) {
+  const auto& made = item.generated.truth;
+  if (made && *made != truth) {
+    return fmt::format("construction: made to be {}, the oracle says {}", name(*made), name(truth));
   }
-  if (!generator.declared[static_cast<std::size_t>(truth)]) {
+  if (!item.declared[static_cast<std::size_t>(truth)]) {
     return fmt::format("declaration: {} is not among the generator's answers", name(truth));
   }
   return std::nullopt;
@@ -58,6 +74,37 @@ void count(const Probe& probe, const ProbeTruth& truth, ProbeTally& tally) {
   ++(truth.failure == probe.from ? tally.failed : std::isfinite(truth.failure) ? tally.failing : tally.never_failing);
 }
 
+std::optional<Stage> only_stage(const StageCounters& counters) {
+  const auto counted = [&](Stage stage) { return counters[stage] > 0; };
+  const auto found = std::find_if(all_stages.begin(), all_stages.end(), counted);
+  return found == all_stages.end() ? std::nullopt : std::optional(*found);
+}
+
+void judge(const FuzzOptions& options, const Item& item, BlockResult& result) {
+  const AnyQuery& query = item.generated.query;
+  const Truth truth = truth_of(query);
+  const ProbeTruth probe_truth = truth_of(query, item.probe);
+  StageCounters stages;
+  const auto report = [&](std::optional<std::string> what, Fault fault) {
+    if (!what) return;
+    result.findings.push_back(
+        {{item.generator, item.block, item.index, std::move(*what), query, query, item.probe, truth.kind, {}}, fault});
+  };
+  ++result.answers[static_cast<std::size_t>(truth.kind)];
+  count(item.probe, probe_truth, result.probes);
+  report(difference(query, truth, options.decide, stages), Fault::contact);
+  report(difference(query, item.probe, probe_truth, options.decide_probe), Fault::probe);
+  report(broken_promise(item, truth.kind), Fault::promise);
+  result.stages += stages;
+  if (options.corpus.empty()) return;
+  const double first = truth.time ? truth.time->lower() : 0;
+  std::string reached = signature(query, only_stage(stages), truth.kind, first);
+  const auto same = [&](const Reached& other) { return other.signature == reached; };
+  if (std::none_of(result.reached.begin(), result.reached.end(), same)) {
+    result.reached.push_back({std::move(reached), {query, item.probe}, truth.time.has_value()});
+  }
+}
+
 BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size_t queries) {
   const auto generators = query_generators();
   const QueryGenerator& generator = generators[block % generators.size()];
@@ -65,22 +112,18 @@ BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size
   BlockResult result;
   for (std::size_t index = 0; index < queries; ++index) {
     const Generated generated = generator(random);
-    const AnyQuery& query = generated.query;
-    const Probe probe = make_probe(query, index % queries_per_distance == 0, probe_random);
-    const Truth truth = truth_of(query);
-    const ProbeTruth probe_truth = truth_of(query, probe);
-    const auto report = [&](std::optional<std::string> what, Fault fault) {
-      if (!what) return;
-      result.findings.push_back(
-          {{generator.name(), block, index, std::move(*what), query, query, probe, truth.kind, {}}, fault});
-    };
-    ++result.answers[static_cast<std::size_t>(truth.kind)];
-    count(probe, probe_truth, result.probes);
-    report(difference(query, truth, options.decide, result.stages), Fault::contact);
-    report(difference(query, probe, probe_truth, options.decide_probe), Fault::probe);
-    report(broken_promise(generator, generated, truth.kind), Fault::promise);
+    const Probe probe = make_probe(generated.query, index % queries_per_distance == 0, probe_random);
+    judge(options, {generated, probe, generator.name(), block, index, generator.declared}, result);
   }
   return result;
+}
+
+/// A query of the corpus that was saved without a probe gets one that depends on its number.
+Item corpus_item(const FuzzOptions& options, const CorpusQuery& one, std::size_t number) {
+  Random random(options.seed, corpus_stream + number);
+  const AnyQuery& query = one.saved.query;
+  const Probe probe = one.saved.probe ? *one.saved.probe : make_probe(query, true, random);
+  return {{query, {}}, probe, "corpus/" + one.name, number, one.index};
 }
 
 void shrink(Finding& finding, const Decide& decide) {
@@ -121,79 +164,75 @@ void shrink_probe(Finding& finding, const DecideProbe& decide) {
   finding.difference = fault(finding.shrunk, finding.probe).value();
 }
 
-/// The last part names the kind of query, as `noli ccd` reads it.
 std::string file_name(const FuzzOptions& options, const Finding& finding) {
-  std::string pair(name(finding.query.pair));
-  std::replace(pair.begin(), pair.end(), '_', '-');
-  return fmt::format("seed{}-block{}-index{}-{}{}.csv", options.seed, finding.block, finding.index, pair,
-                     finding.query.dimension == 2 ? "-2d" : "");
+  const bool corpus = finding.generator.starts_with("corpus/");
+  return fmt::format("{}-{}{}-index{}-{}.csv", corpus ? "corpus" : fmt::format("seed{}", options.seed),
+                     corpus ? "query" : "block", finding.block, finding.index,
+                     file_suffix({finding.query.pair, finding.query.dimension}));
 }
 
 void save(Finding& finding, const FuzzOptions& options) {
-  std::filesystem::create_directories(options.out);
   finding.file = options.out / file_name(options, finding);
-  const QueryRecord record{finding.shrunk.x_t0, finding.shrunk.x_t1, finding.truth != ContactKind::apart};
-  write_query_csv(finding.file, file_kind(finding.shrunk.pair), std::span(&record, 1));
-  std::ofstream comment(finding.file, std::ios::app | std::ios::binary);
-  comment << probe_line(finding.shrunk, finding.probe) << '\n';
-  comment.flush();
-  if (!comment) throw std::system_error(std::make_error_code(std::errc::io_error), finding.file.string());
+  std::vector<std::string> comments = {"# " + on_one_line(finding.difference)};
+  if (options.command) comments.push_back("# " + options.command(finding.file));
+  comments.push_back(probe_line(finding.shrunk, finding.probe));
+  save_query(finding.file, finding.shrunk, finding.truth != ContactKind::apart, comments);
 }
 
 class Fuzzing {
  public:
-  explicit Fuzzing(const FuzzOptions& options) : options_(options), begin_(Clock::now()) {
+  explicit Fuzzing(const FuzzOptions& options)
+      : options_(options), corpus_(options.corpus.empty() ? std::nullopt : std::optional<QueryCorpus>(options.corpus)) {
     for (const QueryGenerator& generator : query_generators()) {
       report_.generators.push_back({generator.name(), generator.type, generator.declared, {}});
     }
   }
 
   FuzzReport run() {
-    while (!finished()) {
-      run_batch();
-      if (options_.progress) options_.progress({report_.queries, report_.findings_total, seconds()});
-    }
+    replay_corpus();
+    const BlockEnd end = run_blocks(
+        BlockLimits{options_.count, options_.time_limit, options_.threads, options_.stop},
+        [&](std::uint64_t block, std::size_t queries) { return run_block(options_, block, queries); },
+        [&](BlockResult result) {
+          take(std::move(result), &report_.generators[next_block_++ % report_.generators.size()]);
+          return true;
+        },
+        [&](double seconds) {
+          if (options_.progress) options_.progress({report_.queries, report_.findings_total, seconds});
+        });
+    report_.interrupted = end == BlockEnd::interrupted;
+    if (corpus_) report_.corpus.signatures = corpus_->signatures();
+    if (corpus_) report_.corpus.kept = corpus_->kept();
     return std::move(report_);
   }
 
  private:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
-  std::uint64_t remaining() const {
-    const std::uint64_t unlimited = std::uint64_t{1} << 60;
-    return options_.count ? *options_.count - report_.queries : unlimited;
+  void replay_corpus() {
+    if (!corpus_) return;
+    const std::vector<CorpusQuery>& queries = corpus_->queries();
+    std::vector<BlockResult> results(queries.size());
+    parallel_for(queries.size(), options_.threads,
+                 [&](std::size_t i) { judge(options_, corpus_item(options_, queries[i], i), results[i]); });
+    for (BlockResult& result : results) {
+      for (const Reached& reached : result.reached) corpus_->reached(reached.signature);
+      result.reached.clear();
+      take(std::move(result), nullptr);
+    }
+    report_.corpus.replayed = queries.size();
   }
 
-  bool finished() {
-    report_.interrupted = options_.stop && options_.stop->load();
-    return report_.interrupted || remaining() == 0 ||
-           (options_.time_limit && seconds() >= options_.time_limit->count());
-  }
-
-  /// Some blocks at once, taken over in order.
-  void run_batch() {
-    const auto threads = static_cast<std::uint64_t>(options_.threads > 0 ? options_.threads : hardware_threads());
-    const std::uint64_t left = remaining(), blocks_left = (left + queries_per_block - 1) / queries_per_block;
-    std::vector<BlockResult> results(std::min(8 * threads, blocks_left));
-    const std::uint64_t first = next_block_;
-    parallel_for(results.size(), static_cast<int>(threads), [&](std::size_t i) {
-      const std::uint64_t before = i * queries_per_block;
-      const std::uint64_t count = std::min<std::uint64_t>(queries_per_block, left - before);
-      results[i] = run_block(options_, first + i, count);
-    });
-    for (BlockResult& result : results) take(std::move(result));
-  }
-
-  void take(BlockResult result) {
-    GeneratorTally& tally = report_.generators[next_block_++ % report_.generators.size()];
+  void take(BlockResult result, GeneratorTally* tally) {
     for (std::size_t kind = 0; kind < 4; ++kind) {
-      tally.answers[kind] += result.answers[kind];
+      if (tally != nullptr) tally->answers[kind] += result.answers[kind];
       report_.answers[kind] += result.answers[kind];
       report_.queries += result.answers[kind];
     }
     report_.probes += result.probes;
     report_.stages += result.stages;
     report_.findings_total += result.findings.size();
+    for (const Reached& one : result.reached) {
+      if (corpus_->reached(one.signature)) corpus_->keep(one.signature, one.saved, one.contact);
+    }
     for (RawFinding& raw : result.findings) keep(std::move(raw));
   }
 
@@ -206,7 +245,7 @@ class Fuzzing {
   }
 
   const FuzzOptions& options_;
-  Clock::time_point begin_;
+  std::optional<QueryCorpus> corpus_;
   std::uint64_t next_block_ = 0;
   FuzzReport report_;
 };
@@ -238,6 +277,21 @@ std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe
     differences.push_back(std::move(*what));
   }
   return differences;
+}
+
+std::optional<Finding> shrunk_finding(const AnyQuery& query, const std::optional<Probe>& probe, const Decide& decide,
+                                      const DecideProbe& decide_probe) {
+  StageCounters ignored;
+  Finding finding;
+  finding.query = finding.shrunk = query;
+  if (probe) finding.probe = *probe;
+  if (difference(query, truth_of(query), decide, ignored)) {
+    shrink(finding, decide);
+    return finding;
+  }
+  if (!probe || !difference(query, *probe, truth_of(query, *probe), decide_probe)) return std::nullopt;
+  shrink_probe(finding, decide_probe);
+  return finding;
 }
 
 FuzzReport fuzz_queries(const FuzzOptions& options) {

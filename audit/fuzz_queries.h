@@ -5,9 +5,8 @@
 // shrunk and saved as a file that `noli ccd` reads and `noli fuzz queries --replay` asks again.
 //
 // Notation
-//   block    queries_per_block queries of one generator. Block b is of generator b mod (number of generators), and its
-//            queries depend on the seed and b alone, so that a run gives the same queries whatever the number of
-//            threads. What else each of them is asked comes from another stream of the same seed and block
+//   block    queries of one generator (audit/block_loop.h). Block b is of generator b mod (number of generators). What
+//            else each of them is asked comes from another stream of the same seed and block
 //   answer   apart, touching, crossing or persistent: the oracle's
 //   finding  a query on which the subject's answer is wrong: it is in contact or not, the kind, the least time rounded
 //            down to double, the enclosure of that time; within eta or not, and the least such time rounded down; the
@@ -28,14 +27,15 @@
 #include <vector>
 
 #include "noli/audit/any_query.h"
+#include "noli/audit/block_loop.h"
 #include "noli/audit/probe.h"
+#include "noli/audit/query_corpus.h"
 #include "noli/kernel/contact.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/stages.h"
 
 namespace noli::audit {
 
-constexpr std::size_t queries_per_block = 256;
 /// One query of so many in a block is asked for a distance too: the oracle takes a millisecond for that.
 constexpr std::size_t queries_per_distance = 32;
 
@@ -78,7 +78,9 @@ struct FuzzOptions {
   int threads = 0;                                          ///< <= 0: all there are
   std::filesystem::path out;      ///< folder, made when the first finding is saved; empty: findings are not saved
   std::size_t max_findings = 20;  ///< shrink and save at most that many; all are counted
-  const std::atomic<bool>* stop = nullptr;            ///< polled after every few blocks
+  std::filesystem::path corpus;   ///< folder that is replayed first and added to (audit/query_corpus.h); empty: none
+  std::function<std::string(const std::filesystem::path& file)> command;  ///< that asks a saved finding again
+  const std::atomic<bool>* stop = nullptr;                                ///< polled after every few blocks
   std::function<void(const FuzzProgress&)> progress;  ///< called from the caller's thread now and then
   Decide decide = decide_with_kernel;
   DecideProbe decide_probe = probe_with_kernel;
@@ -86,7 +88,7 @@ struct FuzzOptions {
 
 /// One query on which the subject is wrong.
 struct Finding {
-  std::string generator;                   ///< its name
+  std::string generator;                   ///< its name, or "corpus/NAME"
   std::uint64_t block = 0;                 ///< where it was made: options.seed, block and index make it again
   std::size_t index = 0;                   ///< within the block
   std::string difference;                  ///< in words: "contact: subject says apart, the oracle touching", ...
@@ -123,18 +125,24 @@ struct FuzzReport {
   std::vector<GeneratorTally> generators;  ///< in the order of query_generators()
   StageCounters stages;                    ///< of noli::contact, as counted by options.decide
   std::uint64_t findings_total = 0;
-  std::vector<Finding> findings;  ///< the first max_findings, by block and index
-  bool interrupted = false;       ///< by the stop flag
+  std::vector<Finding> findings;  ///< the first max_findings: of the corpus, then by block and index
+  CorpusTally corpus;
+  bool interrupted = false;  ///< by the stop flag
 };
 
 /// Runs until count, time limit or stop flag; at least one of the three must be given, else std::invalid_argument.
-/// With `count` the report is the same for any number of threads. Throws std::system_error when a finding cannot be
-/// saved.
+/// With `count` the report is the same for any number of threads. Throws std::system_error when a finding or a query of
+/// the corpus cannot be saved, InputError when the corpus cannot be read.
 FuzzReport fuzz_queries(const FuzzOptions& options);
 
 /// What is wrong with the subject's answers to a saved query, one line each; nothing if they are the oracle's.
 std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe>& probe,
                                 const Decide& decide = decide_with_kernel,
                                 const DecideProbe& decide_probe = probe_with_kernel);
+
+/// The same query made simpler, or nothing if there is nothing wrong; generator, block and file are left empty.
+std::optional<Finding> shrunk_finding(const AnyQuery& query, const std::optional<Probe>& probe,
+                                      const Decide& decide = decide_with_kernel,
+                                      const DecideProbe& decide_probe = probe_with_kernel);
 
 }  // namespace noli::audit

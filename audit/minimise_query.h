@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes a failing query simpler while it still fails.
+// Makes a failing query simpler while it still fails: few different numbers, each of them short.
+//
+// What this does not do: it finds no least query, only one that none of its steps makes simpler.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <span>
 
 #include "noli/audit/any_query.h"
 
@@ -17,9 +21,24 @@ int complexity(double x);
 /// The sum over all coordinates that count.
 int complexity(const AnyQuery& query);
 
-/// A query for which `fails` holds and that none of these steps makes simpler: a point that stands still, points that
-/// coincide, an axis scaled to unit size, and each coordinate zero, without its sign, a whole number, or with fewer
-/// bits. Stops early after `budget` calls of `fails`. Precondition: fails(query).
-AnyQuery minimise(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& fails, std::size_t budget = 20000);
+/// How many different numbers there are among the coordinates that count. -0.0 and 0.0 are one.
+std::size_t distinct_coordinates(const AnyQuery& query);
+
+/// The first of some candidates that still fails, if one does. Who is asked often asks cheaply for many at a time.
+using FirstFailure = std::function<std::optional<std::size_t>(std::span<const AnyQuery>)>;
+
+/// Candidates that are looked at before `minimise` is content.
+constexpr std::size_t usual_shrink_budget = 60000;
+
+/// A query that fails and that none of these steps makes simpler: a point that stands still, also along one axis, points
+/// that coincide, half the step, an axis left out, scaled to unit size, moved, or sheared along another, a number that
+/// takes the place of another everywhere, and each coordinate zero, without its sign, a whole number, or with fewer
+/// bits. Simpler: the sum of `complexity` and a price for each different number is less. Stops early after `budget`
+/// candidates. Precondition: the query fails.
+AnyQuery minimise(const AnyQuery& query, const FirstFailure& first_failure, std::size_t budget = usual_shrink_budget);
+
+/// The same, asking one after the other.
+AnyQuery minimise(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& fails,
+                  std::size_t budget = usual_shrink_budget);
 
 }  // namespace noli::audit

@@ -36,6 +36,43 @@ TEST(Minimise, LeavesNothingThatIsNotNeeded) {
   EXPECT_EQ(result.x_t0, (std::array<Point3, 4>{}));
 }
 
+TEST(Minimise, PrefersFewDifferentNumbers) {
+  // Two sums that have to be the same, of numbers that may be any.
+  const auto fails = [](const AnyQuery& query) {
+    const double a = query.x_t0[0][0] + query.x_t0[1][1], b = query.x_t1[2][2] + query.x_t1[3][0];
+    return a > 2.5 && b > a;
+  };
+  AnyQuery query = complicated();
+  query.x_t1[2][2] = 1e6;
+  query.x_t1[3][0] = 7.7;
+  ASSERT_TRUE(fails(query));
+  const AnyQuery result = minimise(query, fails);
+  EXPECT_TRUE(fails(result));
+  EXPECT_LE(distinct_coordinates(result), 3U);
+}
+
+TEST(Minimise, CountsDifferentNumbersOnce) {
+  AnyQuery query;
+  EXPECT_EQ(distinct_coordinates(query), 1U);
+  query.x_t0[0] = {1, -1, -0.0};
+  query.x_t1[3] = {1, 1, 0.5};
+  EXPECT_EQ(distinct_coordinates(query), 4U);
+}
+
+TEST(Minimise, AsksForManyAtATime) {
+  std::size_t calls = 0;
+  const FirstFailure first_failure = [&](std::span<const AnyQuery> candidates) -> std::optional<std::size_t> {
+    ++calls;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i].x_t1[2][1] < -1000) return i;
+    }
+    return std::nullopt;
+  };
+  const AnyQuery result = minimise(complicated(), first_failure);
+  EXPECT_LT(complexity(result), 20);
+  EXPECT_LT(calls, 300U);
+}
+
 TEST(Minimise, KeepsWhatIsNeeded) {
   const AnyQuery query = complicated();
   EXPECT_EQ(minimise(query, [&](const AnyQuery& candidate) { return candidate == query; }), query);

@@ -6,6 +6,7 @@
 // of the points at t = 0, then those at t = 1; bytes that are missing are 0.
 //   coded   small integers in units of a power of two, perhaps an ulp off: three bytes each. Coincidences are likely.
 //   raw     eight bytes each, a double; where it is not finite its exponent is cleared.
+// Or a file of `noli fuzz queries --corpus`: rows of a query as CSV and the line that says what it is about.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -14,10 +15,14 @@
 #include <limits>
 #include <string_view>
 
+#include "noli/audit/any_query.h"
+#include "noli/audit/saved_query.h"
 #include "noli/kernel/contact.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/tests/kernel/oracle_motion.h"
 #include "noli/tests/oracle/oracle.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/query_csv.h"
 
 namespace {
 
@@ -66,8 +71,7 @@ noli::Query<Pair, Dim> decode(Bytes& bytes, bool raw) {
 }
 
 template <FeaturePair Pair, int Dim>
-void compare(Bytes& bytes, bool raw) {
-  const auto query = decode<Pair, Dim>(bytes, raw);
+void compare(const noli::Query<Pair, Dim>& query) {
   const noli::oracle::Answer truth = noli::oracle::first_contact(noli::test::motion_of(query));
   const auto enclosure = noli::contact(query);
   const auto first = noli::first_contact(query);
@@ -79,9 +83,30 @@ void compare(Bytes& bytes, bool raw) {
   require(first->time.lower() == truth.time->lower());
 }
 
+template <FeaturePair Pair, int Dim>
+void compare(Bytes& bytes, bool raw) {
+  compare(decode<Pair, Dim>(bytes, raw));
+}
+
+/// Whether it was a text, and its queries have been compared.
+bool compare_text(std::string_view text) {
+  const auto type = noli::audit::saved_type(text);
+  if (!type) return false;
+  try {
+    for (const noli::QueryRecord& record : noli::parse_query_csv(text, "input", noli::audit::file_kind(type->pair))) {
+      const noli::audit::AnyQuery query{type->pair, type->dimension, record.x_t0, record.x_t1};
+      noli::audit::visit(query, [](const auto& typed) { compare(typed); });
+    }
+  } catch (const noli::InputError&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (compare_text({reinterpret_cast<const char*>(data), size})) return 0;
   Bytes bytes(data, size);
   const std::uint8_t head = bytes.next();
   const bool raw = (head & 8) != 0;

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/fuzz_queries_report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <iterator>
+
+#include "noli/audit/minimise_query.h"
+#include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+constexpr std::array<ContactKind, 4> kinds = {ContactKind::apart, ContactKind::touching, ContactKind::crossing,
+                                              ContactKind::persistent};
+
+const char* verdict(ExitCode code, const char* holds) {
+  if (code == ExitCode::refuted) return "finding";
+  return code == ExitCode::undecided ? "undecided" : holds;
+}
+
+ExitCode exit_code(const audit::FuzzReport& report) {
+  return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
+}
+
+ExitCode exit_code(const audit::LibraryFuzzReport& report) {
+  return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
+}
+
+int threads(int asked) { return asked > 0 ? asked : hardware_threads(); }
+
+Json answers_json(const std::array<std::uint64_t, 4>& answers) {
+  Json json = Json::object();
+  for (const ContactKind kind : kinds) json[std::string(name(kind))] = answers[static_cast<std::size_t>(kind)];
+  return json;
+}
+
+Json corpus_json(const audit::CorpusTally& corpus) {
+  return {{"replayed", corpus.replayed}, {"signatures", corpus.signatures}, {"kept", corpus.kept}};
+}
+
+std::string corpus_text(const audit::CorpusTally& corpus) {
+  return fmt::format("Corpus: replayed {} signatures {} kept {}.\n", corpus.replayed, corpus.signatures, corpus.kept);
+}
+
+/// Where a finding lies, and the command that asks it again.
+template <class Options>
+std::string whereabouts(const Options& options, const std::filesystem::path& file) {
+  if (file.empty()) return "not saved";
+  return "saved as " + on_one_line(file.string()) +
+         (options.command ? "\n  again: " + on_one_line(options.command(file)) : "");
+}
+
+// --- the kernel against the oracle -----------------------------------------------------------------------------------
+
+Json finding_json(const audit::Finding& finding, const std::string& command) {
+  return {{"generator", finding.generator},
+          {"block", finding.block},
+          {"index", finding.index},
+          {"difference", finding.difference},
+          {"truth", name(finding.truth)},
+          {"file", finding.file.string()},
+          {"command", command}};
+}
+
+Json generator_json(const audit::GeneratorTally& generator) {
+  return {{"name", generator.name},
+          {"pair", name(generator.type.pair)},
+          {"dimension", generator.type.dimension},
+          {"answers", answers_json(generator.answers)}};
+}
+
+Json probes_json(const audit::ProbeTally& probes) {
+  return {{"distance", {{"apart", probes.apart}, {"within", probes.within}}},
+          {"failure_time",
+           {{"failed", probes.failed}, {"failing", probes.failing}, {"never_failing", probes.never_failing}}}};
+}
+
+void append_generator(const audit::GeneratorTally& generator, std::string& text) {
+  text += fmt::format("  {} ({}, {}D):", generator.name, name(generator.type.pair), generator.type.dimension);
+  for (const ContactKind kind : kinds) {
+    text += fmt::format(" {} {}", name(kind), generator.answers[static_cast<std::size_t>(kind)]);
+  }
+  text += '\n';
+}
+
+// --- a library against the kernel ------------------------------------------------------------------------------------
+
+constexpr std::array<audit::LibraryFault, audit::library_fault_count> faults = {
+    audit::LibraryFault::false_negative, audit::LibraryFault::late,    audit::LibraryFault::bad_time,
+    audit::LibraryFault::no_time,        audit::LibraryFault::failure, audit::LibraryFault::crash,
+    audit::LibraryFault::hang,           audit::LibraryFault::memory,  audit::LibraryFault::false_positive,
+    audit::LibraryFault::early};
+
+std::string faults_text(const audit::FaultCounts& counts) {
+  std::string text;
+  for (const audit::LibraryFault fault : faults) {
+    text += fmt::format(" {} {}", name(fault), counts[static_cast<std::size_t>(fault)]);
+  }
+  return text;
+}
+
+Json faults_json(const audit::FaultCounts& counts) {
+  Json json = Json::object();
+  for (const audit::LibraryFault fault : faults) {
+    json[std::string(name(fault))] = counts[static_cast<std::size_t>(fault)];
+  }
+  return json;
+}
+
+Json point_json(const Point3& x) { return {x[0], x[1], x[2]}; }
+
+Json query_json(const audit::AnyQuery& query) {
+  Json json = {{"pair", name(query.pair)}, {"x_t0", Json::array()}, {"x_t1", Json::array()}};
+  for (std::size_t i = 0; i < query.size(); ++i) {
+    json["x_t0"].push_back(point_json(query.x_t0[i]));
+    json["x_t1"].push_back(point_json(query.x_t1[i]));
+  }
+  return json;
+}
+
+Json finding_json(const audit::LibraryFinding& finding, const std::string& command) {
+  return {{"finding", name(finding.found.fault)},
+          {"contact", name(finding.found.kind)},
+          {"words", finding.found.words},
+          {"generator", finding.generator},
+          {"block", finding.block},
+          {"index", finding.index},
+          {"alike", finding.alike},
+          {"query", query_json(finding.shrunk)},
+          {"distinct_coordinates", audit::distinct_coordinates(finding.shrunk)},
+          {"file", finding.file.string()},
+          {"command", command}};
+}
+
+/// A line for each generator that had its turn.
+std::string generators_text(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report) {
+  std::string text;
+  for (const audit::LibraryTally& tally : report.generators) {
+    if (tally.asked == 0) continue;
+    std::uint64_t findings = 0;
+    for (const audit::LibraryFault fault : faults) {
+      if (audit::counts(fault, options.library.exact)) findings += tally.faults[static_cast<std::size_t>(fault)];
+    }
+    text += fmt::format("  {}: asked {} contacts {} findings {} false_positives {} ({})\n", tally.name, tally.asked,
+                        tally.contacts, findings,
+                        tally.faults[static_cast<std::size_t>(audit::LibraryFault::false_positive)], tally.attacks);
+  }
+  return text;
+}
+
+}  // namespace
+
+ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t queries, bool interrupted) {
+  if (interrupted || queries == 0) return ExitCode::undecided;
+  return findings > 0 ? ExitCode::refuted : ExitCode::holds;
+}
+
+Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
+  Json json = {{"verdict", verdict(exit_code(report), "no_difference")},
+               {"seed", options.seed},
+               {"queries", report.queries},
+               {"findings", report.findings_total},
+               {"answers", answers_json(report.answers)}};
+  json["probes"] = probes_json(report.probes);
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) {
+    json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));
+  }
+  json["generators"] = Json::array();
+  for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
+  json["stages"] = stages_json(report.stages);
+  if (!options.corpus.empty()) json["corpus"] = corpus_json(report.corpus);
+  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.threads)}};
+  return json;
+}
+
+std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
+  std::string text =
+      fmt::format("verdict {} queries {} findings {} seed {}\n", verdict(exit_code(report), "no_difference"),
+                  report.queries, report.findings_total, options.seed);
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
+                   finding.difference, whereabouts(options, finding.file));
+  }
+  if (!options.corpus.empty()) text += corpus_text(report.corpus);
+  text += "Answers of the oracle:\n";
+  for (const auto& generator : report.generators) append_generator(generator, text);
+  const audit::ProbeTally& probes = report.probes;
+  fmt::format_to(out, "Distances: apart {} within {}. Certificates: failed {} failing {} never_failing {}.\n",
+                 probes.apart, probes.within, probes.failed, probes.failing, probes.never_failing);
+  text += "Stages:";
+  for (const Stage stage : all_stages) fmt::format_to(out, " {} {}", name(stage), report.stages[stage]);
+  fmt::format_to(out, "\nTime: {:.1f} s.\n", seconds);
+  return text;
+}
+
+Json library_fuzz_json(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
+                       double seconds) {
+  Json json = {{"verdict", verdict(exit_code(report), "no_finding")},
+               {"library", options.library.path.string()},
+               {"tolerance", options.library.tolerance},
+               {"exact", options.library.exact},
+               {"knows_times", report.knows_times},
+               {"seed", options.seed},
+               {"queries", report.queries},
+               {"contacts", report.contacts},
+               {"findings", report.findings_total},
+               {"faults", faults_json(report.faults)}};
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) {
+    json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));
+  }
+  json["generators"] = Json::array();
+  for (const auto& tally : report.generators) {
+    json["generators"].push_back({{"name", tally.name},
+                                  {"attacks", tally.attacks},
+                                  {"asked", tally.asked},
+                                  {"contacts", tally.contacts},
+                                  {"faults", faults_json(tally.faults)}});
+  }
+  if (!options.corpus.empty()) json["corpus"] = corpus_json(report.corpus);
+  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.limits.threads)}};
+  return json;
+}
+
+std::string library_fuzz_text(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
+                              double seconds) {
+  std::string text =
+      fmt::format("verdict {} queries {} contacts {} findings {}{} seed {}\n", verdict(exit_code(report), "no_finding"),
+                  report.queries, report.contacts, report.findings_total, faults_text(report.faults), options.seed);
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
+                   finding.found.words, finding.generator, finding.block, finding.index, finding.alike,
+                   audit::distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
+  }
+  if (!options.corpus.empty()) text += corpus_text(report.corpus);
+  text += "Generators (what each attacks):\n" + generators_text(options, report);
+  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
+  return text;
+}
+
+}  // namespace noli::app
