@@ -6,7 +6,11 @@ namespace noli::app {
 CLI::App& add_fuzz(CLI::App& app) {
   CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
   fuzz->require_subcommand(1);
-  fuzz->footer("Examples:\n  noli fuzz queries --for 60s --seed 1\n`noli fuzz queries --help` says more.");
+  fuzz->footer(
+      "Examples:\n"
+      "  noli fuzz queries --for 60s --seed 1\n"
+      "  noli fuzz trajectories --for 60s --seed 1\n"
+      "`noli fuzz queries --help` says more.");
   return *fuzz;
 }
 
