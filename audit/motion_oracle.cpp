@@ -37,22 +37,6 @@ std::vector<Feature> parts_of(const Feature& cell) {
   return parts;
 }
 
-/// The largest pairs of parts of two cells, of at most so many vertices together.
-std::vector<FeatureTwo> largest_pairs(const Feature& a, const Feature& b, std::size_t most) {
-  std::vector<FeatureTwo> pairs, largest;
-  for (const Feature& p : parts_of(a)) {
-    for (const Feature& q : parts_of(b)) {
-      if (p.size() + q.size() <= most && disjoint(p, q)) pairs.push_back({p, q});
-    }
-  }
-  std::ranges::copy_if(pairs, std::back_inserter(largest), [&](const FeatureTwo& pair) {
-    return std::ranges::none_of(pairs, [&](const FeatureTwo& other) {
-      return other != pair && part_of(pair[0], other[0]) && part_of(pair[1], other[1]);
-    });
-  });
-  return largest;
-}
-
 oracle::Pair pair_of(std::size_t first, std::size_t second) {
   if (first == 2) return oracle::Pair::edge_edge;
   return second == 3   ? oracle::Pair::vertex_face
@@ -65,8 +49,8 @@ struct Ends {
   std::vector<Position> x_t0, x_t1;
 };
 
-oracle::Answer ask(int dimension, const Ends& first, const Ends& second) {
-  if (first.x_t0.size() > second.x_t0.size()) return ask(dimension, second, first);
+oracle::Motion oracle_motion(int dimension, const Ends& first, const Ends& second) {
+  if (first.x_t0.size() > second.x_t0.size()) return oracle_motion(dimension, second, first);
   oracle::Motion motion;
   motion.pair = pair_of(first.x_t0.size(), second.x_t0.size());
   motion.dimension = dimension;
@@ -76,14 +60,14 @@ oracle::Answer ask(int dimension, const Ends& first, const Ends& second) {
     motion.x_t0[i] = ends.x_t0[i < n ? i : i - n];
     motion.x_t1[i] = ends.x_t1[i < n ? i : i - n];
   }
-  return oracle::first_contact(motion);
+  return motion;
 }
 
-Ends ends_of(const FrameMotion& motion, std::size_t step, const Feature& vertices) {
+Ends ends_of(const std::vector<Position>& begin, const std::vector<Position>& end, const Feature& vertices) {
   Ends ends;
   for (const VertexId v : vertices) {
-    ends.x_t0.push_back(motion.begin(step)[v]);
-    ends.x_t1.push_back(motion.end(step)[v]);
+    ends.x_t0.push_back(begin[v]);
+    ends.x_t1.push_back(end[v]);
   }
   return ends;
 }
@@ -115,20 +99,9 @@ Ends at_rest(const std::vector<Position>& x, const Feature& vertices, bool flat)
   return ends;
 }
 
-/// Whether two features at rest meet, of at most five points together.
-bool meet_at_rest(const std::vector<Position>& x, const FeatureTwo& features, bool flat) {
-  const Feature &small = features[features[0].size() > features[1].size() ? 1 : 0],
-                &large = features[features[0].size() > features[1].size() ? 0 : 1];
-  Ends p = at_rest(x, small, flat), q = at_rest(x, large, flat);
-  if (small.size() + large.size() == 5) {  // the edge as the path of a vertex
-    p = {{p.x_t0[0]}, {p.x_t0[1]}};
-  }
-  return ask(3, p, q).time.has_value();
-}
-
 bool cells_meet_at_begin(const FrameMotion& motion, std::size_t step, const Feature& a, const Feature& b) {
   const bool flat = motion.dimension() == 2;
-  return std::ranges::any_of(largest_pairs(a, b, 5),
+  return std::ranges::any_of(largest(disjoint_pairs(a, b, 5)),
                              [&](const FeatureTwo& pair) { return meet_at_rest(motion.begin(step), pair, flat); });
 }
 
@@ -136,7 +109,7 @@ bool cells_meet_at_begin(const FrameMotion& motion, std::size_t step, const Feat
 void add(const FrameMotion& motion, std::size_t step, const Feature& a, const Feature& b, MotionTruth& truth) {
   if (boxes_apart(motion, step, a, b)) return;
   if ((step == 0 || motion.at_rest()) && !truth.initial) truth.initial = cells_meet_at_begin(motion, step, a, b);
-  for (const FeatureTwo& pair : largest_pairs(a, b, motion.dimension() == 2 ? 3 : 4)) {
+  for (const FeatureTwo& pair : largest(disjoint_pairs(a, b, motion.dimension() == 2 ? 3 : 4))) {
     const oracle::Answer answer = answer_of(motion, step, pair);
     if (!answer.time) continue;
     const int order = truth.time ? answer.time->compare(*truth.time) : -1;
@@ -163,8 +136,46 @@ std::vector<Feature> cells_of(const Mesh& mesh) {
   return cells;
 }
 
+std::vector<FeatureTwo> disjoint_pairs(const Feature& a, const Feature& b, std::size_t most) {
+  std::vector<FeatureTwo> pairs;
+  for (const Feature& p : parts_of(a)) {
+    for (const Feature& q : parts_of(b)) {
+      if (p.size() + q.size() <= most && disjoint(p, q)) pairs.push_back({p, q});
+    }
+  }
+  return pairs;
+}
+
+std::vector<FeatureTwo> largest(const std::vector<FeatureTwo>& pairs) {
+  std::vector<FeatureTwo> result;
+  std::ranges::copy_if(pairs, std::back_inserter(result), [&](const FeatureTwo& pair) {
+    return std::ranges::none_of(pairs, [&](const FeatureTwo& other) {
+      return other != pair && part_of(pair[0], other[0]) && part_of(pair[1], other[1]);
+    });
+  });
+  return result;
+}
+
+bool meet_at_rest(const std::vector<Position>& x, const FeatureTwo& features, bool flat) {
+  const Feature &small = features[features[0].size() > features[1].size() ? 1 : 0],
+                &large = features[features[0].size() > features[1].size() ? 0 : 1];
+  Ends p = at_rest(x, small, flat), q = at_rest(x, large, flat);
+  if (small.size() + large.size() == 5) {  // the edge as the path of a vertex
+    p = {{p.x_t0[0]}, {p.x_t0[1]}};
+  }
+  return oracle::first_contact(oracle_motion(3, p, q)).time.has_value();
+}
+
 oracle::Answer answer_of(const FrameMotion& motion, std::size_t step, const FeatureTwo& features) {
-  return ask(motion.dimension(), ends_of(motion, step, features[0]), ends_of(motion, step, features[1]));
+  const auto ends = [&](std::size_t i) { return ends_of(motion.begin(step), motion.end(step), features[i]); };
+  return oracle::first_contact(oracle_motion(motion.dimension(), ends(0), ends(1)));
+}
+
+std::optional<oracle::Time> first_within(int dimension, const std::vector<Position>& begin,
+                                         const std::vector<Position>& end, const FeatureTwo& features,
+                                         double distance) {
+  const auto motion = oracle_motion(dimension, ends_of(begin, end, features[0]), ends_of(begin, end, features[1]));
+  return distance > 0 ? oracle::first_within(motion, distance) : oracle::first_contact(motion).time;
 }
 
 bool are_compared(const Mesh& mesh, const FeatureTwo& features) {

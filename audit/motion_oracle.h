@@ -54,4 +54,16 @@ bool are_compared(const Mesh& mesh, const FeatureTwo& features);
 /// The vertices of each cell, in the order of the mesh.
 std::vector<Feature> cells_of(const Mesh& mesh);
 
+/// All pairs of parts of two cells (or of one with itself) without a common vertex, of at most so many together.
+std::vector<FeatureTwo> disjoint_pairs(const Feature& a, const Feature& b, std::size_t most);
+/// Those that are part of no other.
+std::vector<FeatureTwo> largest(const std::vector<FeatureTwo>& pairs);
+
+/// The first time at which two features of a step are within a distance of each other; that they meet, for 0. As
+/// answer_of, but in a dimension that is given.
+std::optional<oracle::Time> first_within(int dimension, const std::vector<Position>& begin,
+                                         const std::vector<Position>& end, const FeatureTwo& features, double distance);
+/// Whether two features at rest meet, of at most five points together; `flat`: third coordinates count as 0.
+bool meet_at_rest(const std::vector<Position>& x, const FeatureTwo& features, bool flat);
+
 }  // namespace noli::audit
