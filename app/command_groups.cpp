@@ -10,6 +10,7 @@ CLI::App& add_fuzz(CLI::App& app) {
       "Examples:\n"
       "  noli fuzz queries --for 60s --seed 1\n"
       "  noli fuzz trajectories --for 60s --seed 1\n"
+      "  noli fuzz scenes --for 60s --seed 1\n"
       "  noli fuzz proofs --for 60s --seed 1\n"
       "`noli fuzz queries --help` says more.");
   return *fuzz;

@@ -56,7 +56,7 @@ ExitCode parse_and_run(int argc, char** argv) {
       add_verify(app),       add_check(app),         add_ccd(app),
       add_info(app),         add_simulate(app),      add_explain(app),
       add_export(app),       add_fuzz_queries(fuzz), add_fuzz_trajectories(fuzz),
-      add_fuzz_proofs(fuzz), add_audit_ccd(audit),
+      add_fuzz_proofs(fuzz), add_fuzz_scenes(fuzz),  add_audit_ccd(audit),
   };
   try {
     app.parse(argc, argv);
