@@ -31,8 +31,8 @@ class ClaimOracle {
 
  private:
   bool excluded(std::size_t i, std::size_t j) const {
-    const auto [a, b] = std::minmax(claim_.label(i), claim_.label(j));
-    return claim_.excluded.contains({a, b});
+    const std::uint32_t a = claim_.label(i), b = claim_.label(j);
+    return claim_.excluded.contains({std::min(a, b), std::max(a, b)});
   }
 
   bool violated(const std::vector<Position>& begin, const std::vector<Position>& end, const Feature& a,

@@ -270,10 +270,14 @@ class ProofFuzzing {
 std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole) {
   if (from.extension == "blocks") return std::nullopt;
   const auto claim = parse_claim(parse_proof(mutant.proof, "mutant"));
-  if (!claim || claim->source > 1) return std::nullopt;
+  if (claim && claim->source == 2) return std::nullopt;
+  const bool possible = claim && claim->source < 2 && (claim->dimension == 2 || claim->dimension == 3) &&
+                        std::isfinite(claim->eta) && claim->eta >= 0;
+  if (!possible) throw InputError("mutant", "", "makes no claim that could be true");
   const FrameMotion motion = read_trajectory(from.extension, mutant.files ? *mutant.files : from.files, whole);
   const auto claimed = claimed_mesh(*claim, motion.mesh);
   if (!claimed) throw InputError("mutant", "", "merges a vertex that is not there");
+  if (motion.frames.size() < (claim->source == 1 ? 1 : 2)) throw InputError("mutant", "", "is about no step");
   return claim_holds(*claim, *claimed, motion.frames);
 }
 
