@@ -79,8 +79,7 @@ class SceneJudge {
   }
 
   ProgramEnd simulate(const char* name, const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"simulate",  file(), "-o",           folder_ / name,
-                                      "--threads", "1",    "--time-limit", "10s"};
+    std::vector<std::string> words = {"simulate", file(), "-o", folder_ / name, "--threads", "1", "--time-limit", "4s"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
@@ -197,6 +196,7 @@ class SceneFuzzing {
   void keep(JudgedScene one, std::size_t index) {
     ++report_.findings_total;
     if (report_.findings.size() >= options_.max_findings) return;
+    if (++alike_[*one.judgement.difference] > options_.max_alike) return;
     SceneFinding finding{one.generator, block_, index, *one.judgement.difference, one.made.scene, one.made.scene, {}};
     finding.wrong_place = one.made.wrong_place;
     const std::string kind = finding.difference.substr(0, finding.difference.find(':'));
@@ -226,6 +226,7 @@ class SceneFuzzing {
   const SceneFuzzOptions& options_;
   mutable std::atomic<std::uint64_t> number_ = 0;
   std::uint64_t block_ = 0, taken_ = 0;
+  std::map<std::string, std::size_t> alike_;  ///< by difference
   SceneFuzzReport report_;
 };
 

@@ -35,9 +35,10 @@ using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
 struct SceneFuzzOptions {
   FuzzLimits limits;
   RunNoli noli;
-  std::filesystem::path desk;  ///< folder that is there, for runs
-  std::filesystem::path out;   ///< folder, made for the first finding; empty: nothing is saved
-  std::size_t max_findings = 20;
+  std::filesystem::path desk;       ///< folder that is there, for runs
+  std::filesystem::path out;        ///< folder, made for the first finding; empty: nothing is saved
+  std::size_t max_findings = 20;    ///< shrink and save at most that many; all are counted
+  std::size_t max_alike = 3;        ///< and at most so many whose difference has the same words
   std::size_t shrink_budget = 150;  ///< scenes to try for each of them
 };
 

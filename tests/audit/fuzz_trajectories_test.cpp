@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "noli/audit/motion_generators.h"
+#include "noli/proofs/prover/verifier.h"
 #include "noli/tests/support/temporary_folder.h"
 
 namespace noli::audit {
@@ -210,6 +211,31 @@ TEST(MotionGenerators, PlantWhatTheyAreNamedFor) {
     }
   }
   EXPECT_GT(times.size(), 5u);
+}
+
+/// What `noli fuzz trajectories --corpus` kept, one motion for each way in which cells can first meet.
+TEST(MotionCorpus, IsDecidedByTheVerifierAsByTheOracle) {
+  std::size_t motions = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(NOLI_SOURCE_DIR) + "/tests/audit/motions")) {
+    const FrameMotion motion = read_frames(entry.path());
+    const MotionTruth truth = truth_of(motion);
+    EXPECT_EQ(text_fault(motion), "") << entry.path();
+    for (std::size_t step = 0; step < motion.steps() && step <= truth.step; ++step) {
+      VerifyOptions options;
+      options.dimension = motion.dimension();
+      options.initial = step == 0 || motion.at_rest();
+      options.threads = 1;
+      const VerifyResult found = verify_step(motion.mesh, motion.begin(step), motion.end(step), options);
+      const bool here = truth.contact && step == truth.step;
+      EXPECT_EQ(found.contact_count() > 0, here && truth.time.has_value()) << entry.path() << " step " << step;
+      EXPECT_EQ(found.initial_intersections > 0, here && truth.initial) << entry.path() << " step " << step;
+      if (!found.first || !here) continue;
+      EXPECT_LE(truth.time->compare(found.first->first.end), 0) << entry.path();
+      EXPECT_GE(truth.time->compare(found.first->first.begin), 0) << entry.path();
+    }
+    ++motions;
+  }
+  EXPECT_GE(motions, 40u);
 }
 
 TEST(MotionOracle, KnowsAnEdgeThroughAFaceAtRest) {
