@@ -26,6 +26,21 @@ void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const
   add_json_option(command, arguments.json);
 }
 
+void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
+                       std::vector<std::string> excluded) {
+  CLI::Option* const replay =
+      command.add_option("--replay", arguments.replay, "Judge this saved " + what + " again instead")->type_name(type);
+  CLI::Option* const minimise =
+      command.add_option("--minimise", arguments.minimise, "Make this saved " + what + " smaller, into --out, instead")
+          ->type_name(type);
+  replay->excludes(minimise);
+  excluded.insert(excluded.end(), {"--count", "--for", "--seed"});
+  for (const std::string& name : excluded) {
+    replay->excludes(command.get_option(name));
+    minimise->excludes(command.get_option(name));
+  }
+}
+
 void settle_limits(FuzzArgumentsInCommon& arguments) {
   if (arguments.duration || !arguments.limits.count) {
     arguments.limits.time_limit = parse_duration(arguments.duration.value_or("60s"), "--for");
@@ -34,8 +49,9 @@ void settle_limits(FuzzArgumentsInCommon& arguments) {
 }
 
 const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent) {
+  if (extent.interrupted) return "undecided";
   if (findings > 0) return "finding";
-  return extent.interrupted || extent.items == 0 ? "undecided" : "no_finding";
+  return extent.items == 0 ? "undecided" : "no_finding";
 }
 
 ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent) {

@@ -38,7 +38,8 @@ constexpr const char* footer =
 
 struct ScenesArguments {
   FuzzArgumentsInCommon common;
-  std::optional<std::string> replay, minimise, wrong_place;
+  AgainArguments again;
+  std::optional<std::string> wrong_place;
 };
 
 /// `noli` itself, as a program of its own.
@@ -126,9 +127,9 @@ audit::SceneJson read_scene(const fs::path& file) {
 
 /// A saved scene again, as it is or made smaller.
 ExitCode again(const ScenesArguments& arguments) {
-  const fs::path file = arguments.replay ? *arguments.replay : *arguments.minimise;
+  const fs::path file = arguments.again.saved();
   const Output output(arguments.common.json, {file});
-  if (arguments.minimise) require_writable_folder(arguments.common.out, "--out");
+  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::SceneJson scene = read_scene(file);
   const ScratchFolder scratch;
   const audit::RunNoli noli = this_program();
@@ -139,7 +140,7 @@ ExitCode again(const ScenesArguments& arguments) {
     return audit::judge_scene({candidate, arguments.wrong_place}, noli, folder);
   };
   audit::SceneJudgement judgement = judge(scene);
-  if (judgement.difference && arguments.minimise) {
+  if (judgement.difference && arguments.again.minimise) {
     const std::string kind = judgement.difference->substr(0, judgement.difference->find(':'));
     scene = audit::minimise(
         scene,
@@ -172,22 +173,12 @@ Command add_fuzz_scenes(CLI::App& fuzz_app) {
   command->footer(footer);
   const auto arguments = std::make_shared<ScenesArguments>();
   add_fuzz_options(*command, arguments->common, "scenes");
-  CLI::Option* const replay =
-      command->add_option("--replay", arguments->replay, "Judge this scene again instead")->type_name("SCENE.json");
-  CLI::Option* const minimise =
-      command->add_option("--minimise", arguments->minimise, "Make this scene smaller, into --out, instead")
-          ->type_name("SCENE.json");
-  replay->excludes(minimise);
+  add_again_options(*command, arguments->again, "scene", "SCENE.json", {});
   command
       ->add_option("--wrong-place", arguments->wrong_place,
                    "With --replay or --minimise: the scene is wrong there, as in /bodies/0/mesh")
       ->type_name("PLACE");
-  for (const char* const name : {"--count", "--for", "--seed"}) {
-    replay->excludes(command->get_option(name));
-    minimise->excludes(command->get_option(name));
-  }
-  return {command,
-          [arguments] { return arguments->replay || arguments->minimise ? again(*arguments) : fuzz(*arguments); }};
+  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : fuzz(*arguments); }};
 }
 
 }  // namespace noli::app

@@ -38,7 +38,8 @@ constexpr const char* footer =
 
 struct TrajectoriesArguments {
   FuzzArgumentsInCommon common;
-  std::optional<std::string> corpus, replay, minimise;
+  AgainArguments again;
+  std::optional<std::string> corpus;
   bool needs_witness = false;
   std::uint64_t verified_every = 1;
 };
@@ -116,11 +117,11 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
 
 /// A saved motion again, as it is or made smaller.
 ExitCode again(const TrajectoriesArguments& arguments) {
-  const fs::path folder = arguments.replay ? *arguments.replay : *arguments.minimise;
+  const fs::path folder = arguments.again.saved();
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
   const Output output(arguments.common.json, {});
-  if (arguments.minimise) require_writable_folder(arguments.common.out, "--out");
+  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
   VerifyProgram subject(1);
   const auto what = [&](const audit::FrameMotion& candidate) {
@@ -128,7 +129,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
         candidate, [&](const auto& one) { return subject(one); }, arguments.needs_witness);
   };
   auto found = what(motion);
-  if (found && arguments.minimise) {
+  if (found && arguments.again.minimise) {
     const std::string kind = found->substr(0, found->find(':'));
     motion = audit::minimise(
         motion,
@@ -170,22 +171,10 @@ Command add_fuzz_trajectories(CLI::App& fuzz_app) {
       ->check(whole_number(1, 1'000'000))
       ->capture_default_str()
       ->type_name("N");
-  CLI::Option* const replay =
-      command->add_option("--replay", arguments->replay, "Judge this saved motion again instead")->type_name("FOLDER");
-  CLI::Option* const minimise =
-      command->add_option("--minimise", arguments->minimise, "Make this saved motion smaller, into --out, instead")
-          ->type_name("FOLDER");
-  replay->excludes(minimise);
-  for (CLI::Option* const other : command->get_options()) {
-    const std::string name = other->get_name();
-    if (name != "--corpus" && name != "--count" && name != "--for" && name != "--seed") continue;
-    replay->excludes(other);
-    minimise->excludes(other);
-  }
+  add_again_options(*command, arguments->again, "motion", "FOLDER", {"--corpus"});
   command->add_flag("--needs-witness", arguments->needs_witness,
                     "With --replay or --minimise: a contact without a witness is a finding");
-  return {command,
-          [arguments] { return arguments->replay || arguments->minimise ? again(*arguments) : fuzz(*arguments); }};
+  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : fuzz(*arguments); }};
 }
 
 }  // namespace noli::app

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/proof_checkers.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -12,9 +11,9 @@
 #include <csignal>
 #include <cstring>
 #include <optional>
-#include <system_error>
 #include <utility>
 
+#include "noli/audit/pipe.h"
 #include "noli/audit/start_process.h"
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/write_file.h"
@@ -41,29 +40,19 @@ ProofAnswer answer_of(int code) {
 class Host {
  public:
   Host(const fs::path& program, const fs::path& folder) {
-    std::array<int, 2> to{}, from{};
-    if (::pipe2(to.data(), O_CLOEXEC) != 0 || ::pipe2(from.data(), O_CLOEXEC) != 0) {
-      throw std::system_error(errno, std::generic_category(), "a pipe");
-    }
-    to_ = to[1];
-    from_ = from[0];
     pid_ = start_process({program.string(), folder.string()},
-                         std::array<GivenDescriptor, 2>{{{STDIN_FILENO, to[0]}, {STDOUT_FILENO, from[1]}}});
-    ::close(to[0]);
-    ::close(from[1]);
+                         std::array<GivenDescriptor, 2>{{{STDIN_FILENO, to_.end(0)}, {STDOUT_FILENO, from_.end(1)}}});
+    to_.close(0);
+    from_.close(1);
   }
-  ~Host() {
-    ::close(to_);
-    ::close(from_);
-    end_it();
-  }
+  ~Host() { end_it(); }
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
   /// False when it reads no more.
   bool send(std::string_view bytes) const {
     while (!bytes.empty()) {
-      const ssize_t written = ::write(to_, bytes.data(), bytes.size());
+      const ssize_t written = ::write(to_.end(1), bytes.data(), bytes.size());
       if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
       if (written < 0 && errno != EINTR) return false;
     }
@@ -78,10 +67,10 @@ class Host {
           std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
       hung_ = left.count() <= 0;
       if (hung_) return std::nullopt;
-      pollfd end{from_, POLLIN, 0};
+      pollfd end{from_.end(0), POLLIN, 0};
       if (::poll(&end, 1, static_cast<int>(left.count())) <= 0) continue;
       unsigned char byte = 0;
-      const ssize_t got = ::read(from_, &byte, 1);
+      const ssize_t got = ::read(from_.end(0), &byte, 1);
       if (got == 1) return byte;
       if (got == 0 || errno != EINTR) return std::nullopt;
     }
@@ -108,8 +97,8 @@ class Host {
     pid_ = -1;
   }
 
+  Pipe to_, from_;
   pid_t pid_ = -1;
-  int to_ = -1, from_ = -1;
   bool hung_ = false;
 };
 

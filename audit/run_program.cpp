@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/run_program.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -15,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "noli/audit/pipe.h"
 #include "noli/audit/start_process.h"
 
 namespace noli::audit {
@@ -22,29 +22,6 @@ namespace noli::audit {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Both ends of a pipe are closed with it.
-class Pipe {
- public:
-  Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "a pipe");
-  }
-  ~Pipe() {
-    close(0);
-    close(1);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  int end(std::size_t i) const { return ends_[i]; }
-  void close(std::size_t i) {
-    if (ends_[i] >= 0) ::close(ends_[i]);
-    ends_[i] = -1;
-  }
-
- private:
-  std::array<int, 2> ends_{-1, -1};
-};
 
 /// A program at work, ended with this.
 class Running {
