@@ -39,15 +39,19 @@ class ClaimOracle {
                 const Feature& b) const {
     const bool flat = claim_.dimension == 2;
     const std::size_t most = flat ? 3 : 4;
+    if (boxes_apart(claim_.dimension, begin, end, a, b, claim_.eta)) return false;
     const auto meets = [&](const FeatureTwo& pair) {
       return first_within(claim_.dimension, begin, end, pair, 0).has_value();
     };
     if (std::ranges::any_of(largest(disjoint_pairs(a, b, most)), meets)) return true;
     const auto meet_at_begin = [&](const FeatureTwo& pair) { return meet_at_rest(begin, pair, flat); };
     if (std::ranges::any_of(largest(disjoint_pairs(a, b, 5)), meet_at_begin)) return true;
-    return claim_.eta > 0 && std::ranges::any_of(disjoint_pairs(a, b, most), [&](const FeatureTwo& pair) {
-             return !joined(pair) && first_within(claim_.dimension, begin, end, pair, claim_.eta).has_value();
-           });
+    if (claim_.eta == 0) return false;
+    // Without a ring no pair is joined, and what is near is so as part of a larger one too.
+    const auto pairs = disjoint_pairs(a, b, most);
+    return std::ranges::any_of(claim_.ring == 1 ? largest(pairs) : pairs, [&](const FeatureTwo& pair) {
+      return !joined(pair) && first_within(claim_.dimension, begin, end, pair, claim_.eta).has_value();
+    });
   }
 
   /// Whether a path of fewer edges than the ring joins a vertex of the one to one of the other.

@@ -72,21 +72,6 @@ Ends ends_of(const std::vector<Position>& begin, const std::vector<Position>& en
   return ends;
 }
 
-/// Whether the boxes of two cells keep their order along an axis: then nothing of them meets.
-bool boxes_apart(const FrameMotion& motion, std::size_t step, const Feature& a, const Feature& b) {
-  const auto order = [&](const std::vector<Position>& x, std::size_t axis) {
-    const auto less = [&](VertexId v, VertexId w) { return x[v][axis] < x[w][axis]; };
-    const auto [a_low, a_high] = std::ranges::minmax_element(a, less);
-    const auto [b_low, b_high] = std::ranges::minmax_element(b, less);
-    return x[*a_high][axis] < x[*b_low][axis] ? -1 : x[*b_high][axis] < x[*a_low][axis] ? 1 : 0;
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int before = order(motion.begin(step), axis);
-    if (before != 0 && before == order(motion.end(step), axis)) return true;
-  }
-  return false;
-}
-
 /// In space, where the plane of a motion is one in it.
 Ends at_rest(const std::vector<Position>& x, const Feature& vertices, bool flat) {
   Ends ends;
@@ -107,7 +92,7 @@ bool cells_meet_at_begin(const FrameMotion& motion, std::size_t step, const Feat
 
 /// Adds what two cells do in a step.
 void add(const FrameMotion& motion, std::size_t step, const Feature& a, const Feature& b, MotionTruth& truth) {
-  if (boxes_apart(motion, step, a, b)) return;
+  if (boxes_apart(motion.dimension(), motion.begin(step), motion.end(step), a, b, 0)) return;
   if ((step == 0 || motion.at_rest()) && !truth.initial) truth.initial = cells_meet_at_begin(motion, step, a, b);
   for (const FeatureTwo& pair : largest(disjoint_pairs(a, b, motion.dimension() == 2 ? 3 : 4))) {
     const oracle::Answer answer = answer_of(motion, step, pair);
@@ -122,6 +107,23 @@ void add(const FrameMotion& motion, std::size_t step, const Feature& a, const Fe
 }
 
 }  // namespace
+
+bool boxes_apart(int dimension, const std::vector<Position>& begin, const std::vector<Position>& end, const Feature& a,
+                 const Feature& b, double distance) {
+  // Half of a gap, rounded, is less than the gap.
+  const auto beyond = [&](double low, double high) { return low > high && (low - high) / 2 >= distance; };
+  const auto order = [&](const std::vector<Position>& x, std::size_t axis) {
+    const auto less = [&](VertexId v, VertexId w) { return x[v][axis] < x[w][axis]; };
+    const auto [a_low, a_high] = std::ranges::minmax_element(a, less);
+    const auto [b_low, b_high] = std::ranges::minmax_element(b, less);
+    return beyond(x[*b_low][axis], x[*a_high][axis]) ? -1 : beyond(x[*a_low][axis], x[*b_high][axis]) ? 1 : 0;
+  };
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis) {
+    const int before = order(begin, axis);
+    if (before != 0 && before == order(end, axis)) return true;
+  }
+  return false;
+}
 
 std::string words(const FeatureTwo& features) {
   return fmt::format("{} | {}", fmt::join(features[0], " "), fmt::join(features[1], " "));
