@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/checker.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -41,41 +40,14 @@ int wait_for(pid_t pid) {
 
 }  // namespace
 
-/// Both ends are closed with it.
-class CheckerProcess::Pipe {
- public:
-  Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail("a pipe");
-  }
-  ~Pipe() {
-    close(0);
-    close(1);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  int end(std::size_t i) const { return ends_[i]; }
-  void close(std::size_t i) {
-    if (ends_[i] >= 0) ::close(ends_[i]);
-    ends_[i] = -1;
-  }
-  /// Who uses this end asks before whether it would have to wait.
-  void never_wait(std::size_t i) const {
-    if (::fcntl(ends_[i], F_SETFL, O_NONBLOCK) != 0) fail("a pipe");
-  }
-
- private:
-  std::array<int, 2> ends_{-1, -1};
-};
-
 CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
                                const std::vector<fs::path>& trajectory, Deadline deadline)
-    : checker_(checker), deadline_(deadline), words_(std::make_unique<Pipe>()) {
+    : checker_(checker), deadline_(deadline), words_(std::make_unique<audit::Pipe>()) {
   std::vector<std::string> arguments = {beside_this_program(name_of(checker)).string(),
                                         proof ? name_of_file(*proof) : "-"};
   for (const fs::path& path : trajectory) arguments.push_back(name_of_file(path));
   if (!proof) {
-    proof_ = std::make_unique<Pipe>();
+    proof_ = std::make_unique<audit::Pipe>();
     proof_->never_wait(1);
   }
   words_->never_wait(0);

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "noli/audit/pipe.h"
 #include "noli/trajectory/block_sink.h"
 
 namespace noli::app {
@@ -47,7 +48,6 @@ class CheckerProcess {
   std::optional<CheckerVerdict> finish();
 
  private:
-  class Pipe;
   /// Whether the pipe's end can be read or written; false once the wait is over.
   bool ready(int end, short event) const;
   std::string why();
@@ -55,7 +55,7 @@ class CheckerProcess {
 
   Checker checker_;
   Deadline deadline_;
-  std::unique_ptr<Pipe> proof_, words_;
+  std::unique_ptr<audit::Pipe> proof_, words_;
   pid_t pid_ = -1;
 };
 

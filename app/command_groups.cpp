@@ -7,7 +7,12 @@ CLI::App& add_fuzz(CLI::App& app) {
   CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
   fuzz->require_subcommand(1);
   fuzz->footer(
-      "Examples:\n  noli fuzz queries --for 60s --seed 1\n  noli fuzz queries --library ./mine.so --for 60s\n"
+      "Examples:\n"
+      "  noli fuzz queries --for 60s --seed 1\n"
+      "  noli fuzz queries --library ./mine.so --for 60s\n"
+      "  noli fuzz trajectories --for 60s --seed 1\n"
+      "  noli fuzz scenes --for 60s --seed 1\n"
+      "  noli fuzz proofs --for 60s --seed 1\n"
       "`noli fuzz queries --help` says more.");
   return *fuzz;
 }

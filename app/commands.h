@@ -29,6 +29,9 @@ Command add_report(CLI::App& app);
 CLI::App& add_fuzz(CLI::App& app);
 CLI::App& add_audit(CLI::App& app);
 Command add_fuzz_queries(CLI::App& fuzz);
+Command add_fuzz_trajectories(CLI::App& fuzz);
+Command add_fuzz_proofs(CLI::App& fuzz);
+Command add_fuzz_scenes(CLI::App& fuzz);
 Command add_audit_ccd(CLI::App& audit);
 
 }  // namespace noli::app

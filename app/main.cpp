@@ -53,9 +53,15 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
   CLI::App &fuzz = add_fuzz(app), &audit = add_audit(app);
-  const std::vector<Command> commands = {add_verify(app),        add_check(app),      add_ccd(app),    add_info(app),
-                                         add_simulate(app),      add_explain(app),    add_export(app), add_report(app),
-                                         add_fuzz_queries(fuzz), add_audit_ccd(audit)};
+  const std::vector<Command> commands = {
+      add_verify(app),        add_check(app),
+      add_ccd(app),           add_info(app),
+      add_simulate(app),      add_explain(app),
+      add_export(app),        add_report(app),
+      add_fuzz_queries(fuzz), add_fuzz_trajectories(fuzz),
+      add_fuzz_proofs(fuzz),  add_fuzz_scenes(fuzz),
+      add_audit_ccd(audit),
+  };
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

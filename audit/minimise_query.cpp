@@ -45,13 +45,6 @@ double cut(double x, int bits) {
   return std::ldexp(std::trunc(std::ldexp(mantissa, bits)), exponent - bits);
 }
 
-/// Values to try in place of x, the simplest first.
-std::vector<double> simpler(double x) {
-  std::vector<double> candidates = {0.0, 1.0, -1.0, std::abs(x), std::trunc(x), std::trunc(x / 2), x / 2, x * 2};
-  for (const int bits : {1, 2, 3, 5, 8, 12, 16, 20, 26, 32, 40, 48, 52}) candidates.push_back(cut(x, bits));
-  return candidates;
-}
-
 class Minimiser {
  public:
   Minimiser(const AnyQuery& query, const FirstFailure& first_failure, std::size_t budget)
@@ -229,7 +222,7 @@ class Minimiser {
   }
 
   bool simplify_coordinate(std::array<Point3, 4> AnyQuery::*points, std::size_t i, std::size_t axis) {
-    std::vector<double> values = simpler((query_.*points)[i][axis]);
+    std::vector<double> values = simpler_numbers((query_.*points)[i][axis]);
     const std::vector<double> others = numbers(query_);
     values.insert(values.end(), others.begin(), others.end());
     std::vector<AnyQuery> candidates(values.size(), query_);
@@ -246,6 +239,12 @@ class Minimiser {
 };
 
 }  // namespace
+
+std::vector<double> simpler_numbers(double x) {
+  std::vector<double> candidates = {0.0, 1.0, -1.0, std::abs(x), std::trunc(x), std::trunc(x / 2), x / 2, x * 2};
+  for (const int bits : {1, 2, 3, 5, 8, 12, 16, 20, 26, 32, 40, 48, 52}) candidates.push_back(cut(x, bits));
+  return candidates;
+}
 
 int complexity(double x) {
   if (x == 0) return std::signbit(x) ? 1 : 0;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "noli/audit/any_query.h"
 
@@ -17,6 +18,9 @@ namespace noli::audit {
 /// How complicated a number is: 0 for +0.0, else what it takes to write it down in binary (significant bits, distance
 /// of the exponent from 0, sign).
 int complexity(double x);
+
+/// Values to try in place of x, the simplest first; they may be more complicated than x, or infinite.
+std::vector<double> simpler_numbers(double x);
 
 /// The sum over all coordinates that count.
 int complexity(const AnyQuery& query);

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS noli_kernel noli_trajectory noli_proofs noli_flags noli_rounding EXPORT noliTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS noli noli_check noli_ccd_host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS noli noli_check noli_ccd_host noli_check_host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(layer kernel trajectory proofs)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/noli FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -21,9 +21,9 @@ std::size_t depth(const std::string& line) {
 std::vector<ExampleCommand> worked_example(const std::string& page, const std::string& heading) {
   std::ifstream document(std::string(NOLI_SOURCE_DIR) + "/" + page);
   std::vector<ExampleCommand> commands;
-  bool inside = false;
+  bool inside = heading.empty();
   for (std::string line; std::getline(document, line);) {
-    if (depth(line) > 0 && depth(line) <= depth(heading)) inside = line == heading;
+    if (!heading.empty() && depth(line) > 0 && depth(line) <= depth(heading)) inside = line == heading;
     if (!inside) continue;
     if (line.starts_with("    $ ")) {
       commands.push_back({line.substr(6), ""});

@@ -15,8 +15,9 @@ struct ExampleCommand {
   std::string said;  ///< the first line that it prints; "" where nothing is said to follow
 };
 
-/// Those of the part of a page that begins with the line `heading` and ends where a heading of the same depth begins.
-std::vector<ExampleCommand> worked_example(const std::string& page, const std::string& heading);
+/// Those of the part of a page that begins with the line `heading` and ends where a heading of the same depth begins;
+/// without one, of the whole page.
+std::vector<ExampleCommand> worked_example(const std::string& page, const std::string& heading = "");
 
 std::string replaced(std::string text, const std::string& from, const std::string& to);
 

@@ -67,6 +67,7 @@ TEST(InstallSlow, WhatIsInstalledStandsOnItsOwn) {
   EXPECT_TRUE(fs::exists(folder.path() / "include" / "noli" / "ccd_plugin.h"));
   EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli"));
   EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli_ccd_host"));
+  EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli_check_host"));
 }
 
 }  // namespace

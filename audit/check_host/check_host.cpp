@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// mutate_harness FOLDER: the checker of proofs (proofs/checker/main.cpp, included whole) in a process that checks one
-// proof after another, for tests/proofs/run_mutants.py. Standard input is a sequence of
+// noli_check_host FOLDER: the checker of proofs (proofs/checker/main.cpp, included whole) in a process that checks one
+// proof after another, for `noli fuzz proofs` and tests/proofs/run_mutants.py. Standard input is a sequence of
 //
 //   F  name data                writes the file FOLDER/name
 //   R  count name...            runs the checker in this process with these arguments, files in FOLDER
@@ -25,7 +25,7 @@
 namespace {
 
 [[noreturn]] void stop(const char* why) {
-  std::fprintf(stderr, "mutate_harness: %s\n", why);
+  std::fprintf(stderr, "noli_check_host: %s\n", why);
   std::exit(4);
 }
 

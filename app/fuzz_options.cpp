@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/fuzz_options.h"
+
+#include <limits>
+
+#include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/options.h"
+
+namespace noli::app {
+
+void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const std::string& what) {
+  command.add_option("--for", arguments.duration, "Stop after this time: 500ms, 60s, 5m, 1h (60s, without --count)")
+      ->type_name("TIME");
+  command.add_option("--count", arguments.limits.count, "Stop after so many " + what)
+      ->check(whole_number(1, std::uint64_t{1} << 60))
+      ->type_name("N");
+  command.add_option("--seed", arguments.limits.seed, "What the " + what + " depend on")
+      ->capture_default_str()
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->type_name("S");
+  add_threads_option(command, arguments.limits.threads);
+  command.add_option("--out", arguments.out, "Folder for findings, made when there is one")
+      ->capture_default_str()
+      ->type_name("DIR");
+  add_json_option(command, arguments.json);
+}
+
+void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
+                       std::vector<std::string> excluded) {
+  CLI::Option* const replay =
+      command.add_option("--replay", arguments.replay, "Judge this saved " + what + " again instead")->type_name(type);
+  CLI::Option* const minimise =
+      command.add_option("--minimise", arguments.minimise, "Make this saved " + what + " smaller, into --out, instead")
+          ->type_name(type);
+  replay->excludes(minimise);
+  excluded.insert(excluded.end(), {"--count", "--for", "--seed"});
+  for (const std::string& name : excluded) {
+    replay->excludes(command.get_option(name));
+    minimise->excludes(command.get_option(name));
+  }
+}
+
+void settle_limits(FuzzArgumentsInCommon& arguments) {
+  if (arguments.duration || !arguments.limits.count) {
+    arguments.limits.time_limit = parse_duration(arguments.duration.value_or("60s"), "--for");
+  }
+  arguments.limits.stop = &interrupted();
+}
+
+const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent) {
+  if (extent.interrupted) return "undecided";
+  if (findings > 0) return "finding";
+  return extent.items == 0 ? "undecided" : "no_finding";
+}
+
+ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent) {
+  if (extent.interrupted) return ExitCode::undecided;
+  if (findings > 0) return ExitCode::refuted;
+  return extent.items == 0 ? ExitCode::undecided : ExitCode::holds;
+}
+
+}  // namespace noli::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options that the fuzzers of motions, scenes and proofs have in common, in the same words, and their verdicts.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/app/exit_code.h"
+#include "noli/audit/fuzz_blocks.h"
+
+namespace noli::app {
+
+/// --seed, --count, --for, --threads, --out, --json.
+struct FuzzArgumentsInCommon {
+  audit::FuzzLimits limits;
+  std::optional<std::string> duration;
+  std::string out = "fuzz-findings";
+  std::optional<std::string> json;
+};
+
+/// `what` are the items: "motions".
+void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const std::string& what);
+
+/// --replay and --minimise: something that was saved, judged again instead of fuzzing.
+struct AgainArguments {
+  std::optional<std::string> replay, minimise;
+
+  bool given() const { return replay || minimise; }
+  const std::string& saved() const { return replay ? *replay : *minimise; }
+};
+
+/// `what` was saved: "motion"; `type`: "FOLDER". After add_fuzz_options and whatever else has to do with fuzzing:
+/// options of these names exclude both.
+void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
+                       std::vector<std::string> excluded);
+
+/// Makes limits of what was given: a minute if nothing was. Throws UsageError.
+void settle_limits(FuzzArgumentsInCommon& arguments);
+
+/// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", "no_finding".
+const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent);
+ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent);
+
+}  // namespace noli::app

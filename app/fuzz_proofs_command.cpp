@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+
+#include "noli/app/checker.h"
+#include "noli/app/commands.h"
+#include "noli/app/fuzz_options.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/json.h"
+#include "noli/app/machine.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/app/progress.h"
+#include "noli/app/scratch_folder.h"
+#include "noli/audit/fuzz_proofs.h"
+#include "noli/audit/motion_generators.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "Breaks good proofs in many ways, with and without putting checksums and hashes right again. Both checkers have to "
+    "say the same\n"
+    "of a mutant, and none may be accepted whose claim is false: that is decided by an oracle that does not look at "
+    "the "
+    "proof.\n"
+    "Without a proof of your own: proofs of small motions (noli fuzz trajectories) made for it. Exit 0: no finding; 1: "
+    "findings;\n"
+    "2: interrupted. With --count the result depends on the seed and the proofs alone. audit/FUZZ-PROOFS.md says "
+    "more.\n"
+    "Examples:\n"
+    "  noli fuzz proofs --for 60s --seed 1\n"
+    "  noli fuzz proofs proof.noli before.ply after.ply --count 100000\n"
+    "  noli fuzz proofs runs/chain/proof.blocks runs/chain --verified-every 1";
+
+struct ProofsArguments {
+  FuzzArgumentsInCommon common;
+  std::vector<fs::path> files;
+  std::uint64_t verified_every = 50;
+};
+
+/// Of a proof and its trajectory, which the checker has to take.
+audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& trajectory) {
+  CheckerProcess checker(Checker::plain, proof, trajectory, std::nullopt);
+  const auto said = checker.finish();
+  if (!said) throw ReadInterrupted(proof.string());
+  if (said->code == 3) {
+    throw InputError(proof.string(), "",
+                     "expected a proof that holds: " + said->words.substr(0, said->words.find('\n')));
+  }
+  audit::ProofCase made;
+  made.name = proof.filename().string();
+  made.proof = read_whole_file(proof);
+  made.groups = audit::parse_proof(made.proof, proof.string());
+  made.extension = trajectory[0].extension().string().substr(1);
+  for (const fs::path& file : trajectory) made.files.push_back(read_whole_file(file));
+  made.refutes = said->code == 1;
+  return made;
+}
+
+/// Proofs and witnesses of small motions, with all sorts of claims.
+std::vector<audit::ProofCase> made_cases(const fs::path& folder) {
+  const std::vector<std::vector<std::string>> claims = {{},
+                                                        {"--strict"},
+                                                        {"--points"},
+                                                        {"--min-distance", "1e-9"},
+                                                        {"--min-distance", "1e-6", "--min-distance-from-ring", "2"}};
+  audit::Random random(1);
+  std::vector<audit::ProofCase> cases;
+  for (std::size_t i = 0; i < 60; ++i) {
+    const auto generators = audit::motion_generators();
+    const audit::FrameMotion motion = generators[i % generators.size()].make(random).motion;
+    const fs::path desk = folder / fmt::format("case-{}", i), proof = desk / "proof.noli";
+    fs::create_directories(desk);
+    std::vector<std::string> words = {
+        beside_this_program("noli").string(), "verify", "--threads", "1", "--no-check", "--proof", proof};
+    if (motion.at_rest()) words.emplace_back("--static");
+    const auto& claim = claims[i % claims.size()];
+    words.insert(words.end(), claim.begin(), claim.end());
+    const std::vector<fs::path> files = audit::write_frames(motion, desk);
+    for (const fs::path& file : files) words.push_back(file);
+    audit::ProgramLimits limits;
+    limits.stop = &interrupted();
+    const audit::ProgramEnd end = audit::run_program(words, limits);
+    const bool decided = end.exited_with(0) || end.exited_with(1);
+    if (!decided || motion.mesh.cell_count() > 12) continue;
+    try {
+      cases.push_back(read_case(proof, files));
+      cases.back().name = fmt::format("{} {}", generators[i % generators.size()].name, i);
+    } catch (const InputError&) {  // a contact without a witness: there is nothing to mutate
+    }
+  }
+  return cases;
+}
+
+Json tally_json(const audit::CodeTally& tally) {
+  return {{"accepted", tally.accepted}, {"refuted", tally.refuted}, {"rejected", tally.rejected}};
+}
+
+Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
+                 double seconds) {
+  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
+               {"seed", arguments.common.limits.seed},
+               {"mutants", report.extent.items},
+               {"findings", report.findings_total},
+               {"proofs", cases},
+               {"checked_verified", report.checked_verified},
+               {"judged", report.judged},
+               {"not_judged", report.not_judged},
+               {"codes", tally_json(report.codes)}};
+  json["mutations"] = Json::object();
+  for (const auto& [name, tally] : report.mutations) json["mutations"][name] = tally_json(tally);
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) {
+    json["reports"].push_back({{"proof", finding.name},
+                               {"mutations", finding.mutations},
+                               {"block", finding.block},
+                               {"index", finding.index},
+                               {"difference", finding.difference},
+                               {"folder", finding.folder.string()}});
+  }
+  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
+  return json;
+}
+
+std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
+                        double seconds) {
+  std::string text = fmt::format(
+      "verdict {} mutants {} findings {} accepted {} refuted {} rejected {} judged {} seed {}\n",
+      fuzz_verdict(report.findings_total, report.extent), report.extent.items, report.findings_total,
+      report.codes.accepted, report.codes.refuted, report.codes.rejected, report.judged, arguments.common.limits.seed);
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "finding: {}, block {}, mutant {}, {}: {}; {}\n", finding.name, finding.block, finding.index,
+                   finding.mutations, on_one_line(finding.difference),
+                   finding.folder.empty() ? "not saved" : "saved as " + on_one_line(finding.folder.string()));
+  }
+  for (const auto& [name, tally] : report.mutations) {
+    fmt::format_to(out, "  {:26} accepted {:7} refuted {:7} rejected {:7}\n", name, tally.accepted, tally.refuted,
+                   tally.rejected);
+  }
+  fmt::format_to(out, "Proofs: {}. The verified checker looked at {} mutants. Not judged: {}. Time: {:.1f} s.\n", cases,
+                 report.checked_verified, report.not_judged, seconds);
+  return text;
+}
+
+ExitCode run(ProofsArguments& arguments) {
+  settle_limits(arguments.common);
+  if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
+  const Output output(arguments.common.json, arguments.files);
+  require_writable_folder(arguments.common.out, "--out");
+  const ScratchFolder scratch;
+  audit::ProofFuzzOptions options;
+  options.limits = arguments.common.limits;
+  options.out = arguments.common.out;
+  options.verified_every = arguments.verified_every;
+  if (arguments.files.empty()) {
+    options.cases = made_cases(scratch.path());
+  } else {
+    options.cases = {
+        read_case(arguments.files[0], trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()}))};
+  }
+  if (options.cases.empty()) throw std::runtime_error("no proof could be made to begin with");
+  std::atomic<std::uint64_t> desks = 0;
+  const auto new_desk = [&] {
+    const fs::path desk = scratch.path() / fmt::format("desk-{}", desks++);
+    fs::create_directory(desk);
+    return desk;
+  };
+  options.plain = [&] {
+    return audit::hosted_checker(beside_this_program("noli_check_host"), new_desk(), std::chrono::seconds(20));
+  };
+  const fs::path verified = beside_this_program("noli_check_verified");
+  if (fs::exists(verified)) {
+    options.verified = [&] {
+      audit::ProgramLimits limits;
+      limits.stop = &interrupted();
+      return audit::program_checker(verified, new_desk(), limits);
+    };
+  } else {
+    std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
+  }
+  const Stopwatch watch;
+  const audit::ProofFuzzReport report = [&] {
+    Progress bar("fuzz proofs");
+    options.limits.progress = [&](double share) { bar.show(share); };
+    return audit::fuzz_proofs(options);
+  }();
+  const double seconds = watch.seconds();
+  output.write(report_text(arguments, report, options.cases.size(), seconds),
+               report_json(arguments, report, options.cases.size(), seconds));
+  return fuzz_exit_code(report.findings_total, report.extent);
+}
+
+}  // namespace
+
+Command add_fuzz_proofs(CLI::App& fuzz) {
+  CLI::App* const command = fuzz.add_subcommand("proofs", "Broken proofs, on which both checkers have to agree");
+  command->footer(footer);
+  const auto arguments = std::make_shared<ProofsArguments>();
+  command->add_option("files", arguments->files, "A proof, then the PLY or OBJ files, or the run, that it is about")
+      ->type_name("PROOF TRAJECTORY");
+  add_fuzz_options(*command, arguments->common, "mutants");
+  command
+      ->add_option(
+          "--verified-every", arguments->verified_every,
+          "Ask the verified checker about one mutant of so many, and about all that are accepted of a changed claim")
+      ->check(whole_number(1, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("N");
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

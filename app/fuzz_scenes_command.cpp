@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <iterator>
+#include <memory>
+
+#include "noli/app/commands.h"
+#include "noli/app/fuzz_options.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/json.h"
+#include "noli/app/machine.h"
+#include "noli/app/output.h"
+#include "noli/app/progress.h"
+#include "noli/app/scratch_folder.h"
+#include "noli/audit/fuzz_scenes.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "Small scenes with one thing about them extreme: each is simulated, its run verified and its proof checked, and "
+    "simulated again\n"
+    "with an interruption, after which it has to go on with the same bytes. Some are wrong in one place, which the "
+    "message has to name.\n"
+    "A finding is made smaller and saved as a scene, with the command that shows it again. Exit 0: no finding; 1: "
+    "findings; 2:\n"
+    "interrupted. With --count the scenes depend on the seed alone. audit/FUZZ-SCENES.md says more.\n"
+    "Examples:\n"
+    "  noli fuzz scenes --for 60s --seed 1\n"
+    "  noli fuzz scenes --count 10000 --json result.json\n"
+    "  noli fuzz scenes --replay fuzz-findings/seed1-block3-index2-fast/scene.json\n"
+    "  noli fuzz scenes --minimise scene.json --out smaller";
+
+struct ScenesArguments {
+  FuzzArgumentsInCommon common;
+  AgainArguments again;
+  std::optional<std::string> wrong_place;
+};
+
+/// `noli` itself, as a program of its own.
+audit::RunNoli this_program() {
+  return [noli = beside_this_program("noli").string()](const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {noli};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    audit::ProgramLimits limits;
+    limits.stop = &interrupted();
+    limits.time = std::chrono::seconds(120);
+    return audit::run_program(std::move(words), limits);
+  };
+}
+
+Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
+  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
+               {"seed", arguments.common.limits.seed},
+               {"scenes", report.extent.items},
+               {"findings", report.findings_total},
+               {"verified", report.verified},
+               {"resumed", report.resumed}};
+  json["ends"] = Json::object();
+  for (const auto& [generator, ends] : report.ends) {
+    for (const auto& [end, count] : ends) json["ends"][generator][end] = count;
+  }
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) {
+    json["reports"].push_back({{"generator", finding.generator},
+                               {"block", finding.block},
+                               {"index", finding.index},
+                               {"difference", finding.difference},
+                               {"file", finding.file.string()}});
+  }
+  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
+  return json;
+}
+
+std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
+  std::string text = fmt::format("verdict {} scenes {} findings {} verified {} resumed {} seed {}\n",
+                                 fuzz_verdict(report.findings_total, report.extent), report.extent.items,
+                                 report.findings_total, report.verified, report.resumed, arguments.common.limits.seed);
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "finding: {}, block {}, scene {}: {}; {}\n", finding.generator, finding.block, finding.index,
+                   finding.difference,
+                   finding.file.empty() ? "not saved" : "saved as " + on_one_line(finding.file.string()));
+  }
+  for (const auto& [generator, ends] : report.ends) {
+    fmt::format_to(out, "  {:17}", generator);
+    for (const auto& [end, count] : ends) fmt::format_to(out, " {} {};", end, count);
+    text += '\n';
+  }
+  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
+  return text;
+}
+
+ExitCode fuzz(ScenesArguments& arguments) {
+  settle_limits(arguments.common);
+  const Output output(arguments.common.json, {});
+  require_writable_folder(arguments.common.out, "--out");
+  const ScratchFolder scratch;
+  audit::SceneFuzzOptions options;
+  options.limits = arguments.common.limits;
+  options.noli = this_program();
+  options.desk = scratch.path();
+  options.out = arguments.common.out;
+  const Stopwatch watch;
+  const audit::SceneFuzzReport report = [&] {
+    Progress bar("fuzz scenes");
+    options.limits.progress = [&](double share) { bar.show(share); };
+    return audit::fuzz_scenes(options);
+  }();
+  const double seconds = watch.seconds();
+  output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  return fuzz_exit_code(report.findings_total, report.extent);
+}
+
+audit::SceneJson read_scene(const fs::path& file) {
+  try {
+    return audit::SceneJson::parse(read_whole_file(file));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file.string(), "", std::string("expected a scene: ") + error.what());
+  }
+}
+
+/// A saved scene again, as it is or made smaller.
+ExitCode again(const ScenesArguments& arguments) {
+  const fs::path file = arguments.again.saved();
+  const Output output(arguments.common.json, {file});
+  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  audit::SceneJson scene = read_scene(file);
+  const ScratchFolder scratch;
+  const audit::RunNoli noli = this_program();
+  int number = 0;
+  const auto judge = [&](const audit::SceneJson& candidate) {
+    const fs::path folder = scratch.path() / std::to_string(number++);
+    fs::create_directory(folder);
+    return audit::judge_scene({candidate, arguments.wrong_place}, noli, folder);
+  };
+  audit::SceneJudgement judgement = judge(scene);
+  if (judgement.difference && arguments.again.minimise) {
+    const std::string kind = judgement.difference->substr(0, judgement.difference->find(':'));
+    scene = audit::minimise(
+        scene,
+        [&](const audit::SceneJson& candidate) {
+          const auto what = judge(candidate).difference;
+          return what && what->starts_with(kind + ':');
+        },
+        1000);
+    judgement = judge(scene);
+    make_writable_folder(arguments.common.out, "--out");
+    write_file(fs::path(arguments.common.out) / "scene.json", scene.dump(2) + '\n');
+  }
+  if (judgement.stopped) return ExitCode::undecided;
+  const char* const word = judgement.difference ? "finding" : "no_finding";
+  output.write(fmt::format("verdict {} end {} verified {} resumed {}\n{}", word, judgement.end, judgement.verified,
+                           judgement.resumed, judgement.difference ? *judgement.difference + "\n" : ""),
+               {{"verdict", word},
+                {"end", judgement.end},
+                {"verified", judgement.verified},
+                {"resumed", judgement.resumed},
+                {"difference", judgement.difference ? Json(*judgement.difference) : Json()}});
+  return judgement.difference ? ExitCode::refuted : ExitCode::holds;
+}
+
+}  // namespace
+
+Command add_fuzz_scenes(CLI::App& fuzz_app) {
+  CLI::App* const command =
+      fuzz_app.add_subcommand("scenes", "Extreme and invalid scenes, through simulate, verify, check and resume");
+  command->footer(footer);
+  const auto arguments = std::make_shared<ScenesArguments>();
+  add_fuzz_options(*command, arguments->common, "scenes");
+  add_again_options(*command, arguments->again, "scene", "SCENE.json", {});
+  command
+      ->add_option("--wrong-place", arguments->wrong_place,
+                   "With --replay or --minimise: the scene is wrong there, as in /bodies/0/mesh")
+      ->type_name("PLACE");
+  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : fuzz(*arguments); }};
+}
+
+}  // namespace noli::app

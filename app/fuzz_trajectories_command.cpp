@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iterator>
+#include <memory>
+
+#include "noli/app/commands.h"
+#include "noli/app/fuzz_options.h"
+#include "noli/app/json.h"
+#include "noli/app/machine.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/app/progress.h"
+#include "noli/app/verify_program.h"
+#include "noli/audit/motion_generators.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "Motions of small meshes whose contacts are planted at a known time and place, or missed by one unit: written as "
+    "PLY or OBJ,\n"
+    "read back, given to `noli verify`, and its proof or witness to both checkers. A wrong answer is made smaller and "
+    "saved as\n"
+    "frames, with the command that shows it again. Exit 0: no finding; 1: findings; 2: interrupted. With --count and "
+    "without a\n"
+    "corpus the result depends on the seed alone. audit/FUZZ-TRAJECTORIES.md says more.\n"
+    "Examples:\n"
+    "  noli fuzz trajectories --for 60s --seed 1\n"
+    "  noli fuzz trajectories --count 100000 --threads 2 --corpus corpus --json result.json\n"
+    "  noli fuzz trajectories --replay fuzz-findings/seed1-block3-index7-border\n"
+    "  noli fuzz trajectories --minimise fuzz-findings/seed1-block3-index7-border --out smaller";
+
+struct TrajectoriesArguments {
+  FuzzArgumentsInCommon common;
+  AgainArguments again;
+  std::optional<std::string> corpus;
+  bool needs_witness = false;
+  std::uint64_t verified_every = 1;
+};
+
+Json report_json(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
+  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
+               {"seed", arguments.common.limits.seed},
+               {"trajectories", report.extent.items},
+               {"findings", report.findings_total},
+               {"checked", {{"plain", report.checked_plain}, {"verified", report.checked_verified}}},
+               {"shapes", report.shapes},
+               {"corpus", report.corpus_size}};
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) {
+    json["reports"].push_back({{"generator", finding.generator},
+                               {"block", finding.block},
+                               {"index", finding.index},
+                               {"difference", finding.difference},
+                               {"folder", finding.folder.string()}});
+  }
+  json["generators"] = Json::array();
+  for (const auto& generator : report.generators) {
+    json["generators"].push_back({{"name", generator.name},
+                                  {"apart", generator.apart},
+                                  {"contact", generator.contact},
+                                  {"without_witness", generator.without_witness}});
+  }
+  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
+  return json;
+}
+
+std::string report_text(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
+  std::string text = fmt::format("verdict {} trajectories {} findings {} checked {} seed {}\n",
+                                 fuzz_verdict(report.findings_total, report.extent), report.extent.items,
+                                 report.findings_total, report.checked_plain, arguments.common.limits.seed);
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "finding: {}, block {}, motion {}: {}; {}\n", finding.generator, finding.block, finding.index,
+                   on_one_line(finding.difference),
+                   finding.folder.empty() ? "not saved" : "saved as " + on_one_line(finding.folder.string()));
+  }
+  for (const auto& generator : report.generators) {
+    fmt::format_to(out, "  {:12} apart {:6} contact {:6} without_witness {}\n", generator.name, generator.apart,
+                   generator.contact, generator.without_witness);
+  }
+  if (arguments.corpus) fmt::format_to(out, "Corpus: {} motions.\n", report.corpus_size);
+  fmt::format_to(out, "The verified checker looked at {} proofs. Shapes: {}. Time: {:.1f} s.\n",
+                 report.checked_verified, report.shapes, seconds);
+  return text;
+}
+
+ExitCode fuzz(TrajectoriesArguments& arguments) {
+  settle_limits(arguments.common);
+  const Output output(arguments.common.json, {});
+  require_writable_folder(arguments.common.out, "--out");
+  if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
+  VerifyProgram subject(arguments.verified_every);
+  if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
+  audit::TrajectoryOptions options;
+  options.limits = arguments.common.limits;
+  options.decide = [&](const audit::FrameMotion& motion) { return subject(motion); };
+  options.out = arguments.common.out;
+  if (arguments.corpus) options.corpus = *arguments.corpus;
+  options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
+  const Stopwatch watch;
+  const audit::TrajectoryReport report = [&] {
+    Progress bar("fuzz trajectories");
+    options.limits.progress = [&](double share) { bar.show(share); };
+    return audit::fuzz_trajectories(options);
+  }();
+  const double seconds = watch.seconds();
+  output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  return fuzz_exit_code(report.findings_total, report.extent);
+}
+
+/// A saved motion again, as it is or made smaller.
+ExitCode again(const TrajectoriesArguments& arguments) {
+  const fs::path folder = arguments.again.saved();
+  if (!fs::is_directory(folder))
+    throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
+  const Output output(arguments.common.json, {});
+  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  audit::FrameMotion motion = audit::read_frames(folder);
+  VerifyProgram subject(1);
+  const auto what = [&](const audit::FrameMotion& candidate) {
+    return audit::difference(
+        candidate, [&](const auto& one) { return subject(one); }, arguments.needs_witness);
+  };
+  auto found = what(motion);
+  if (found && arguments.again.minimise) {
+    const std::string kind = found->substr(0, found->find(':'));
+    motion = audit::minimise(
+        motion,
+        [&](const audit::FrameMotion& candidate) {
+          const auto difference = what(candidate);
+          return difference && difference->starts_with(kind + ':');
+        },
+        5000);
+    found = what(motion);
+    make_writable_folder(arguments.common.out, "--out");
+    audit::write_frames(motion, arguments.common.out);
+  }
+  const char* const word = found ? "finding" : "no_finding";
+  std::string text = fmt::format("verdict {} frames {} cells {} vertices {}\n", word, motion.frames.size(),
+                                 motion.mesh.cell_count(), motion.mesh.vertex_count);
+  if (found) text += on_one_line(*found) + '\n';
+  output.write(text, {{"verdict", word},
+                      {"frames", motion.frames.size()},
+                      {"cells", motion.mesh.cell_count()},
+                      {"vertices", motion.mesh.vertex_count},
+                      {"difference", found ? Json(*found) : Json()}});
+  return found ? ExitCode::refuted : ExitCode::holds;
+}
+
+}  // namespace
+
+Command add_fuzz_trajectories(CLI::App& fuzz_app) {
+  CLI::App* const command = fuzz_app.add_subcommand(
+      "trajectories", "Motions with planted contacts, through files, verifier, proof and both checkers");
+  command->footer(footer);
+  const auto arguments = std::make_shared<TrajectoriesArguments>();
+  add_fuzz_options(*command, arguments->common, "motions");
+  command
+      ->add_option("--corpus", arguments->corpus, "Folder of motions that reached something new: run first, added to")
+      ->type_name("DIR");
+  command
+      ->add_option("--verified-every", arguments->verified_every,
+                   "Ask the verified checker about one motion of so many")
+      ->check(whole_number(1, 1'000'000))
+      ->capture_default_str()
+      ->type_name("N");
+  add_again_options(*command, arguments->again, "motion", "FOLDER", {"--corpus"});
+  command->add_flag("--needs-witness", arguments->needs_witness,
+                    "With --replay or --minimise: a contact without a witness is a finding");
+  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : fuzz(*arguments); }};
+}
+
+}  // namespace noli::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fuzzing of the checkers of proofs: mutants of good proofs and of the trajectories that they are about
+// (audit/proof_mutations.h), on which the checkers have to agree, and none of which may be accepted that says what is not
+// true.
+//
+// Notation
+//   case     a good proof that mutants are made of
+//   truth    whether a mutant's claim holds of its trajectory. Where neither was changed, what was true of the case is;
+//            where one was, the slow oracle tells (audit/claim_oracle.h), whatever the proof says
+//   finding  a mutant on which the two checkers differ; that one of them accepts as a proof although its claim is false,
+//            or as a witness although it is true; on which one crashes, hangs, or ends as it must not
+//
+// What this does not do: a mutant that is rejected although its proof is good is none; a changed claim about a run is not
+// judged, the checkers are only compared.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/audit/fuzz_blocks.h"
+#include "noli/audit/proof_checkers.h"
+#include "noli/audit/proof_mutations.h"
+
+namespace noli::audit {
+
+/// A checker for each thread that asks for one.
+using MakeChecker = std::function<std::unique_ptr<ProofChecker>()>;
+
+struct ProofFuzzOptions {
+  FuzzLimits limits;
+  std::vector<ProofCase> cases;  ///< at least one
+  MakeChecker plain;             ///< asked about every mutant
+  MakeChecker verified;          ///< empty: there is none
+  std::uint64_t verified_every =
+      50;                     ///< asked about one mutant of so many, and all that are accepted of a changed claim
+  std::filesystem::path out;  ///< folder, made for the first finding; empty: nothing is saved
+  std::size_t max_findings = 20;
+};
+
+struct ProofFinding {
+  std::string name;  ///< of the case
+  std::string mutations;
+  std::uint64_t block = 0;       ///< of the seed
+  std::size_t index = 0;         ///< within the block
+  std::string difference;        ///< in words
+  ProofFiles files;              ///< the mutant, made simpler: as much as possible is as in the case
+  std::filesystem::path folder;  ///< where it was saved; empty when it was not
+};
+
+/// What the plain checker said.
+struct CodeTally {
+  std::uint64_t accepted = 0, refuted = 0, rejected = 0;
+};
+
+struct ProofFuzzReport {
+  FuzzExtent extent;
+  CodeTally codes;
+  std::map<std::string, CodeTally> mutations;  ///< by name
+  std::uint64_t checked_verified = 0;
+  std::uint64_t judged = 0;      ///< accepted or refuted, of a changed claim or trajectory, and decided by the oracle
+  std::uint64_t not_judged = 0;  ///< the same, about a run
+  std::uint64_t findings_total = 0;
+  std::vector<ProofFinding> findings;
+};
+
+/// Runs until a limit; with a count the report is the same for any number of threads. Throws std::system_error when a
+/// finding cannot be saved.
+ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options);
+
+/// Whether the claim of a proof holds of its trajectory; nothing where that is not judged. `whole`: else only frames
+/// before the first that cannot be read count, as for a witness, behind whose step no checker looks. Throws InputError
+/// for what cannot be read.
+std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole);
+
+}  // namespace noli::audit

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/audit/fuzz_trajectories.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <set>
+#include <utility>
+
+#include "noli/audit/motion_generators.h"
+#include "noli/audit/run_program.h"
+#include "noli/trajectory/sha256.h"
+#include "noli/trajectory/text.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::audit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t motions_per_block = 16;
+
+/// A motion that was judged.
+struct Judged {
+  FrameMotion motion;
+  bool contact = false, needs_witness = false;
+  MotionAnswer answer;
+  std::optional<std::string> difference;
+};
+
+Judged judge(GeneratedMotion made, bool needs_witness, const DecideMotion& decide) {
+  Judged judged;
+  judged.motion = std::move(made.motion);
+  judged.needs_witness = needs_witness;
+  try {
+    const MotionTruth truth = truth_of(judged.motion);
+    judged.contact = truth.contact;
+    judged.answer = decide(judged.motion);
+    judged.difference = difference(judged.motion, truth, judged.answer, needs_witness);
+    if (const auto broken = broken_promise(judged.motion, made.planted, truth)) judged.difference = broken;
+    if (std::string fault = text_fault(judged.motion); !fault.empty()) judged.difference = "files: " + fault;
+  } catch (const std::exception& error) {
+    judged.difference = fmt::format("threw: {}", error.what());
+  }
+  return judged;
+}
+
+/// Of a difference: "contact", "first time", ...
+std::string_view kind_of(std::string_view difference) { return difference.substr(0, difference.find(':')); }
+
+/// Motions of different shapes, each in a folder of its own with the file `shape`.
+class Corpus {
+ public:
+  explicit Corpus(const fs::path& folder) : folder_(folder) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (fs::exists(entry.path() / "shape")) names_.push_back(entry.path().filename().string());
+    }
+    std::ranges::sort(names_);
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  FrameMotion motion(const std::string& name) const { return read_frames(folder_ / name); }
+
+  void add(const FrameMotion& motion, const std::string& shape) {
+    names_.push_back("shape-" + hex(sha256(shape)).substr(0, 16));
+    const fs::path folder = folder_ / names_.back();
+    fs::create_directories(folder);
+    write_frames(motion, folder);
+    write_file(folder / "shape", shape + '\n');
+  }
+
+ private:
+  fs::path folder_;
+  std::vector<std::string> names_;
+};
+
+class TrajectoryFuzzing {
+ public:
+  explicit TrajectoryFuzzing(const TrajectoryOptions& options) : options_(options) {
+    for (const MotionGenerator& generator : motion_generators())
+      report_.generators.push_back({std::string(generator.name), 0, 0, 0});
+    if (options.corpus) corpus_.emplace(*options.corpus);
+  }
+
+  TrajectoryReport run() {
+    if (corpus_) run_corpus();
+    report_.extent = fuzz_blocks(
+        options_.limits, motions_per_block,
+        [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
+        [this](std::vector<Judged> block) { take_block(std::move(block)); });
+    report_.extent.items = 0;  // an interruption leaves blocks that are not whole
+    for (const TrajectoryTally& tally : report_.generators) report_.extent.items += tally.apart + tally.contact;
+    report_.shapes = shapes_.size();
+    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
+    return std::move(report_);
+  }
+
+ private:
+  /// Each motion of a block is of another generator.
+  static const MotionGenerator& generator(std::uint64_t block, std::size_t index) {
+    const auto all = motion_generators();
+    return all[(block * motions_per_block + index) % all.size()];
+  }
+
+  std::vector<Judged> make_block(std::uint64_t block, std::uint64_t count) const {
+    Random random(options_.limits.seed, block);
+    std::vector<Judged> judged;
+    for (std::size_t index = 0; index < count; ++index) {
+      const MotionGenerator& by = generator(block, index);
+      judged.push_back(judge(by.make(random), by.witnesses, options_.decide));
+      if (options_.limits.stop && options_.limits.stop->load()) break;
+    }
+    return judged;
+  }
+
+  void run_corpus() {
+    for (const std::string& name : corpus_->names()) {
+      if (options_.limits.stop && options_.limits.stop->load()) return;
+      Judged judged = judge({corpus_->motion(name), {}}, false, options_.decide);
+      shapes_.insert(judged.answer.shape);
+      if (judged.difference) keep(std::move(judged), name, 0, 0);
+    }
+  }
+
+  void take_block(std::vector<Judged> block) {
+    for (std::size_t index = 0; index < block.size(); ++index) take(std::move(block[index]), index);
+    ++block_;
+  }
+
+  void take(Judged judged, std::size_t index) {
+    if (judged.answer.failure == "stopped") return;  // by the user
+    const auto all = motion_generators();
+    TrajectoryTally& tally = report_.generators[(block_ * motions_per_block + index) % all.size()];
+    ++(judged.contact ? tally.contact : tally.apart);
+    if (judged.answer.contact && !judged.answer.has_proof && !judged.difference) ++tally.without_witness;
+    if (judged.answer.plain != CheckerWord::not_asked) ++report_.checked_plain;
+    if (judged.answer.verified != CheckerWord::not_asked) ++report_.checked_verified;
+    if (shapes_.insert(judged.answer.shape).second && corpus_ && !judged.difference) {
+      corpus_->add(judged.motion, judged.answer.shape);
+    }
+    if (judged.difference) keep(std::move(judged), tally.name, block_, index);
+  }
+
+  void keep(Judged judged, const std::string& generator, std::uint64_t block, std::size_t index) {
+    ++report_.findings_total;
+    if (report_.findings.size() >= options_.max_findings) return;
+    TrajectoryFinding finding{generator, block, index, *judged.difference, judged.motion, judged.motion, {}};
+    shrink(finding, judged.needs_witness);
+    if (!options_.out.empty()) save(finding);
+    report_.findings.push_back(std::move(finding));
+  }
+
+  /// What was planted holds for the motion as it was made: that cannot be shrunk.
+  void shrink(TrajectoryFinding& finding, bool needs_witness) const {
+    const std::string kind(kind_of(finding.difference));
+    const auto now = [&](const FrameMotion& motion) -> std::optional<std::string> {
+      try {
+        return difference(motion, options_.decide, needs_witness);
+      } catch (const std::exception& error) {
+        return fmt::format("threw: {}", error.what());
+      }
+    };
+    const auto fails = [&](const FrameMotion& motion) {
+      const auto what = now(motion);
+      return what && kind_of(*what) == kind;
+    };
+    if (!fails(finding.motion)) return;
+    finding.shrunk = minimise(finding.motion, fails, options_.shrink_budget);
+    finding.difference = now(finding.shrunk).value_or(finding.difference);
+  }
+
+  void save(TrajectoryFinding& finding) const {
+    finding.folder = options_.out / fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
+                                                finding.index, finding.generator);
+    fs::create_directories(finding.folder);
+    write_frames(finding.shrunk, finding.folder);
+    std::vector<std::string> command = options_.replay_command;
+    command.push_back(finding.folder.string());
+    if (kind_of(finding.difference) == "proof") command.emplace_back("--needs-witness");
+    write_file(finding.folder / "README",
+               fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
+  }
+
+  const TrajectoryOptions& options_;
+  std::optional<Corpus> corpus_;
+  std::set<std::string> shapes_;
+  std::uint64_t block_ = 0;
+  TrajectoryReport report_;
+};
+
+}  // namespace
+
+TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options) { return TrajectoryFuzzing(options).run(); }
+
+}  // namespace noli::audit

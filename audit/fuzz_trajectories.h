@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fuzzing of everything between a file of frames and a checked proof: motions of meshes whose answer is known
+// (audit/motion_generators.h), written, read, verified, proved, and the proof checked by both checkers.
+//
+// Notation
+//   subject  the code under test, from files to the checkers' words
+//   planted  what a generator says of its motion; the oracle (audit/motion_oracle.h) has to agree
+//   finding  a motion that cannot be read back to the same bits, or on which the subject is wrong: contact or none, its
+//            step, the exact first time rounded down, features that do not meet then, the kind; no proof or no witness
+//            where there has to be one; a checker that rejects or says otherwise; a crash, a hang
+//   shape    what the subject went through, as a word: which stages, how large a proof. What has a new one is kept in
+//            the corpus
+//
+// What this does not do: it does not count all contacts of a step, only when and where the first one is (tests/prover
+// counts); it knows no least distance and no excluded pairs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/audit/frame_motion.h"
+#include "noli/audit/fuzz_blocks.h"
+#include "noli/audit/motion_oracle.h"
+#include "noli/audit/whole_motion.h"
+
+namespace noli::audit {
+
+/// What a checker said.
+enum class CheckerWord { accepted, refuted, rejected, not_asked };
+
+/// What the subject says of a motion.
+struct MotionAnswer {
+  struct First {
+    FeatureTwo features;
+    std::string kind;      ///< as name(ContactKind)
+    std::size_t step = 0;  ///< from 0
+    double time = 0;       ///< the first time rounded down to double
+  };
+
+  std::string failure;   ///< how it failed to answer, in words; then the rest does not count
+  bool contact = false;  ///< else it says that nothing touches
+  std::size_t step = 0;  ///< the last step that it looked at, from 0
+  bool initial = false;  ///< cells meet at the first time
+  std::optional<First> first;
+  bool has_proof = false;  ///< a proof, or a witness of a contact
+  CheckerWord plain = CheckerWord::not_asked, verified = CheckerWord::not_asked;
+  std::string shape;
+};
+
+/// The subject. Called from several threads at once.
+using DecideMotion = std::function<MotionAnswer(const FrameMotion&)>;
+
+struct TrajectoryOptions {
+  FuzzLimits limits;
+  DecideMotion decide;
+  std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
+  std::optional<std::filesystem::path> corpus;  ///< folder that is there, of motions with different shapes
+  std::size_t max_findings = 20;                ///< shrink and save at most that many; all are counted
+  std::size_t shrink_budget = 1000;             ///< calls of the subject for each of them
+  std::vector<std::string> replay_command;      ///< how a saved finding is shown again, but for its folder
+};
+
+struct TrajectoryFinding {
+  std::string generator;         ///< or the folder in the corpus
+  std::uint64_t block = 0;       ///< of the seed
+  std::size_t index = 0;         ///< within the block
+  std::string difference;        ///< in words, the first of which says what kind of difference it is
+  FrameMotion motion;            ///< as made
+  FrameMotion shrunk;            ///< simpler, and still a finding
+  std::filesystem::path folder;  ///< where `shrunk` was saved; empty when it was not
+};
+
+struct TrajectoryTally {
+  std::string name;
+  std::uint64_t apart = 0, contact = 0;  ///< by the oracle
+  std::uint64_t without_witness = 0;     ///< contacts, where none is promised
+};
+
+struct TrajectoryReport {
+  FuzzExtent extent;
+  std::uint64_t findings_total = 0;
+  std::vector<TrajectoryFinding> findings;  ///< the first max_findings
+  std::vector<TrajectoryTally> generators;
+  std::uint64_t checked_plain = 0, checked_verified = 0;
+  std::uint64_t shapes = 0;       ///< different ones
+  std::uint64_t corpus_size = 0;  ///< motions in the corpus, of before and new
+};
+
+/// Runs until a limit. With a count and without a corpus the report is the same for any number of threads. Throws
+/// std::system_error when something cannot be saved, InputError for a corpus that cannot be read.
+TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options);
+
+/// What is wrong with the subject's answer, or the files of the motion, in words; nothing if all is well.
+std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness);
+
+/// What is wrong with an answer.
+std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer,
+                                      bool needs_witness);
+
+/// Where the oracle contradicts what was planted.
+std::optional<std::string> broken_promise(const FrameMotion& motion, const PlantedTruth& planted,
+                                          const MotionTruth& truth);
+
+/// A motion for which `fails` holds and that none of these steps makes simpler: a frame less, a cell less, a vertex
+/// that rests, a coordinate with fewer bits. Stops early after so many calls. Precondition: fails(motion).
+FrameMotion minimise(const FrameMotion& motion, const std::function<bool(const FrameMotion&)>& fails,
+                     std::size_t budget);
+
+}  // namespace noli::audit

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Generators of motions of meshes for `noli fuzz trajectories`. Each attacks one thing, and most know their answer by
+// how they are made: contact or none, the step and the exact time, the features.
+//
+// A generator uses nothing but the random numbers that it is given.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "noli/audit/whole_motion.h"
+
+namespace noli::audit {
+
+struct MotionGenerator {
+  std::string_view name;
+  std::string_view attacks;  ///< one line
+  /// Whether a witness is promised for its contacts: none is for contacts of degenerate features that last for a moment
+  /// (proofs/prover/witness.h).
+  bool witnesses;
+  GeneratedMotion (*make)(Random& random);
+};
+
+/// All generators; the order never depends on anything.
+std::span<const MotionGenerator> motion_generators();
+
+}  // namespace noli::audit

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/audit/proof_checkers.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "noli/audit/pipe.h"
+#include "noli/audit/start_process.h"
+#include "noli/trajectory/bytes.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::audit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string trajectory_name(const ProofFiles& files, std::size_t i) {
+  if (files.extension == "blocks") return "trajectory.blocks";
+  return fmt::format("trajectory-{}.{}", i, files.extension);
+}
+
+constexpr const char* proof_name = "proof.noli";
+
+ProofAnswer answer_of(int code) {
+  if (code == 0 || code == 1 || code == 3) return {code, ""};
+  return {code, fmt::format("exit code {}", code)};
+}
+
+/// A host at work.
+class Host {
+ public:
+  Host(const fs::path& program, const fs::path& folder) {
+    pid_ = start_process({program.string(), folder.string()},
+                         std::array<GivenDescriptor, 2>{{{STDIN_FILENO, to_.end(0)}, {STDOUT_FILENO, from_.end(1)}}});
+    to_.close(0);
+    from_.close(1);
+  }
+  ~Host() { end_it(); }
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  /// False when it reads no more.
+  bool send(std::string_view bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(to_.end(1), bytes.data(), bytes.size());
+      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+      if (written < 0 && errno != EINTR) return false;
+    }
+    return true;
+  }
+
+  /// A byte; nothing when it has ended, or says nothing within the limit.
+  std::optional<unsigned char> receive(std::chrono::milliseconds limit) {
+    const auto deadline = std::chrono::steady_clock::now() + limit;
+    for (;;) {
+      const auto left =
+          std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+      hung_ = left.count() <= 0;
+      if (hung_) return std::nullopt;
+      pollfd end{from_.end(0), POLLIN, 0};
+      if (::poll(&end, 1, static_cast<int>(left.count())) <= 0) continue;
+      unsigned char byte = 0;
+      const ssize_t got = ::read(from_.end(0), &byte, 1);
+      if (got == 1) return byte;
+      if (got == 0 || errno != EINTR) return std::nullopt;
+    }
+  }
+
+  /// How it ended; it is ended with this.
+  std::string last_words() {
+    if (hung_) return "no answer within its limit of time";
+    int status = 0;
+    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    }
+    pid_ = -1;
+    if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+    return fmt::format("its host ended with code {}", WEXITSTATUS(status));
+  }
+
+ private:
+  void end_it() {
+    if (pid_ < 0) return;
+    ::kill(-pid_, SIGKILL);
+    int status = 0;
+    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    }
+    pid_ = -1;
+  }
+
+  Pipe to_, from_;
+  pid_t pid_ = -1;
+  bool hung_ = false;
+};
+
+/// Records as noli_check_host reads them.
+std::string name_record(const std::string& name) { return static_cast<char>(name.size()) + name; }
+
+std::string file_record(const std::string& name, const std::string& data) {
+  std::string record = "F" + name_record(name);
+  put(record, static_cast<std::uint32_t>(data.size()));
+  return record + data;
+}
+
+class HostedChecker : public ProofChecker {
+ public:
+  HostedChecker(fs::path host, fs::path folder, std::chrono::milliseconds limit)
+      : program_(std::move(host)), folder_(std::move(folder)), limit_(limit) {
+    host_.emplace(program_, folder_);
+  }
+
+  ProofAnswer check(const ProofFiles& files) override {
+    std::string records = file_record(proof_name, files.proof), run = "R";
+    run += static_cast<char>(files.files.size() + 1);
+    run += name_record(proof_name);
+    for (std::size_t i = 0; i < files.files.size(); ++i) {
+      records += file_record(trajectory_name(files, i), files.files[i]);
+      run += name_record(trajectory_name(files, i));
+    }
+    host_->send(records + run);  // what it does not read it does not answer
+    if (const auto code = host_->receive(limit_)) return answer_of(*code);
+    ProofAnswer answer{-1, host_->last_words()};
+    host_.emplace(program_, folder_);
+    return answer;
+  }
+
+ private:
+  fs::path program_, folder_;
+  std::chrono::milliseconds limit_;
+  std::optional<Host> host_;
+};
+
+class ProgramChecker : public ProofChecker {
+ public:
+  ProgramChecker(fs::path program, fs::path folder, const ProgramLimits& limits)
+      : program_(std::move(program)), folder_(std::move(folder)), limits_(limits) {}
+
+  ProofAnswer check(const ProofFiles& files) override {
+    std::vector<std::string> words = {program_.string()};
+    for (const std::string& name : write_proof_files(files, folder_)) words.push_back(folder_ / name);
+    const ProgramEnd end = run_program(std::move(words), limits_);
+    return end.kind == ProgramEnd::Kind::exited ? answer_of(end.code) : ProofAnswer{-1, end.words()};
+  }
+
+ private:
+  fs::path program_, folder_;
+  ProgramLimits limits_;
+};
+
+}  // namespace
+
+std::unique_ptr<ProofChecker> hosted_checker(const fs::path& host, const fs::path& folder,
+                                             std::chrono::milliseconds limit) {
+  return std::make_unique<HostedChecker>(host, folder, limit);
+}
+
+std::unique_ptr<ProofChecker> program_checker(const fs::path& program, const fs::path& folder,
+                                              const ProgramLimits& limits) {
+  return std::make_unique<ProgramChecker>(program, folder, limits);
+}
+
+std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::path& folder) {
+  std::vector<std::string> names = {proof_name};
+  write_file(folder / proof_name, files.proof);
+  for (std::size_t i = 0; i < files.files.size(); ++i) {
+    names.push_back(trajectory_name(files, i));
+    write_file(folder / names.back(), files.files[i]);
+  }
+  return names;
+}
+
+}  // namespace noli::audit

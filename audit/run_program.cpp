@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/audit/run_program.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "noli/audit/pipe.h"
+#include "noli/audit/start_process.h"
+
+namespace noli::audit {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A program at work, ended with this.
+class Running {
+ public:
+  explicit Running(std::vector<std::string> words) {
+    pid_ = start_process(std::move(words), std::array<GivenDescriptor, 3>{{{STDIN_FILENO, GivenDescriptor::nothing},
+                                                                           {STDOUT_FILENO, out_.end(1)},
+                                                                           {STDERR_FILENO, err_.end(1)}}});
+    out_.close(1);
+    err_.close(1);
+  }
+  ~Running() { end_it(); }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  /// Reads until it has closed both, or a limit is reached.
+  void read(const ProgramLimits& limits, ProgramEnd& end) {
+    const Clock::time_point deadline = Clock::now() + limits.time;
+    while (out_.end(0) >= 0 || err_.end(0) >= 0) {
+      if (limits.stop && limits.stop->load(std::memory_order_relaxed)) return give_up(end, ProgramEnd::Kind::stopped);
+      if (Clock::now() >= deadline) return give_up(end, ProgramEnd::Kind::hung);
+      constexpr int milliseconds = 50;
+      std::array<pollfd, 2> ends = {{{out_.end(0), POLLIN, 0}, {err_.end(0), POLLIN, 0}}};
+      if (::poll(ends.data(), ends.size(), milliseconds) <= 0) continue;
+      if (ends[0].revents != 0) take(out_, end.out);
+      if (ends[1].revents != 0) take(err_, end.err);
+    }
+    const int status = wait();
+    end.kind = WIFSIGNALED(status) ? ProgramEnd::Kind::signalled : ProgramEnd::Kind::exited;
+    end.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
+ private:
+  static void take(Pipe& pipe, std::string& text) {
+    std::array<char, 65536> part;
+    const ssize_t got = ::read(pipe.end(0), part.data(), part.size());
+    if (got > 0) text.append(part.data(), static_cast<std::size_t>(got));
+    if (got == 0 || (got < 0 && errno != EINTR)) pipe.close(0);
+  }
+
+  void give_up(ProgramEnd& end, ProgramEnd::Kind kind) {
+    end_it();
+    end.kind = kind;
+  }
+
+  int wait() {
+    int status = 0;
+    while (::waitpid(pid_, &status, 0) < 0) {
+      if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for a program");
+    }
+    pid_ = -1;
+    return status;
+  }
+
+  void end_it() {
+    if (pid_ < 0) return;
+    ::kill(-pid_, SIGKILL);  // and whatever it may have started
+    wait();
+  }
+
+  Pipe out_, err_;
+  pid_t pid_ = -1;
+};
+
+/// Whether a shell reads the word as it stands.
+bool plain(const std::string& word) {
+  constexpr std::string_view harmless = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+=,:@%";
+  return !word.empty() && word.find_first_not_of(harmless) == std::string::npos;
+}
+
+std::string quoted(const std::string& word) {
+  if (plain(word)) return word;
+  std::string result = "'";
+  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace
+
+std::string ProgramEnd::words() const {
+  switch (kind) {
+    case Kind::exited: return fmt::format("exit code {}", code);
+    case Kind::signalled: return fmt::format("signal {} ({})", code, ::strsignal(code));
+    case Kind::hung: return "no end within its limit of time";
+    case Kind::stopped: return "stopped";
+  }
+  return "";
+}
+
+ProgramEnd run_program(std::vector<std::string> words, const ProgramLimits& limits) {
+  ProgramEnd end;
+  Running(std::move(words)).read(limits, end);
+  return end;
+}
+
+std::string shell_words(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  return line;
+}
+
+}  // namespace noli::audit

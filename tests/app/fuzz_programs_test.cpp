@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli fuzz trajectories`, `noli fuzz proofs`, `noli fuzz scenes`: what a user sees of them. Whether they find what is
+// wrong is tested with planted faults in tests/audit.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+#include "noli/tests/app/worked_example.h"
+
+namespace noli::app_tests {
+namespace {
+
+using Json = nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+Arguments with(Arguments words, const Arguments& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+const std::vector<Arguments> commands = {
+    {"fuzz", "trajectories", "--seed", "5", "--count", "28"},
+    {"fuzz", "proofs", "--seed", "5", "--count", "1500"},
+    {"fuzz", "scenes", "--seed", "5", "--count", "4"},
+};
+
+TEST(FuzzPrograms, FindNothingAndDependOnTheSeedAlone) {
+  const Folder folder;
+  for (const Arguments& command : commands) {
+    const auto run = [&](const char* threads) {
+      return without_timing(json_of(with(command, {"--threads", threads, "--out", folder.path("out")}), 0));
+    };
+    const std::string one = run("1");
+    EXPECT_EQ(Json::parse(one)["verdict"], "no_finding") << command[1];
+    EXPECT_EQ(one, run("2")) << command[1];
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(FuzzPrograms, RefuseWhatCannotBe) {
+  const Folder folder;
+  const std::string file = folder.write("file", "text");
+  const std::vector<Arguments> lines = {
+      {"fuzz", "trajectories", "--count", "0"},
+      {"fuzz", "trajectories", "--for", "soon"},
+      {"fuzz", "trajectories", "--replay", folder.path("absent")},
+      {"fuzz", "trajectories", "--replay", folder.path(""), "--seed", "1"},
+      {"fuzz", "trajectories", "--count", "1", "--out", file},
+      {"fuzz", "trajectories", "--count", "1", "--corpus", file},
+      {"fuzz", "proofs", "--count", "1", "--out", file},
+      {"fuzz", "proofs", file, "--count", "1"},
+      {"fuzz", "proofs", file, folder.path("absent.ply"), "--count", "1"},
+      {"fuzz", "scenes", "--seed", "-1"},
+      {"fuzz", "scenes", "--replay", file},
+      {"fuzz", "scenes", "--replay", file, "--minimise", file},
+      {"fuzz", "scenes", "--count", "1", "--out", file},
+  };
+  for (const Arguments& line : lines) {
+    const Process process = run_noli(line);
+    EXPECT_EQ(process.exit_code, 3) << line[1] << " " << line.back() << ": " << process.out << process.err;
+    EXPECT_EQ(process.err.rfind("noli: ", 0), 0u) << process.err;
+  }
+}
+
+TEST(FuzzPrograms, StopWhenInterrupted) {
+  const Folder folder;
+  ProcessOptions options;
+  options.signal = SIGINT;
+  options.signal_after = std::chrono::milliseconds(700);
+  for (const char* const what : {"trajectories", "scenes", "proofs"}) {
+    const Process process = run_noli({"fuzz", what, "--for", "10m", "--out", folder.path("out")}, options);
+    EXPECT_EQ(process.exit_code, 2) << what << ": " << process.out << process.err;
+  }
+}
+
+TEST(FuzzTrajectoriesCommand, RunsItsCorpusFirst) {
+  const Folder folder;
+  const Arguments command = {"fuzz",     "trajectories",        "--count", "14",
+                             "--corpus", folder.path("corpus"), "--out",   folder.path("out")};
+  const Json first = json_of(command, 0), again = json_of(command, 0);
+  EXPECT_GT(first["corpus"], 5);
+  EXPECT_EQ(first["corpus"], again["corpus"]) << "nothing of it was new";
+}
+
+TEST(FuzzTrajectoriesCommand, JudgesASavedMotionAgain) {
+  const Folder folder;
+  folder.write("frame-0.ply", two_triangles(1));
+  folder.write("frame-1.ply", two_triangles(-1));
+  const Process process = run_noli({"fuzz", "trajectories", "--replay", folder.path("")});
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(process.verdict_line(), "verdict no_finding frames 2 cells 2 vertices 6");
+}
+
+TEST(FuzzProofsCommand, TakesAProofOfYourOwn) {
+  const Folder folder;
+  const std::string a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(0.5));
+  const std::string proof = folder.path("ab.noli");
+  ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof}).exit_code, 0);
+  const Json document = json_of({"fuzz", "proofs", proof, a, b, "--count", "2000", "--out", folder.path("out")}, 0);
+  EXPECT_EQ(document["mutants"], 2000);
+  EXPECT_GT(document["codes"]["accepted"], 0);
+  EXPECT_GT(document["judged"], 0);
+  folder.write("a.ply", two_triangles(2));
+  EXPECT_EQ(run_noli({"fuzz", "proofs", proof, a, b, "--count", "10"}).exit_code, 3) << "a proof of something else";
+}
+
+TEST(FuzzScenesCommand, JudgesASceneAgain) {
+  const Folder folder;
+  const std::string scene = folder.write(
+      "scene.json",
+      R"({"noli_scene": 1, "dimension": 2, "duration": 0.02, "bodies": [{"mesh": {"ring": {"radius": 1, "segments": 5}},
+          "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})");
+  EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", scene}).verdict_line(),
+            "verdict no_finding end exit 0 done verified true resumed true");
+  const Process wrong = run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "/bodies/0/mesh"});
+  EXPECT_EQ(wrong.exit_code, 1) << "said to be wrong, and yet it runs";
+  EXPECT_NE(wrong.out.find("accepted: /bodies/0/mesh"), std::string::npos) << wrong.out;
+}
+
+void expect_example(const std::string& page, std::size_t size,
+                    const std::vector<std::pair<std::string, std::string>>& places) {
+  const auto commands = worked_example(page);
+  ASSERT_EQ(commands.size(), size);
+  expect_worked_example(commands, places);
+}
+
+TEST(FuzzPrograms, TheWorkedExamplesAreTrue) {
+  const Folder folder;
+  const std::vector<std::pair<std::string, std::string>> here = {{"build/release/app/noli", NOLI_COMMAND},
+                                                                 {"build/findings", folder.path("findings")},
+                                                                 {"build/fall.noli", folder.path("fall.noli")}};
+  expect_example("audit/FUZZ-TRAJECTORIES.md", 3, here);
+  expect_example("audit/FUZZ-PROOFS.md", 2, here);
+  expect_example("audit/FUZZ-SCENES.md", 3, here);
+}
+
+}  // namespace
+}  // namespace noli::app_tests

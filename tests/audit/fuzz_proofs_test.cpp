@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/audit/fuzz_proofs.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "noli/audit/claim_oracle.h"
+#include "noli/audit/parsed_claim.h"
+#include "noli/proofs/prover/proof_file.h"
+#include "noli/tests/support/temporary_folder.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::audit {
+namespace {
+
+using namespace std::string_literals;
+
+class StringSink : public Sink {
+ public:
+  explicit StringSink(std::string& bytes) : bytes_(bytes) {}
+  void write(std::string_view bytes) override { bytes_ += bytes; }
+  void sync() override {}
+  void truncate(std::uint64_t size) override { bytes_.resize(size); }
+
+ private:
+  std::string& bytes_;
+};
+
+/// Two loose edges, of which the second comes nearer to the first.
+FrameMotion two_edges() {
+  FrameMotion motion;
+  motion.mesh = {4, {}, {{0, 1}, {2, 3}}, {}};
+  motion.frames = {{{0, -1, 0}, {0, 1, 0}, {4, 0, -1}, {4, 0, 1}}, {{0, -1, 0}, {0, 1, 0}, {2, 0, -1}, {2, 0, 1}}};
+  return motion;
+}
+
+/// The worked example of proofs/FORMAT.md, but with the step in halves, and the direction of the second in another form.
+ProofCase example() {
+  const FrameMotion motion = two_edges();
+  const std::vector<std::uint32_t> labels(2, 0);
+  ProofHeader header;
+  header.vertices = 4;
+  header.mesh = &motion.mesh;
+  header.labels = labels;
+  ProofCase made;
+  made.name = "example";
+  ProofFile file(std::make_unique<StringSink>(made.proof), header);
+  file.begin_step(0, ProofFile::Kind::proof, WorldLines::from_frames(motion.frames[0], motion.frames[1]), 0);
+  file.tree("\0\1\2"s);
+  file.tokens("\x03\x04\0\x09\x10\xff\x03\0\0\x04"s);
+  file.commit();
+  made.groups = parse_proof(made.proof, "example");
+  made.extension = "ply";
+  made.files = {file_bytes(motion, 0), file_bytes(motion, 1)};
+  return made;
+}
+
+/// A checker that is a function.
+class FakeChecker : public ProofChecker {
+ public:
+  explicit FakeChecker(ProofAnswer (*answer)(const ProofFiles& files)) : answer_(answer) {}
+  ProofAnswer check(const ProofFiles& files) override { return answer_(files); }
+
+ private:
+  ProofAnswer (*answer_)(const ProofFiles& files);
+};
+
+MakeChecker fake(ProofAnswer (*answer)(const ProofFiles& files)) {
+  return [answer] { return std::make_unique<FakeChecker>(answer); };
+}
+
+/// Accepts the example, and nothing else.
+ProofAnswer knows_one(const ProofFiles& files) {
+  static const ProofCase good = example();
+  return {files.proof == good.proof && files.files == good.files ? 0 : 3, ""};
+}
+
+/// Accepts whatever has the right checksums.
+ProofAnswer believes_all(const ProofFiles& files) {
+  try {
+    parse_proof(files.proof, "proof");
+    return {0, ""};
+  } catch (const InputError&) {
+    return {3, ""};
+  }
+}
+
+class FuzzProofs : public testing::Test {
+ protected:
+  FuzzProofs() {
+    options.limits.seed = 1;
+    options.limits.count = 2000;
+    options.limits.threads = 1;
+    options.cases = {example()};
+    options.plain = fake(knows_one);
+    options.verified = fake(knows_one);
+    options.out = folder / "out";
+    options.max_findings = 3;
+  }
+
+  test::TemporaryFolder folder;
+  ProofFuzzOptions options;
+};
+
+TEST_F(FuzzProofs, FindsNothingWhereNothingIsWrong) {
+  const ProofFuzzReport report = fuzz_proofs(options);
+  EXPECT_EQ(report.findings_total, 0u) << report.findings[0].difference;
+  EXPECT_EQ(report.extent.items, 2000u);
+  EXPECT_GT(report.codes.rejected, 1900u);
+  EXPECT_GE(report.checked_verified, 40u);
+  EXPECT_FALSE(std::filesystem::exists(options.out));
+}
+
+TEST_F(FuzzProofs, FindsAFalseClaimThatIsAccepted) {
+  options.plain = fake(believes_all);
+  options.verified = nullptr;
+  const ProofFuzzReport report = fuzz_proofs(options);
+  ASSERT_FALSE(report.findings.empty());
+  std::set<std::string> differences;
+  for (const ProofFinding& finding : report.findings) differences.insert(finding.difference);
+  EXPECT_TRUE(differences.contains("the plain checker: accepted, but the claim is false")) << *differences.begin();
+}
+
+TEST_F(FuzzProofs, FindsCheckersThatDiffer) {
+  options.plain = fake(believes_all);
+  options.verified_every = 1;
+  const ProofFuzzReport report = fuzz_proofs(options);
+  ASSERT_FALSE(report.findings.empty());
+  const ProofFinding& finding = report.findings[0];
+  EXPECT_EQ(finding.difference, "the plain checker: accepted, the verified one: rejected");
+  std::ifstream readme(finding.folder / "README");
+  const std::string text{std::istreambuf_iterator<char>(readme), {}};
+  EXPECT_NE(text.find("noli check "), std::string::npos) << text;
+  EXPECT_EQ(knows_one(finding.files).code, 3);
+  EXPECT_EQ(believes_all(finding.files).code, 0) << "what was saved still shows it";
+}
+
+TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
+  // A fault that hangs on one byte: which source the claim names.
+  options.plain = fake([](const ProofFiles& files) -> ProofAnswer {
+    try {
+      const auto claim = parse_claim(parse_proof(files.proof, "proof"));
+      if (claim && claim->source == 3) return {-1, "signal 11"};
+    } catch (const InputError&) {
+    }
+    return {3, ""};
+  });
+  const ProofFuzzReport report = fuzz_proofs(options);
+  ASSERT_FALSE(report.findings.empty());
+  const ProofCase good = example();
+  const ProofGroups groups = parse_proof(report.findings[0].files.proof, "finding");
+  int different = 0;
+  for (std::size_t i = 0; i < good.groups[0][0].payload.size(); ++i) {
+    different += good.groups[0][0].payload[i] != groups[0][0].payload[i] ? 1 : 0;
+  }
+  EXPECT_EQ(different, 1);
+  EXPECT_EQ(report.findings[0].files.files, good.files);
+}
+
+TEST_F(FuzzProofs, DependsOnTheSeedAlone) {
+  const auto codes = [&](int threads) {
+    options.limits.threads = threads;
+    options.plain = fake(believes_all);
+    const ProofFuzzReport report = fuzz_proofs(options);
+    return std::array{report.codes.accepted, report.codes.rejected, report.judged, report.findings_total};
+  };
+  EXPECT_EQ(codes(1), codes(3));
+}
+
+TEST(ProofMutations, EachFindsSomethingToChange) {
+  const ProofCase good = example();
+  for (const ProofMutation& mutation : proof_mutations()) {
+    const bool of_witness = mutation.name.find("witness") != std::string_view::npos;
+    Random random(7);
+    bool applied = false, changed = false;
+    for (int i = 0; i < 200; ++i) {
+      Mutating m{good, {&good, 1}, random, good.groups, {}, false};
+      if (!mutation.apply(m)) continue;
+      applied = true;
+      changed = changed || m.groups != good.groups || m.frames.has_value();
+    }
+    EXPECT_EQ(applied, !of_witness) << mutation.name << ": there is no witness in the example";
+    EXPECT_EQ(changed, !of_witness) << mutation.name;
+  }
+}
+
+TEST(ProofMutations, HashesFitChangedFrames) {
+  const ProofCase good = example();
+  Random random(3);
+  std::size_t changed = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const ProofMutant mutant = make_mutant(good, {&good, 1}, random);
+    if (mutant.mutations != "positions" || !mutant.files) continue;
+    ++changed;
+    EXPECT_EQ(parse_proof(mutant.proof, "mutant").size(), 2u);
+  }
+  EXPECT_GT(changed, 20u);
+}
+
+TEST(ProofBlocks, ComeBackAsTheyWere) {
+  const ProofCase good = example();
+  EXPECT_EQ(proof_bytes(good.groups), good.proof);
+  for (const auto what : {Spoiled::What::number, Spoiled::What::group_hash, Spoiled::What::running_hash}) {
+    EXPECT_THROW(parse_proof(proof_bytes(good.groups, {what, 1}), "spoiled"), InputError);
+  }
+  EXPECT_THROW(parse_proof(proof_bytes(good.groups, {Spoiled::What::no_commit, 1}), "open"), InputError);
+  EXPECT_THROW(parse_proof("no proof", "text"), InputError);
+}
+
+class ClaimOracle : public testing::Test {
+ protected:
+  bool holds() const { return claim_holds(claim, claimed_mesh(claim, motion.mesh).value(), motion.frames); }
+
+  ParsedClaim claim;
+  FrameMotion motion = two_edges();
+};
+
+TEST_F(ClaimOracle, KnowsContact) {
+  EXPECT_TRUE(holds());
+  motion.frames[1][2][0] = motion.frames[1][3][0] = 0;
+  EXPECT_FALSE(holds());
+  claim.labels = {0, 1};
+  claim.excluded = {{0, 1}};
+  EXPECT_TRUE(holds()) << "nobody compares them";
+}
+
+TEST_F(ClaimOracle, KnowsDistance) {
+  claim.eta = 1.5;
+  EXPECT_TRUE(holds());
+  claim.eta = 2;
+  EXPECT_FALSE(holds()) << "as near as the distance is too near";
+}
+
+TEST_F(ClaimOracle, KnowsRings) {
+  motion.mesh.edges.push_back({1, 2});  // a path from the one to the other
+  motion.frames[1] = motion.frames[0];
+  claim.eta = 4.5;
+  claim.ring = 2;
+  EXPECT_FALSE(holds()) << "vertex 0 and vertex 3 are three edges apart";
+  claim.ring = 4;
+  EXPECT_TRUE(holds());
+}
+
+TEST_F(ClaimOracle, KnowsMergedVerticesAndPoints) {
+  motion.mesh = {3, {}, {{0, 1}}, {}};
+  motion.frames = {{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}};
+  claim.source = 1;
+  EXPECT_TRUE(holds()) << "vertex 2 is of no cell";
+  claim.points = true;
+  EXPECT_FALSE(holds());
+  claim.merged = {{2, 1}};
+  EXPECT_TRUE(holds());
+}
+
+TEST_F(ClaimOracle, KnowsFeaturesOfOneCell) {
+  motion.mesh = {3, {{0, 1, 2}}, {}, {}};
+  motion.frames = {{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 0, 0}, {2, 0, 0}, {1, -1, 0}}};
+  EXPECT_TRUE(holds());
+  claim.strict = true;
+  EXPECT_FALSE(holds()) << "a corner goes through the edge opposite";
+}
+
+}  // namespace
+}  // namespace noli::audit
