@@ -29,5 +29,6 @@ CLI::App& add_fuzz(CLI::App& app);
 CLI::App& add_audit(CLI::App& app);
 Command add_fuzz_queries(CLI::App& fuzz);
 Command add_audit_ccd(CLI::App& audit);
+Command add_audit_precision(CLI::App& audit);
 
 }  // namespace noli::app
