@@ -123,6 +123,12 @@ std::string precision_svg(const PrecisionOutcome& outcome, const std::string& ti
   for (Curve& curve : drifts) curve.values.resize(std::min(curve.values.size(), times.size()));
   draw(svg, times, drifts, 360, 50, "greatest distance of a vertex [m]");
   draw(svg, times, energies(outcome), 730, 420, "energy error of double [J]");
+  if (const auto& acts = outcome.runs.back().changes.acts.first) {
+    const double x = Scale{0, times.back(), left, right}(acts->time);
+    for (const double bottom : {360.0, 730.0}) svg.line({x, bottom}, {x, bottom - 310}, grey, "2 4");
+    svg.text({right + 20, 390}, "dotted: the order");
+    svg.text({right + 20, 408}, "of events changes");
+  }
   return svg.finish();
 }
 

@@ -18,12 +18,18 @@ using audit::PrecisionRun;
 
 std::string number(double x) { return fmt::format("{:.3g}", x); }
 
-double end_time(const PrecisionOutcome& outcome) { return outcome.energies.empty() ? 0 : outcome.energies.back().time; }
+/// The last window that is as far as runs can be compared.
+const audit::EnergyError* last_in_order(const PrecisionOutcome& outcome) {
+  const std::size_t windows = outcome.windows_in_order();
+  return windows > 0 ? &outcome.energies[windows - 1] : nullptr;
+}
 
-/// Of all windows [m].
-double greatest_position(const PrecisionRun& run) {
+/// Of the first windows [m].
+double greatest_position(const PrecisionRun& run, std::size_t windows) {
   double greatest = 0;
-  for (const Drift& drift : run.drifts) greatest = std::max(greatest, drift.position);
+  for (std::size_t i = 0; i < std::min(windows, run.drifts.size()); ++i) {
+    greatest = std::max(greatest, run.drifts[i].position);
+  }
   return greatest;
 }
 
@@ -38,33 +44,35 @@ std::string vertices_text(const certificates::Stencil& pair) {
 
 // --- text ------------------------------------------------------------------------------------------------------------
 
-TableRow row_of(const PrecisionRun& run) {
-  const Drift last = run.drifts.empty() ? Drift{} : run.drifts.back();
+std::string first_time(const CourseChanges::Way& way) { return way.first ? number(way.first->time) : "-"; }
+
+TableRow row_of(const PrecisionRun& run, std::size_t windows) {
+  windows = std::min(windows, run.drifts.size());
+  const Drift last = windows > 0 ? run.drifts[windows - 1] : Drift{};
   const CourseChanges& changes = run.changes;
   return {std::to_string(run.arithmetic.bits),
-          number(greatest_position(run)),
+          number(greatest_position(run, windows)),
           number(last.position),
           number(last.position_rms),
           number(last.energy),
           number(last.momentum),
           number(last.angular_momentum),
-          std::to_string(changes.acts.count),
-          std::to_string(changes.corners.count),
-          std::to_string(changes.parts.count),
-          std::to_string(changes.sticks.count)};
+          first_time(changes.acts),
+          first_time(changes.corners),
+          first_time(changes.parts),
+          first_time(changes.sticks)};
 }
 
 std::string table_of_runs(const PrecisionOutcome& outcome) {
-  std::vector<TableRow> rows = {{"bits", "position", "at-end", "rms-at-end", "energy", "momentum", "angular", "acts",
-                                 "corners", "parts", "sticks"}};
-  for (const PrecisionRun& run : outcome.runs) rows.push_back(row_of(run));
+  std::vector<TableRow> rows = {{"bits", "position", "at-end", "rms-at-end", "energy", "momentum", "angular",
+                                 "acts-from", "corners-from", "parts-from", "sticks-from"}};
+  for (const PrecisionRun& run : outcome.runs) rows.push_back(row_of(run, outcome.windows_in_order()));
   return table_text(rows, 0);
 }
 
 std::string order_text(const PrecisionOutcome& outcome) {
   const auto time = outcome.order_changes();
-  if (!time)
-    return "Order of events: the same in all precisions, and no two events are at one time by rounding alone.\n";
+  if (!time) return "Order of events: the same.\n";
   const auto& acts = outcome.runs.back().changes.acts.first;
   if (acts && acts->time == *time) {
     return fmt::format("Order of events: another from {} s on, when layer {} acts between vertices {} in {} only.\n",
@@ -72,13 +80,14 @@ std::string order_text(const PrecisionOutcome& outcome) {
                        acts->acts_in_double ? "double" : fmt::format("{} bits", outcome.runs.back().arithmetic.bits));
   }
   return fmt::format(
-      "Order of events: another from {} s on, where {} comes before {}, which double takes for the same time.\n",
+      "Order of events: another from {} s on, where {} comes before {}, which double has at one time and the other way "
+      "round.\n",
       number(*time), outcome.tie->first, outcome.tie->second);
 }
 
 std::string energy_text(const PrecisionOutcome& outcome) {
-  if (outcome.energies.empty()) return "";
-  const audit::EnergyError& last = outcome.energies.back();
+  if (last_in_order(outcome) == nullptr) return "";
+  const audit::EnergyError& last = *last_in_order(outcome);
   const std::string head = fmt::format("Energy of double at {} s: {} J. ", number(last.time), number(last.energy));
   if (outcome.not_conserved) {
     return head +
@@ -108,10 +117,10 @@ Json drift_json(const Drift& drift) {
           {"energy", drift.energy},     {"momentum", drift.momentum}, {"angular_momentum", drift.angular_momentum}};
 }
 
-Json run_json(const PrecisionRun& run) {
+Json run_json(const PrecisionRun& run, std::size_t windows) {
   Json json = {{"bits", run.arithmetic.bits},
                {"binary64", run.arithmetic.binary64},
-               {"greatest_position", greatest_position(run)},
+               {"greatest_position", greatest_position(run, windows)},
                {"acts", way_json(run.changes.acts)},
                {"corners", way_json(run.changes.corners)},
                {"parts", way_json(run.changes.parts)},
@@ -154,18 +163,22 @@ ExitCode precision_exit_code(const PrecisionOutcome& outcome) {
 
 std::string precision_text(const PrecisionOutcome& outcome) {
   const auto changes = outcome.order_changes();
+  const double time = outcome.energies.empty() ? 0 : outcome.energies.back().time;
   std::string text = fmt::format(
       "verdict {} windows {} time {} vertices {} events {} examined {} impulses {} bits {} position {} order_changes "
       "{} "
       "complete {}\n",
-      precision_verdict(outcome), outcome.windows, number(end_time(outcome)), outcome.vertices, outcome.events,
-      outcome.examined, outcome.impulses, outcome.runs.back().arithmetic.bits,
-      number(greatest_position(outcome.runs.back())), changes ? number(*changes) : "none", outcome.complete);
+      precision_verdict(outcome), outcome.windows, number(time), outcome.vertices, outcome.events, outcome.examined,
+      outcome.impulses, outcome.runs.back().arithmetic.bits,
+      number(greatest_position(outcome.runs.back(), outcome.windows_in_order())), changes ? number(*changes) : "none",
+      outcome.complete);
   if (outcome.difference) {
     text += fmt::format("53 bits differ from double: first the {}, at {} s.\n", outcome.difference->what,
                         digits17(outcome.difference->time));
   }
-  text += "Double against so many bits:\n" + table_of_runs(outcome) + order_text(outcome) + energy_text(outcome);
+  text += fmt::format("Double against so many bits, in the {} windows before a layer acts in one run only:\n",
+                      outcome.windows_in_order());
+  text += table_of_runs(outcome) + order_text(outcome) + energy_text(outcome);
   if (outcome.ended)
     text += fmt::format("The run in double ended after window {}: {}.\n", outcome.windows, *outcome.ended);
   for (const PrecisionRun& run : outcome.runs) {
@@ -179,6 +192,7 @@ Json precision_json(const PrecisionOutcome& outcome) {
   Json json = {{"verdict", precision_verdict(outcome)},
                {"windows", outcome.windows},
                {"windows_total", outcome.windows_total},
+               {"windows_in_order", outcome.windows_in_order()},
                {"complete", outcome.complete},
                {"ended", nullptr},
                {"vertices", outcome.vertices},
@@ -195,7 +209,7 @@ Json precision_json(const PrecisionOutcome& outcome) {
   if (outcome.difference) json["difference"] = {{"time", outcome.difference->time}, {"what", outcome.difference->what}};
   if (outcome.not_conserved) json["not_conserved"] = *outcome.not_conserved;
   for (const audit::EnergyError& error : outcome.energies) json["energies"].push_back(energy_json(error));
-  for (const PrecisionRun& run : outcome.runs) json["runs"].push_back(run_json(run));
+  for (const PrecisionRun& run : outcome.runs) json["runs"].push_back(run_json(run, outcome.windows_in_order()));
   return json;
 }
 

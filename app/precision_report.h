@@ -21,7 +21,8 @@ std::string precision_text(const audit::PrecisionOutcome& outcome);
 Json precision_json(const audit::PrecisionOutcome& outcome);
 
 /// Above, how far double is from the other precisions; below, what of its energy error is truncation and what rounding.
-/// Both over time, on logarithmic scales.
+/// Both over time, on logarithmic
+/// scales, with a line where the order of events changes.
 std::string precision_svg(const audit::PrecisionOutcome& outcome, const std::string& title);
 
 }  // namespace noli::app

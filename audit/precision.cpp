@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -21,7 +21,7 @@ template <int Dim>
 class Audit {
  public:
   Audit(const integrator::Model<double, Dim>& model, const PrecisionRequest& request)
-      : request_(request), engine_(model), window_length_(model.window_length) {
+      : request_(request), engine_(model) {
     if (request.arithmetics.empty()) throw std::invalid_argument("no arithmetic to compare with");
     for (const Arithmetic& arithmetic : request.arithmetics) {
       replays_.push_back(std::make_unique<Replay<Dim>>(arithmetic, replays_.empty(), model));
@@ -31,8 +31,7 @@ class Audit {
     outcome_.extent = extent(model.x);
     outcome_.windows_total = request.windows;
     outcome_.not_conserved = not_conserved(model);
-    for (const auto& group : engine_.groups()) clocks_.insert({group.step, std::string(name(group.kind))});
-    clocks_.insert({window_length_, "window"});
+    take_clocks(model);
   }
 
   PrecisionOutcome operator()() {
@@ -240,17 +239,30 @@ class Audit {
 
   // --- Times ---------------------------------------------------------------------------------------------------------
 
+  /// Forces before layers of contact, as the engine has it (Engine::run_next), and a window's end last.
+  void take_clocks(const integrator::Model<double, Dim>& model) {
+    std::uint64_t rank = 0;
+    for (const auto& group : engine_.groups()) {
+      const std::string kind(name(group.kind));
+      const bool one_rank = model.clocks == integrator::Clocks::own && !clocks_.empty() && clocks_.back().name == kind;
+      clocks_.push_back({group.step, kind, one_rank ? rank : ++rank});
+    }
+    clocks_.push_back({model.window_length, "window", std::numeric_limits<std::uint64_t>::max()});
+  }
+
+  static TimedClock clock_of(const integrator::Firing& f) {
+    return {f.h, "layer " + std::to_string(f.layer), (std::uint64_t{f.material} + 1) << 32 | f.layer};
+  }
+
   void find_tie(double begin) {
-    std::vector<TimedClock> clocks;
-    for (const auto& [step, name] : clocks_) clocks.push_back({step, name});
+    std::vector<TimedEvent> events;
+    for (const TimedClock& clock : clocks_) add_events(clock, begin, engine_.time(), events);
     std::vector<TimedClock> layers;
     layers.reserve(log_.firings().size());
-    std::vector<TimedEvent> events;
-    for (const TimedClock& clock : clocks) add_events(clock, begin, engine_.time(), events);
     for (const LoggedFiring& logged : log_.firings()) {
       const integrator::Firing& f = logged.firing;
       if (!(f.time > 0)) continue;
-      layers.push_back({f.h, "layer " + std::to_string(f.layer)});
+      layers.push_back(clock_of(f));
       events.push_back({f.time, static_cast<std::uint64_t>(std::llround(f.time / f.h)), &layers.back()});
     }
     outcome_.tie = first_tie(events);
@@ -258,11 +270,10 @@ class Audit {
 
   const PrecisionRequest& request_;
   integrator::Engine<double, Dim> engine_;
-  double window_length_;
   integrator::Books<double, Dim> books_;
   EventLog<Dim> log_;
   std::vector<std::unique_ptr<Replay<Dim>>> replays_;
-  std::set<std::pair<double, std::string>> clocks_;
+  std::vector<TimedClock> clocks_;
   std::pair<MpfrNumber, MpfrNumber> first_;  ///< E - W at the end of the first window, of double and of the last run
   PrecisionOutcome outcome_;
 };
@@ -280,6 +291,12 @@ std::optional<double> PrecisionOutcome::order_changes() const {
   const auto& acts = runs.back().changes.acts.first;
   if (acts && (!time || acts->time < *time)) time = acts->time;
   return time;
+}
+
+std::size_t PrecisionOutcome::windows_in_order() const {
+  const auto& acts = runs.back().changes.acts.first;
+  const auto in_order = [&](const EnergyError& window) { return !acts || window.time < acts->time; };
+  return static_cast<std::size_t>(std::count_if(energies.begin(), energies.end(), in_order));
 }
 
 template <int Dim>

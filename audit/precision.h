@@ -88,6 +88,9 @@ struct PrecisionOutcome {
   /// The earliest time at which the order of events would be another: a layer that acts in double and not in the
   /// greatest precision, or the other way round, or a tie.
   std::optional<double> order_changes() const;
+  /// Windows that ended before a layer acted in one of these two runs only. From then on a replay is another experiment:
+  /// it sees no pairs but those that the run in double came near, so how far apart the two are says nothing more.
+  std::size_t windows_in_order() const;
 };
 
 /// Throws std::invalid_argument where there is no arithmetic or it has no such precision.

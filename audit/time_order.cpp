@@ -35,7 +35,8 @@ std::optional<TimeTie> first_tie(std::vector<TimedEvent>& events) {
                        [](const TimedEvent& a, const TimedEvent& b) { return exact_time(a) < exact_time(b); });
       for (auto next = group + 1; next != end; ++next) {
         const auto before = next - 1;
-        if (exact_time(*before) < exact_time(*next)) return TimeTie{next->time, before->clock->name, next->clock->name};
+        if (before->clock->rank <= next->clock->rank || !(exact_time(*before) < exact_time(*next))) continue;
+        return TimeTie{next->time, before->clock->name, next->clock->name};
       }
     }
     group = end;

@@ -4,11 +4,12 @@
 //
 // Notation
 //   k, h    an event's time is fl(k h), h being its clock's step; exactly it is k h, a product of two numbers of 53 bits
-//   tie     two events of the same time fl(k h) = fl(k' h') although k h != k' h'
+//   rank    of two events of one time, the one of lower rank comes first
+//   tie     two events of the same time fl(k h) = fl(k' h') although k h < k' h', the first being of higher rank
 // Rounding is monotone, so events that are apart in double have the order of their exact times: only ties can change it.
-// What was simultaneous, all impulses acting on the positions of one time, then comes one after the other.
 //
-// What this does not do: certificates are no events of the motion, and scripts' breakpoints have exact times.
+// What this does not do: certificates are no events of the motion, and scripts' breakpoints have exact times. Where each
+// force has a clock of its own, those of one kind have one rank: their order at one time is not looked at.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,7 @@ namespace noli::audit {
 struct TimedClock {
   double step = 0;  ///< h [s]
   std::string name;
+  std::uint64_t rank = 0;
 };
 
 /// One event of a clock.
@@ -32,7 +34,7 @@ struct TimedEvent {
   const TimedClock* clock = nullptr;
 };
 
-/// The first of two events that double makes simultaneous.
+/// Two events that double has in the other order.
 struct TimeTie {
   double time = 0;            ///< of both [s]
   std::string first, second;  ///< in the order of exact times
@@ -42,8 +44,7 @@ struct TimeTie {
 /// The events of a clock in ]begin, end], added to `events`.
 void add_events(const TimedClock& clock, double begin, double end, std::vector<TimedEvent>& events);
 
-/// The first tie among events, which are put into the order of their times; of several at one time, that of the least
-/// exact times.
+/// The first tie among events, which are put into the order of their exact times.
 std::optional<TimeTie> first_tie(std::vector<TimedEvent>& events);
 
 }  // namespace noli::audit
