@@ -11,7 +11,8 @@
 //   scope         an MpfrScope: on its thread, until it ends, results of operations have its precision. A copy has the
 //                 precision of what was copied, and is exact
 //
-// The digits are in the number itself, so nothing is allocated.
+// The digits are in the number itself, so nothing is allocated. Operations are not inline: beside what they do a call
+// costs nothing, and the integrator's loops, which inline all they can, stay compilable.
 //
 // What this does not do: no NaN payloads, no flags, no other rounding modes, and no functions but the square root and the
 // absolute value. Comparing numbers of different precision is exact. It promises nothing of operations outside of scopes.
@@ -21,10 +22,8 @@
 #include <mpfr.h>
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <compare>
 #include <limits>
-#include <stdexcept>
 
 namespace noli::audit {
 
@@ -43,32 +42,25 @@ class MpfrNumber {
  public:
   static constexpr int least_bits = 2, most_bits = 1024;
 
-  MpfrNumber() { set_zero(); }
-  explicit MpfrNumber(double x) {
-    prepare();
-    finish(mpfr_set_d(value_, x, MPFR_RNDN));
-  }
+  MpfrNumber();  ///< 0
+  explicit MpfrNumber(double x);
   explicit MpfrNumber(int x) : MpfrNumber(static_cast<double>(x)) {}
-  MpfrNumber(const MpfrNumber& other) { copy(other); }
-  MpfrNumber& operator=(const MpfrNumber& other) {
-    if (this != &other) copy(other);
-    return *this;
-  }
+  MpfrNumber(const MpfrNumber& other);
+  MpfrNumber& operator=(const MpfrNumber& other);
 
   int bits() const { return static_cast<int>(mpfr_get_prec(value_)); }
   /// The nearest double.
   explicit operator double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   bool finite() const { return mpfr_number_p(value_) != 0; }
   bool negative() const { return mpfr_signbit(value_) != 0; }  ///< -0 and NaN have a sign too
-  mpfr_srcptr get() const { return value_; }
 
-  friend MpfrNumber operator+(const MpfrNumber& a, const MpfrNumber& b) { return of(mpfr_add, a, b); }
-  friend MpfrNumber operator-(const MpfrNumber& a, const MpfrNumber& b) { return of(mpfr_sub, a, b); }
-  friend MpfrNumber operator*(const MpfrNumber& a, const MpfrNumber& b) { return of(mpfr_mul, a, b); }
-  friend MpfrNumber operator/(const MpfrNumber& a, const MpfrNumber& b) { return of(mpfr_div, a, b); }
-  friend MpfrNumber operator-(const MpfrNumber& a) { return of(mpfr_neg, a); }
-  friend MpfrNumber sqrt(const MpfrNumber& a) { return of(mpfr_sqrt, a); }
-  friend MpfrNumber abs(const MpfrNumber& a) { return of(mpfr_abs, a); }
+  friend MpfrNumber operator+(const MpfrNumber& a, const MpfrNumber& b);
+  friend MpfrNumber operator-(const MpfrNumber& a, const MpfrNumber& b);
+  friend MpfrNumber operator*(const MpfrNumber& a, const MpfrNumber& b);
+  friend MpfrNumber operator/(const MpfrNumber& a, const MpfrNumber& b);
+  friend MpfrNumber operator-(const MpfrNumber& a);
+  friend MpfrNumber sqrt(const MpfrNumber& a);
+  friend MpfrNumber abs(const MpfrNumber& a);
   MpfrNumber& operator+=(const MpfrNumber& b) { return *this = *this + b; }
   MpfrNumber& operator-=(const MpfrNumber& b) { return *this = *this - b; }
   MpfrNumber& operator*=(const MpfrNumber& b) { return *this = *this * b; }
@@ -85,29 +77,10 @@ class MpfrNumber {
   friend class MpfrScope;
 
   static constexpr std::size_t most_limbs = (most_bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS;
-  static inline thread_local Arithmetic arithmetic_;
 
-  /// A value of the scope's precision, to be set.
-  void prepare() { set_zero(); }
-  void set_zero() {
-    mpfr_custom_init(limbs_, arithmetic_.bits);
-    mpfr_custom_init_set(value_, MPFR_ZERO_KIND, 0, arithmetic_.bits, limbs_);
-  }
-  void copy(const MpfrNumber& other) {
-    value_[0] = other.value_[0];
-    const std::size_t used = (static_cast<std::size_t>(bits()) + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS;
-    std::copy_n(other.limbs_, used, limbs_);
-    mpfr_custom_move(value_, limbs_);
-  }
-  void finish(int ternary) {
-    if (arithmetic_.binary64) mpfr_subnormalize(value_, ternary, MPFR_RNDN);
-  }
   template <class Function, class... Arguments>
-  static MpfrNumber of(Function* function, const Arguments&... arguments) {
-    MpfrNumber result;
-    result.finish(function(result.value_, arguments.value_..., MPFR_RNDN));
-    return result;
-  }
+  static MpfrNumber of(Function* function, const Arguments&... arguments);
+  void copy(const MpfrNumber& other);
 
   mpfr_t value_;
   mp_limb_t limbs_[most_limbs];
@@ -117,20 +90,8 @@ class MpfrNumber {
 /// that MpfrNumber does not have.
 class MpfrScope {
  public:
-  explicit MpfrScope(const Arithmetic& arithmetic)
-      : before_(MpfrNumber::arithmetic_), emin_(mpfr_get_emin()), emax_(mpfr_get_emax()) {
-    if (arithmetic.bits < MpfrNumber::least_bits || arithmetic.bits > MpfrNumber::most_bits) {
-      throw std::invalid_argument("no such precision");
-    }
-    MpfrNumber::arithmetic_ = arithmetic;
-    mpfr_set_emin(arithmetic.binary64 ? -1073 : mpfr_get_emin_min());
-    mpfr_set_emax(arithmetic.binary64 ? 1024 : mpfr_get_emax_max());
-  }
-  ~MpfrScope() {
-    MpfrNumber::arithmetic_ = before_;
-    mpfr_set_emin(emin_);
-    mpfr_set_emax(emax_);
-  }
+  explicit MpfrScope(const Arithmetic& arithmetic);
+  ~MpfrScope();
   MpfrScope(const MpfrScope&) = delete;
   MpfrScope& operator=(const MpfrScope&) = delete;
 
@@ -138,8 +99,6 @@ class MpfrScope {
   Arithmetic before_;
   mpfr_exp_t emin_, emax_;
 };
-
-inline bool isfinite(const MpfrNumber& x) { return x.finite(); }
 
 }  // namespace noli::audit
 

@@ -202,6 +202,7 @@ class Audit {
     const MpfrScope scope(measuring);
     const Replay<Dim>& replay = *replays_[i];
     Drift drift;
+    drift.time = engine_.time();
     MpfrNumber greatest(-1), sum(0);
     for (std::size_t v = 0; v < outcome_.vertices; ++v) {
       const MpfrNumber squared = squared_distance(engine_.particles()[v].x, replay.particles()[v].x);

@@ -44,6 +44,7 @@ struct PrecisionRequest {
 
 /// Double against another precision, at a window's end.
 struct Drift {
+  double time = 0;              ///< [s]
   double position = 0;          ///< the greatest distance between the two places of one vertex [m]
   VertexId vertex = 0;          ///< the one that is so far off
   double position_rms = 0;      ///< over the vertices [m]
