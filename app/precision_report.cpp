@@ -176,8 +176,9 @@ std::string precision_text(const PrecisionOutcome& outcome) {
     text += fmt::format("53 bits differ from double: first the {}, at {} s.\n", outcome.difference->what,
                         digits17(outcome.difference->time));
   }
-  text += fmt::format("Double against so many bits, in the {} windows before a layer acts in one run only:\n",
-                      outcome.windows_in_order());
+  const bool in_order = outcome.windows_in_order() == outcome.energies.size();
+  text += fmt::format("Double against so many bits, in {} windows{}:\n", outcome.windows_in_order(),
+                      in_order ? "" : ", which end before a layer acts in one run only");
   text += table_of_runs(outcome) + order_text(outcome) + energy_text(outcome);
   if (outcome.ended)
     text += fmt::format("The run in double ended after window {}: {}.\n", outcome.windows, *outcome.ended);

@@ -5,8 +5,8 @@
 // Notation
 //   p             precision in bits, of the significand with its leading 1
 //   binary64      p = 53 with the exponents of IEEE 754: a significand 0.1... times 2^e with e from emin = -1073 to
-//                 emax = 1024 (MPFR's convention), and subnormal numbers by mpfr_subnormalize after each operation, which
-//                 undoes double rounding. Then + - * / sqrt are those of the processor, bit for bit (MPFR manual,
+//                 emax = 1024 (MPFR's convention), and subnormal numbers by mpfr_subnormalize after each operation,
+//                 which undoes double rounding. Then + - * / sqrt are those of the processor, bit for bit (MPFR manual,
 //                 "Exception Related Functions")
 //   scope         an MpfrScope: on its thread, until it ends, results of operations have its precision. A copy has the
 //                 precision of what was copied, and is exact
@@ -14,8 +14,9 @@
 // The digits are in the number itself, so nothing is allocated. Operations are not inline: beside what they do a call
 // costs nothing, and the integrator's loops, which inline all they can, stay compilable.
 //
-// What this does not do: no NaN payloads, no flags, no other rounding modes, and no functions but the square root and the
-// absolute value. Comparing numbers of different precision is exact. It promises nothing of operations outside of scopes.
+// What this does not do: no NaN payloads, no flags, no other rounding modes, and no functions but the square root and
+// the absolute value. Comparing numbers of different precision is exact. Operations outside of scopes have 53 bits and
+// the exponents of MPFR.
 #pragma once
 
 // First, so that it declares what has to do with intmax_t or FILE only if others have asked for it.

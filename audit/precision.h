@@ -6,15 +6,15 @@
 // Notation
 //   E         energy at a window's end: kinetic energy of the velocities half way through the kicks of that time, and
 //             all potentials (integrator/energy.h)
-//   D_p       (E - E_1) - (W - W_1) of the run with p bits, W the work of damping and friction (not positive), 1 the end
-//             of the first window: by how much the run has gained energy that nothing gave it
+//   D_p       (E - E_1) - (W - W_1) of the run with p bits, W the work of damping and friction (not positive), 1 the
+//             end of the first window: by how much the run has gained energy that nothing gave it
 //   truncation  D_p of the greatest p: what is left is the error of the scheme, its steps being finite
 //   rounding    D of double less that
 // In scenes where scripts do work on things, or restitution takes energy, D is not all error: then there is no
 // truncation to be told from it, but rounding, a difference of two runs, is what it is.
 //
-// What this does not do: windows are not verified, so none is rolled back; the run in double is that of noli simulate as
-// long as that rolls none back either. Event times are not computed in higher precision, but see TimeTie.
+// What this does not do: windows are not verified, so none is rolled back; the run in double is that of noli simulate
+// as long as that rolls none back either. Event times are not computed in higher precision, but see TimeTie.
 #pragma once
 
 #include <atomic>
@@ -89,8 +89,8 @@ struct PrecisionOutcome {
   /// The earliest time at which the order of events would be another: a layer that acts in double and not in the
   /// greatest precision, or the other way round, or a tie.
   std::optional<double> order_changes() const;
-  /// Windows that ended before a layer acted in one of these two runs only. From then on a replay is another experiment:
-  /// it sees no pairs but those that the run in double came near, so how far apart the two are says nothing more.
+  /// Windows that ended before a layer acted in one of these two runs only. From then on a replay is another
+  /// experiment: it sees no pairs but those that the run in double came near, so how far apart the two are says nothing.
   std::size_t windows_in_order() const;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A run of a scene in numbers of any precision that does what the run in double did, event by event, and tells where the
-// two part.
+// A run of a scene in numbers of any precision that does what the run in double did, event by event, and tells where
+// the two part.
 //
 // Times are the doubles of that run in all precisions; a time that passes between two events is their difference,
 // rounded once. Everything else is computed anew, the constants of the model being the doubles of the scene.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Contact in a run that does what another run did: layers fire when they did there and for the pairs for which they did
-// there, with the formulas of integrator/contact_blow.h in numbers of type S. Whether a layer acts, between which points,
-// with restitution or not, and whether friction stops the slip follows from this run's own positions.
+// there, with the formulas of integrator/contact_blow.h in numbers of type S. Whether a layer acts, between which
+// points, with restitution or not, and whether friction stops the slip follows from this run's own positions.
 //
 // Times, thicknesses, stiffnesses and steps are the doubles of the run that is followed.
 //

@@ -3,18 +3,19 @@
 // Event times in higher precision: would the events of a run still come in the same order?
 //
 // Notation
-//   k, h    an event's time is fl(k h), h being its clock's step; exactly it is k h, a product of two numbers of 53 bits
+//   k, h    an event's time is fl(k h), h being its clock's step; exactly it is k h, a product of two numbers of 53
+//           bits
 //   rank    of two events of one time, the one of lower rank comes first
 //   tie     two events of the same time fl(k h) = fl(k' h') although k h < k' h', the first being of higher rank
-// Rounding is monotone, so events that are apart in double have the order of their exact times: only ties can change it.
+// Rounding is monotone, so events that are apart in double have the order of their exact times: only ties can change
+// it.
 //
-// What this does not do: certificates are no events of the motion, and scripts' breakpoints have exact times. Where each
-// force has a clock of its own, those of one kind have one rank: their order at one time is not looked at.
+// What this does not do: certificates are no events of the motion, and scripts' breakpoints have exact times. Where
+// each force has a clock of its own, those of one kind have one rank: their order at one time is not looked at.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
