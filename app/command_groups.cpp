@@ -21,7 +21,10 @@ CLI::App& add_audit(CLI::App& app) {
   CLI::App* const audit = app.add_subcommand("audit", "How far can numbers, and somebody else's code, be trusted?");
   audit->require_subcommand(1);
   audit->footer(
-      "Examples:\n  noli audit ccd --library ./mine.so queries-edge-edge.csv\n`noli audit ccd --help` says more.");
+      "Examples:\n"
+      "  noli audit ccd --library ./mine.so queries-edge-edge.csv\n"
+      "  noli audit precision scenes/bounce.json --short\n"
+      "`noli audit ccd --help` says more.");
   return *audit;
 }
 

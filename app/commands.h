@@ -33,5 +33,6 @@ Command add_fuzz_trajectories(CLI::App& fuzz);
 Command add_fuzz_proofs(CLI::App& fuzz);
 Command add_fuzz_scenes(CLI::App& fuzz);
 Command add_audit_ccd(CLI::App& audit);
+Command add_audit_precision(CLI::App& audit);
 
 }  // namespace noli::app

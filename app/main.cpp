@@ -60,7 +60,7 @@ ExitCode parse_and_run(int argc, char** argv) {
       add_export(app),        add_report(app),
       add_fuzz_queries(fuzz), add_fuzz_trajectories(fuzz),
       add_fuzz_proofs(fuzz),  add_fuzz_scenes(fuzz),
-      add_audit_ccd(audit),
+      add_audit_ccd(audit),   add_audit_precision(audit),
   };
   try {
     app.parse(argc, argv);

@@ -24,6 +24,8 @@
 // crossing at 0.01 rad 0.02 %, 0.4 %, 1.2 %; at 0.1 rad and more 0.03 % at c = 0.1, which is that of any impact
 // (tests/integrator/contact_physics_parallel_test.cpp).
 //
+// S, the type of numbers, is double; in audits also multiprecision numbers, for which the formulas are the same.
+//
 // What this does not do: it decides nothing. Whether things meet is for the kernel.
 #pragma once
 
@@ -42,56 +44,62 @@ struct Slide {
   std::uint8_t to, from;
 };
 
-template <int Dim>
+template <int Dim, class S = double>
 struct Closest {
-  std::array<double, 4> weights{};
+  std::array<S, 4> weights{};
   std::array<Slide, 2> slides{};
   std::size_t slide_count = 0;
-  Vector<Dim> r = Vector<Dim>::Zero();
+  Vector<Dim, S> r = Vector<Dim, S>::Zero();
 
-  double distance() const { return std::sqrt(r.squaredNorm()); }
+  S distance() const {
+    using std::sqrt;
+    return sqrt(r.squaredNorm());
+  }
 };
 
 namespace detail {
 
-inline double clamp_unit(double s) { return std::min(std::max(s, 0.0), 1.0); }
+template <class S>
+S clamp_unit(const S& s) {
+  return std::min(std::max(s, S(0)), S(1));
+}
 
-template <int Dim>
+template <int Dim, class S>
 class ClosestFinder {
  public:
-  ClosestFinder(std::span<const Vector<Dim>> x, Closest<Dim>& result) : x_(x), result_(result) {}
+  ClosestFinder(std::span<const Vector<Dim, S>> x, Closest<Dim, S>& result) : x_(x), result_(result) {}
 
   /// A corner and a segment; sign: 1 if the corner is of A, else -1. Indices into the stencil.
-  void corner_segment(std::uint8_t p, std::uint8_t q0, std::uint8_t q1, double sign) {
-    const Vector<Dim> e = x_[q1] - x_[q0];
-    const double length = e.squaredNorm();
-    const double t = length > 0 ? clamp_unit(e.dot(x_[p] - x_[q0]) / length) : 0;
+  void corner_segment(std::uint8_t p, std::uint8_t q0, std::uint8_t q1, const S& sign) {
+    const Vector<Dim, S> e = x_[q1] - x_[q0];
+    const S length = e.squaredNorm();
+    const S t = length > S(0) ? clamp_unit<S>(e.dot(x_[p] - x_[q0]) / length) : S(0);
     weigh(p, sign);
-    weigh(q0, -sign * (1 - t));
+    weigh(q0, -sign * (S(1) - t));
     weigh(q1, -sign * t);
-    if (!(t > 0 && t < 1)) return;
-    sign > 0 ? slide(q1, q0) : slide(q0, q1);
+    if (!(t > S(0) && t < S(1))) return;
+    sign > S(0) ? slide(q1, q0) : slide(q0, q1);
   }
 
   void vertex_face() {
-    const Vector<Dim> ab = x_[2] - x_[1], ac = x_[3] - x_[1], ap = x_[0] - x_[1];
-    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-    if (d1 <= 0 && d2 <= 0) return corners(1);
-    const Vector<Dim> bp = x_[0] - x_[2];
-    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-    if (d3 >= 0 && d4 <= d3) return corners(2);
-    const Vector<Dim> cp = x_[0] - x_[3];
-    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-    if (d6 >= 0 && d5 <= d6) return corners(3);
-    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return corner_segment(0, 1, 2, 1);
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return corner_segment(0, 1, 3, 1);
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return corner_segment(0, 2, 3, 1);
-    const double sum = va + vb + vc;
-    if (!(sum > 0)) return nearest_border();
-    const double v = clamp_unit(vb / sum), w = std::min(clamp_unit(vc / sum), 1 - v);
-    weigh(0, 1);
-    weigh(1, -(1 - v - w));
+    const Vector<Dim, S> ab = x_[2] - x_[1], ac = x_[3] - x_[1], ap = x_[0] - x_[1];
+    const S d1 = ab.dot(ap), d2 = ac.dot(ap);
+    if (d1 <= S(0) && d2 <= S(0)) return corners(1);
+    const Vector<Dim, S> bp = x_[0] - x_[2];
+    const S d3 = ab.dot(bp), d4 = ac.dot(bp);
+    if (d3 >= S(0) && d4 <= d3) return corners(2);
+    const Vector<Dim, S> cp = x_[0] - x_[3];
+    const S d5 = ab.dot(cp), d6 = ac.dot(cp);
+    if (d6 >= S(0) && d5 <= d6) return corners(3);
+    const S vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (vc <= S(0) && d1 >= S(0) && d3 <= S(0)) return corner_segment(0, 1, 2, S(1));
+    if (vb <= S(0) && d2 >= S(0) && d6 <= S(0)) return corner_segment(0, 1, 3, S(1));
+    if (va <= S(0) && d4 - d3 >= S(0) && d5 - d6 >= S(0)) return corner_segment(0, 2, 3, S(1));
+    const S sum = va + vb + vc;
+    if (!(sum > S(0))) return nearest_border();
+    const S v = clamp_unit<S>(vb / sum), w = std::min<S>(clamp_unit<S>(vc / sum), S(1) - v);
+    weigh(0, S(1));
+    weigh(1, -(S(1) - v - w));
     weigh(2, -v);
     weigh(3, -w);
     slide(2, 1);
@@ -99,52 +107,52 @@ class ClosestFinder {
   }
 
   void edge_edge() {
-    const Vector<Dim> d1 = x_[1] - x_[0], d2 = x_[3] - x_[2], r = x_[0] - x_[2];
-    const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r);
-    if (!(a > 0)) return corner_segment(0, 2, 3, 1);
-    if (!(e > 0)) return corner_segment(2, 0, 1, -1);
-    const double b = d1.dot(d2), c = d1.dot(r), det = a * e - b * b;
-    double s = det > 1e-12 * a * e ? clamp_unit((b * f - c * e) / det) : middle_of_overlap(a, b, c);
-    double t = (b * s + f) / e;
-    if (t < 0 || t > 1) {
-      t = clamp_unit(t);
-      s = clamp_unit((t * b - c) / a);
+    const Vector<Dim, S> d1 = x_[1] - x_[0], d2 = x_[3] - x_[2], r = x_[0] - x_[2];
+    const S a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r);
+    if (!(a > S(0))) return corner_segment(0, 2, 3, S(1));
+    if (!(e > S(0))) return corner_segment(2, 0, 1, S(-1));
+    const S b = d1.dot(d2), c = d1.dot(r), det = a * e - b * b;
+    S s = det > S(1e-12) * a * e ? clamp_unit<S>((b * f - c * e) / det) : middle_of_overlap(a, b, c);
+    S t = (b * s + f) / e;
+    if (t < S(0) || t > S(1)) {
+      t = clamp_unit<S>(t);
+      s = clamp_unit<S>((t * b - c) / a);
     }
-    weigh(0, 1 - s);
+    weigh(0, S(1) - s);
     weigh(1, s);
-    weigh(2, -(1 - t));
+    weigh(2, -(S(1) - t));
     weigh(3, -t);
-    if (s > 0 && s < 1) slide(0, 1);
-    if (t > 0 && t < 1) slide(3, 2);
+    if (s > S(0) && s < S(1)) slide(0, 1);
+    if (t > S(0) && t < S(1)) slide(3, 2);
     // Along parallel edges both parameters are one.
-    if (result_.slide_count == 2 && !(det > 1e-12 * a * e)) result_.slide_count = 1;
+    if (result_.slide_count == 2 && !(det > S(1e-12) * a * e)) result_.slide_count = 1;
   }
 
   void corners(std::uint8_t q) {
-    weigh(0, 1);
-    weigh(q, -1);
+    weigh(0, S(1));
+    weigh(q, S(-1));
   }
 
  private:
-  void weigh(std::uint8_t i, double w) { result_.weights[i] = w; }
+  void weigh(std::uint8_t i, const S& w) { result_.weights[i] = w; }
   void slide(std::uint8_t to, std::uint8_t from) { result_.slides[result_.slide_count++] = {to, from}; }
 
   /// Parameter on the first of two parallel edges.
-  static double middle_of_overlap(double a, double b, double c) {
-    const double s0 = clamp_unit(-c / a), s1 = clamp_unit((b - c) / a);
-    return 0.5 * (s0 + s1);
+  static S middle_of_overlap(const S& a, const S& b, const S& c) {
+    const S s0 = clamp_unit<S>(-c / a), s1 = clamp_unit<S>((b - c) / a);
+    return S(0.5) * (s0 + s1);
   }
 
   /// Of a triangle without area.
   void nearest_border() {
-    double least = -1;
-    Closest<Dim> best;
+    S least(-1);
+    Closest<Dim, S> best;
     for (const Slide side : {Slide{1, 2}, Slide{1, 3}, Slide{2, 3}}) {
       result_ = {};
-      corner_segment(0, side.to, side.from, 1);
-      Vector<Dim> r = Vector<Dim>::Zero();
+      corner_segment(0, side.to, side.from, S(1));
+      Vector<Dim, S> r = Vector<Dim, S>::Zero();
       for (std::size_t i = 0; i < 4; ++i) r += result_.weights[i] * x_[i];
-      if (least < 0 || r.squaredNorm() < least) {
+      if (least < S(0) || r.squaredNorm() < least) {
         least = r.squaredNorm();
         best = result_;
       }
@@ -152,21 +160,21 @@ class ClosestFinder {
     result_ = best;
   }
 
-  std::span<const Vector<Dim>> x_;
-  Closest<Dim>& result_;
+  std::span<const Vector<Dim, S>> x_;
+  Closest<Dim, S>& result_;
 };
 
 }  // namespace detail
 
 /// Precondition: x has the stencil's vertices, finite; in the plane no faces.
-template <int Dim>
-Closest<Dim> closest(FeaturePair kind, std::span<const Vector<Dim>> x) {
-  Closest<Dim> result;
-  detail::ClosestFinder<Dim> finder(x, result);
+template <int Dim, class S = double>
+Closest<Dim, S> closest(FeaturePair kind, std::span<const Vector<Dim, S>> x) {
+  Closest<Dim, S> result;
+  detail::ClosestFinder<Dim, S> finder(x, result);
   switch (kind) {
     case FeaturePair::vertex_face: finder.vertex_face(); break;
     case FeaturePair::edge_edge: finder.edge_edge(); break;
-    case FeaturePair::vertex_edge: finder.corner_segment(0, 1, 2, 1); break;
+    case FeaturePair::vertex_edge: finder.corner_segment(0, 1, 2, S(1)); break;
     case FeaturePair::vertex_vertex: finder.corners(1); break;
   }
   result.r = result.weights[0] * x[0];

@@ -8,8 +8,8 @@
 
 namespace noli::certificates {
 
-template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
+template <int Dim, class S = double>
+using Vector = Eigen::Matrix<S, Dim, 1, Eigen::DontAlign>;
 
 /// A vertex as it moves until its velocity changes: x + (time - t) v.
 template <int Dim>

@@ -5,6 +5,8 @@ find_package(CGAL REQUIRED QUIET)  # brings GMP, MPFR and Boost
 find_path(NOLI_GMPXX_INCLUDE gmpxx.h REQUIRED)
 find_library(NOLI_GMPXX gmpxx REQUIRED)
 find_library(NOLI_GMP gmp REQUIRED)
+find_path(NOLI_MPFR_INCLUDE mpfr.h REQUIRED)
+find_library(NOLI_MPFR mpfr REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)

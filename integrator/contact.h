@@ -23,8 +23,8 @@
 #include "noli/certificates/every_pair.h"
 #include "noli/integrator/books.h"
 #include "noli/integrator/clocks.h"
+#include "noli/integrator/contact_blow.h"
 #include "noli/integrator/contact_extremes.h"
-#include "noli/integrator/contact_impulse.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/contact_settings.h"
 #include "noli/integrator/kick.h"
@@ -33,9 +33,18 @@
 
 namespace noli::integrator {
 
+/// A layer that fires, for recorders that want to know (layer_fires), before each of its pairs (examined).
+struct Firing {
+  double time, h;  ///< h: of this kick, half of the layer's step when a run begins
+  std::uint16_t material;
+  std::uint32_t layer;
+  LayerTerms terms;
+};
+
 template <int Dim>
 class Contact {
  public:
+  using Scalar = double;
   using Particles = std::vector<Particle<double, Dim>>;
 
   /// `look_steps`: of each vertex, how often it fires at least; infinity for those that nothing does. The particles
@@ -120,10 +129,7 @@ class Contact {
     for (const auto& of_material : layers_) {
       for (const Layer& layer : of_material) {
         for (const certificates::Stencil& pair : layer.pairs.in_order()) {
-          std::array<Vec<double, Dim>, 4> x;
-          for (std::size_t i = 0; i < pair.size(); ++i) x[i] = particles_[pair.vertices[i]].x;
-          const auto c =
-              certificates::closest<Dim>(pair.kind, std::span<const Vec<double, Dim>>(x.data(), pair.size()));
+          const auto c = closest_now<double, Dim>(particles_, pair);
           const double g = c.distance() - layer.thickness;
           if (g < 0) each(pair, c, g, layer.stiffness, layer.clock.step);
         }
@@ -131,15 +137,24 @@ class Contact {
     }
   }
 
-  /// Calls each(pair) once for each of its active layers.
+  /// Calls each(pair, material, l) for all active layers.
   template <class Each>
   void for_each_active(Each&& each) const {
-    for (const auto& of_material : layers_) {
-      for (const Layer& layer : of_material) {
-        for (const certificates::Stencil& pair : layer.pairs.in_order()) each(pair);
+    for (std::size_t m = 0; m < layers_.size(); ++m) {
+      for (std::size_t l = 1; l <= layers_[m].size(); ++l) {
+        for (const certificates::Stencil& pair : layers_[m][l - 1].pairs.in_order()) {
+          each(pair, static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l));
+        }
       }
     }
   }
+  /// Precondition: it is active for a pair, or was.
+  LayerTerms terms_of(std::uint16_t material, std::uint32_t l) const {
+    const Layer& layer = layers_[material][l - 1];
+    const ContactMaterial& m = settings_.materials[material];
+    return {layer.thickness, layer.stiffness, m.restitution, m.friction};
+  }
+  double step_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].clock.step; }
 
   const certificates::CertificateCounts& counts() const { return cells_ ? cells_->counts() : every_pair_->counts(); }
 
@@ -234,10 +249,14 @@ class Contact {
     const auto firing = layers_[material][l - 1].pairs.in_order();  // as they are now, whatever happens meanwhile
     record.reserve(4 * firing.size());
     const Kicked<double, Dim, Recorder> now{particles_, record, t};
+    const LayerTerms terms = terms_of(material, l);
+    if constexpr (requires { record.layer_fires(Firing{t, h, material, l, terms}); }) {
+      record.layer_fires(Firing{t, h, material, l, terms});
+    }
     std::size_t acted = 0;
     for (const certificates::Stencil& pair : firing) {
-      const double d = fire_pair(now, account, pair, settings_.materials[material], layers_[material][l - 1], h);
-      const double eta = layers_[material][l - 1].thickness;
+      const double d = fire_pair(now, account, pair, terms, h);
+      const double eta = terms.thickness;
       if (d < eta) {
         ++acted;
         extremes_.add({pair, t, d, material, l});
@@ -251,64 +270,17 @@ class Contact {
   /// Of one pair; returns the distance.
   template <class Recorder>
   double fire_pair(const Kicked<double, Dim, Recorder>& now, Account<double, Dim>& account,
-                   const certificates::Stencil& pair, const ContactMaterial& material, const Layer& layer, double h) {
-    const std::size_t n = pair.size();
-    std::array<Vec<double, Dim>, 4> x, v;
-    std::array<double, 4> inverse_mass{};
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto& p = particles_[pair.vertices[i]];
-      x[i] = p.at(now.t);
-      v[i] = p.v;
-      inverse_mass[i] = p.inverse_mass;
+                   const certificates::Stencil& pair, const LayerTerms& layer, double h) {
+    const Blow<double, Dim> blow = strike_pair(now, pair, layer, h, account);
+    if constexpr (requires { now.record.examined(pair, blow.whole_course()); }) {
+      now.record.examined(pair, blow.whole_course());
     }
-    const std::span<const Vec<double, Dim>> xs(x.data(), n), vs(v.data(), n);
-    const auto c = certificates::closest<Dim>(pair.kind, xs);
-    const double d = c.distance(), g = d - layer.thickness;
-    if (!(g < 0)) return d;
-    if (!(d > 0)) throw ContactLimit(pair, now.t);
-    const double share = opening_speed<Dim>(c, d, vs) > 0 ? material.restitution : 1;
-    const double push = -share * h * layer.stiffness * g;
-    if (push == 0) return d;
-    add<true>(account, normal_impulses(c, d, push), x, v, inverse_mass, n);
-    if (material.friction > 0) rub(account, material.friction * push, c, x, v, inverse_mass, n);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (inverse_mass[i] == 0 || !differ<double, Dim>(v[i], particles_[pair.vertices[i]].v)) continue;
-      set_velocity(now, pair.vertices[i], x[i], v[i]);
-    }
+    if (!blow.struck) return blow.distance;
     const Doing certifying(*activity_, Phase::certificate);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (inverse_mass[i] != 0) look(pair.vertices[i], now.t);
+    for (std::size_t i = 0; i < pair.size(); ++i) {
+      if (!immovable(pair.vertices[i])) look(pair.vertices[i], now.t);
     }
-    return d;
-  }
-
-  void rub(Account<double, Dim>& account, double most, const certificates::Closest<Dim>& c,
-           const std::array<Vec<double, Dim>, 4>& x, std::array<Vec<double, Dim>, 4>& v,
-           const std::array<double, 4>& inverse_mass, std::size_t n) const {
-    Slip<Dim> s = slip<Dim>(c, {x.data(), n}, {v.data(), n});
-    const double yield = yielding<Dim>(s, {inverse_mass.data(), n});
-    if (!(s.speed > 0) || !(yield > 0)) return;
-    const double magnitude = std::min(most, s.speed / yield);
-    for (std::size_t i = 0; i < n; ++i) s.against[i] *= magnitude;
-    add<false>(account, s.against, x, v, inverse_mass, n);
-  }
-
-  /// Gives impulses and books them.
-  template <bool Conservative>
-  static void add(Account<double, Dim>& account, const Impulses<Dim>& impulses,
-                  const std::array<Vec<double, Dim>, 4>& x, std::array<Vec<double, Dim>, 4>& v,
-                  const std::array<double, 4>& inverse_mass, std::size_t n) {
-    double twice_work = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (inverse_mass[i] == 0) {
-        book_support<double, Dim>(account, x[i], impulses[i]);
-        continue;
-      }
-      const Vec<double, Dim> before = v[i];
-      v[i] += inverse_mass[i] * impulses[i];
-      twice_work += impulses[i].dot(before + v[i]);
-    }
-    (Conservative ? account.work : account.damping_work) += 0.5 * twice_work;
+    return blow.distance;
   }
 
   ContactSettings settings_;

@@ -11,6 +11,8 @@
 //             the features. The slip is that of the points' parameters, which rigid motions do not change; so neither
 //             impulse changes momentum or angular momentum (see friction_direction)
 //
+// S is double; in audits also multiprecision numbers.
+//
 // What this does not do: it changes no velocity, and no one's clock.
 #pragma once
 
@@ -23,66 +25,67 @@
 
 namespace noli::integrator {
 
-template <int Dim>
-using Impulses = std::array<Vec<double, Dim>, 4>;
+template <int Dim, class S = double>
+using Impulses = std::array<Vec<S, Dim>, 4>;
 
 /// J_n along the gradient of the distance. `push`: J_n.
-template <int Dim>
-Impulses<Dim> normal_impulses(const certificates::Closest<Dim>& c, double d, double push) {
-  Impulses<Dim> impulses;
-  const Vec<double, Dim> n = c.r / d;
+template <int Dim, class S>
+Impulses<Dim, S> normal_impulses(const certificates::Closest<Dim, S>& c, const S& d, const S& push) {
+  Impulses<Dim, S> impulses;
+  const Vec<S, Dim> n = c.r / d;
   for (std::size_t i = 0; i < 4; ++i) impulses[i] = (push * c.weights[i]) * n;
   return impulses;
 }
 
 /// d(d)/dt: negative while the closest points approach.
-template <int Dim>
-double opening_speed(const certificates::Closest<Dim>& c, double d, std::span<const Vec<double, Dim>> v) {
-  double sum = 0;
+template <int Dim, class S>
+S opening_speed(const certificates::Closest<Dim, S>& c, const S& d, std::span<const Vec<S, Dim>> v) {
+  S sum(0);
   for (std::size_t i = 0; i < v.size(); ++i) sum += c.weights[i] * c.r.dot(v[i]);
   return sum / d;
 }
 
 /// The slip of a pair: its speed, and the generalized force of magnitude 1 against it.
-template <int Dim>
+template <int Dim, class S = double>
 struct Slip {
-  double speed = 0;         ///< sqrt(rate . (b_j . b_k) rate) [m/s]; 0: nothing slips, or nothing can
-  Impulses<Dim> against{};  ///< impulse on each vertex, if the friction's is 1
+  S speed = S(0);              ///< sqrt(rate . (b_j . b_k) rate) [m/s]; 0: nothing slips, or nothing can
+  Impulses<Dim, S> against{};  ///< impulse on each vertex, if the friction's is 1
 };
 
 /// With rate the parameters' rates and y = -rate / speed, the force of magnitude 1 that does the work -speed per second
 /// on every motion is sum y_k dc_k/dv_i: c_k = b_k . u + (db_k/dt) . r, u = sum w_i v_i. It is a force along gradients
 /// of functions that rigid motions leave alone.
-template <int Dim>
-Slip<Dim> slip(const certificates::Closest<Dim>& c, std::span<const Vec<double, Dim>> x,
-               std::span<const Vec<double, Dim>> v) {
-  Slip<Dim> result;
+template <int Dim, class S>
+Slip<Dim, S> slip(const certificates::Closest<Dim, S>& c, std::span<const Vec<S, Dim>> x,
+                  std::span<const Vec<S, Dim>> v) {
+  using std::sqrt;
+  Slip<Dim, S> result;
   for (auto& impulse : result.against) impulse.setZero();
   if (c.slide_count == 0) return result;
-  Vec<double, Dim> u = c.weights[0] * v[0];
+  Vec<S, Dim> u = c.weights[0] * v[0];
   for (std::size_t i = 1; i < v.size(); ++i) u += c.weights[i] * v[i];
-  std::array<Vec<double, Dim>, 2> b;
-  std::array<double, 2> rhs{}, rate{};
+  std::array<Vec<S, Dim>, 2> b;
+  std::array<S, 2> rhs{}, rate{};
   for (std::size_t k = 0; k < c.slide_count; ++k) {
     const auto [to, from] = c.slides[k];
     b[k] = x[to] - x[from];
     rhs[k] = b[k].dot(u) + (v[to] - v[from]).dot(c.r);
   }
-  const double aa = b[0].squaredNorm();
+  const S aa = b[0].squaredNorm();
   if (c.slide_count == 1) {
     rate[0] = rhs[0] / aa;
   } else {
-    const double ab = b[0].dot(b[1]), bb = b[1].squaredNorm(), det = aa * bb - ab * ab;
-    if (!(det > 0)) return result;
+    const S ab = b[0].dot(b[1]), bb = b[1].squaredNorm(), det = aa * bb - ab * ab;
+    if (!(det > S(0))) return result;
     rate[0] = (bb * rhs[0] - ab * rhs[1]) / det;
     rate[1] = (aa * rhs[1] - ab * rhs[0]) / det;
   }
-  double squared = 0;
+  S squared(0);
   for (std::size_t k = 0; k < c.slide_count; ++k) squared += rate[k] * rhs[k];
-  if (!(squared > 0)) return result;
-  result.speed = std::sqrt(squared);
+  if (!(squared > S(0))) return result;
+  result.speed = sqrt(squared);
   for (std::size_t k = 0; k < c.slide_count; ++k) {
-    const double y = -rate[k] / result.speed;
+    const S y = -rate[k] / result.speed;
     for (std::size_t i = 0; i < v.size(); ++i) result.against[i] += (y * c.weights[i]) * b[k];
     result.against[c.slides[k].to] += y * c.r;
     result.against[c.slides[k].from] -= y * c.r;
@@ -91,9 +94,9 @@ Slip<Dim> slip(const certificates::Closest<Dim>& c, std::span<const Vec<double, 
 }
 
 /// How much of the slip's speed an impulse of magnitude 1 takes: the friction that stops it is speed / this.
-template <int Dim>
-double yielding(const Slip<Dim>& slip, std::span<const double> inverse_mass) {
-  double sum = 0;
+template <int Dim, class S>
+S yielding(const Slip<Dim, S>& slip, std::span<const S> inverse_mass) {
+  S sum(0);
   for (std::size_t i = 0; i < inverse_mass.size(); ++i) sum += inverse_mass[i] * slip.against[i].squaredNorm();
   return sum;
 }

@@ -19,10 +19,10 @@
 
 namespace noli::integrator {
 
-template <class S, int Dim>
+template <class S, int Dim, class Touching = void>
 class Ledger {
  public:
-  explicit Ledger(const Engine<S, Dim>& engine) : engine_(engine) {
+  explicit Ledger(const Engine<S, Dim, Touching>& engine) : engine_(engine) {
     for (const auto& p : engine.particles()) v_mean_.push_back(p.v);
   }
 
@@ -79,18 +79,18 @@ class Ledger {
   }
 
   void add_contact() {
-    if constexpr (std::is_same_v<S, double>) {
-      double potential = 0;
-      engine_.contact()->for_each_acting(
-          [&](const certificates::Stencil& pair, const certificates::Closest<Dim>& c, double g, double r, double h) {
-            potential += 0.5 * r * g * g;
-            if (!strikes(h)) return;
-            const auto impulses = normal_impulses(c, c.distance(), -0.5 * h * r * g);
-            for (std::size_t i = 0; i < pair.size(); ++i) {
-              const VertexId v = pair.vertices[i];
-              v_mean_[v] -= engine_.particles()[v].inverse_mass * impulses[i];
-            }
-          });
+    if constexpr (std::is_same_v<S, typename Engine<S, Dim, Touching>::ContactType::Scalar>) {
+      S potential{};
+      engine_.contact()->for_each_acting([&](const certificates::Stencil& pair, const certificates::Closest<Dim, S>& c,
+                                             const S& g, double r, double h) {
+        potential += S(0.5) * S(r) * g * g;
+        if (!strikes(h)) return;
+        const auto impulses = normal_impulses<Dim, S>(c, c.distance(), S(-0.5) * S(h) * S(r) * g);
+        for (std::size_t i = 0; i < pair.size(); ++i) {
+          const VertexId v = pair.vertices[i];
+          v_mean_[v] -= engine_.particles()[v].inverse_mass * impulses[i];
+        }
+      });
       state_.potential[static_cast<std::size_t>(ForceKind::contact)] = potential;
     }
   }
@@ -109,7 +109,7 @@ class Ledger {
     state_.moments += m * speed * sqrt(p.x.squaredNorm());
   }
 
-  const Engine<S, Dim>& engine_;
+  const Engine<S, Dim, Touching>& engine_;
   std::vector<Vec<S, Dim>> v_mean_;
   State<S, Dim> state_;
 };

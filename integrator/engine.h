@@ -42,9 +42,12 @@ struct DivisionsOf<std::tuple<const ForceList<F>&...>> {
 struct Watch : NoRecording {};
 }  // namespace detail
 
-template <class S, int Dim>
+/// `Touching` does in a run of other numbers what Contact does (audit/replayed_contact.h); void: it is Contact. If its
+/// numbers are not S, models with contact are refused.
+template <class S, int Dim, class Touching>
 class Engine {
  public:
+  using ContactType = std::conditional_t<std::is_void_v<Touching>, Contact<Dim>, Touching>;
   using Divisions = typename detail::DivisionsOf<decltype(std::declval<const Forces<S, Dim>&>().lists())>::type;
 
   explicit Engine(Model<S, Dim> model)
@@ -77,7 +80,8 @@ class Engine {
   const std::vector<S>& masses() const { return masses_; }
   const Divisions& divisions() const { return divisions_; }
   const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
-  const Contact<Dim>* contact() const { return contact_.get(); }
+  const ContactType* contact() const { return contact_.get(); }
+  ContactType* contact() { return contact_.get(); }
   void show(Activity& activity) {
     activity_ = &activity;
     if (contact_) contact_->show(activity);
@@ -127,7 +131,7 @@ class Engine {
   static constexpr std::uint64_t events_between_questions = 1 << 14;  ///< a millisecond, about
   static constexpr int most_rows = 256;
   static constexpr std::size_t kinds = std::tuple_size_v<Divisions>;
-  static constexpr bool has_contact = std::is_same_v<S, double>;
+  static constexpr bool has_contact = std::is_same_v<S, typename ContactType::Scalar>;
 
   template <class Recorder>
   using Now = Kicked<S, Dim, Recorder>;
@@ -213,10 +217,10 @@ class Engine {
   void make_contact(const Model<S, Dim>& model) {
     if (!model.contact) return;
     if constexpr (has_contact) {
-      contact_ = std::make_unique<Contact<Dim>>(*model.contact, model.mesh, particles_, look_steps(), window_length_);
+      contact_ = std::make_unique<ContactType>(*model.contact, model.mesh, particles_, look_steps(), window_length_);
       contact_->show(*activity_);
     } else {
-      throw std::invalid_argument("model: contact is computed in double precision only");
+      throw std::invalid_argument("model: no contact is computed in these numbers");
     }
   }
 
@@ -502,7 +506,7 @@ class Engine {
   Divisions divisions_;
   std::vector<Slot> slots_;
   OwnClocks<kinds> own_;
-  std::unique_ptr<Contact<Dim>> contact_;  ///< of the particles above; nothing in scenes without contact
+  std::unique_ptr<ContactType> contact_;  ///< of the particles above; nothing in scenes without contact
   std::uint64_t windows_ = 0;
   std::uint64_t events_ = 0;
   Activity unseen_;

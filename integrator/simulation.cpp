@@ -93,7 +93,8 @@ template <class S, int Dim>
 std::map<certificates::PairKey, std::uint32_t> Simulation<S, Dim>::active_layers() const {
   std::map<certificates::PairKey, std::uint32_t> layers;
   if (engine_->contact() == nullptr) return layers;
-  engine_->contact()->for_each_active([&](const certificates::Stencil& pair) { ++layers[pair.key]; });
+  engine_->contact()->for_each_active(
+      [&](const certificates::Stencil& pair, std::uint16_t, std::uint32_t) { ++layers[pair.key]; });
   return layers;
 }
 

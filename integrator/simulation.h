@@ -76,8 +76,8 @@ struct NotFinite {
 /// Whether to stop.
 using Stop = std::function<bool()>;
 
-/// integrator/engine.h
-template <class S, int Dim>
+/// integrator/engine.h. `Touching`: what knows of contact; void: integrator/contact.h
+template <class S, int Dim, class Touching = void>
 class Engine;
 
 template <class S, int Dim>

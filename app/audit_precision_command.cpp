@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/app/commands.h"
+#include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/notes.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/app/precision_report.h"
+#include "noli/app/progress.h"
+#include "noli/app/run_extent.h"
+#include "noli/audit/precision.h"
+#include "noli/integrator/scene/build_model.h"
+#include "noli/integrator/scene/read_scene.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "Runs the scene in double and, event by event in the same order, in MPFR numbers of other precisions: how far "
+    "apart "
+    "positions,\n"
+    "energies and momenta come, when the order of events would be another, what of the energy error is rounding and "
+    "what truncation.\n"
+    "53 bits with the exponents of double are always run: they have to yield the bits of double. audit/PRECISION.md "
+    "has "
+    "a worked\n"
+    "example. Exit 0: they do (same); 1: they do not (differs); 2: not all windows were run (undecided).\n"
+    "Examples:\n"
+    "  noli audit precision scenes/bounce.json --until 2\n"
+    "  noli audit precision scenes/swinging_cloth.json --short --bits 53,256 --svg cloth.svg --json cloth.result.json";
+
+struct PrecisionArguments {
+  fs::path scene;
+  bool brief = false;
+  std::optional<double> until;
+  std::vector<int> bits = {53, 64, 113, 256};
+  int threads = 0;
+  std::string time_limit;
+  std::optional<std::string> json, svg;
+};
+
+constexpr int least_bits = 24;
+
+/// Double first, then the others by precision.
+std::vector<audit::Arithmetic> arithmetics(std::vector<int> bits) {
+  std::sort(bits.begin(), bits.end());
+  bits.erase(std::unique(bits.begin(), bits.end()), bits.end());
+  std::vector<audit::Arithmetic> result = {audit::hardware_double};
+  for (const int b : bits) {
+    if (b != audit::hardware_double.bits) result.push_back({b, false});
+  }
+  if (bits.back() <= audit::hardware_double.bits) {
+    throw UsageError("--bits: expected at least one precision above 53, to compare double with");
+  }
+  return result;
+}
+
+audit::PrecisionOutcome audit_scene(const integrator::Scene& scene, const audit::PrecisionRequest& request) {
+  if (scene.dimension == 2) return audit::audit_precision(integrator::build_model<2>(scene).model, request);
+  return audit::audit_precision(integrator::build_model<3>(scene).model, request);
+}
+
+ExitCode run(const PrecisionArguments& arguments) {
+  audit::PrecisionRequest request;
+  request.arithmetics = arithmetics(arguments.bits);
+  request.threads = arguments.threads;
+  request.stop = &interrupted();
+  if (!arguments.time_limit.empty()) {
+    request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
+  }
+  const Output output(arguments.json, {arguments.scene});
+  if (arguments.svg) {
+    std::vector<fs::path> others = {arguments.scene};
+    if (arguments.json) others.emplace_back(*arguments.json);
+    require_other_file(*arguments.svg, others, "--svg");
+    require_writable_file(*arguments.svg, "--svg");
+  }
+  const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
+  const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
+  if (arguments.brief) note_missing_short_form(scene);
+  SimulateRequest extent;
+  extent.scene = arguments.scene;
+  extent.until = arguments.until;
+  request.windows = windows_of(extent, scene);
+  const Stopwatch watch;
+  const audit::PrecisionOutcome outcome = [&] {
+    Progress bar("audit precision");
+    request.progress = [&bar](double share) { bar.show(share); };
+    return audit_scene(scene, request);
+  }();
+  if (arguments.svg) write_file(*arguments.svg, precision_svg(outcome, scene.title));
+  Json json = precision_json(outcome);
+  json["timing"] = {{"seconds", watch.seconds()}, {"threads", arguments.threads}};
+  output.write(precision_text(outcome), json);
+  return precision_exit_code(outcome);
+}
+
+}  // namespace
+
+Command add_audit_precision(CLI::App& audit) {
+  CLI::App* const command = audit.add_subcommand("precision", "How far double precision carries a scene");
+  command->footer(footer);
+  const auto arguments = std::make_shared<PrecisionArguments>();
+  command->add_option("scene", arguments->scene, "A scene, as for `noli simulate`")
+      ->required()
+      ->type_name("SCENE.json");
+  command->add_flag("--short", arguments->brief, "The scene's short form");
+  command->add_option("--until", arguments->until, "Simulated time to stop at; default: the scene's duration")
+      ->check(is_positive())
+      ->type_name("SECONDS");
+  command
+      ->add_option("--bits", arguments->bits,
+                   "Precisions to run, with commas between them [53,64,113,256]; energies are measured against the "
+                   "greatest")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(whole_number(least_bits, audit::MpfrNumber::most_bits))
+      ->type_name("P,...");
+  command->add_option("--svg", arguments->svg, "Draw drifts and energy errors over time")->type_name("OUT.svg");
+  command
+      ->add_option("--time-limit", arguments->time_limit,
+                   "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped")
+      ->type_name("TIME");
+  add_json_option(*command, arguments->json);
+  add_threads_option(*command, arguments->threads);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

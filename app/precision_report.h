@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `noli audit precision` says: text, JSON, and a picture of drifts over time.
+#pragma once
+
+#include <string>
+
+#include "noli/app/exit_code.h"
+#include "noli/app/json.h"
+#include "noli/audit/precision.h"
+
+namespace noli::app {
+
+/// "same": 53 bits yield double, bit for bit, in all windows; "differs"; "undecided": not all windows were run.
+const char* precision_verdict(const audit::PrecisionOutcome& outcome);
+ExitCode precision_exit_code(const audit::PrecisionOutcome& outcome);
+
+std::string precision_text(const audit::PrecisionOutcome& outcome);
+
+/// Without `timing`.
+Json precision_json(const audit::PrecisionOutcome& outcome);
+
+/// Above, how far double is from the other precisions; below, what of its energy error is truncation and what rounding.
+/// Both over time, on logarithmic
+/// scales, with a line where the order of events changes.
+std::string precision_svg(const audit::PrecisionOutcome& outcome, const std::string& title);
+
+}  // namespace noli::app

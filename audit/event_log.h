@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a window of a run in double did, so that a run in other numbers can do the same in the same order.
+//
+// Forces, gravity and scripts need no log: their times follow from their steps, whatever the numbers. Contact does:
+// which pairs a layer fires for depends on where things are.
+//
+// What this does not do: pairs that no certificate brought to the layers are not in it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "noli/integrator/contact.h"
+#include "noli/integrator/recording.h"
+
+namespace noli::audit {
+
+/// A pair for which a layer fired, and which way the formulas went in double.
+struct Examined {
+  certificates::Stencil pair;
+  integrator::Course course;
+};
+
+/// A layer that fired for the pairs [begin, end) of the log.
+struct LoggedFiring {
+  integrator::Firing firing;
+  std::size_t begin = 0, end = 0;
+};
+
+/// A pair that has an active layer at the window's end.
+struct ActivePair {
+  certificates::Stencil pair;
+  integrator::LayerTerms terms;
+  double step;  ///< h(l) [s]
+};
+
+/// A recorder of Engine<double, Dim>.
+template <int Dim>
+class EventLog {
+ public:
+  void reserve(std::size_t count) { recording_.reserve(count); }
+  void put(VertexId vertex, double t, const integrator::Vec<double, Dim>& x, bool wanted) {
+    recording_.put(vertex, t, x, wanted);
+  }
+  void layer_fires(const integrator::Firing& firing) {
+    firings_.push_back({firing, examined_.size(), examined_.size()});
+  }
+  void examined(const certificates::Stencil& pair, const integrator::Course& course) {
+    examined_.push_back({pair, course});
+    firings_.back().end = examined_.size();
+  }
+
+  /// To be called at the window's end.
+  void add_active(const ActivePair& pair) { active_.push_back(pair); }
+
+  void clear() {
+    recording_.clear();
+    firings_.clear();
+    examined_.clear();
+    active_.clear();
+  }
+
+  std::span<const integrator::Breakpoint<double, Dim>> breakpoints() const { return recording_.stream(); }
+  std::span<const LoggedFiring> firings() const { return firings_; }
+  std::span<const Examined> examined() const { return examined_; }
+  std::span<const ActivePair> active() const { return active_; }
+
+ private:
+  integrator::Recording<double, Dim> recording_;
+  std::vector<LoggedFiring> firings_;
+  std::vector<Examined> examined_;
+  std::vector<ActivePair> active_;
+};
+
+}  // namespace noli::audit

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A layer of contact fires for a pair: its vertices get their new velocities, the books what that took.
+//
+// Notation: that of integrator/contact_impulse.h, and
+//   blow      one layer, one pair, one time
+//   course    which way the formulas went. Arithmetic of another precision may take another one
+//
+// What this does not do: it says neither when a layer fires nor for which pairs (integrator/contact.h).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "noli/certificates/closest.h"
+#include "noli/integrator/books.h"
+#include "noli/integrator/contact_impulse.h"
+#include "noli/integrator/contact_limit.h"
+#include "noli/integrator/kick.h"
+
+namespace noli::integrator {
+
+/// What a layer does to all its pairs.
+struct LayerTerms {
+  double thickness = 0;    ///< eta(l) [m]
+  double stiffness = 0;    ///< r(l) [N/m]
+  double restitution = 1;  ///< e
+  double friction = 0;     ///< mu
+};
+
+struct Course {
+  bool acts = false;         ///< g < 0
+  bool parts = false;        ///< the closest points part, so that restitution counts
+  bool sticks = false;       ///< friction stops all slip
+  std::uint8_t corners = 0;  ///< bit i: vertex i has a part in the closest points
+
+  friend bool operator==(const Course&, const Course&) = default;
+};
+
+template <class S, int Dim>
+struct Blow {
+  certificates::Closest<Dim, S> closest;
+  S distance;
+  Course course;  ///< corners are not in it
+  bool struck = false;
+
+  Course whole_course() const {
+    Course whole = course;
+    for (std::size_t i = 0; i < 4; ++i) whole.corners |= static_cast<std::uint8_t>((closest.weights[i] != S(0)) << i);
+    return whole;
+  }
+};
+
+/// The vertices of a pair at one time.
+template <class S, int Dim>
+class PairState {
+ public:
+  template <class Recorder>
+  PairState(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair) : size_(pair.size()) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      const auto& p = now.particles[pair.vertices[i]];
+      x_[i] = p.at(now.t);
+      v_[i] = p.v;
+      inverse_mass_[i] = p.inverse_mass;
+    }
+  }
+
+  std::span<const Vec<S, Dim>> xs() const { return {x_.data(), size_}; }
+  std::span<const Vec<S, Dim>> vs() const { return {v_.data(), size_}; }
+  std::span<const S> inverse_masses() const { return {inverse_mass_.data(), size_}; }
+
+  /// Gives impulses and books them.
+  template <bool Conservative>
+  void give(const Impulses<Dim, S>& impulses, Account<S, Dim>& account) {
+    S twice_work(0);
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (inverse_mass_[i] == S(0)) {
+        book_support<S, Dim>(account, x_[i], impulses[i]);
+        continue;
+      }
+      const Vec<S, Dim> before = v_[i];
+      v_[i] += inverse_mass_[i] * impulses[i];
+      twice_work += impulses[i].dot(before + v_[i]);
+    }
+    (Conservative ? account.work : account.damping_work) += S(0.5) * twice_work;
+  }
+
+  template <class Recorder>
+  void settle(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair) const {
+    for (std::size_t i = 0; i < size_; ++i) {
+      const VertexId vertex = pair.vertices[i];
+      if (inverse_mass_[i] == S(0) || !differ<S, Dim>(v_[i], now.particles[vertex].v)) continue;
+      set_velocity(now, vertex, x_[i], v_[i]);
+    }
+  }
+
+ private:
+  std::size_t size_;
+  std::array<Vec<S, Dim>, 4> x_, v_;
+  std::array<S, 4> inverse_mass_{};
+};
+
+/// Friction of a magnitude up to `most`; whether it stops all slip.
+template <class S, int Dim>
+bool rub(PairState<S, Dim>& state, const certificates::Closest<Dim, S>& c, const S& most, Account<S, Dim>& account) {
+  Slip<Dim, S> s = slip<Dim, S>(c, state.xs(), state.vs());
+  const S yield = yielding<Dim, S>(s, state.inverse_masses());
+  if (!(s.speed > S(0)) || !(yield > S(0))) return true;
+  const S stop = s.speed / yield, magnitude = std::min(most, stop);
+  for (auto& impulse : s.against) impulse *= magnitude;
+  state.template give<false>(s.against, account);
+  return !(most < stop);
+}
+
+/// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Room in the recording is the caller's
+/// business.
+template <class S, int Dim, class Recorder>
+Blow<S, Dim> strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
+                         const LayerTerms& layer, double h, Account<S, Dim>& account) {
+  PairState<S, Dim> state(now, pair);
+  Blow<S, Dim> blow;
+  blow.closest = certificates::closest<Dim, S>(pair.kind, state.xs());
+  blow.distance = blow.closest.distance();
+  const S g = blow.distance - S(layer.thickness);
+  if (!(g < S(0))) return blow;
+  if (!(blow.distance > S(0))) throw ContactLimit(pair, now.t);
+  blow.course.acts = true;
+  blow.course.parts = opening_speed<Dim, S>(blow.closest, blow.distance, state.vs()) > S(0);
+  const double share = blow.course.parts ? layer.restitution : 1;
+  const S push = S(-share) * S(h) * S(layer.stiffness) * g;
+  if (push == S(0)) return blow;
+  blow.struck = true;
+  state.template give<true>(normal_impulses<Dim, S>(blow.closest, blow.distance, push), account);
+  if (layer.friction > 0) blow.course.sticks = rub<S, Dim>(state, blow.closest, S(layer.friction) * push, account);
+  state.settle(now, pair);
+  return blow;
+}
+
+/// The closest points of a pair whose vertices have all been brought up to date.
+template <class S, int Dim>
+certificates::Closest<Dim, S> closest_now(std::span<const Particle<S, Dim>> particles,
+                                          const certificates::Stencil& pair) {
+  std::array<Vec<S, Dim>, 4> x;
+  for (std::size_t i = 0; i < pair.size(); ++i) x[i] = particles[pair.vertices[i]].x;
+  return certificates::closest<Dim, S>(pair.kind, std::span<const Vec<S, Dim>>(x.data(), pair.size()));
+}
+
+}  // namespace noli::integrator
