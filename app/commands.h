@@ -29,5 +29,8 @@ CLI::App& add_fuzz(CLI::App& app);
 CLI::App& add_audit(CLI::App& app);
 Command add_fuzz_queries(CLI::App& fuzz);
 Command add_audit_ccd(CLI::App& audit);
+Command add_audit_integrator(CLI::App& audit);
+Command add_audit_self(CLI::App& audit);
+Command add_audit_stability(CLI::App& audit);
 
 }  // namespace noli::app

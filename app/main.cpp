@@ -52,9 +52,9 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
   CLI::App &fuzz = add_fuzz(app), &audit = add_audit(app);
-  const std::vector<Command> commands = {add_verify(app), add_check(app),         add_ccd(app),
-                                         add_info(app),   add_simulate(app),      add_explain(app),
-                                         add_export(app), add_fuzz_queries(fuzz), add_audit_ccd(audit)};
+  const std::vector<Command> commands = {
+      add_verify(app),  add_check(app),  add_ccd(app),           add_info(app),        add_simulate(app),
+      add_explain(app), add_export(app), add_fuzz_queries(fuzz), add_audit_ccd(audit), add_audit_stability(audit)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
