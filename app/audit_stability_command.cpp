@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -44,6 +45,7 @@ constexpr const char* stability_footer =
 struct StabilityArguments {
   audit::StabilityOptions options;
   std::vector<std::string> rows;
+  std::uint64_t points = 100;
   std::string point_limit = "20s";
   std::string out = "stability-findings";
   std::optional<std::string> program, json;
@@ -169,7 +171,8 @@ std::vector<StabilityRow> chosen_rows(const std::vector<std::string>& names) {
 
 ExitCode run(StabilityArguments& arguments) {
   audit::StabilityOptions& options = arguments.options;
-  const std::vector<StabilityRow> rows = chosen_rows(arguments.rows);
+  std::vector<StabilityRow> rows = chosen_rows(arguments.rows);
+  for (StabilityRow& row : rows) row.values.resize(std::min<std::size_t>(row.values.size(), arguments.points));
   options.point_limit = parse_duration(arguments.point_limit, "--point-limit");
   options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : beside_this_program("noli");
   const Output output(arguments.json, {options.program});
@@ -198,6 +201,9 @@ Command add_audit_stability(CLI::App& audit) {
   command->add_option("--row", arguments->rows, "This row alone; may be given more than once")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  command->add_option("--points", arguments->points, "Only the first so many points of each row")
+      ->check(whole_number(1, 100))
+      ->type_name("N");
   command->add_option("--point-limit", arguments->point_limit, "A run that takes longer ends undecided: 500ms, 20s, 1m")
       ->capture_default_str()
       ->type_name("TIME");

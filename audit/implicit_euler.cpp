@@ -12,7 +12,9 @@ using integrator::Model;
 using integrator::Stencil;
 
 constexpr int most_corrections = 200;
-constexpr double solved = 1e-10;
+constexpr double solved = 1e-9;
+/// Of the linear equations of one correction: the next one makes up for what is left.
+constexpr double most_residual = 1e-3;
 
 template <int Dim>
 class ImplicitEuler {
@@ -24,7 +26,7 @@ class ImplicitEuler {
     for (std::size_t i = 0; i < v_.size(); ++i) {
       if (!free_[i]) v_[i].setZero();
     }
-    solver_.setTolerance(1e-12);
+    solver_.setTolerance(most_residual);
   }
 
   void step() {

@@ -7,7 +7,7 @@
 //   x', v'   at the end of a step: M (x' - x - h v) / h^2 = M g - grad V(x'), v' = (x' - x) / h
 //   K        sum over forces and measures of c grad s grad s^T (force.h): their stiffness without that of stress, never
 //            indefinite; each correction of x' solves (M / h^2 + K) dx = -residual by conjugate gradients
-//   solved   a step whose last correction moves nothing by more than 1e-10 of the size of the scene, within 200
+//   solved   a step whose last correction moves nothing by more than 1e-9 of the size of the scene, within 200
 // (Baraff, Witkin, "Large steps in cloth simulation", 1998, take one correction; with it the error would be that of the
 // solver too.)
 //

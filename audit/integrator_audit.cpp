@@ -226,18 +226,18 @@ std::vector<std::string> integrator_scenes() {
   return {R"({
   "noli_scene": 1,
   "title": "Uniform sheet",
-  "about": "A free sheet, stretched, perturbed, that flies and spins; all cells are of one size.",
-  "duration": 0.4,
-  "window": 0.02,
+  "about": "A free plate, twisted and stretched a little, that is let go, flies and spins; all cells are of one size.",
+  "duration": 0.08,
+  "window": 0.01,
   "bodies": [
     {
       "name": "sheet",
-      "mesh": {"grid": {"size": [0.5, 0.5], "cells": [16, 16]}},
-      "deform": {"stretch": [1.05, 0.97, 1]},
-      "perturb": 0.001,
+      "mesh": {"grid": {"size": [0.5, 0.5], "cells": [12, 12]}},
+      "deform": {"stretch": [1.002, 0.999, 1], "twist": 20},
+      "perturb": 0.00001,
       "velocity": [0.3, 0.2, 0.1],
-      "spin": [1, 2, 3],
-      "material": {"young": 1e5, "poisson": 0.3, "density": 300, "thickness": 0.001}
+      "spin": [0.2, 0.3, 2],
+      "material": {"young": 1e5, "poisson": 0.3, "density": 300, "thickness": 0.01}
     }
   ]
 }
@@ -245,18 +245,18 @@ std::vector<std::string> integrator_scenes() {
           R"({
   "noli_scene": 1,
   "title": "Graded sheet",
-  "about": "The same sheet, but in one place its cells are sixteen times smaller.",
-  "duration": 0.4,
-  "window": 0.02,
+  "about": "The same plate, but in one place its cells are sixteen times smaller.",
+  "duration": 0.08,
+  "window": 0.01,
   "bodies": [
     {
       "name": "sheet",
-      "mesh": {"grid": {"size": [0.5, 0.5], "cells": [16, 16], "refine": {"at": [0.1, 0.05], "factor": 16, "radius": 0.001}}},
-      "deform": {"stretch": [1.05, 0.97, 1]},
-      "perturb": 0.0001,
+      "mesh": {"grid": {"size": [0.5, 0.5], "cells": [12, 12], "refine": {"at": [0.1, 0.05], "factor": 16, "radius": 0.001}}},
+      "deform": {"stretch": [1.002, 0.999, 1], "twist": 20},
+      "perturb": 0.00001,
       "velocity": [0.3, 0.2, 0.1],
-      "spin": [1, 2, 3],
-      "material": {"young": 1e5, "poisson": 0.3, "density": 300, "thickness": 0.001}
+      "spin": [0.2, 0.3, 2],
+      "material": {"young": 1e5, "poisson": 0.3, "density": 300, "thickness": 0.01}
     }
   ]
 }

@@ -55,7 +55,7 @@ struct IntegratorPoint {
   bool finite = true;        ///< else there are no errors
   bool converged = true;
   IntegratorErrors errors;
-  double seconds = 0;  ///< wall clock: the median of its passes, of which short runs have more
+  double seconds = 0;  ///< computed by its thread: the median of its passes, of which short runs have more
 };
 
 struct MethodResult {

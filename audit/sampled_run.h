@@ -11,8 +11,10 @@
 // What this does not do: it compares nothing (integrator_audit.h does).
 #pragma once
 
+#include <time.h>
+
+#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <tuple>
@@ -34,7 +36,7 @@ struct SampledRun {
   std::vector<Sample<Dim>> samples;
   std::uint64_t events = 0;    ///< forces fired, layers of contact among them
   std::uint64_t impulses = 0;  ///< of layers of contact alone
-  double seconds = 0;          ///< wall clock of the method itself
+  double seconds = 0;          ///< what the method's thread computed
   bool finite = true;          ///< else it ends with the last sample that is
   bool converged = true;       ///< of implicit methods: every step was solved
 };
@@ -95,17 +97,21 @@ bool is_finite(const Sample<Dim>& sample) {
 
 inline bool stopped(const std::atomic<bool>* stop) { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 
-/// A clock that counts what lies between start() and pause().
+/// A clock of what this thread computes between start() and pause(): other work on the machine disturbs it least.
 class SplitWatch {
  public:
-  void start() { begin_ = Clock::now(); }
-  void pause() { sum_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  void start() { begin_ = now(); }
+  void pause() { sum_ += now() - begin_; }
   double seconds() const { return sum_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_;
-  double sum_ = 0;
+  static double now() {
+    struct timespec time = {};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  double begin_ = 0, sum_ = 0;
 };
 
 /// Runs `advance`, a window each time it is called, and samples with `look`. Ends early with what is not finite, or

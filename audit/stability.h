@@ -9,7 +9,7 @@
 //   verified   what was committed is verified again from the files alone: nothing touches
 //   finite     energies and momenta of all windows are numbers
 //   energy     at the ends of windows it differs from that at the beginning by at most `most_energy_error` of it
-//   momentum   linear and angular, about the origin, by at most `most_momentum_error` of theirs at the first window's
+//   momentum   where nothing is pinned: linear and angular, about the origin, by at most `most_momentum_error` of theirs at the first window's
 //              end
 //   resume     a run that was stopped half way and resumed has the same bytes
 //   answer     of two frames: what is known of them

@@ -92,7 +92,7 @@ class Asking {
     if (run.code != 0) gives(reason(run, document), said(run, document));
     if (windows > 0) verify_again(windows);
     if (run.code == 0) {
-      look_at_series();
+      look_at_series(what.free);
       resume(document["time"].get<double>());
     }
     return point_;
@@ -226,12 +226,12 @@ class Asking {
     return std::nullopt;
   }
 
-  void look_at_series() {
+  void look_at_series(bool free) {
     const auto energy = series("energy"), momentum = series("momentum");
     if (!energy || !momentum) return;
     if (!energy->finite() || !momentum->finite()) return broken("finite", "a series has what is no number");
     look_at_energy(*energy);
-    look_at_momentum(*momentum);
+    if (free) look_at_momentum(*momentum);
   }
 
   void look_at_energy(const Columns& energy) {

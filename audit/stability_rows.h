@@ -7,8 +7,9 @@
 //   sheet    3 x 3 cells of 10 cm, thin and elastic, free, that flies and spins
 //   chain    in the plane, four springs of 25 cm between free masses, that flies and spins
 //   other    with contact: a sheet, or a chain, at rest before the first, and free too
-// Every scene is free of gravity, pins, damping, friction and loss, and begins in its shape at rest: its energy has to
-// stay what it is, with nothing but kinetic energy at the start, and so have its momenta.
+// Every scene is without gravity, damping, friction and loss, and begins in its shape at rest: its energy has to stay
+// what it is, with nothing but kinetic energy at the start, and where nothing is pinned so have its momenta. Where an
+// extreme makes steps shorter the run is as much shorter, and what is to meet begins as much nearer.
 //
 // What this does not do: one quantity at a time is extreme, not two.
 #pragma once
@@ -24,6 +25,7 @@ namespace noli::audit {
 /// To be run: the text of a scene file.
 struct SceneCase {
   std::string scene;
+  bool free = true;  ///< nothing is pinned: momentum is kept
 };
 
 /// To be verified: two frames as PLY files, and whether anything touches between them.

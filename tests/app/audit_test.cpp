@@ -8,6 +8,7 @@
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
+#include "noli/tests/app/worked_example.h"
 
 namespace noli::app_tests {
 namespace {
@@ -250,37 +251,8 @@ TEST_F(AuditCcd, StopsWhenInterrupted) {
   EXPECT_NE(process.verdict_line().find("complete false"), std::string::npos) << process.out;
 }
 
-/// The commands of the worked example, which begin with "    $ ", and the line that is said to follow each.
-std::vector<std::pair<std::string, std::string>> worked_example() {
-  std::ifstream document(std::string(NOLI_SOURCE_DIR) + "/audit/CCD.md");
-  std::vector<std::pair<std::string, std::string>> commands;
-  for (std::string line; std::getline(document, line);) {
-    if (line.starts_with("    $ ")) {
-      commands.emplace_back(line.substr(6), "");
-    } else if (line.starts_with("    ") && !commands.empty() && commands.back().second.empty()) {
-      commands.back().second = line.substr(4);
-    }
-  }
-  return commands;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
-/// Standard output, and how it ended.
-std::pair<std::string, int> shell(const std::string& line) {
-  std::FILE* const pipe = ::popen(line.c_str(), "r");
-  std::string out;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out += static_cast<char>(c);
-  return {out, WEXITSTATUS(::pclose(pipe))};
-}
-
 TEST_F(AuditCcd, TheWorkedExampleIsTrue) {
-  const auto commands = worked_example();
+  const auto commands = worked_example("audit/CCD.md");
   ASSERT_EQ(commands.size(), 4u);
   std::string last_code;
   for (const auto& [command, said] : commands) {
