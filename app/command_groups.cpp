@@ -14,7 +14,12 @@ CLI::App& add_audit(CLI::App& app) {
   CLI::App* const audit = app.add_subcommand("audit", "How far can numbers, and somebody else's code, be trusted?");
   audit->require_subcommand(1);
   audit->footer(
-      "Examples:\n  noli audit ccd --library ./mine.so queries-edge-edge.csv\n`noli audit ccd --help` says more.");
+      "Examples:\n"
+      "  noli audit ccd --library ./mine.so queries-edge-edge.csv\n"
+      "  noli audit integrator --svg integrator.svg     error against run time\n"
+      "  noli audit stability                           how far it goes, and how it ends there\n"
+      "  noli audit self                                all that noli has to look at itself with\n"
+      "`noli audit ccd --help` says more, and so for each.");
   return *audit;
 }
 

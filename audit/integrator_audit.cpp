@@ -31,8 +31,12 @@ class Reference {
       Sample<Dim> sample = fine.samples[i];
       if (coarse != nullptr) extrapolate(sample.x, coarse->samples[i].x);
       if (coarse != nullptr) extrapolate(sample.v, coarse->samples[i].v);
-      mechanics_.push_back(mechanics(model, sample));
-      const Mechanics<Dim>& m = mechanics_.back();
+      Mechanics<Dim> m = mechanics(model, sample);
+      // The fine run keeps its momenta to rounding; products of what is extrapolated do not.
+      const Mechanics<Dim> kept = mechanics(model, fine.samples[i]);
+      m.momentum = kept.momentum;
+      m.angular_momentum = kept.angular_momentum;
+      mechanics_.push_back(m);
       kinetic_ = std::max(kinetic_, m.kinetic);
       speeds_ = std::max(speeds_, m.speeds);
       moments_ = std::max(moments_, m.moments);

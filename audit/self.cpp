@@ -73,6 +73,21 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::string& extens
   return files;
 }
 
+/// The folder in which fuzzers may make their own; it goes again if they did not.
+class FindingsFolder {
+ public:
+  explicit FindingsFolder(const fs::path& path) : path_(path) { fs::create_directories(path_); }
+  ~FindingsFolder() {
+    std::error_code not_empty;
+    fs::remove(path_, not_empty);
+  }
+  FindingsFolder(const FindingsFolder&) = delete;
+  FindingsFolder& operator=(const FindingsFolder&) = delete;
+
+ private:
+  const fs::path& path_;
+};
+
 class SelfAudit {
  public:
   explicit SelfAudit(const SelfOptions& options) : options_(options) {}
@@ -170,6 +185,7 @@ class SelfAudit {
 
   void fuzz(const Fuzzer& fuzzer, SelfPart& p) const {
     p.by_clock = true;
+    const FindingsFolder folder(options_.out);
     const fs::path out = options_.out / fuzzer.name;
     const CommandRun run =
         noli({"fuzz", fuzzer.name, "--for", milliseconds(options_.fuzz_time), "--seed", std::to_string(options_.seed),

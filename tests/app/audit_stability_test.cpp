@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <set>
+#include <sstream>
 
 #include "noli/tests/app/fake_noli.h"
 #include "noli/tests/app/process.h"
@@ -162,26 +162,19 @@ TEST_F(AuditStability, TheWorkedExampleIsTrue) {
   }
 }
 
-/// The table of the page: each row with where it gives and how, but for errors, which it rounds.
+/// The page has the table as the command prints it.
 TEST_F(AuditStability, TheTableOfThePageIsTrueSlow) {
-  const Json json = json_of({"audit", "stability", "--out", folder.path("findings")}, 0);
-  EXPECT_EQ(json["findings"], 0);
+  const Process process = run_noli({"audit", "stability", "--out", folder.path("findings")});
+  EXPECT_EQ(process.exit_code, 0) << process.out;
   const std::string page = read_text(std::string(NOLI_SOURCE_DIR) + "/audit/STABILITY.md");
-  std::set<std::string> names;
-  for (const Json& row : json["rows"]) {
-    const std::string name = row["row"];
-    names.insert(name);
-    const std::size_t at = page.find("\n| " + name + " |");
-    ASSERT_NE(at, std::string::npos) << name;
-    const std::string line = page.substr(at + 1, page.find('\n', at + 1) - at - 1);
-    const std::string end =
-        row["gives_first"].is_null() ? " | - | - | - |" : " | " + row["gives_first"].get<std::string>() + " | ";
-    EXPECT_NE(line.find(end), std::string::npos) << line;
-    if (!row["exit_code"].is_null()) {
-      EXPECT_TRUE(line.ends_with(" | " + std::to_string(row["exit_code"].get<int>()) + " |")) << line;
-    }
+  std::istringstream lines(process.out);
+  int rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  ")) continue;
+    ++rows;
+    EXPECT_NE(page.find("\n" + line + "\n"), std::string::npos) << line;
   }
-  EXPECT_EQ(names.size(), json["rows"].size());
+  EXPECT_GE(rows, 30);
 }
 
 }  // namespace
