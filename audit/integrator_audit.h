@@ -12,10 +12,10 @@
 // quarters, sixteenths, ... of that, as long as they are no shorter than the least step.
 //
 // Notation
-//   h        the least step of a force, rounded down to that of a group [s]; n the number of halvings
-//   r        h / 2^(n + 1)
+//   h          the least step of a force, rounded down to that of a group [s]; n the number of halvings
+//   r          h / 2^(n + 1)
 //   reference  Verlet's method with r and with r/2, extrapolated: (4 x(r/2) - x(r)) / 3, as its error is a series in h^2
-//            (Hairer, Lubich, Wanner 2003, section 1); where it is this integrator, with r/2 as it is. Its
+//              (Hairer, Lubich, Wanner 2003, section 1); where it is this integrator, with r/2 as it is. Its
 //              momenta are those of r/2, which keeps them
 // Errors are the largest at the ends of windows:
 //   energy      |E - E_ref| in parts of the largest kinetic energy of the reference
