@@ -162,6 +162,12 @@ Command add_audit_self(CLI::App& audit) {
       ->capture_default_str()
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S");
+  command
+      ->add_option("--only", options.only, "Only these parts: rounding, labels, fuzz, proofs; with commas between them")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(audit::self_groups), std::end(audit::self_groups))))
+      ->type_name("PART");
   command->add_option("--data", arguments->data, "Folder with queries/*.csv [$NOLI_DATA]")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");

@@ -26,6 +26,9 @@
 
 namespace noli::audit {
 
+/// Groups of parts, in their order.
+inline constexpr const char* self_groups[] = {"rounding", "labels", "fuzz", "proofs"};
+
 struct SelfOptions {
   std::filesystem::path program;                                 ///< the `noli` that looks at itself
   std::chrono::nanoseconds fuzz_time{std::chrono::seconds(60)};  ///< of each fuzzer
@@ -34,6 +37,7 @@ struct SelfOptions {
   int threads = 0;                                               ///< 0: all there are
   std::optional<std::filesystem::path> data;                     ///< with queries/*.csv; nothing: skipped
   std::filesystem::path scenes;                                  ///< need not be there
+  std::vector<std::string> only;                                 ///< groups; none: all
   std::filesystem::path out;                                     ///< folder for findings of fuzzers
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const std::string& part)> begun;  ///< may be empty

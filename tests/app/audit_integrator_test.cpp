@@ -38,8 +38,7 @@ TEST_F(AuditIntegrator, MeasuresASceneAndDrawsIt) {
   EXPECT_EQ(process.verdict_line(), "verdict measured scenes 1 runs 12");
   EXPECT_NE(process.out.find("stiff in the middle: 7 vertices, 6 forces"), std::string::npos) << process.out;
   const std::string svg = read_text(picture);
-  EXPECT_TRUE(svg.starts_with("<svg")) << svg.substr(0, 80);
-  for (const char* const words : {"stiff in the middle", "Verlet, one step for all", "run time [s]"}) {
+  for (const char* const words : {"<svg ", "stiff in the middle", "Verlet, one step for all", "run time [s]"}) {
     EXPECT_NE(svg.find(words), std::string::npos) << words;
   }
 }

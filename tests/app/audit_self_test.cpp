@@ -19,10 +19,11 @@ class AuditSelf : public testing::Test {
  protected:
   /// Without data, without scenes, and with little time for fuzzers, unless `more` says so.
   std::vector<std::string> command(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words = {"audit", "self", "--for", "200ms", "--out", folder.path("findings")};
+    std::vector<std::string> words = {"audit", "self", "--out", folder.path("findings")};
     const auto given = [&](const std::string& option) {
       return std::find(more.begin(), more.end(), option) != more.end();
     };
+    if (!given("--for")) words.insert(words.end(), {"--for", "200ms"});
     if (!given("--scenes")) words.insert(words.end(), {"--scenes", folder.path("none")});
     if (!given("--data")) words.insert(words.end(), {"--data", folder.path("")});
     words.insert(words.end(), more.begin(), more.end());
@@ -38,7 +39,7 @@ class AuditSelf : public testing::Test {
 
   /// A program with a fault: the part fails, and the exit code says so.
   void found(const std::string& fault, const std::string& group, const std::string& name) const {
-    const Json json = json_of(command({"--program", fake_noli(folder, fault)}), 1);
+    const Json json = json_of(command({"--program", fake_noli(folder, fault), "--only", group}), 1);
     EXPECT_EQ(json["verdict"], "finding") << fault;
     EXPECT_EQ(part(json, group, name)["state"], "failed") << fault << json.dump(2);
   }
@@ -88,7 +89,7 @@ TEST_F(AuditSelf, AWrongLabelIsAFinding) {
       read_text(std::string(NOLI_SOURCE_DIR) + "/tests/kernel/queries/inside-zero-at-the-begin-vertex-face.csv");
   for (std::size_t at; (at = text.find(",1\n")) != std::string::npos;) text.replace(at, 3, ",0\n");
   folder.write("data/queries/a-vertex-face.csv", text);
-  const Json json = json_of(command({"--data", folder.path("data")}), 1);
+  const Json json = json_of(command({"--data", folder.path("data"), "--only", "labels"}), 1);
   EXPECT_EQ(part(json, "labels", "queries")["state"], "failed");
 }
 
@@ -109,8 +110,16 @@ TEST_F(AuditSelf, FindsEachFault) {
 TEST_F(AuditSelf, AMissingCheckerIsNotPassedOver) {
   const std::string program = fake_noli(folder, "");
   std::filesystem::remove(folder.path("noli_check"));
-  const Json json = json_of(command({"--program", program}), 1);
+  const Json json = json_of(command({"--program", program, "--only", "proofs"}), 1);
   EXPECT_EQ(part(json, "proofs", "noli_check")["state"], "failed");
+}
+
+TEST_F(AuditSelf, OnlyWhatIsAskedForIsAPart) {
+  const Json json = json_of(command({"--only", "rounding,labels"}), 0);
+  ASSERT_EQ(json["parts"].size(), 2u);
+  EXPECT_EQ(json["skipped"], 1);
+  EXPECT_EQ(json_of(command({"--only", "labels"}), 2)["verdict"], "undecided") << "nothing held";
+  EXPECT_EQ(run_noli(command({"--only", "everything"})).exit_code, 3);
 }
 
 TEST_F(AuditSelf, ACtrlCEndsIt) {
