@@ -173,13 +173,21 @@ class Asking {
     return Json::parse(run.out, nullptr, false);
   }
 
+  /// Whether it has what is read of it.
+  static bool whole(const Json& document) {
+    return document.is_object() && document.value("verdict", Json()).is_string() &&
+           document.value("end", Json()).is_string() && document.value("time", Json()).is_number() &&
+           document.value("windows", Json()).is_number_unsigned() &&
+           document.value("windows_total", Json()).is_number_unsigned();
+  }
+
   /// Whether verdict and exit code do, and what ends with 0 has come to its end.
   bool agrees(const CommandRun& run, const Json& document) {
     if (run.code == 3 && !run.err.empty() && run.out.empty()) return true;
     static const std::map<std::string, int> codes = {
         {"no_contact", 0}, {"contact", 1}, {"too_near", 1}, {"not_finite", 1}, {"undecided", 2}};
     std::string problem;
-    if (!document.is_object() || !document.contains("verdict") || !document.contains("windows")) {
+    if (!whole(document)) {
       problem = "no document with a verdict";
     } else if (const auto code = codes.find(document["verdict"].get<std::string>());
                code == codes.end() || code->second != run.code) {
