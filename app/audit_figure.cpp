@@ -18,29 +18,6 @@ using audit::LibraryAudit;
 constexpr double left = 96, right = 660, top = 60, bottom = 400, zero = 440;
 constexpr const char* grey = "#444444";
 
-/// The decimal logarithm, to pixels.
-struct LogScale {
-  double low, high;  ///< 0 < low < high
-  double from, to;
-
-  double operator()(double x) const {
-    return Scale{std::log10(low), std::log10(high), from, to}(std::log10(std::clamp(x, low, high)));
-  }
-};
-
-/// Whole powers of ten around the values that are above 0.
-LogScale scale_around(const std::vector<double>& values, double from, double to) {
-  double low = 1e300, high = 0;
-  for (const double x : values) {
-    if (!(x > 0)) continue;
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
-  if (high == 0) low = high = 1;
-  const double first = std::floor(std::log10(low)), last = std::max(std::ceil(std::log10(high)), first + 1);
-  return {std::pow(10, first), std::pow(10, last), from, to};
-}
-
 void axes(Svg& svg, const LogScale& x, const LogScale& y) {
   for (const Tick& tick : logarithmic_ticks(x.low, x.high)) {
     svg.line({x(tick.value), top}, {x(tick.value), zero}, "#eeeeee");
@@ -85,7 +62,7 @@ std::string audit_svg(const AuditOutcome& outcome) {
     times.push_back(audit.total.ns_per_query());
     errors.push_back(static_cast<double>(audit.total.false_answers()));
   }
-  const LogScale x = scale_around(times, left + 14, right - 14), y = scale_around(errors, bottom, top);
+  const LogScale x = logarithmic_scale(times, left + 14, right - 14), y = logarithmic_scale(errors, bottom, top);
   axes(svg, x, y);
   std::map<std::string, const char*> colour_of;
   double line = top;

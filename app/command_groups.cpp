@@ -24,7 +24,10 @@ CLI::App& add_audit(CLI::App& app) {
       "Examples:\n"
       "  noli audit ccd --library ./mine.so queries-edge-edge.csv\n"
       "  noli audit precision scenes/bounce.json --short\n"
-      "`noli audit ccd --help` says more.");
+      "  noli audit integrator --svg integrator.svg     error against run time\n"
+      "  noli audit stability                           how far it goes, and how it ends there\n"
+      "  noli audit self                                all that noli has to look at itself with\n"
+      "`noli audit ccd --help` says more, and so for each.");
   return *audit;
 }
 

@@ -34,5 +34,8 @@ Command add_fuzz_proofs(CLI::App& fuzz);
 Command add_fuzz_scenes(CLI::App& fuzz);
 Command add_audit_ccd(CLI::App& audit);
 Command add_audit_precision(CLI::App& audit);
+Command add_audit_integrator(CLI::App& audit);
+Command add_audit_self(CLI::App& audit);
+Command add_audit_stability(CLI::App& audit);
 
 }  // namespace noli::app

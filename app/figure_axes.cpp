@@ -3,9 +3,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace noli::app {
+
+double LogScale::operator()(double x) const {
+  return Scale{std::log10(low), std::log10(high), from, to}(std::log10(std::clamp(x, low, high)));
+}
+
+LogScale logarithmic_scale(const std::vector<double>& values, double from, double to) {
+  double low = 1e300, high = 0;
+  for (const double x : values) {
+    if (!(x > 0)) continue;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  if (high == 0) low = high = 1;
+  const double first = std::floor(std::log10(low)), last = std::max(std::ceil(std::log10(high)), first + 1);
+  return {std::pow(10, first), std::pow(10, last), from, to};
+}
 
 std::vector<Tick> linear_ticks(double low, double high, int most) {
   const double least = (high - low) / most, power = std::pow(10, std::floor(std::log10(least)));

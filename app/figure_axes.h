@@ -18,6 +18,17 @@ struct Scale {
   double operator()(double x) const { return from + (x - low) / (high - low) * (to - from); }
 };
 
+/// The decimal logarithm, to pixels; what is beyond the ends is drawn at them.
+struct LogScale {
+  double low, high;  ///< 0 < low < high
+  double from, to;
+
+  double operator()(double x) const;
+};
+
+/// Whole powers of ten around the values that are above 0.
+LogScale logarithmic_scale(const std::vector<double>& values, double from, double to);
+
 /// A tick and its words.
 struct Tick {
   double value;

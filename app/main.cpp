@@ -33,6 +33,7 @@ constexpr const char* footer =
     "  noli report run -o report.html         a page about it, for a browser\n"
     "  noli fuzz queries --for 60s --seed 1   adversarial queries, kernel against oracle\n"
     "  noli audit ccd --library lib.so edge-edge-queries.csv   somebody else's library against the truth\n"
+    "  noli audit self                        all that noli has to look at itself with\n"
     "`noli COMMAND --help` says more.";
 
 ExitCode complain(ExitCode code, const std::string& message) {
@@ -54,13 +55,23 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
   CLI::App &fuzz = add_fuzz(app), &audit = add_audit(app);
   const std::vector<Command> commands = {
-      add_verify(app),        add_check(app),
-      add_ccd(app),           add_info(app),
-      add_simulate(app),      add_explain(app),
-      add_export(app),        add_report(app),
-      add_fuzz_queries(fuzz), add_fuzz_trajectories(fuzz),
-      add_fuzz_proofs(fuzz),  add_fuzz_scenes(fuzz),
-      add_audit_ccd(audit),   add_audit_precision(audit),
+      add_verify(app),
+      add_check(app),
+      add_ccd(app),
+      add_info(app),
+      add_simulate(app),
+      add_explain(app),
+      add_export(app),
+      add_report(app),
+      add_fuzz_queries(fuzz),
+      add_fuzz_trajectories(fuzz),
+      add_fuzz_proofs(fuzz),
+      add_fuzz_scenes(fuzz),
+      add_audit_ccd(audit),
+      add_audit_precision(audit),
+      add_audit_integrator(audit),
+      add_audit_self(audit),
+      add_audit_stability(audit),
   };
   try {
     app.parse(argc, argv);

@@ -3,7 +3,7 @@
 // What asynchrony saves: a soft plate with an inset of four per cent of its elements whose steps are a hundred times
 // shorter (scenes/stiff_inset.json, without gravity), the inset struck so that what it does is what there is to get
 // right. Beside it synchronous Verlet, with the step that the inset needs: its energy from the same integrator with all
-// steps equal, its time from the plain loop (bench/plain_loop.h), which writes nothing down.
+// steps equal, its time from the plain loop (audit/plain_loop.h), which writes nothing down.
 //
 // Energy error: the largest difference from the beginning at the ends of windows, in parts of the beginning.
 #include <fmt/format.h>
@@ -14,10 +14,9 @@
 #include <filesystem>
 #include <random>
 
+#include "noli/audit/one_step.h"
+#include "noli/audit/sampled_run.h"
 #include "noli/bench/bench.h"
-#include "noli/bench/energy_run.h"
-#include "noli/bench/one_step.h"
-#include "noli/bench/plain_loop.h"
 #include "noli/bench/report.h"
 #include "noli/bench/timing.h"
 #include "noli/integrator/scene/build_model.h"
@@ -35,7 +34,7 @@ constexpr int windows = 5;
 void strike_inset(Model<double, 3>& model, double short_step) {
   constexpr double speed = 0.1;
   std::vector<bool> struck(model.x.size(), false);
-  for_each_list(model, [&](auto& list) {
+  audit::for_each_list(model, [&](auto& list) {
     for (std::size_t i = 0; i < list.forces.size(); ++i) {
       if (list.steps[i] > short_step) continue;
       for (const VertexId v : list.forces[i].vertices) struck[v] = true;
@@ -53,43 +52,45 @@ Model<double, 3> plate() {
   const auto scene = integrator::parse_scene(read_whole_file(file), file.string());
   Model<double, 3> model = integrator::build_model<3>(scene).model;
   model.gravity.reset();
-  strike_inset(model, 2 * least_step(model));
+  strike_inset(model, 2 * audit::least_step(model));
   return model;
 }
 
-double time_plain(const Model<double, 3>& model, double step) {
-  PlainLoop<3> loop(model, step);
-  const auto steps = static_cast<std::uint64_t>(std::llround(windows * model.window_length / step));
-  const double begin = seconds();
-  for (std::uint64_t i = 0; i < steps; ++i) loop.step();
-  return seconds() - begin;
+struct Measured {
+  audit::SampledRun<3> run;
+  double seconds, energy_error;
+};
+
+Measured measured(const Model<double, 3>& model, audit::SampledRun<3> run, const std::vector<double>& seconds) {
+  const double error = audit::energy_drift(model, run) / audit::mechanics(model, run.samples.front()).energy();
+  return {std::move(run), median(seconds), error};
 }
 
-void add_row(Table& table, const char* name, const EnergyRun& measured, double least) {
-  table.row({name, fmt::format("{:.2e}", least), fmt::format("{}", measured.events),
-             fmt::format("{:.2f}", measured.seconds), fmt::format("{:.1e}", measured.energy_error)});
+void add_row(Table& table, const char* name, const Measured& method, double least) {
+  table.row({name, fmt::format("{:.2e}", least), fmt::format("{}", method.run.events),
+             fmt::format("{:.2f}", method.seconds), fmt::format("{:.1e}", method.energy_error)});
 }
 
 }  // namespace
 
 bool run() {
   Model<double, 3> own = plate(), equal = own;
-  const double least = least_step(own);
-  set_steps(equal, least);
+  const double least = audit::least_step(own);
+  audit::set_steps(equal, least);
   std::vector<double> asynchronous, synchronous;
-  EnergyRun a, s = run_for_energy(equal, windows);
+  audit::SampledRun<3> run;
   for (int i = 0; i < passes; ++i) {
-    a = run_for_energy(own, windows);
-    asynchronous.push_back(a.seconds);
-    synchronous.push_back(time_plain(equal, least));
+    run = audit::run_with_clocks(own, windows);
+    asynchronous.push_back(run.seconds);
+    synchronous.push_back(audit::run_plain(equal, least, windows).seconds);
   }
-  a.seconds = median(asynchronous);
-  s.seconds = median(synchronous);
+  const Measured a = measured(own, run, asynchronous);
+  const Measured s = measured(equal, audit::run_with_clocks(equal, windows), synchronous);
   Table table({"plate with a stiff inset", "least step, s", "forces fired", "s", "energy error"});
   add_row(table, "asynchronous", a, least);
   add_row(table, "synchronous Verlet", s, least);
   std::fputs(fmt::format("\n{}\n{:.1f} times fewer forces, {:.1f} times less time, {:.2f} of the energy error\n",
-                         table.text(), static_cast<double>(s.events) / static_cast<double>(a.events),
+                         table.text(), static_cast<double>(s.run.events) / static_cast<double>(a.run.events),
                          s.seconds / a.seconds, a.energy_error / s.energy_error)
                  .c_str(),
              stdout);

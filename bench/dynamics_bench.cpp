@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The integrator against a plain synchronous loop over the same forces (bench/plain_loop.h), time for time per force
+// The integrator against a plain synchronous loop over the same forces (audit/plain_loop.h), time for time per force
 // fired, in one run: grouped steps, a step for each force, recording, and what certifying the recorded windows costs.
 // Beside them the time of one textbook query on armadillo-rollers-vertex-face, where the data is there.
 #include <fmt/format.h>
@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <vector>
 
+#include "noli/audit/plain_loop.h"
 #include "noli/bench/bench.h"
 #include "noli/bench/cloth.h"
 #include "noli/bench/data.h"
-#include "noli/bench/plain_loop.h"
 #include "noli/bench/report.h"
 #include "noli/bench/textbook.h"
 #include "noli/bench/timing.h"
@@ -22,6 +22,7 @@
 namespace noli::bench {
 namespace {
 
+using audit::PlainLoop;
 using integrator::Books;
 using integrator::Clocks;
 using integrator::Recording;

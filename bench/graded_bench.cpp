@@ -15,10 +15,11 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "noli/audit/one_step.h"
+#include "noli/audit/sampled_run.h"
 #include "noli/bench/bench.h"
-#include "noli/bench/energy_run.h"
-#include "noli/bench/one_step.h"
 #include "noli/bench/report.h"
+#include "noli/bench/timing.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/trajectory/text.h"
@@ -38,16 +39,17 @@ integrator::Scene graded() {
 Model with_one_step(integrator::Scene scene) {
   scene.step_factor = 0.5;
   Model model = integrator::build_model<3>(scene).model;
-  set_steps(model, least_step(model));
-  double least = model.contact->materials.front().step;
-  for (const auto& m : model.contact->materials) least = std::min(least, m.step);
-  for (auto& m : model.contact->materials) m.step = least;
+  audit::set_steps(model, audit::least_step(model));
   return model;
 }
 
-void add_row(Table& table, const char* name, const EnergyRun& measured) {
-  table.row({name, fmt::format("{}", measured.events), fmt::format("{}", measured.impulses),
-             fmt::format("{:.2f}", measured.seconds), fmt::format("{:.1e}", measured.energy_error)});
+double energy_error(const Model& model, const audit::SampledRun<3>& run) {
+  return audit::energy_drift(model, run) / audit::mechanics(model, run.samples.front()).energy();
+}
+
+void add_row(Table& table, const char* name, const audit::SampledRun<3>& run, double seconds, double error) {
+  table.row({name, fmt::format("{}", run.events), fmt::format("{}", run.impulses), fmt::format("{:.2f}", seconds),
+             fmt::format("{:.1e}", error)});
 }
 
 }  // namespace
@@ -56,19 +58,20 @@ void add_row(Table& table, const char* name, const EnergyRun& measured) {
 bool run() {
   const integrator::Scene scene = graded();
   const Model model = integrator::build_model<3>(scene).model;
-  const EnergyRun one = run_for_energy(with_one_step(scene), windows);
+  const Model one_step = with_one_step(scene);
+  const audit::SampledRun<3> one = audit::run_with_clocks(one_step, windows);
   std::vector<double> times;
-  EnergyRun own;
+  audit::SampledRun<3> own;
   for (int i = 0; i < passes; ++i) {
-    own = run_for_energy(model, windows);
+    own = audit::run_with_clocks(model, windows);
     times.push_back(own.seconds);
   }
-  own.seconds = median(times);
+  const double seconds = median(times), error = energy_error(model, own), one_error = energy_error(one_step, one);
   Table table({"graded sheet in contact", "events", "impulses of layers", "s", "energy error"});
-  add_row(table, "steps by groups and classes", own);
-  add_row(table, "one step for all", one);
+  add_row(table, "steps by groups and classes", own, seconds, error);
+  add_row(table, "one step for all", one, one.seconds, one_error);
   std::fputs(fmt::format("\n{}\n{:.1f} times less time, {:.2f} of the energy error\n", table.text(),
-                         one.seconds / own.seconds, own.energy_error / one.energy_error)
+                         one.seconds / seconds, error / one_error)
                  .c_str(),
              stdout);
   return true;

@@ -395,6 +395,21 @@ void require_digits(const Scene& scene, const Model<double, Dim>& model) {
                   part * farthest, farthest, thinnest));
 }
 
+/// Closest points are found with products of four lengths (certificates/closest.h), which have to stay within the range
+/// of double, with some room for what moves away and for layers that are thinner than the first.
+template <int Dim>
+void require_range(const Scene& scene, const Model<double, Dim>& model) {
+  constexpr double least = 1e-70, greatest = 1e70;
+  double farthest = 0, thinnest = infinity;
+  for (const auto& x : model.x) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  for (const ContactMaterial& m : model.contact->materials) thinnest = std::min(thinnest, m.thickness);
+  if (thinnest >= least && farthest <= greatest) return;
+  Field(scene.document, scene.path.string())["contact"]["thickness"].fail(
+      fmt::format("expected at least {:g} [m], and coordinates of at most {:g}, found {:.3g} and {:.3g}: contact needs "
+                  "the fourth powers of lengths, which leave the range of numbers",
+                  least, greatest, thinnest, farthest));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -422,6 +437,7 @@ void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const 
   materials.require_bounds();
   for_each_pair([&](const auto&... pair) { materials.add(pair...); });
   require_digits(scene, built.model);
+  require_range(scene, built.model);
 }
 
 template void add_contact(const Scene&, const std::vector<BodyMesh>&, const std::vector<double>&, BuiltScene<2>&);

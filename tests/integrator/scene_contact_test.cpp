@@ -77,6 +77,31 @@ TEST(SceneContact, DefaultsComeFromTheMeshTheMassesAndTheSpeeds) {
   EXPECT_NEAR(settings(scene).materials[0].stiffness / (heavy * rate * rate), 1, 1e-12);
 }
 
+/// Two edges in the plane, all lengths times a factor.
+Json edges(double factor) {
+  Json scene = R"({"noli_scene": 1, "dimension": 2, "duration": 1, "bodies": []})"_json;
+  for (const double y : {0.0, 1.0}) {
+    Json body = {{"mesh", {{"chain", {{"points", {{0, y * factor}, {factor, y * factor}}}, {"segments", 1}}}}},
+                 {"material", {{"edge_stiffness", 1}, {"mass_per_vertex", 1}}}};
+    body["name"] = y == 0 ? "low" : "high";
+    scene["bodies"].push_back(body);
+  }
+  scene["contact"] = {{"thickness", 0.01 * factor}};
+  return scene;
+}
+
+TEST(SceneContact, NeedsTheFourthPowersOfLengths) {
+  for (const double factor : {1e-67, 1.0, 1e69}) EXPECT_NO_THROW(built<2>(edges(factor))) << factor;
+  for (const double factor : {1e-100, 1e-70, 1e71, 1e100}) {
+    try {
+      built<2>(edges(factor));
+      ADD_FAILURE() << factor;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("fourth powers of lengths"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(SceneContact, GravityStepsNoLongerThanAFirstLayerUnlessItIsSaid) {
   Json scene = changed(sheet(), "/gravity", Json{0, 0, -10});
   const double without = built(scene).model.gravity->step;

@@ -96,6 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"OracleKnowsNoKernel", "tests/oracle/x.h", "#include \"noli/kernel/k.h\"", true},
         Planted{"AppKnowsAudit", "app/x.h", "#include \"noli/audit/a.h\"", false},
         Planted{"AppKnowsNoBench", "app/x.h", "#include \"noli/bench/b.h\"", true},
+        Planted{"BenchKnowsAudit", "bench/x.h", "#include \"noli/audit/a.h\"", false},
+        Planted{"AuditKnowsNoBench", "audit/x.h", "#include \"noli/bench/b.h\"", true},
         Planted{"ExamplesKnowWhatIsInstalled", "examples/x.cpp", "#include <noli/kernel/k.h>", false},
         Planted{"ExamplesKnowNoAudit", "examples/x.cpp", "#include <noli/audit/a.h>", true},
         Planted{"TestsKnowAll", "tests/app/x.h", "#include \"noli/app/a.h\"", false}),

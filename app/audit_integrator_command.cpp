@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/app/commands.h"
+#include "noli/app/integrator_report.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/notes.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/integrator/scene/read_scene.h"
+#include "noli/trajectory/write_file.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* integrator_footer =
+    "Each scene by several methods, with longer and shorter steps: this integrator, with a step for each force and in "
+    "groups; Verlet's method,\n"
+    "with one step for all; implicit Euler, for context. Errors of trajectory, energy and momentum, at the ends of "
+    "windows, against a reference\n"
+    "with much shorter steps, and what each run took. Without a scene: a uniform sheet and a graded one. "
+    "audit/INTEGRATOR.md has a worked example.\n"
+    "Exit 0: measured; 1: a run came to what is no number; 2: interrupted.\n"
+    "Examples:\n"
+    "  noli audit integrator --svg integrator.svg\n"
+    "  noli audit integrator scenes/stiff_inset.json --short --windows 5 --json result.json";
+
+struct IntegratorArguments {
+  audit::IntegratorOptions options;
+  std::vector<fs::path> scenes;
+  bool brief = false;
+  std::uint64_t halvings = 3, windows = 20;
+  std::optional<std::string> json, svg;
+};
+
+std::vector<integrator::Scene> scenes_of(const IntegratorArguments& arguments) {
+  std::vector<integrator::Scene> scenes;
+  const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
+  for (const fs::path& file : arguments.scenes) {
+    scenes.push_back(integrator::read_scene(file, form));
+    if (arguments.brief) note_missing_short_form(scenes.back());
+  }
+  if (!scenes.empty()) return scenes;
+  for (const std::string& text : audit::integrator_scenes()) {
+    scenes.push_back(integrator::parse_scene(text, "built in"));
+  }
+  return scenes;
+}
+
+ExitCode exit_code(const IntegratorResults& results) {
+  const std::string verdict = integrator_verdict(results);
+  if (verdict == "finding") return ExitCode::refuted;
+  return verdict == "measured" ? ExitCode::holds : ExitCode::undecided;
+}
+
+ExitCode run(IntegratorArguments& arguments) {
+  audit::IntegratorOptions& options = arguments.options;
+  options.halvings = static_cast<int>(arguments.halvings);
+  options.windows = static_cast<int>(arguments.windows);
+  options.stop = &interrupted();
+  const Output output(arguments.json, arguments.scenes);
+  if (arguments.svg) {
+    std::vector<fs::path> others = arguments.scenes;
+    if (arguments.json) others.emplace_back(*arguments.json);
+    require_other_file(*arguments.svg, others, "--svg");
+    require_writable_file(*arguments.svg, "--svg");
+  }
+  IntegratorResults results;
+  for (const integrator::Scene& scene : scenes_of(arguments)) {
+    options.begun = [&](const std::string& method, double factor) {
+      std::fputs(fmt::format("noli: {}: {}, steps times {:g}\n", scene.title, method, factor).c_str(), stderr);
+    };
+    results.push_back(audit::audit_integrator(scene, options));
+    if (!results.back().complete) break;
+  }
+  if (arguments.svg) write_file(*arguments.svg, integrator_svg(results));
+  output.write(integrator_text(results), integrator_json(results));
+  return exit_code(results);
+}
+
+}  // namespace
+
+Command add_audit_integrator(CLI::App& audit) {
+  CLI::App* const command =
+      audit.add_subcommand("integrator", "Error against run time, beside the methods one would write instead");
+  command->footer(integrator_footer);
+  const auto arguments = std::make_shared<IntegratorArguments>();
+  command->add_option("scenes", arguments->scenes, "Scenes to run; without any, a uniform sheet and a graded one")
+      ->type_name("SCENE.json");
+  command->add_flag("--short", arguments->brief, "The scenes' short forms");
+  command->add_option("--halvings", arguments->halvings, "How often steps are halved")
+      ->check(whole_number(0, 20))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--windows", arguments->windows, "How many windows of each scene, at most those it has")
+      ->check(whole_number(1, 1'000'000))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag_callback(
+      "--no-euler", [arguments] { arguments->options.euler = false; }, "Without the implicit Euler method");
+  command->add_option("--svg", arguments->svg, "Draw errors against run time")->type_name("OUT.svg");
+  add_json_option(*command, arguments->json);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

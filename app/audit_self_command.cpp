@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/app/audit_report.h"
+#include "noli/app/commands.h"
+#include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/audit/self.h"
+#include "noli/kernel/parallel.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+using audit::PartState;
+using audit::SelfPart;
+using audit::SelfReport;
+
+constexpr const char* self_footer =
+    "All that noli has to look at itself with: its rounding self-test, the labelled queries in $NOLI_DATA, each fuzzer "
+    "for a time, and proofs of\n"
+    "what it ships, through each checker that is there. One page of figures. What cannot be done, because something is "
+    "not there, is named as\n"
+    "skipped and not counted as held. audit/SELF.md has a worked example.\n"
+    "Exit 0: all that was done held; 1: something failed; 2: interrupted, or, with --require-all, something was "
+    "skipped.\n"
+    "Examples:\n"
+    "  noli audit self\n"
+    "  noli audit self --for 10m --data data --scenes scenes --require-all --json self.json";
+
+struct SelfArguments {
+  audit::SelfOptions options;
+  std::string fuzz_time = "60s", scene_time = "5s", scenes = "scenes", out = "self-findings";
+  std::optional<std::string> program, data, json;
+  bool require_all = false;
+};
+
+const char* name(PartState state) {
+  switch (state) {
+    case PartState::held: return "held";
+    case PartState::failed: return "failed";
+    case PartState::skipped: return "skipped";
+  }
+  return "";
+}
+
+ExitCode exit_code(const SelfReport& report, bool require_all) {
+  if (report.count(PartState::failed) > 0) return ExitCode::refuted;
+  const bool all = report.complete && (!require_all || report.count(PartState::skipped) == 0);
+  return all && report.count(PartState::held) > 0 ? ExitCode::holds : ExitCode::undecided;
+}
+
+const char* verdict(ExitCode code) {
+  return code == ExitCode::holds ? "holds" : code == ExitCode::refuted ? "finding" : "undecided";
+}
+
+Json figures_json(const SelfPart& part) {
+  Json json = Json::object();
+  for (const auto& [key, number] : part.figures) json[key] = number;
+  return json;
+}
+
+Json self_json(const SelfArguments& arguments, const SelfReport& report, double seconds) {
+  Json json = {{"verdict", verdict(exit_code(report, arguments.require_all))},
+               {"held", report.count(PartState::held)},
+               {"failed", report.count(PartState::failed)},
+               {"skipped", report.count(PartState::skipped)},
+               {"complete", report.complete},
+               {"seed", arguments.options.seed}};
+  json["parts"] = Json::array();
+  Json times = Json::array();
+  for (const SelfPart& part : report.parts) {
+    Json about = {{"group", part.group}, {"name", part.name}, {"state", name(part.state)}, {"words", part.words}};
+    Json time = {{"group", part.group}, {"name", part.name}, {"seconds", part.seconds}};
+    (part.by_clock ? time : about)["figures"] = figures_json(part);
+    json["parts"].push_back(about);
+    times.push_back(time);
+  }
+  const int threads = arguments.options.threads;
+  json["timing"] = {{"seconds", seconds}, {"threads", threads > 0 ? threads : hardware_threads()}, {"parts", times}};
+  return json;
+}
+
+std::string figures_text(const SelfPart& part) {
+  std::string text;
+  for (const auto& [key, number] : part.figures) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, key);
+  return text;
+}
+
+std::string self_text(const SelfArguments& arguments, const SelfReport& report, double seconds) {
+  std::string text =
+      fmt::format("verdict {} parts {} held {} failed {} skipped {} complete {}\n",
+                  verdict(exit_code(report, arguments.require_all)), report.parts.size(), report.count(PartState::held),
+                  report.count(PartState::failed), report.count(PartState::skipped), report.complete);
+  std::vector<TableRow> rows = {{"part", "", "result", "figures", "seconds"}};
+  for (const SelfPart& part : report.parts) {
+    rows.push_back({part.group, part.name, name(part.state), figures_text(part), fmt::format("{:.1f}", part.seconds)});
+  }
+  text += table_text(rows, 4);
+  const auto out = std::back_inserter(text);
+  for (const SelfPart& part : report.parts) {
+    if (part.state == PartState::held) continue;
+    fmt::format_to(out, "{}: {} {}: {}\n", name(part.state), part.group, on_one_line(part.name), part.words);
+  }
+  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
+  return text;
+}
+
+/// What NOLI_DATA names, unless the command line does.
+std::optional<std::filesystem::path> data_folder(const std::optional<std::string>& given) {
+  if (given) return *given;
+  const char* const named = std::getenv("NOLI_DATA");
+  if (named == nullptr || *named == '\0') return std::nullopt;
+  return named;
+}
+
+ExitCode run(SelfArguments& arguments) {
+  audit::SelfOptions& options = arguments.options;
+  options.fuzz_time = parse_duration(arguments.fuzz_time, "--for");
+  options.scene_time = parse_duration(arguments.scene_time, "--scene-time");
+  options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : beside_this_program("noli");
+  options.data = data_folder(arguments.data);
+  options.scenes = arguments.scenes;
+  options.out = arguments.out;
+  options.stop = &interrupted();
+  const Output output(arguments.json, {options.program});
+  require_writable_folder(arguments.out, "--out");
+  options.begun = [](const std::string& part) { std::fputs(fmt::format("noli: {}\n", part).c_str(), stderr); };
+  const Stopwatch watch;
+  const SelfReport report = audit::audit_self(options);
+  const double seconds = watch.seconds();
+  output.write(self_text(arguments, report, seconds), self_json(arguments, report, seconds));
+  return exit_code(report, arguments.require_all);
+}
+
+}  // namespace
+
+Command add_audit_self(CLI::App& audit) {
+  CLI::App* const command = audit.add_subcommand("self", "All that noli has to look at itself with, on one page");
+  command->footer(self_footer);
+  const auto arguments = std::make_shared<SelfArguments>();
+  audit::SelfOptions& options = arguments->options;
+  command->add_option("--for", arguments->fuzz_time, "Time of each fuzzer: 500ms, 60s, 10m")
+      ->capture_default_str()
+      ->type_name("TIME");
+  command->add_option("--scene-time", arguments->scene_time, "Time of each scene of --scenes")
+      ->capture_default_str()
+      ->type_name("TIME");
+  command->add_option("--seed", options.seed, "What fuzzers depend on")
+      ->capture_default_str()
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->type_name("S");
+  command
+      ->add_option("--only", options.only, "Only these parts: rounding, labels, fuzz, proofs; with commas between them")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(audit::self_groups), std::end(audit::self_groups))))
+      ->type_name("PART");
+  command->add_option("--data", arguments->data, "Folder with queries/*.csv [$NOLI_DATA]")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  command->add_option("--scenes", arguments->scenes, "Folder with scenes, which are run in their short forms")
+      ->capture_default_str()
+      ->type_name("DIR");
+  command->add_option("--program", arguments->program, "Ask this `noli` instead of this one")
+      ->check(CLI::ExistingFile)
+      ->type_name("NOLI");
+  command->add_option("--out", arguments->out, "Folder for what fuzzers find, made when they do")
+      ->capture_default_str()
+      ->type_name("DIR");
+  command->add_flag("--require-all", arguments->require_all, "Exit 2 when something was skipped");
+  add_threads_option(*command, options.threads);
+  add_json_option(*command, arguments->json);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/app/audit_report.h"
+#include "noli/app/commands.h"
+#include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/app/options.h"
+#include "noli/app/output.h"
+#include "noli/audit/stability.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+using audit::StabilityPoint;
+using audit::StabilityReport;
+using audit::StabilityResult;
+using audit::StabilityRow;
+
+constexpr const char* stability_footer =
+    "Small scenes and pairs of frames, each row from the ordinary to the extreme in one quantity: stiffness, mass, "
+    "thickness, speed, offset,\n"
+    "magnitude, slivers, subnormals, steps, resonance; with contact and without. Each point is run by the `noli` "
+    "program as a user would, and\n"
+    "looked at: does it get to its end, is it verified again, are energy and momentum kept, does it resume with the "
+    "same bytes? What does\n"
+    "not must not exit with 0. audit/STABILITY.md has the promises, the table, and a worked example.\n"
+    "Exit 0: whatever failed failed closed; 1: a finding, whose input is kept in --out; 2: interrupted.\n"
+    "Examples:\n"
+    "  noli audit stability\n"
+    "  noli audit stability --row offset --row offset-contact --json result.json\n"
+    "  noli audit stability --program build/asan/app/noli --point-limit 2m";
+
+struct StabilityArguments {
+  audit::StabilityOptions options;
+  std::vector<std::string> rows;
+  std::uint64_t points = 100;
+  std::string point_limit = "20s";
+  std::string out = "stability-findings";
+  std::optional<std::string> program, json;
+};
+
+const char* verdict(const StabilityReport& report) {
+  if (report.findings() > 0) return "finding";
+  return report.complete ? "no_finding" : "undecided";
+}
+
+ExitCode exit_code(const StabilityReport& report) {
+  if (report.findings() > 0) return ExitCode::refuted;
+  return report.complete ? ExitCode::holds : ExitCode::undecided;
+}
+
+// --- JSON ------------------------------------------------------------------------------------------------------------
+
+Json point_json(const StabilityPoint& point) {
+  return {{"value", point.value},
+          {"exit_code", point.exit_code},
+          {"holds", point.gives.empty()},
+          {"gives", point.gives.empty() ? Json(nullptr) : Json(point.gives)},
+          {"message", point.message},
+          {"energy_error", point.energy_error},
+          {"momentum_error", point.momentum_error},
+          {"warned", point.warned},
+          {"findings", point.findings},
+          {"saved", point.saved.empty() ? Json(nullptr) : Json(point.saved.string())}};
+}
+
+Json row_json(const StabilityResult& row) {
+  Json json = {{"row", row.name}, {"varied", row.varied}, {"contact", row.contact}};
+  const std::size_t first = row.first_to_give();
+  json["holds_up_to"] = first > 0 ? Json(row.points[first - 1].value) : Json(nullptr);
+  json["gives_first"] = first < row.points.size() ? Json(row.points[first].gives) : Json(nullptr);
+  json["at"] = first < row.points.size() ? Json(row.points[first].value) : Json(nullptr);
+  json["exit_code"] = first < row.points.size() ? Json(row.points[first].exit_code) : Json(nullptr);
+  json["points"] = Json::array();
+  for (const StabilityPoint& point : row.points) json["points"].push_back(point_json(point));
+  return json;
+}
+
+Json stability_json(const StabilityReport& report, double seconds) {
+  Json json = {{"verdict", verdict(report)},
+               {"points", report.points()},
+               {"held", report.held()},
+               {"findings", report.findings()},
+               {"complete", report.complete},
+               {"most_energy_error", audit::most_energy_error},
+               {"most_momentum_error", audit::most_momentum_error}};
+  json["rows"] = Json::array();
+  Json times = Json::array();
+  for (const StabilityResult& row : report.rows) {
+    json["rows"].push_back(row_json(row));
+    Json of_points = Json::array();
+    for (const StabilityPoint& point : row.points) of_points.push_back(point.seconds);
+    times.push_back({{"row", row.name}, {"seconds", of_points}});
+  }
+  json["timing"] = {{"seconds", seconds}, {"rows", times}};
+  return json;
+}
+
+// --- text ------------------------------------------------------------------------------------------------------------
+
+std::string table(const StabilityReport& report) {
+  std::vector<TableRow> rows = {{"row", "varied", "up to", "energy", "momentum", "gives first", "at", "exit"}};
+  for (const StabilityResult& row : report.rows) {
+    const std::size_t first = row.first_to_give();
+    const bool gives = first < row.points.size();
+    double energy = 0, momentum = 0;
+    for (std::size_t i = 0; i < first; ++i) {
+      energy = std::max(energy, row.points[i].energy_error);
+      momentum = std::max(momentum, row.points[i].momentum_error);
+    }
+    rows.push_back({row.name, row.varied, first > 0 ? fmt::format("{:g}", row.points[first - 1].value) : "-",
+                    energy > 0 ? fmt::format("{:.1e}", energy) : "-",
+                    momentum > 0 ? fmt::format("{:.0e}", momentum) : "-", gives ? row.points[first].gives : "-",
+                    gives ? fmt::format("{:g}", row.points[first].value) : "-",
+                    gives ? std::to_string(row.points[first].exit_code) : "-"});
+  }
+  return table_text(rows, 2);
+}
+
+std::string stability_text(const StabilityReport& report, double seconds) {
+  std::string text =
+      fmt::format("verdict {} rows {} points {} held {} findings {} complete {}\n", verdict(report), report.rows.size(),
+                  report.points(), report.held(), report.findings(), report.complete);
+  text += table(report);
+  const auto out = std::back_inserter(text);
+  for (const StabilityResult& row : report.rows) {
+    for (const StabilityPoint& point : row.points) {
+      if (!point.gives.empty()) {
+        fmt::format_to(out, "{}, {:g}: {}, exit {}: {}\n", row.name, point.value, point.gives, point.exit_code,
+                       point.message);
+      }
+      for (const std::string& words : point.findings) {
+        fmt::format_to(out, "finding: {}, {:g}: {}; its input is in {}\n", row.name, point.value, words,
+                       on_one_line(point.saved.string()));
+      }
+    }
+  }
+  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
+  return text;
+}
+
+// --- command ---------------------------------------------------------------------------------------------------------
+
+std::vector<StabilityRow> chosen_rows(const std::vector<std::string>& names) {
+  std::vector<StabilityRow> all = audit::stability_rows();
+  if (names.empty()) return all;
+  std::vector<StabilityRow> chosen;
+  for (const std::string& name : names) {
+    const auto row = std::find_if(all.begin(), all.end(), [&](const StabilityRow& r) { return r.name == name; });
+    if (row == all.end()) {
+      std::string known;
+      for (const StabilityRow& r : all) known += (known.empty() ? "" : ", ") + r.name;
+      throw UsageError(fmt::format("--row: there is no row {}; there are {}", on_one_line(name), known));
+    }
+    chosen.push_back(*row);
+  }
+  return chosen;
+}
+
+ExitCode run(StabilityArguments& arguments) {
+  audit::StabilityOptions& options = arguments.options;
+  std::vector<StabilityRow> rows = chosen_rows(arguments.rows);
+  for (StabilityRow& row : rows) row.values.resize(std::min<std::size_t>(row.values.size(), arguments.points));
+  options.point_limit = parse_duration(arguments.point_limit, "--point-limit");
+  options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : beside_this_program("noli");
+  const Output output(arguments.json, {options.program});
+  require_writable_folder(arguments.out, "--out");
+  options.out = arguments.out;
+  options.stop = &interrupted();
+  std::string now;
+  options.progress = [&](double share, const std::string& row) {
+    if (row == now) return;
+    now = row;
+    std::fputs(fmt::format("noli: {:3.0f} % {}\n", 100 * share, row).c_str(), stderr);
+  };
+  const Stopwatch watch;
+  const StabilityReport report = audit::audit_stability(rows, options);
+  const double seconds = watch.seconds();
+  output.write(stability_text(report, seconds), stability_json(report, seconds));
+  return exit_code(report);
+}
+
+}  // namespace
+
+Command add_audit_stability(CLI::App& audit) {
+  CLI::App* const command = audit.add_subcommand("stability", "How far noli goes, and how it ends where it does not");
+  command->footer(stability_footer);
+  const auto arguments = std::make_shared<StabilityArguments>();
+  command->add_option("--row", arguments->rows, "This row alone; may be given more than once")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  command->add_option("--points", arguments->points, "Only the first so many points of each row")
+      ->check(whole_number(1, 100))
+      ->type_name("N");
+  command->add_option("--point-limit", arguments->point_limit, "A run that takes longer ends undecided: 500ms, 20s, 1m")
+      ->capture_default_str()
+      ->type_name("TIME");
+  command->add_option("--program", arguments->program, "Ask this `noli` instead of this one")
+      ->check(CLI::ExistingFile)
+      ->type_name("NOLI");
+  command->add_option("--out", arguments->out, "Folder for the input of findings, made when there is one")
+      ->capture_default_str()
+      ->type_name("DIR");
+  add_json_option(*command, arguments->json);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

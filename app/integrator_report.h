@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `noli audit integrator` says: text, JSON, and a picture of errors against run time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "noli/app/json.h"
+#include "noli/audit/integrator_audit.h"
+
+namespace noli::app {
+
+using IntegratorResults = std::vector<audit::IntegratorResult>;
+
+/// "measured", "finding" (a run left the numbers), "undecided".
+const char* integrator_verdict(const IntegratorResults& results);
+
+std::string integrator_text(const IntegratorResults& results);
+
+Json integrator_json(const IntegratorResults& results);
+
+/// For each scene, errors of trajectory and of energy over time, both logarithmic: a line for each method.
+std::string integrator_svg(const IntegratorResults& results);
+
+}  // namespace noli::app

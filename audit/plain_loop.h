@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the integrator is measured against: the loop that one writes when all forces have one step. The same forces, the
+// same formulas, no clocks, no books, no recording.
+//
+// What this does not do: no damping, no scripts, no contact; and it does not scale steps: the work of a force does not
+// depend on them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "noli/integrator/model.h"
+
+namespace noli::audit {
+
+template <int Dim>
+class PlainLoop {
+ public:
+  using Vec = integrator::Vec<double, Dim>;
+
+  PlainLoop(integrator::Model<double, Dim> model, double step)
+      : forces_(std::move(model.forces)),
+        gravity_(std::move(model.gravity)),
+        x_(std::move(model.x)),
+        v_(std::move(model.v)),
+        step_(step) {
+    for (const double m : model.mass) inverse_mass_.push_back(1 / m);
+    for (const VertexId i : model.pinned) {
+      inverse_mass_[i] = 0;
+      v_[i].setZero();
+    }
+  }
+
+  /// Half a kick: before the first step() it makes the scheme one of second order from the start.
+  void start() { kick_all(0.5 * step_, v_); }
+
+  /// One step of Verlet's method: all vertices drift, all forces kick.
+  [[gnu::flatten]] void step() {
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_ * v_[i];
+    kick_all(step_, v_);
+  }
+
+  std::uint64_t forces() const {
+    return std::apply([](const auto&... list) { return (list.forces.size() + ...); }, forces_.lists());
+  }
+
+  const std::vector<Vec>& positions() const { return x_; }
+  /// Half way through the last kick: those of this time, if start() was called.
+  std::vector<Vec> mean_velocities() const {
+    std::vector<Vec> v = v_;
+    kick_all(-0.5 * step_, v);
+    return v;
+  }
+
+ private:
+  void kick_all(double h, std::vector<Vec>& v) const {
+    std::apply([&](const auto&... list) { (kick(list.forces, h, v), ...); }, forces_.lists());
+    if (!gravity_) return;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (inverse_mass_[i] != 0) v[i] += h * gravity_->acceleration;
+    }
+  }
+
+  template <class F>
+  void kick(const std::vector<F>& forces, double h, std::vector<Vec>& v) const {
+    integrator::Stencil<double, Dim, F::size> x;
+    for (const F& force : forces) {
+      for (std::size_t i = 0; i < F::size; ++i) x[i] = x_[force.vertices[i]];
+      const auto gradient = force.gradient(x);
+      for (std::size_t i = 0; i < F::size; ++i) {
+        v[force.vertices[i]] -= (h * inverse_mass_[force.vertices[i]]) * gradient[i];
+      }
+    }
+  }
+
+  integrator::Forces<double, Dim> forces_;
+  std::optional<integrator::Gravity<double, Dim>> gravity_;
+  std::vector<Vec> x_, v_;
+  std::vector<double> inverse_mass_;
+  double step_;
+};
+
+}  // namespace noli::audit
