@@ -199,7 +199,7 @@ class Minimiser {
     bool progress = false;
     const std::vector<double> all = numbers(query_);
     for (auto x = all.rbegin(); x != all.rend(); ++x) {
-      std::vector<double> values = simpler(*x);
+      std::vector<double> values = simpler_numbers(*x);
       values.insert(values.begin(), all.begin(), all.end());
       std::vector<AnyQuery> candidates;
       for (const double value : values) {
