@@ -94,7 +94,7 @@ TEST_F(FuzzLibrary, GivesTheSameForAnyNumberOfThreads) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
     return without_timing(
         json_of({"fuzz", "queries", "--library", mutant("double_roots_dropped"), "--count", "5000", "--seed", seed,
-                 "--threads", threads, "--max-findings", "3", "--out", folder.path("out" + seed)},
+                 "--threads", threads, "--max-findings", "2", "--out", folder.path("out" + seed)},
                 1));
   };
   const std::string one = bytes("5", "1");
