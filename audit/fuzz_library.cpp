@@ -87,8 +87,8 @@ Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const L
   return result;
 }
 
-/// The library's answers while a query is shrunk. What hangs is waited for but a part of the limit, and not often, or it
-/// would take all day.
+/// The library's answers while a query is shrunk. What hangs is waited for but a part of the limit, and not often, or
+/// it would take all day.
 class Shrinking {
  public:
   Shrinking(const LibraryUnderTest& library, const FaultFound& found, bool knows_times)

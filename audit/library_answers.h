@@ -79,12 +79,12 @@ struct LibraryAnswer {
   std::string ending;  ///< how the process ended at this query, in words; "" where it did not
 };
 
-/// Asks them in one process, or in as many as it takes; after `host.most_hangs` hangs the rest is not asked. All queries
-/// are of that pair. Throws what ask_library throws.
+/// Asks them in one process, or in as many as it takes; after `host.most_hangs` hangs the rest is not asked. All
+/// queries are of that pair. Throws what ask_library throws.
 std::vector<LibraryAnswer> ask(const LibraryUnderTest& library, FeaturePair pair, std::span<const AnyQuery> queries);
 
-/// Whether it gives times of impact at all: for a vertex that falls through the middle of a face, and for two edges that
-/// cross. One that does not leaves them NaN.
+/// Whether it gives times of impact at all: for a vertex that falls through the middle of a face, or for two edges
+/// that cross. One that does not leaves them NaN.
 bool knows_times(const LibraryUnderTest& library);
 
 /// What the kernel says of features that meet.

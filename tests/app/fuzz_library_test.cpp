@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli fuzz queries --library`: an exact method in which nothing is found, its mutants (ccd_libraries/mutants), in each
-// of which something is, and libraries that misbehave otherwise.
+// `noli fuzz queries --library`: an exact method in which nothing is found, its mutants (ccd_libraries/mutants), in
+// each of which something is, and libraries that misbehave otherwise.
 #include <gtest/gtest.h>
 
 #include <algorithm>
