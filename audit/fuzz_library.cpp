@@ -94,12 +94,12 @@ class Shrinking {
   Shrinking(const LibraryUnderTest& library, const FaultFound& found, bool knows_times)
       : library_(library), found_(found), knows_times_(knows_times) {
     library_.host.most_hangs = 1;
-    library_.host.query_limit = std::min(library_.host.query_limit, std::max(library_.host.query_limit / 20, least));
+    library_.host.query_limit = std::min(library_.host.query_limit, std::max(library_.host.query_limit / 50, least));
     library_.host.deadline.reset();
   }
 
   std::optional<std::size_t> first_failure(std::span<const AnyQuery> queries) {
-    constexpr int most_costly = 200;
+    constexpr int most_costly = 400;
     const std::atomic<bool>* const stop = library_.host.stop;
     if (costly_ >= most_costly || (stop != nullptr && stop->load())) return std::nullopt;
     const std::vector<LibraryAnswer> answers = ask(library_, queries[0].pair, queries);

@@ -69,6 +69,7 @@ class Minimiser {
       progress |= replace_numbers();
       progress |= stop_along_axes();
       progress |= simplify_coordinates();
+      if (!progress) progress = simplify_pairs();
     }
     return query_;
   }
@@ -262,6 +263,27 @@ class Minimiser {
     values.insert(values.end(), others.begin(), others.end());
     std::vector<AnyQuery> candidates(values.size(), query_);
     for (std::size_t k = 0; k < values.size(); ++k) (candidates[k].*points)[i][axis] = values[k];
+    return accept_one(candidates);
+  }
+
+  /// Two coordinates at a time: for what hangs on a relation between numbers, such as a double root.
+  bool simplify_pairs() {
+    std::vector<double*> places;
+    AnyQuery changed = query_;
+    for_each_coordinate(changed, [&](double& x) { places.push_back(&x); });
+    std::vector<AnyQuery> candidates;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double first = *places[i], second = *places[j];
+        for (const auto& [a, b] : {std::pair(0.0, 0.0), {0.0, 1.0}, {1.0, 0.0}, {1.0, 1.0}}) {
+          *places[i] = a;
+          *places[j] = b;
+          candidates.push_back(changed);
+        }
+        *places[i] = first;
+        *places[j] = second;
+      }
+    }
     return accept_one(candidates);
   }
 
