@@ -271,7 +271,7 @@ void prepare_library(FuzzArguments& arguments) {
   host.host = beside_this_program("noli_ccd_host");
   host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
   host.most_memory = arguments.megabytes * 1'000'000;
-  host.most_hangs = 2;
+  host.most_hangs = 4;
   host.stop = &interrupted();
 }
 

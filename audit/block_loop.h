@@ -40,11 +40,13 @@ BlockEnd run_blocks(const BlockLimits& limits, const Make& make, const Take& tak
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   const auto threads = static_cast<std::uint64_t>(limits.threads > 0 ? limits.threads : hardware_threads());
   std::uint64_t next = 0, left = limits.count.value_or(std::uint64_t{1} << 60);
+  std::uint64_t batch = threads;  // few at first, for who stops at the first finding
   for (;;) {
     if (limits.stop != nullptr && limits.stop->load()) return BlockEnd::interrupted;
     if (left == 0 || (limits.time_limit && seconds() >= limits.time_limit->count())) return BlockEnd::limit;
     const std::uint64_t blocks_left = (left + queries_per_block - 1) / queries_per_block;
-    std::vector<Result> results(std::min(8 * threads, blocks_left));
+    std::vector<Result> results(std::min(batch, blocks_left));
+    batch = std::min(2 * batch, 8 * threads);
     parallel_for(results.size(), static_cast<int>(threads), [&](std::size_t i) {
       results[i] = make(next + i, std::min<std::uint64_t>(queries_per_block, left - i * queries_per_block));
     });

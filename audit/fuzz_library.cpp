@@ -87,18 +87,19 @@ Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const L
   return result;
 }
 
-/// The library's answers while a query is shrunk. Those that cost the whole limit of a query are few, or it would take
-/// all day.
+/// The library's answers while a query is shrunk. What hangs is waited for but a part of the limit, and not often, or
+/// it would take all day.
 class Shrinking {
  public:
   Shrinking(const LibraryUnderTest& library, const FaultFound& found, bool knows_times)
       : library_(library), found_(found), knows_times_(knows_times) {
     library_.host.most_hangs = 1;
+    library_.host.query_limit = std::min(library_.host.query_limit, std::max(library_.host.query_limit / 50, least));
     library_.host.deadline.reset();
   }
 
   std::optional<std::size_t> first_failure(std::span<const AnyQuery> queries) {
-    constexpr int most_costly = 12;
+    constexpr int most_costly = 400;
     const std::atomic<bool>* const stop = library_.host.stop;
     if (costly_ >= most_costly || (stop != nullptr && stop->load())) return std::nullopt;
     const std::vector<LibraryAnswer> answers = ask(library_, queries[0].pair, queries);
@@ -117,6 +118,8 @@ class Shrinking {
     const auto fault = fault_of(answer, exact_contact(query), knows_times_);
     return fault && fault->is_like(found_);
   }
+
+  static constexpr std::chrono::nanoseconds least = std::chrono::milliseconds(20);
 
   LibraryUnderTest library_;
   FaultFound found_;

@@ -63,6 +63,12 @@ constexpr std::string_view name(LibraryFault fault) {
   return names[static_cast<std::size_t>(fault)];
 }
 
+/// Whether the library answered, if wrongly.
+constexpr bool is_answer(LibraryFault fault) {
+  return fault != LibraryFault::failure && fault != LibraryFault::crash && fault != LibraryFault::hang &&
+         fault != LibraryFault::memory;
+}
+
 /// The two pairs of features that libraries answer for, both in 3D.
 constexpr bool is_library_query(const QueryType& type) {
   return type.dimension == 3 && (type.pair == FeaturePair::vertex_face || type.pair == FeaturePair::edge_edge);
@@ -73,12 +79,12 @@ struct LibraryAnswer {
   std::string ending;  ///< how the process ended at this query, in words; "" where it did not
 };
 
-/// Asks them in one process, or in as many as it takes; after `host.most_hangs` hangs the rest is not asked. All queries
-/// are of that pair. Throws what ask_library throws.
+/// Asks them in one process, or in as many as it takes; after `host.most_hangs` hangs the rest is not asked. All
+/// queries are of that pair. Throws what ask_library throws.
 std::vector<LibraryAnswer> ask(const LibraryUnderTest& library, FeaturePair pair, std::span<const AnyQuery> queries);
 
-/// Whether it gives times of impact at all: for a vertex that falls through the middle of a face, and for two edges that
-/// cross. One that does not leaves them NaN.
+/// Whether it gives times of impact at all: for a vertex that falls through the middle of a face, or for two edges
+/// that cross. One that does not leaves them NaN.
 bool knows_times(const LibraryUnderTest& library);
 
 /// What the kernel says of features that meet.
@@ -94,8 +100,10 @@ struct FaultFound {
   LibraryFault fault;
   ContactKind kind;   ///< of the contact; apart where there is none
   std::string words;  ///< "late: 0.50000000000000011, they meet at 0.5 (crossing)"
-  /// Whether it is the same fault with the same kind of contact.
-  bool is_like(const FaultFound& other) const { return fault == other.fault && kind == other.kind; }
+  /// Whether it is the same fault with the same kind of contact; where there is no answer the kind does not matter.
+  bool is_like(const FaultFound& other) const {
+    return fault == other.fault && (kind == other.kind || !is_answer(fault));
+  }
 };
 
 /// What is wrong with an answer, false positives and early times included: whether they count is the caller's to say

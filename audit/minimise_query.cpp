@@ -58,9 +58,11 @@ class Minimiser {
       progress |= merge_points();
       progress |= move_axes();
       progress |= shear_axes();
+      progress |= slide_points();
       progress |= replace_numbers();
       progress |= stop_along_axes();
       progress |= simplify_coordinates();
+      if (!progress) progress = simplify_pairs();
     }
     return query_;
   }
@@ -186,12 +188,39 @@ class Minimiser {
     std::vector<AnyQuery> candidates;
     for (std::size_t to = 0; to < axes(); ++to) {
       for (std::size_t from = 0; from < axes(); ++from) {
-        for (const double by : {1.0, -1.0, 2.0, -2.0}) {
+        for (const double by : {1.0, -1.0, 2.0, -2.0, 0.5, -0.5}) {
           if (from != to) candidates.push_back(with_points([&](Point3& x) { x[to] += by * x[from]; }));
         }
       }
     }
     return accept_one(candidates);
+  }
+
+  /// A point along the difference of two others, throughout: that changes no volume, so coplanar points stay coplanar
+  /// and multiple roots stay multiple.
+  bool slide_points() {
+    bool progress = false;
+    for (std::size_t i = 0; i < query_.size(); ++i) {
+      std::vector<AnyQuery> candidates;
+      for (std::size_t j = 0; j < query_.size(); ++j) {
+        for (std::size_t k = 0; k < j; ++k) {
+          for (const double by : {1.0, -1.0, 2.0, -2.0, 0.5, -0.5}) {
+            if (i != j && i != k) candidates.push_back(with_point_moved(i, j, k, by));
+          }
+        }
+      }
+      progress |= accept_one(candidates);
+    }
+    return progress;
+  }
+
+  AnyQuery with_point_moved(std::size_t i, std::size_t j, std::size_t k, double by) const {
+    AnyQuery candidate = query_;
+    for (std::size_t axis = 0; axis < axes(); ++axis) {
+      candidate.x_t0[i][axis] += by * (query_.x_t0[j][axis] - query_.x_t0[k][axis]);
+      candidate.x_t1[i][axis] += by * (query_.x_t1[j][axis] - query_.x_t1[k][axis]);
+    }
+    return candidate;
   }
 
   /// Everywhere at once, by another number that is there, or by a simpler one.
@@ -227,6 +256,27 @@ class Minimiser {
     values.insert(values.end(), others.begin(), others.end());
     std::vector<AnyQuery> candidates(values.size(), query_);
     for (std::size_t k = 0; k < values.size(); ++k) (candidates[k].*points)[i][axis] = values[k];
+    return accept_one(candidates);
+  }
+
+  /// Two coordinates at a time: for what hangs on a relation between numbers, such as a double root.
+  bool simplify_pairs() {
+    std::vector<double*> places;
+    AnyQuery changed = query_;
+    for_each_coordinate(changed, [&](double& x) { places.push_back(&x); });
+    std::vector<AnyQuery> candidates;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double first = *places[i], second = *places[j];
+        for (const auto& [a, b] : {std::pair(0.0, 0.0), {0.0, 1.0}, {1.0, 0.0}, {1.0, 1.0}}) {
+          *places[i] = a;
+          *places[j] = b;
+          candidates.push_back(changed);
+        }
+        *places[i] = first;
+        *places[j] = second;
+      }
+    }
     return accept_one(candidates);
   }
 

@@ -34,11 +34,11 @@ using FirstFailure = std::function<std::optional<std::size_t>(std::span<const An
 /// Candidates that are looked at before `minimise` is content.
 constexpr std::size_t usual_shrink_budget = 60000;
 
-/// A query that fails and that none of these steps makes simpler: a point that stands still, also along one axis, points
-/// that coincide, half the step, an axis left out, scaled to unit size, moved, or sheared along another, a number that
-/// takes the place of another everywhere, and each coordinate zero, without its sign, a whole number, or with fewer
-/// bits. Simpler: the sum of `complexity` and a price for each different number is less. Stops early after `budget`
-/// candidates. Precondition: the query fails.
+/// A query that fails and that none of these steps makes simpler: a point that stands still, also along one axis,
+/// points that coincide, a point moved along the difference of two others, half the step, an axis left out, scaled to
+/// unit size, moved, or sheared along another, a number that takes the place of another everywhere, and each coordinate
+/// zero, without its sign, a whole number, or with fewer bits. Simpler: the sum of `complexity` and a price for each
+/// different number is less. Stops early after `budget` candidates. Precondition: the query fails.
 AnyQuery minimise(const AnyQuery& query, const FirstFailure& first_failure, std::size_t budget = usual_shrink_budget);
 
 /// The same, asking one after the other.

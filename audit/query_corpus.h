@@ -10,9 +10,8 @@
 //   when          they first meet: at_begin, inside, at_end, never
 //   roots         how many different roots the orientation of their points has in [0, 1]: 0_roots, ..., 3_roots;
 //                 coplanar when it is zero throughout; no_orientation for pairs that have none
-//   answer        of a library, where one is asked: no_hit, hit_exact, hit_late, hit_early_8_bits (from 2^-9 to 2^-16 of
-//                 the step; 0_bits, 8_bits, 16_bits, ..., 48_bits for less than that), hit_no_time, hit_bad_time,
-//                 false_hit, failure, crash, hang, memory
+//   answer        of a library, where one is asked: no_hit, hit_exact, hit_late, hit_early_N_bits (N = 0, 8, ..., 48:
+//                 by 2^-N of the step at most), hit_no_time, hit_bad_time, false_hit, failure, crash, hang, memory
 // It depends on the query (and the library) alone, so what a folder holds can be judged anew at any time.
 //
 // What this does not do: forget. A file stays, even when its query no longer reaches what its name says.

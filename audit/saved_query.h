@@ -20,8 +20,8 @@ namespace noli::audit {
 /// "vertex-face", "vertex-edge-2d", ...: with what the name of a file has to end for `noli ccd` to know its kind.
 std::string file_suffix(const QueryType& type);
 
-/// Writes `query`, labelled with `contact`, and then each comment on a line of its own. Comments begin with "# " and have
-/// one line each. Makes the folder. Throws std::system_error.
+/// Writes `query`, labelled with `contact`, and then each comment on a line of its own. Comments begin with "# " and
+/// have one line each. Makes the folder. Throws std::system_error.
 void save_query(const std::filesystem::path& file, const AnyQuery& query, bool contact,
                 std::span<const std::string> comments);
 

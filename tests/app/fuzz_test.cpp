@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 
@@ -17,6 +19,31 @@ TEST(FuzzQueries, FindsNoDifferenceAndDependsOnTheSeedAlone) {
   EXPECT_EQ(one, run("5", "2"));
   EXPECT_NE(one, run("6", "2"));
   EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(FuzzQueries, KeepsACorpusWhateverTheNumberOfThreads) {
+  const Folder one, two;
+  const auto run = [](const Folder& folder, const std::string& seed, const std::string& threads) {
+    return json_of({"fuzz", "queries", "--count", "3000", "--seed", seed, "--threads", threads, "--out",
+                    folder.path("out"), "--corpus", folder.path("corpus")},
+                   0);
+  };
+  const auto first = run(one, "5", "1");
+  EXPECT_GT(first["corpus"]["kept"], 30);
+  EXPECT_EQ(first["queries"], 3000);
+  EXPECT_EQ(without_timing(first), without_timing(run(two, "5", "3")));
+  const auto again = run(one, "5", "2"), other = run(two, "6", "3");
+  EXPECT_EQ(again["corpus"]["replayed"], first["corpus"]["kept"]);
+  EXPECT_EQ(again["corpus"]["kept"], 0);
+  EXPECT_EQ(again["queries"], 3000 + again["corpus"]["replayed"].get<int>());
+  EXPECT_GT(other["corpus"]["kept"], 0) << "another seed reaches something else";
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(two.path("corpus"))) {
+    ++files;
+    EXPECT_EQ(run_noli({"fuzz", "queries", "--replay", entry.path().string()}).exit_code, 0) << entry.path();
+    if (files == 20) break;
+  }
+  EXPECT_EQ(files, 20u);
 }
 
 TEST(FuzzQueries, TakesWholeNumbersThatFitAndNoOthers) {

@@ -244,6 +244,43 @@ TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(FuzzQueries, AsksTheCorpusFirst) {
+  options.corpus = options.out / "corpus";
+  options.count = 1000;
+  const FuzzReport first = fuzz_queries(options);
+  EXPECT_GT(first.corpus.kept, 20U);
+  EXPECT_EQ(first.corpus.signatures, first.corpus.kept);
+  options.decide = forgets_the_end;
+  options.count = 1;
+  options.max_findings = 1;
+  const FuzzReport second = fuzz_queries(options);
+  EXPECT_EQ(second.corpus.replayed, first.corpus.kept);
+  EXPECT_EQ(second.queries, first.corpus.kept + 1);
+  ASSERT_EQ(second.findings.size(), 1U);
+  EXPECT_EQ(second.findings[0].generator.substr(0, 7), "corpus/");
+  EXPECT_EQ(kind_from_file_name(second.findings[0].file), file_kind(second.findings[0].query.pair));
+}
+
+TEST_F(FuzzQueries, ShrinksSingleQueries) {
+  Random random(3);
+  std::size_t shrunk = 0;
+  for (const QueryGenerator& generator : query_generators()) {
+    if (generator.family != "at_the_ends") continue;
+    for (int i = 0; i < 20; ++i) {
+      const AnyQuery query = generator(random).query;
+      StageCounters ignored;
+      const bool fails = difference(query, truth_of(query), forgets_the_end, ignored).has_value();
+      const auto finding = shrunk_finding(query, std::nullopt, forgets_the_end, probe_with_oracle);
+      ASSERT_EQ(finding.has_value(), fails);
+      if (!finding) continue;
+      ++shrunk;
+      EXPECT_TRUE(difference(finding->shrunk, truth_of(finding->shrunk), forgets_the_end, ignored));
+      EXPECT_LE(complexity(finding->shrunk), complexity(query));
+    }
+  }
+  EXPECT_GT(shrunk, 10U);
+}
+
 TEST_F(FuzzQueries, AnotherSeedGivesOtherQueries) {
   const FuzzReport report = fuzz_queries(options);
   options.seed = 6;

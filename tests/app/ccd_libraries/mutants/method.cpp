@@ -7,8 +7,8 @@
 //   x       points as polynomials of t with integer coefficients
 //   volume  six times the signed volume of the tetrahedron of the four points: features can meet at its roots only,
 //           or at any time if it is zero throughout
-//   n       normal: of the face, or of the two edges; where it is zero the face is degenerate or the edges are parallel,
-//           and what then meets are a vertex and an edge
+//   n       normal: of the face, or of the two edges; where it is zero the face is degenerate or the edges are
+//           parallel, and what then meets are a vertex and an edge
 #include <noli/ccd_plugin.h>
 
 #include <algorithm>

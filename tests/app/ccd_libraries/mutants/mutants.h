@@ -31,14 +31,14 @@ enum class Mutant {
   coplanar_at_ends_only,  ///< of what is coplanar throughout only the two ends of the step are looked at
   beginning_excluded,     ///< a contact at t = 0 is none
   end_excluded,           ///< a contact at t = 1 is none
-  tolerance_of_time,      ///< nor is one in the last millionth of the step
+  tolerance_of_time,      ///< a contact in the last millionth of the step is none
   // Whether they meet then.
-  border_excluded,           ///< not on the border of the face, nor at the end of an edge
-  tolerance_shrinks,         ///< nor within a millionth of it
+  border_excluded,           ///< the border of the face and the ends of edges are not met
+  tolerance_shrinks,         ///< what lies within a millionth of the border is not met either
   weights_at_the_beginning,  ///< the place within the features is that of t = 0
   root_rounded,              ///< the place is that of the root rounded to double
   parallel_edges_dropped,    ///< parallel edges never meet
-  parallel_inside_dropped,   ///< nor does an edge with a parallel one that lies within it
+  parallel_inside_dropped,   ///< an edge does not meet a parallel one that lies within it
   degenerate_face_dropped,   ///< a face without an area is never met
   edges_prolonged,           ///< the second edge is taken for a line
   // What is told.
