@@ -190,7 +190,7 @@ class CheckersBeside {
 
  private:
   fs::path new_desk() {
-    const fs::path desk = folder_ / fmt::format("desk-{}", desks_++);
+    fs::path desk = folder_ / fmt::format("desk-{}", desks_++);
     fs::create_directory(desk);
     return desk;
   }

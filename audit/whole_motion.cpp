@@ -59,6 +59,7 @@ void rename(WholeMotion& motion, PlantedTruth& planted, Random& random) {
   }
   const std::vector<VertexId> order = random_order(motion.cells.size(), random);
   std::vector<Feature> cells;
+  cells.reserve(order.size());
   for (const VertexId c : order) cells.push_back(motion.cells[c]);
   motion.cells = std::move(cells);
   if (!planted.features) return;
