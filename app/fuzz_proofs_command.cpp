@@ -66,6 +66,29 @@ audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& t
   return made;
 }
 
+/// The proof or witness that `noli verify` writes of a motion with some claim; nothing if it writes none, as for some
+/// degenerate contacts, or if the user would not wait.
+std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, const std::vector<std::string>& claim,
+                                          const fs::path& desk) {
+  fs::create_directories(desk);
+  const fs::path proof = desk / "proof.noli";
+  const std::vector<fs::path> files = audit::write_frames(motion, desk);
+  std::vector<std::string> words = {
+      beside_this_program("noli").string(), "verify", "--threads", "1", "--no-check", "--proof", proof};
+  if (motion.at_rest()) words.emplace_back("--static");
+  words.insert(words.end(), claim.begin(), claim.end());
+  for (const fs::path& file : files) words.push_back(file);
+  audit::ProgramLimits limits;
+  limits.stop = &interrupted();
+  const audit::ProgramEnd end = audit::run_program(words, limits);
+  if (!end.exited_with(0) && !end.exited_with(1)) return std::nullopt;
+  try {
+    return read_case(proof, files);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 /// Proofs and witnesses of small motions, with all sorts of claims.
 std::vector<audit::ProofCase> made_cases(const fs::path& folder) {
   const std::vector<std::vector<std::string>> claims = {{},
@@ -73,30 +96,18 @@ std::vector<audit::ProofCase> made_cases(const fs::path& folder) {
                                                         {"--points"},
                                                         {"--min-distance", "1e-9"},
                                                         {"--min-distance", "1e-6", "--min-distance-from-ring", "2"}};
+  constexpr std::size_t motions = 60, most_cells = 12;
+  const auto generators = audit::motion_generators();
   audit::Random random(1);
   std::vector<audit::ProofCase> cases;
-  for (std::size_t i = 0; i < 60; ++i) {
-    const auto generators = audit::motion_generators();
-    const audit::FrameMotion motion = generators[i % generators.size()].make(random).motion;
-    const fs::path desk = folder / fmt::format("case-{}", i), proof = desk / "proof.noli";
-    fs::create_directories(desk);
-    std::vector<std::string> words = {
-        beside_this_program("noli").string(), "verify", "--threads", "1", "--no-check", "--proof", proof};
-    if (motion.at_rest()) words.emplace_back("--static");
-    const auto& claim = claims[i % claims.size()];
-    words.insert(words.end(), claim.begin(), claim.end());
-    const std::vector<fs::path> files = audit::write_frames(motion, desk);
-    for (const fs::path& file : files) words.push_back(file);
-    audit::ProgramLimits limits;
-    limits.stop = &interrupted();
-    const audit::ProgramEnd end = audit::run_program(words, limits);
-    const bool decided = end.exited_with(0) || end.exited_with(1);
-    if (!decided || motion.mesh.cell_count() > 12) continue;
-    try {
-      cases.push_back(read_case(proof, files));
-      cases.back().name = fmt::format("{} {}", generators[i % generators.size()].name, i);
-    } catch (const InputError&) {  // a contact without a witness: there is nothing to mutate
-    }
+  for (std::size_t i = 0; i < motions; ++i) {
+    const audit::MotionGenerator& generator = generators[i % generators.size()];
+    const audit::FrameMotion motion = generator.make(random).motion;
+    if (motion.mesh.cell_count() > most_cells) continue;
+    auto made = made_case(motion, claims[i % claims.size()], folder / fmt::format("case-{}", i));
+    if (!made) continue;
+    made->name = fmt::format("{} {}", generator.name, i);
+    cases.push_back(std::move(*made));
   }
   return cases;
 }
@@ -152,42 +163,62 @@ std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzz
   return text;
 }
 
+/// The checkers that lie beside this program, each at a desk of its own in a folder.
+class CheckersBeside {
+ public:
+  explicit CheckersBeside(const fs::path& folder) : folder_(folder) {}
+
+  audit::MakeChecker plain() {
+    return [this] {
+      return audit::hosted_checker(beside_this_program("noli_check_host"), new_desk(), std::chrono::seconds(20));
+    };
+  }
+
+  /// Nothing where there is none.
+  audit::MakeChecker verified() {
+    const fs::path program = beside_this_program("noli_check_verified");
+    if (!fs::exists(program)) {
+      std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
+      return {};
+    }
+    return [this, program] {
+      audit::ProgramLimits limits;
+      limits.stop = &interrupted();
+      return audit::program_checker(program, new_desk(), limits);
+    };
+  }
+
+ private:
+  fs::path new_desk() {
+    fs::path desk = folder_ / fmt::format("desk-{}", desks_++);
+    fs::create_directory(desk);
+    return desk;
+  }
+
+  fs::path folder_;
+  std::atomic<std::uint64_t> desks_ = 0;
+};
+
 ExitCode run(ProofsArguments& arguments) {
   settle_limits(arguments.common);
   if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
   const Output output(arguments.common.json, arguments.files);
   require_writable_folder(arguments.common.out, "--out");
   const ScratchFolder scratch;
+  CheckersBeside checkers(scratch.path());
   audit::ProofFuzzOptions options;
   options.limits = arguments.common.limits;
   options.out = arguments.common.out;
   options.verified_every = arguments.verified_every;
+  options.plain = checkers.plain();
+  options.verified = checkers.verified();
   if (arguments.files.empty()) {
     options.cases = made_cases(scratch.path());
   } else {
-    options.cases = {
-        read_case(arguments.files[0], trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()}))};
+    const auto trajectory = trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()});
+    options.cases = {read_case(arguments.files[0], trajectory)};
   }
   if (options.cases.empty()) throw std::runtime_error("no proof could be made to begin with");
-  std::atomic<std::uint64_t> desks = 0;
-  const auto new_desk = [&] {
-    const fs::path desk = scratch.path() / fmt::format("desk-{}", desks++);
-    fs::create_directory(desk);
-    return desk;
-  };
-  options.plain = [&] {
-    return audit::hosted_checker(beside_this_program("noli_check_host"), new_desk(), std::chrono::seconds(20));
-  };
-  const fs::path verified = beside_this_program("noli_check_verified");
-  if (fs::exists(verified)) {
-    options.verified = [&] {
-      audit::ProgramLimits limits;
-      limits.stop = &interrupted();
-      return audit::program_checker(verified, new_desk(), limits);
-    };
-  } else {
-    std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
-  }
   const Stopwatch watch;
   const audit::ProofFuzzReport report = [&] {
     Progress bar("fuzz proofs");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Motions made backwards from a contact: two bodies, one above a floor and one below it, that come to it at a known time.
+// Motions made backwards from a contact: two bodies, one above a floor and one below it, that come to it at a known
+// time.
 //
 // Notation
 //   floor     the plane (in 2D the line) in which both bodies have a feature at the time t* = k / n of a step, and
@@ -36,8 +37,8 @@ struct FloorMotion {
   PlantedTruth planted;
 };
 
-/// Preconditions: hour.n is a power of two up to 64; joined only in 3D; what follows a step without a contact rises, what
-/// follows a contact is random.
+/// Preconditions: hour.n is a power of two up to 64; joined only in 3D; what follows a step without a contact rises,
+/// what follows a contact is random.
 FloorMotion floor_motion(const FloorPlan& plan, Random& random);
 
 }  // namespace noli::audit

@@ -3,8 +3,8 @@
 // The loop of a fuzzer: blocks of items, made and judged by several threads, taken over in order.
 //
 // Notation
-//   block    a few items; block b depends on the seed and b alone, so that a run gives the same items whatever the number
-//            of threads
+//   block    a few items; block b depends on the seed and b alone, so that a run gives the same items whatever the
+//            number of threads
 //
 // What this does not do: it knows nothing of what an item is. (fuzz_queries.cpp has a loop of its own.)
 #pragma once

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fuzzing of the checkers of proofs: mutants of good proofs and of the trajectories that they are about
-// (audit/proof_mutations.h), on which the checkers have to agree, and none of which may be accepted that says what is not
-// true.
+// (audit/proof_mutations.h), on which the checkers have to agree, and none of which may be accepted that says what is
+// not true.
 //
 // Notation
 //   case     a good proof that mutants are made of
 //   truth    whether a mutant's claim holds of its trajectory. Where neither was changed, what was true of the case is;
 //            where one was, the slow oracle tells (audit/claim_oracle.h), whatever the proof says
-//   finding  a mutant on which the two checkers differ; that one of them accepts as a proof although its claim is false,
-//            or as a witness although it is true; on which one crashes, hangs, or ends as it must not
+//   finding  a mutant on which the two checkers differ; that one of them accepts as a proof although its claim is
+//            false, or as a witness although it is true; on which one crashes, hangs, or ends as it must not
 //
-// What this does not do: a mutant that is rejected although its proof is good is none; a changed claim about a run is not
-// judged, the checkers are only compared.
+// What this does not do: a mutant that is rejected although its proof is good is none; a changed claim about a run is
+// not judged, the checkers are only compared.
 #pragma once
 
 #include <cstddef>

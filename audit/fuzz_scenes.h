@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of the whole program with scenes (audit/scene_generators.h): each is simulated, the run verified and its proof
-// checked, and simulated again with an interruption, after which it has to go on with the same bytes.
+// Fuzzing of the whole program with scenes (audit/scene_generators.h): each is simulated, the run verified and its
+// proof checked, and simulated again with an interruption, after which it has to go on with the same bytes.
 //
 // Notation
-//   finding  of a valid scene: an exit code that is not documented, or does not agree with the verdict; a run that is not
-//            verified, or whose proof is not accepted; other bytes after an interruption; a refusal that does not name
-//            the file; a crash, a hang. Of a scene that is wrong: anything but exit code 3 and a message that names the
-//            place
+//   finding  of a valid scene: an exit code that is not documented, or does not agree with the verdict; a run that is
+//            not verified, or whose proof is not accepted; other bytes after an interruption; a refusal that does not
+//            name the file; a crash, a hang. Of a scene that is wrong: anything but exit code 3 and a message that
+//            names the place
 //
-// A run that ends early because of a contact, too many layers or numbers that run out is none: that is documented. So is
-// a valid scene that is refused, with a message.
+// A run that ends early because of a contact, too many layers or numbers that run out is none: that is documented. So
+// is a valid scene that is refused, with a message.
 //
 // What this does not do: it does not look whether the physics is right.
 #pragma once

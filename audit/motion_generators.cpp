@@ -104,7 +104,9 @@ GeneratedMotion one_body(Random& random) {
 }
 
 GeneratedMotion crowd(Random& random) {
-  return finished(contact_or_near_miss(random), random, Numbers::small, 1 + random.below(40));
+  const FloorPlan plan = contact_or_near_miss(random);
+  const std::size_t cells = 1 + random.below(40);
+  return finished(plan, random, Numbers::small, cells);
 }
 
 GeneratedMotion scaled(Random& random) { return finished(contact_or_near_miss(random), random, Numbers::scaled); }
@@ -165,7 +167,8 @@ GeneratedMotion hinge(Random& random) {
     // In the cone of the one at the shared vertex, or in the opposite one; the other tip of this face is off the floor.
     const Whole e = somewhere(1, 0);
     const std::int64_t sign = side >= 0 ? 1 : -1;
-    const Whole c = sign * (random.between(1, 3) * d + random.between(1, 3) * e);
+    const std::int64_t of_d = random.between(1, 3), of_e = random.between(1, 3);
+    const Whole c = sign * (of_d * d + of_e * e);
     x = {Whole{}, d, e, c, somewhere(sign, random.between(1, size))};
     motion.cells = {{0, 1, 2}, {0, 3, 4}};
     truth.contact = side >= 0;

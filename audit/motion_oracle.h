@@ -59,8 +59,8 @@ std::vector<FeatureTwo> disjoint_pairs(const Feature& a, const Feature& b, std::
 /// Those that are part of no other.
 std::vector<FeatureTwo> largest(const std::vector<FeatureTwo>& pairs);
 
-/// Whether the boxes of two sets of vertices keep their order along an axis and are more than a distance apart, as far as
-/// is seen at once: then no two features of them are ever within it.
+/// Whether the boxes of two sets of vertices keep their order along an axis and are more than a distance apart, as far
+/// as is seen at once: then no two features of them are ever within it.
 bool boxes_apart(int dimension, const std::vector<Position>& begin, const std::vector<Position>& end, const Feature& a,
                  const Feature& b, double distance);
 

@@ -130,8 +130,8 @@ bool distance(Mutating& m) {
   ProofBlock* const block = claim_of(m);
   if (block == nullptr) return false;
   constexpr std::array<std::uint32_t, 6> rings = {1, 1, 1, 2, 3, 0xffffffffU};
-  const double eta =
-      std::ldexp(static_cast<double>(m.random.between(0, 17)), static_cast<int>(m.random.between(-40, 4)));
+  const auto exponent = static_cast<int>(m.random.between(-40, 4));
+  const double eta = std::ldexp(static_cast<double>(m.random.between(0, 17)), exponent);
   change_field<double>(block->payload, 8,
                        [&](double old) { return m.random.one_in(6) ? other_double(m.random, old) : eta; });
   change_field<std::uint32_t>(block->payload, 4, [&](auto) { return m.random.one_of(rings); });

@@ -73,14 +73,20 @@ std::string direction_token(Random& random) {
 
 std::string scaled_number(std::uint64_t shift, std::int64_t n) { return uint_bytes(shift) + sint_bytes(n); }
 
+/// From least to greatest, times a power of two below 2^shifts.
+std::string some_scaled_number(Random& random, std::uint64_t shifts, std::int64_t least, std::int64_t greatest) {
+  const std::uint64_t shift = random.below(shifts);
+  return scaled_number(shift, random.between(least, greatest));
+}
+
 /// The token P with a plane that nearly rests.
 std::string plane_token(Random& random) {
   constexpr std::array<std::uint64_t, 5> shifts = {0, 0, 1, 3, 60};
   std::string token = std::string(1, '\x12') + uint_bytes(random.one_of(shifts));
   for (int i = 0; i < 3; ++i) token += sint_bytes(random.between(-3, 3));
-  token += scaled_number(random.below(9), random.between(-2, 2));
-  token += scaled_number(random.below(9), random.between(-30, 29));
-  return token + scaled_number(random.below(9), random.between(0, 3));
+  token += some_scaled_number(random, 9, -2, 2);
+  token += some_scaled_number(random, 9, -30, 29);
+  return token + some_scaled_number(random, 9, 0, 3);
 }
 
 std::string path_token(Random& random) {
@@ -207,7 +213,7 @@ bool direction_as_plane(Mutating& m) {
   std::string plane = std::string(1, '\x12') + uint_bytes(m.random.one_of(shifts));
   for (int i = 0; i < 3; ++i) plane += sint_bytes(i == axis ? sign : 0);
   plane += scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 1) : 0);
-  plane += scaled_number(m.random.below(5), m.random.between(-6, 6));
+  plane += some_scaled_number(m.random, 5, -6, 6);
   token = plane + scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 4) : 0);
   tokens.put_back();
   return true;
@@ -235,7 +241,9 @@ bool longer_number(Mutating& m) {
   const std::size_t k = some_index(m.random, block->payload);
   block->payload[k] = static_cast<char>(block->payload[k] | 0x80);
   constexpr std::array<std::size_t, 4> lengths = {0, 0, 9, 1199};
-  block->payload.insert(k + 1, std::string(m.random.one_of(lengths), '\x80') + static_cast<char>(m.random.below(2)));
+  std::string more(m.random.one_of(lengths), '\x80');
+  more += static_cast<char>(m.random.below(2));
+  block->payload.insert(k + 1, more);
   return true;
 }
 

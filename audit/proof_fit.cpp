@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The hashes are those that the prover writes: a proof file of the changed claim and frames is begun in memory, and they
-// are taken from there.
+// The hashes are those that the prover writes: a proof file of the changed claim and frames is begun in memory, and
+// they are taken from there.
 #include "noli/audit/proof_fit.h"
 
 #include "noli/audit/mutating.h"

@@ -3,8 +3,8 @@
 // Runs a program to its end, with a limit of time, and keeps what it says: how the fuzzers see a crash or a hang of the
 // programs that they test.
 //
-// What this does not do: it gives the program nothing to read. The programs that lie beside this one say what their exit
-// codes mean; here they are just numbers.
+// What this does not do: it gives the program nothing to read. The programs that lie beside this one say what their
+// exit codes mean; here they are just numbers.
 #pragma once
 
 #include <atomic>

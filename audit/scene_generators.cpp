@@ -191,7 +191,8 @@ GeneratedScene far_off(Random& random) {
 
 GeneratedScene scaled(Random& random) {
   Extremes e;
-  e.size = between_powers(random, random.one_in(4) ? -300 : -30, random.one_in(4) ? 300 : 30);
+  const int low = random.one_in(4) ? -300 : -30, high = random.one_in(4) ? 300 : 30;
+  e.size = between_powers(random, low, high);
   return made(e, random);
 }
 

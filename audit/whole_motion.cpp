@@ -55,10 +55,11 @@ void rename(WholeMotion& motion, PlantedTruth& planted, Random& random) {
   }
   for (Feature& cell : motion.cells) {
     for (VertexId& v : cell) v = name[v];
-    std::ranges::rotate(cell, cell.begin() + static_cast<std::ptrdiff_t>(random.below(cell.size())));
+    std::rotate(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(random.below(cell.size())), cell.end());
   }
   const std::vector<VertexId> order = random_order(motion.cells.size(), random);
   std::vector<Feature> cells;
+  cells.reserve(order.size());
   for (const VertexId c : order) cells.push_back(motion.cells[c]);
   motion.cells = std::move(cells);
   if (!planted.features) return;

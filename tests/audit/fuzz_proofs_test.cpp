@@ -37,7 +37,8 @@ FrameMotion two_edges() {
   return motion;
 }
 
-/// The worked example of proofs/FORMAT.md, but with the step in halves, and the direction of the second in another form.
+/// The worked example of proofs/FORMAT.md, but with the step in halves, and the direction of the second in another
+/// form.
 ProofCase example() {
   const FrameMotion motion = two_edges();
   const std::vector<std::uint32_t> labels(2, 0);

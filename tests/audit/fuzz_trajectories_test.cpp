@@ -43,7 +43,7 @@ class FuzzTrajectories : public testing::Test {
  protected:
   FuzzTrajectories() {
     options.limits.seed = 3;
-    options.limits.count = 100;
+    options.limits.count = 48;
     options.limits.threads = 1;
     options.decide = oracle_answer;
     options.out = folder / "out";
@@ -64,7 +64,7 @@ class FuzzTrajectories : public testing::Test {
 
 TEST_F(FuzzTrajectories, FindsNothingWhereNothingIsWrong) {
   const TrajectoryReport report = fuzz_trajectories(options);
-  EXPECT_EQ(report.extent.items, 100u);
+  EXPECT_EQ(report.extent.items, 48u);
   EXPECT_EQ(report.findings_total, 0u) << report.findings[0].difference;
   EXPECT_EQ(report.shapes, 2u);
   EXPECT_FALSE(std::filesystem::exists(options.out)) << "nothing to save, and yet a folder";
@@ -126,7 +126,7 @@ TEST_F(FuzzTrajectories, FindsEveryKindOfWrongAnswer) {
        }},
       {"failure", [](MotionAnswer& answer) { answer.failure = "signal 11"; }},
   };
-  options.shrink_budget = 50;
+  options.shrink_budget = 10;
   options.max_findings = 1;
   for (const Fault& fault : faults) {
     const TrajectoryFinding finding = finding_of([&](const FrameMotion& motion) {
