@@ -113,8 +113,13 @@ Json way_json(const CourseChanges::Way& way) {
 }
 
 Json drift_json(const Drift& drift) {
-  return {{"position", drift.position}, {"vertex", drift.vertex},     {"position_rms", drift.position_rms},
-          {"energy", drift.energy},     {"momentum", drift.momentum}, {"angular_momentum", drift.angular_momentum}};
+  return {{"time", drift.time},
+          {"position", drift.position},
+          {"vertex", drift.vertex},
+          {"position_rms", drift.position_rms},
+          {"energy", drift.energy},
+          {"momentum", drift.momentum},
+          {"angular_momentum", drift.angular_momentum}};
 }
 
 Json run_json(const PrecisionRun& run, std::size_t windows) {

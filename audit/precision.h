@@ -90,7 +90,7 @@ struct PrecisionOutcome {
   /// greatest precision, or the other way round, or a tie.
   std::optional<double> order_changes() const;
   /// Windows that ended before a layer acted in one of these two runs only. From then on a replay is another
-  /// experiment: it sees no pairs but those that the run in double came near, so how far apart the two are says nothing.
+  /// experiment: it sees no pairs but those that the run in double came near, so how far apart they are says nothing.
   std::size_t windows_in_order() const;
 };
 

@@ -212,7 +212,7 @@ TEST(PrecisionAudit, EndsWhereTheRunInDoubleDoes) {
                        R"(], "material": {"edge_stiffness": 0, "mass_per_vertex": 1}},
                       {"mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}}, "pin": ["all"],
                        "material": {"edge_stiffness": 0, "mass_per_length": 1}})",
-                   R"("dimension": 2, "duration": 1, "window": 0.01, 
+                   R"("dimension": 2, "duration": 1, "window": 0.01,
            "contact": {"thickness": 0.01, "stiffness": 1, "most_layers": 3})");
   };
   const PrecisionOutcome outcome = audit(scene("-10"), 20, {hardware_double});
