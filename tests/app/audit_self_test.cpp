@@ -132,20 +132,11 @@ TEST_F(AuditSelf, ACtrlCEndsIt) {
 }
 
 TEST_F(AuditSelf, TheWorkedExampleIsTrue) {
-  const auto commands = worked_example("audit/SELF.md");
-  ASSERT_GE(commands.size(), 2u);
-  std::string last_code;
-  for (const auto& [command, said] : commands) {
-    if (command == "echo $?") {
-      EXPECT_EQ(said, last_code);
-      continue;
-    }
-    std::string line = replaced(command, "build/release/app/noli", NOLI_COMMAND);
-    line = replaced(line, "build/self", folder.path("self"));
-    const auto [out, code] = shell("cd '" + std::string(NOLI_SOURCE_DIR) + "' && env -u NOLI_DATA " + line);
-    EXPECT_EQ(out.substr(0, said.find(" parts ")), said.substr(0, said.find(" parts "))) << line << "\n" << out;
-    last_code = std::to_string(code);
-  }
+  // How many parts there are depends on whether there is Coq.
+  const std::size_t commands = follow_worked_example("audit/SELF.md", " parts ", [&](const std::string& line) {
+    return "env -u NOLI_DATA " + replaced(line, "build/self", folder.path("self"));
+  });
+  EXPECT_EQ(commands, 2u);
 }
 
 }  // namespace
