@@ -59,6 +59,14 @@ TEST_F(AuditStability, WhatIsRefusedFailsClosed) {
   EXPECT_EQ(row["exit_code"], 3);
 }
 
+/// Layers so deep that their steps cannot be counted any more end a run, however many are allowed.
+TEST_F(AuditStability, LayersWithoutEndDoNotHang) {
+  const Json row = json_of(command("thickness-all-layers-contact"), 0)["rows"][0];
+  EXPECT_EQ(row["holds_up_to"], 1e-6);
+  EXPECT_EQ(row["gives_first"], "too_near");
+  EXPECT_EQ(row["exit_code"], 1);
+}
+
 TEST_F(AuditStability, EnergyMayGoAstrayWhereThatWasSaid) {
   const Json row = json_of(command("resonance"), 0)["rows"][0];
   EXPECT_EQ(row["gives_first"], "energy");
