@@ -182,8 +182,11 @@ class Contact {
   }
 
   void activate(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double t) {
-    if (l > settings_.most_layers) throw ContactLimit(pair, t);
     auto& of_material = layers_[material];
+    const double step = l <= of_material.size() ? of_material[l - 1].clock.step
+                                                : layer_step(settings_.materials[material], settings_.schedule, l);
+    // Steps that are too short to be counted at this time (first_after) never come.
+    if (l > settings_.most_layers || !(t < 0x1p52 * step)) throw ContactLimit(pair, t);
     while (of_material.size() < l) {
       of_material.push_back(make_layer(material, static_cast<std::uint32_t>(of_material.size() + 1)));
     }

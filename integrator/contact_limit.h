@@ -7,7 +7,8 @@
 
 namespace noli::integrator {
 
-/// A pair came so near that it would need more layers than the scene allows, or to no distance at all.
+/// A pair came so near that it would need more layers than the scene allows, or one whose steps are too short to tell
+/// one time from the next, or to no distance at all.
 struct ContactLimit : std::runtime_error {
   ContactLimit(const certificates::Stencil& which, double when)
       : std::runtime_error("contact: a pair of features needs more layers than allowed"), pair(which), time(when) {}

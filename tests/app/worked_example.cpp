@@ -16,6 +16,9 @@ std::size_t depth(const std::string& line) {
   return marks != std::string::npos && line[marks] == ' ' ? marks : 0;
 }
 
+/// All of a text, if `end` is not in it.
+std::string up_to(const std::string& text, const std::string& end) { return text.substr(0, text.find(end)); }
+
 }  // namespace
 
 std::vector<ExampleCommand> worked_example(const std::string& page, const std::string& heading) {
@@ -49,7 +52,7 @@ std::pair<std::string, int> shell(const std::string& line) {
 }
 
 void expect_worked_example(const std::vector<ExampleCommand>& commands,
-                           const std::vector<std::pair<std::string, std::string>>& places) {
+                           const std::vector<std::pair<std::string, std::string>>& places, const std::string& end) {
   std::string last_code;
   for (const ExampleCommand& command : commands) {
     if (command.line == "echo $?") {
@@ -62,7 +65,7 @@ void expect_worked_example(const std::vector<ExampleCommand>& commands,
       said = replaced(said, from, to);
     }
     const auto [out, code] = shell("cd '" + std::string(NOLI_SOURCE_DIR) + "' && " + line);
-    EXPECT_EQ(out.substr(0, out.find('\n')), said) << line;
+    EXPECT_EQ(up_to(up_to(out, "\n"), end), up_to(said, end)) << line;
     last_code = std::to_string(code);
   }
 }

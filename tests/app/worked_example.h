@@ -25,8 +25,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 std::pair<std::string, int> shell(const std::string& line);
 
 /// Runs the commands one after the other in the folder of the sources, with each pair of `places` replaced by what it
-/// is here, and expects what they are said to print; after "echo $?", the exit code of the one before.
+/// is here, and expects what they are said to print, up to `end`; after "echo $?", the exit code of the one before.
 void expect_worked_example(const std::vector<ExampleCommand>& commands,
-                           const std::vector<std::pair<std::string, std::string>>& places);
+                           const std::vector<std::pair<std::string, std::string>>& places,
+                           const std::string& end = "\n");
 
 }  // namespace noli::app_tests
