@@ -11,8 +11,8 @@
 // (Baraff, Witkin, "Large steps in cloth simulation", 1998, take one correction; with it the error would be that of the
 // solver too.)
 //
-// What this does not do: no damping, no scripts, no contact; and it is not made fast: no solver of its own for the sizes
-// here. What its times say is their order of magnitude.
+// What this does not do: no damping, no scripts, no contact; and it is not made fast: no solver of its own for the
+// sizes here. What its times say is their order of magnitude.
 #pragma once
 
 #include "noli/audit/sampled_run.h"

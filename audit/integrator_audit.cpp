@@ -255,7 +255,8 @@ std::vector<std::string> integrator_scenes() {
   "bodies": [
     {
       "name": "sheet",
-      "mesh": {"grid": {"size": [0.5, 0.5], "cells": [12, 12], "refine": {"at": [0.1, 0.05], "factor": 16, "radius": 0.001}}},
+      "mesh": {"grid": {"size": [0.5, 0.5], "cells": [12, 12],
+                        "refine": {"at": [0.1, 0.05], "factor": 16, "radius": 0.001}}},
       "deform": {"stretch": [1.002, 0.999, 1], "twist": 20},
       "perturb": 0.00001,
       "velocity": [0.3, 0.2, 0.1],

@@ -6,16 +6,16 @@
 //   own       this integrator, a step for each force
 //   grouped   this integrator, steps rounded down to a few groups
 //   verlet    Verlet's method, all forces with the step that the least one needs: a plain loop (plain_loop.h); for what
-//             that cannot do (damping, scripts, contact) this integrator with all steps equal, those of first layers too
+//             that cannot do (damping, scripts, contact) this integrator with all steps equal, also of first layers
 //   euler     the implicit Euler method (implicit_euler.h), for context; not for damping, scripts, contact
-// Each is run with its steps as the scene has them, then with halves, quarters, ... of them; `euler` with the window and
-// quarters, sixteenths, ... of that, as long as they are no shorter than the least step.
+// Each is run with its steps as the scene has them, then with halves, quarters, ... of them; `euler` with the window
+// and quarters, sixteenths, ... of that, as long as they are no shorter than the least step.
 //
 // Notation
 //   h          the least step of a force, rounded down to that of a group [s]; n the number of halvings
 //   r          h / 2^(n + 1)
-//   reference  Verlet's method with r and with r/2, extrapolated: (4 x(r/2) - x(r)) / 3, as its error is a series in h^2
-//              (Hairer, Lubich, Wanner 2003, section 1); where it is this integrator, with r/2 as it is. Its
+//   reference  Verlet's method with r and with r/2, extrapolated: (4 x(r/2) - x(r)) / 3, as its error is a series in
+//              h^2 (Hairer, Lubich, Wanner 2003, section 1); where it is this integrator, with r/2 as it is. Its
 //              momenta are those of r/2, which keeps them
 // Errors are the largest at the ends of windows:
 //   energy      |E - E_ref| in parts of the largest kinetic energy of the reference

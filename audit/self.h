@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a sceptical user runs: every way that `noli` has of looking at itself, one after the other, by the `noli` program
-// itself, so that what is judged is what it says and how it exits.
+// What a sceptical user runs: every way that `noli` has of looking at itself, one after the other, by the `noli`
+// program itself, so that what is judged is what it says and how it exits.
 //
 // Parts
 //   rounding   the rounding self-test of the program
@@ -9,7 +9,8 @@
 //   fuzz       each fuzzer, for a time
 //   proofs     what is verified or run, proved, and checked by each checker that is there: frames and scenes that the
 //              program has in it (stability_rows.h), then the scenes of a folder, in their short forms and for a time
-// A part *held*, *failed*, or was *skipped*, because what it needs is not there; what was skipped is not counted as held.
+// A part *held*, *failed*, or was *skipped*, because what it needs is not there; what was skipped is not counted as
+// held.
 //
 // What this does not do: it has no second opinion on what the parts say; each is as good as its own tests.
 #pragma once

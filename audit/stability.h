@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far `noli` goes, and how it ends where it goes no farther: runs small scenes and verifies pairs of frames from the
-// ordinary to the extreme (stability_rows.h), with the `noli` program itself, as a user would.
+// How far `noli` goes, and how it ends where it goes no farther: runs small scenes and verifies pairs of frames from
+// the ordinary to the extreme (stability_rows.h), with the `noli` program itself, as a user would.
 //
 // Promises asked of each point, in this order
 //   end        the program ends by itself within its time, with the exit code and verdict that belong together
@@ -9,8 +9,8 @@
 //   verified   what was committed is verified again from the files alone: nothing touches
 //   finite     energies and momenta of all windows are numbers
 //   energy     at the ends of windows it differs from that at the beginning by at most `most_energy_error` of it
-//   momentum   where nothing is pinned: linear and angular, about the origin, by at most `most_momentum_error` of theirs at the first window's
-//              end
+//   momentum   where nothing is pinned: linear and angular, about the origin, by at most `most_momentum_error` of
+//              theirs at the first window's end
 //   resume     a run that was stopped half way and resumed has the same bytes
 //   answer     of two frames: what is known of them
 // What does not go on may do so for any reason that it names, as long as it does not exit with 0: it fails closed. What
