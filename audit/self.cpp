@@ -22,13 +22,16 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using std::chrono::nanoseconds;
 
-/// `noli fuzz NAME`, and what its document calls the number of things that it has tried.
+/// `noli fuzz NAME`, what its document calls the number of things that it has tried, and that all was well.
 struct Fuzzer {
-  const char *name, *tried;
+  const char *name, *tried, *well;
 };
 
 /// Every fuzzer that there is: a new one is a line here.
-constexpr Fuzzer fuzzers[] = {{"queries", "queries"}};
+constexpr Fuzzer fuzzers[] = {{"queries", "queries", "no_difference"},
+                              {"trajectories", "trajectories", "no_finding"},
+                              {"proofs", "mutants", "no_finding"},
+                              {"scenes", "scenes", "no_finding"}};
 
 /// Rows of the sweeps whose ordinary end is a good example: frames apart and in contact, scenes in the plane and in
 /// space, with contact and without.
@@ -193,7 +196,7 @@ class SelfAudit {
         noli({"fuzz", fuzzer.name, "--for", milliseconds(options_.fuzz_time), "--seed", std::to_string(options_.seed),
               "--threads", std::to_string(options_.threads), "--out", out.string(), "--json", "-"},
              options_.fuzz_time);
-    const Json json = document(run, "no_difference", p);
+    const Json json = document(run, fuzzer.well, p);
     if (json.is_object() && figure(json, fuzzer.tried, p)) hold(p);
     if (p.state == PartState::failed && run.exited(1)) p.words += "; what it found is in " + on_one_line(out.string());
   }
