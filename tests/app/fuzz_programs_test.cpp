@@ -122,9 +122,9 @@ TEST(FuzzScenesCommand, JudgesASceneAgain) {
 
 void expect_example(const std::string& page, std::size_t size,
                     const std::vector<std::pair<std::string, std::string>>& places) {
-  const auto commands = worked_example(page);
-  ASSERT_EQ(commands.size(), size);
-  expect_worked_example(commands, places);
+  const auto lines = worked_example(page);
+  ASSERT_EQ(lines.size(), size);
+  expect_worked_example(lines, places);
 }
 
 TEST(FuzzPrograms, TheWorkedExamplesAreTrue) {
