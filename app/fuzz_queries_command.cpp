@@ -54,8 +54,8 @@ constexpr const char* queries_footer =
 constexpr const char* default_folder = "fuzz-findings";
 
 struct FuzzArguments {
-  audit::FuzzOptions kernel;        ///< what the run against a library does not use is in here
-  audit::LibraryUnderTest library;  ///< path empty: none
+  audit::FuzzOptions kernel;      ///< what the run against a library does not use is in here
+  audit::LibraryUnderTest asked;  ///< path empty: none
   std::uint64_t megabytes = 2000;
   bool first_only = false;
   std::string duration = "60s";
@@ -64,17 +64,17 @@ struct FuzzArguments {
   std::optional<std::string> corpus, replay, minimise, json;
   bool for_given = false, out_given = false;
 
-  bool asks_a_library() const { return !library.path.empty(); }
+  bool asks_a_library() const { return !asked.path.empty(); }
 };
 
 /// "noli fuzz queries --library ./mine.so --tolerance 1e-06 --replay FILE"
 std::string again(const FuzzArguments& arguments, const fs::path& file) {
   std::string command = "noli fuzz queries";
   if (arguments.asks_a_library()) {
-    command += " --library " + audit::quoted(arguments.library.path.string());
-    command += fmt::format(" --tolerance {}", arguments.library.tolerance);
+    command += " --library " + audit::quoted(arguments.asked.path.string());
+    command += fmt::format(" --tolerance {}", arguments.asked.tolerance);
     if (arguments.query_limit != "1s") command += " --query-limit " + audit::quoted(arguments.query_limit);
-    if (arguments.library.exact) command += " --exact";
+    if (arguments.asked.exact) command += " --exact";
   }
   return on_one_line(command + " --replay " + audit::quoted(file.string()));
 }
@@ -87,7 +87,7 @@ double share(const audit::FuzzOptions& options, const audit::FuzzProgress& progr
 
 std::vector<fs::path> inputs(const FuzzArguments& arguments) {
   std::vector<fs::path> files;
-  if (arguments.asks_a_library()) files.push_back(arguments.library.path);
+  if (arguments.asks_a_library()) files.push_back(arguments.asked.path);
   for (const auto& file : {arguments.replay, arguments.minimise}) {
     if (file) files.emplace_back(*file);
   }
@@ -106,8 +106,8 @@ class OneFile {
     if (!audit::is_library_query({first.pair, first.dimension})) {
       throw InputError(file.string(), "", "a library is asked about a vertex and a face or two edges in 3D");
     }
-    audit::require_ccd_library(arguments_.library.path, arguments_.library.host);
-    knows_times_ = audit::knows_times(arguments_.library);
+    audit::require_ccd_library(arguments_.asked.path, arguments_.asked.host);
+    knows_times_ = audit::knows_times(arguments_.asked);
   }
 
   const std::vector<audit::SavedQuery>& queries() const { return saved_; }
@@ -141,8 +141,7 @@ class OneFile {
         finding->index = i;
         keep(std::move(*finding));
       } else if (all_faults[i]) {
-        const auto shrunk =
-            audit::shrink_for_library(arguments_.library, saved_[i].query, *all_faults[i], knows_times_);
+        const auto shrunk = audit::shrink_for_library(arguments_.asked, saved_[i].query, *all_faults[i], knows_times_);
         audit::Finding finding;
         finding.index = i;
         finding.query = saved_[i].query;
@@ -160,7 +159,7 @@ class OneFile {
     if (!arguments_.asks_a_library()) return {};
     std::vector<audit::AnyQuery> queries;
     for (const audit::SavedQuery& saved : saved_) queries.push_back(saved.query);
-    return audit::faults_of(arguments_.library, queries.at(0).pair, queries, knows_times_);
+    return audit::faults_of(arguments_.asked, queries.at(0).pair, queries, knows_times_);
   }
 
   const FuzzArguments& arguments_;
@@ -247,7 +246,7 @@ ExitCode run_kernel(const FuzzArguments& arguments, const Output& output) {
 ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
   const audit::FuzzOptions& kernel = arguments.kernel;
   audit::LibraryFuzzOptions options;
-  options.library = arguments.library;
+  options.asked = arguments.asked;
   options.seed = kernel.seed;
   options.limits = {kernel.count, kernel.time_limit, kernel.threads, kernel.stop};
   options.first_only = arguments.first_only;
@@ -267,7 +266,7 @@ ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
 }
 
 void prepare_library(FuzzArguments& arguments) {
-  audit::HostOptions& host = arguments.library.host;
+  audit::HostOptions& host = arguments.asked.host;
   host.host = beside_this_program("noli_ccd_host");
   host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
   host.most_memory = arguments.megabytes * 1'000'000;
@@ -293,7 +292,7 @@ ExitCode run(FuzzArguments& arguments) {
 
 /// Options that only a library needs.
 void add_library_options(CLI::App& command, FuzzArguments& arguments) {
-  audit::LibraryUnderTest& library = arguments.library;
+  audit::LibraryUnderTest& library = arguments.asked;
   CLI::Option* const path =
       command.add_option("--library", library.path, "Ask this library of collision detection, in place of the kernel")
           ->type_name("LIB.so");

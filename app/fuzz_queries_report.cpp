@@ -142,7 +142,7 @@ std::string generators_text(const audit::LibraryFuzzOptions& options, const audi
     if (tally.asked == 0) continue;
     std::uint64_t findings = 0;
     for (const audit::LibraryFault fault : faults) {
-      if (audit::counts(fault, options.library.exact)) findings += tally.faults[static_cast<std::size_t>(fault)];
+      if (audit::counts(fault, options.asked.exact)) findings += tally.faults[static_cast<std::size_t>(fault)];
     }
     text += fmt::format("  {}: asked {} contacts {} findings {} false_positives {} ({})\n", tally.name, tally.asked,
                         tally.contacts, findings,
@@ -201,9 +201,9 @@ std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport
 Json library_fuzz_json(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
                        double seconds) {
   Json json = {{"verdict", verdict(exit_code(report), "no_finding")},
-               {"library", options.library.path.string()},
-               {"tolerance", options.library.tolerance},
-               {"exact", options.library.exact},
+               {"library", options.asked.path.string()},
+               {"tolerance", options.asked.tolerance},
+               {"exact", options.asked.exact},
                {"knows_times", report.knows_times},
                {"seed", options.seed},
                {"queries", report.queries},

@@ -40,7 +40,7 @@ struct Asked {
 };
 
 struct Situation {
-  LibraryUnderTest library;  ///< to be asked until the time of the run is over
+  LibraryUnderTest asked;  ///< to be asked until the time of the run is over
   bool knows_times = false;
   bool with_corpus = false;
 };
@@ -65,7 +65,7 @@ std::string whole_signature(const AnyQuery& query, const LibraryAnswer& answer,
 Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const LibraryFinding& blank) {
   Asked result;
   const bool with_corpus = situation.with_corpus;
-  const std::vector<LibraryAnswer> answers = ask(situation.library, queries.at(0).pair, queries);
+  const std::vector<LibraryAnswer> answers = ask(situation.asked, queries.at(0).pair, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (answers[i].given.state == AnswerState::not_asked) continue;
     const std::optional<ExactContact> exact = exact_contact(queries[i]);
@@ -76,7 +76,7 @@ Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const L
     const auto fault = fault_of(answers[i], exact, situation.knows_times);
     if (!fault) continue;
     ++result.faults[static_cast<std::size_t>(fault->fault)];
-    if (!counts(fault->fault, situation.library.exact)) continue;
+    if (!counts(fault->fault, situation.asked.exact)) continue;
     LibraryFinding finding = blank;
     finding.found = *fault;
     finding.index = i;
@@ -147,13 +147,13 @@ class LibraryFuzzing {
   }
 
   LibraryFuzzReport run() {
-    require_ccd_library(options_.library.path, options_.library.host);
-    situation_.library = options_.library;
+    require_ccd_library(options_.asked.path, options_.asked.host);
+    situation_.asked = options_.asked;
     if (const auto& limit = options_.limits.time_limit) {
       using Clock = std::chrono::steady_clock;
-      situation_.library.host.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*limit);
+      situation_.asked.host.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*limit);
     }
-    situation_.knows_times = report_.knows_times = knows_times(options_.library);
+    situation_.knows_times = report_.knows_times = knows_times(options_.asked);
     situation_.with_corpus = corpus_.has_value();
     replay_corpus();
     if (!enough()) {
@@ -276,7 +276,7 @@ class LibraryFuzzing {
     std::vector<LibraryFinding>& findings = report_.findings;
     parallel_for(findings.size(), options_.limits.threads, [&](std::size_t i) {
       LibraryFinding& finding = findings[i];
-      ShrunkForLibrary shrunk = shrink_for_library(options_.library, finding.query, finding.found, report_.knows_times);
+      ShrunkForLibrary shrunk = shrink_for_library(options_.asked, finding.query, finding.found, report_.knows_times);
       finding.shrunk = shrunk.query;
       finding.found = std::move(shrunk.found);
       require_that_the_oracle_agrees(finding.shrunk);

@@ -33,7 +33,7 @@
 namespace noli::audit {
 
 struct LibraryFuzzOptions {
-  LibraryUnderTest library;
+  LibraryUnderTest asked;
   std::uint64_t seed = 1;
   BlockLimits limits;
   bool first_only = false;        ///< stop behind the first block that has a finding
