@@ -15,9 +15,9 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
-#include "noli/app/scratch_folder.h"
 #include "noli/audit/fuzz_proofs.h"
 #include "noli/audit/motion_generators.h"
+#include "noli/audit/scratch_folder.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/text.h"
 
@@ -204,7 +204,7 @@ ExitCode run(ProofsArguments& arguments) {
   if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
   const Output output(arguments.common.json, arguments.files);
   require_writable_folder(arguments.common.out, "--out");
-  const ScratchFolder scratch;
+  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   CheckersBeside checkers(scratch.path());
   audit::ProofFuzzOptions options;
   options.limits = arguments.common.limits;

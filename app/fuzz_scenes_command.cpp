@@ -11,8 +11,9 @@
 #include "noli/app/machine.h"
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
-#include "noli/app/scratch_folder.h"
 #include "noli/audit/fuzz_scenes.h"
+#include "noli/audit/kind_of_difference.h"
+#include "noli/audit/scratch_folder.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
@@ -100,7 +101,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
   settle_limits(arguments.common);
   const Output output(arguments.common.json, {});
   require_writable_folder(arguments.common.out, "--out");
-  const ScratchFolder scratch;
+  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   audit::SceneFuzzOptions options;
   options.limits = arguments.common.limits;
   options.noli = this_program();
@@ -131,23 +132,21 @@ ExitCode again(const ScenesArguments& arguments) {
   const Output output(arguments.common.json, {file});
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::SceneJson scene = read_scene(file);
-  const ScratchFolder scratch;
+  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   const audit::RunNoli noli = this_program();
   int number = 0;
   const auto judge = [&](const audit::SceneJson& candidate) {
     const fs::path folder = scratch.path() / std::to_string(number++);
     fs::create_directory(folder);
-    return audit::judge_scene({candidate, arguments.wrong_place}, noli, folder);
+    audit::SceneJudgement judged = audit::judge_scene({candidate, arguments.wrong_place}, noli, folder);
+    fs::remove_all(folder);  // it is in memory, perhaps
+    return judged;
   };
   audit::SceneJudgement judgement = judge(scene);
   if (judgement.difference && arguments.again.minimise) {
-    const std::string kind = judgement.difference->substr(0, judgement.difference->find(':'));
+    const std::string kind(audit::kind_of(*judgement.difference));
     scene = audit::minimise(
-        scene,
-        [&](const audit::SceneJson& candidate) {
-          const auto what = judge(candidate).difference;
-          return what && what->starts_with(kind + ':');
-        },
+        scene, [&](const audit::SceneJson& candidate) { return audit::is_of_kind(judge(candidate).difference, kind); },
         1000);
     judgement = judge(scene);
     make_writable_folder(arguments.common.out, "--out");

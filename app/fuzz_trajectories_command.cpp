@@ -13,6 +13,7 @@
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
 #include "noli/app/verify_program.h"
+#include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/write_file.h"
@@ -130,14 +131,9 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   };
   auto found = what(motion);
   if (found && arguments.again.minimise) {
-    const std::string kind = found->substr(0, found->find(':'));
+    const std::string kind(audit::kind_of(*found));
     motion = audit::minimise(
-        motion,
-        [&](const audit::FrameMotion& candidate) {
-          const auto difference = what(candidate);
-          return difference && difference->starts_with(kind + ':');
-        },
-        5000);
+        motion, [&](const audit::FrameMotion& candidate) { return audit::is_of_kind(what(candidate), kind); }, 5000);
     found = what(motion);
     make_writable_folder(arguments.common.out, "--out");
     audit::write_frames(motion, arguments.common.out);

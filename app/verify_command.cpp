@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include "noli/app/checker.h"
 #include "noli/app/commands.h"
@@ -17,6 +14,7 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/verify_report.h"
 #include "noli/app/verify_run.h"
+#include "noli/audit/scratch_folder.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -86,27 +84,6 @@ class NoSink : public Sink {
   void write(std::string_view /*bytes*/) override {}
   void sync() override {}
   void truncate(std::uint64_t /*size*/) override {}
-};
-
-/// A folder for a proof that nobody wants to keep; it vanishes with this.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / "noli-proof-XXXXXX") {  // for mkdtemp to fill in
-    std::string name = path_.string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// The proof on its way: to a file, or to the checker at once. With a least distance it goes through a file in any case,
@@ -182,7 +159,7 @@ class ProofRoute {
 
   VerifyRequest& request_;
   bool can_check_ = false;
-  std::optional<TemporaryFolder> folder_;
+  std::optional<audit::ScratchFolder> folder_;
   std::optional<std::filesystem::path> file_;
   std::optional<CheckerProcess> checker_;
 };

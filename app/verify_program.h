@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "noli/app/scratch_folder.h"
 #include "noli/audit/fuzz_trajectories.h"
+#include "noli/audit/scratch_folder.h"
 
 namespace noli::app {
 
@@ -29,7 +29,7 @@ class VerifyProgram {
   std::filesystem::path noli_, plain_, verified_;
   bool has_verified_;
   std::uint64_t verified_every_;
-  ScratchFolder folder_;
+  audit::ScratchFolder folder_{audit::ScratchFolder::Place::memory};
   std::atomic<std::uint64_t> number_ = 0;
 };
 

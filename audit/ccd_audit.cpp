@@ -32,15 +32,6 @@ QueryKind kind_of(const fs::path& path) {
   throw InputError(path.string(), "", "the name does not say what is asked; expected vertex-face or edge-edge in it");
 }
 
-AskedQuery asked(const QueryRecord& record) {
-  AskedQuery query{};
-  for (std::size_t i = 0; i < 12; ++i) {
-    query.x_t0[i] = record.x_t0[i / 3][i % 3];
-    query.x_t1[i] = record.x_t1[i / 3][i % 3];
-  }
-  return query;
-}
-
 template <class Query>
 std::optional<double> first_time(const QueryRecord& record) {
   Query query;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/fuzz_scenes.h"
+#include "noli/audit/kind_of_difference.h"
 
 #include <fmt/format.h>
 
@@ -199,12 +200,9 @@ class SceneFuzzing {
     if (++alike_[*one.judgement.difference] > options_.max_alike) return;
     SceneFinding finding{one.generator, block_, index, *one.judgement.difference, one.made.scene, one.made.scene, {}};
     finding.wrong_place = one.made.wrong_place;
-    const std::string kind = finding.difference.substr(0, finding.difference.find(':'));
+    const std::string kind(kind_of(finding.difference));
     const auto now = [&](const SceneJson& scene) { return judge({scene, one.made.wrong_place}).difference; };
-    const auto fails = [&](const SceneJson& scene) {
-      const auto what = now(scene);
-      return what && what->starts_with(kind + ':');
-    };
+    const auto fails = [&](const SceneJson& scene) { return is_of_kind(now(scene), kind); };
     // A scene that is wrong stays wrong in other places when something is left out: its message proves nothing then.
     if (!one.made.wrong_place) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
     finding.difference = now(finding.shrunk).value_or(finding.difference);

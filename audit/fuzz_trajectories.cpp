@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/run_program.h"
 #include "noli/trajectory/sha256.h"
@@ -46,9 +47,6 @@ Judged judge(GeneratedMotion made, bool needs_witness, const DecideMotion& decid
   }
   return judged;
 }
-
-/// Of a difference: "contact", "first time", ...
-std::string_view kind_of(std::string_view difference) { return difference.substr(0, difference.find(':')); }
 
 /// Motions of different shapes, each in a folder of its own with the file `shape`.
 class Corpus {
@@ -162,10 +160,7 @@ class TrajectoryFuzzing {
         return fmt::format("threw: {}", error.what());
       }
     };
-    const auto fails = [&](const FrameMotion& motion) {
-      const auto what = now(motion);
-      return what && kind_of(*what) == kind;
-    };
+    const auto fails = [&](const FrameMotion& motion) { return is_of_kind(now(motion), kind); };
     if (!fails(finding.motion)) return;
     finding.shrunk = minimise(finding.motion, fails, options_.shrink_budget);
     finding.difference = now(finding.shrunk).value_or(finding.difference);

@@ -10,15 +10,6 @@ namespace noli::audit {
 
 namespace {
 
-AskedQuery asked(const AnyQuery& query) {
-  AskedQuery result{};
-  for (std::size_t i = 0; i < 12; ++i) {
-    result.x_t0[i] = query.x_t0[i / 3][i % 3];
-    result.x_t1[i] = query.x_t1[i / 3][i % 3];
-  }
-  return result;
-}
-
 int plugin_kind(FeaturePair pair) { return pair == FeaturePair::edge_edge ? NOLI_CCD_EDGE_EDGE : NOLI_CCD_VERTEX_FACE; }
 
 /// In contact at 1/2, in the middle of both features.

@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/scratch_folder.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdlib>
+#include <string>
 #include <system_error>
 
 namespace noli::audit {
+namespace {
 
 namespace fs = std::filesystem;
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (fs::temp_directory_path() / "noli-audit-XXXXXX").string();
+fs::path path_of(ScratchFolder::Place place) {
+  const fs::path memory = "/dev/shm";
+  const bool there = place == ScratchFolder::Place::memory && ::access(memory.c_str(), W_OK | X_OK) == 0;
+  return there ? memory : fs::temp_directory_path();
+}
+
+}  // namespace
+
+ScratchFolder::ScratchFolder(Place place) {
+  std::string name =
+      (path_of(place) / "noli-scratch-XXXXXX").string();  // mkdtemp wants these letters, and replaces them
   if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
   path_ = name;
 }

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A folder for what an audit makes on its way, which vanishes with the object.
+// A folder for files that nobody wants to keep.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 namespace noli::audit {
 
+/// Vanishes, with all that is in it, with this.
 class ScratchFolder {
  public:
-  /// Where the system keeps temporary files. Throws std::system_error when none can be made there.
-  ScratchFolder();
+  /// `disk`: where the system keeps temporary files. `memory`: where the machine has files in memory, for who writes and
+  /// syncs thousands of small ones a second; else the same.
+  enum class Place : std::uint8_t { disk, memory };
+
+  /// Throws std::system_error when no folder can be made there.
+  explicit ScratchFolder(Place place = Place::disk);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

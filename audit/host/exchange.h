@@ -41,6 +41,17 @@ struct AskedQuery {
   std::array<double, 12> x_t0, x_t1;
 };
 
+/// A query of three dimensions: x_t0 and x_t1 are four points each.
+template <class Query>
+AskedQuery asked(const Query& query) {
+  AskedQuery result{};
+  for (std::size_t i = 0; i < 12; ++i) {
+    result.x_t0[i] = query.x_t0[i / 3][i % 3];
+    result.x_t1[i] = query.x_t1[i / 3][i % 3];
+  }
+  return result;
+}
+
 enum class AnswerState : std::uint32_t {
   not_asked,
   answered,
