@@ -29,6 +29,7 @@
 #include "noli/proofs/prover/proof_tree.h"
 #include "noli/proofs/prover/tokens.h"
 #include "noli/proofs/prover/too_near.h"
+#include "noli/proofs/prover/traversal.h"
 #include "noli/proofs/prover/window_cell.h"
 
 namespace noli {
@@ -67,10 +68,10 @@ class ProofParts {
  public:
   /// `eta`, `paths`: the least distance, and who may be nearer than that.
   ProofParts(const WorldLines& lines, const std::vector<ProofChord<Dim>>& chords, const Piece& span, double eta,
-             const MeshPaths& paths)
-      : lines_(lines), chords_(chords), span_(span), eta_(eta), paths_(paths) {}
+             const MeshPaths& paths, const StopSignal& stop)
+      : lines_(lines), chords_(chords), span_(span), eta_(eta), paths_(paths), stop_(stop) {}
 
-  /// Writes the tokens for two cells. Throws TooNear, NoProof.
+  /// Writes the tokens for two cells; not all of them if it was stopped. Throws TooNear, NoProof.
   void settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b, Tokens& tokens) {
     known_ = false;
     first_cell_ = i;
@@ -78,6 +79,8 @@ class ProofParts {
     distance_ = eta_;
     drop_common({a, all_corners(a.corners)}, {b, all_corners(b.corners)}, tokens);
   }
+
+  bool stopped() const { return stopped_; }
 
  private:
   struct Part {
@@ -217,8 +220,9 @@ class ProofParts {
 
   void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece, Tokens& tokens) {
     if (piece.e == (distance_ == 0 ? give_up : give_up_near)) give_up_at(piece);
+    stopped_ = stopped_ || stop_.raised();  // two cells with many breakpoints can take minutes
     tokens.halve();
-    for (long which = 0; which < 2; ++which) over_piece(a, b, pair, piece.half(which), tokens);
+    for (long which = 0; which < 2 && !stopped_; ++which) over_piece(a, b, pair, piece.half(which), tokens);
   }
 
   void over_piece(const Part& a, const Part& b, const Pair& whole, const Piece& piece, Tokens& tokens) {
@@ -238,9 +242,8 @@ class ProofParts {
       }
     }
     if (piece.e >= exact_from) {
-      const auto differences = differences_in(a, b, piece);
-      if (differences.w.size() <= most_exact) {
-        if (const auto n = exact_direction(differences.w, differences.least2)) return tokens.direction(*n);
+      if (const auto differences = differences_in(a, b, piece)) {
+        if (const auto n = exact_direction(differences->w, differences->least2)) return tokens.direction(*n);
       }
     }
     halve(a, b, whole, piece, tokens);
@@ -317,42 +320,58 @@ class ProofParts {
     Integer least2;
   };
 
-  /// At both ends of the piece and at each breakpoint of the parts between.
-  Differences differences_in(const Part& a, const Part& b, const Piece& piece) const {
-    exact::ExponentRange space, time;
-    std::vector<VertexId> vertices;
-    std::size_t of_a = 0;
+  /// A vertex and its breakpoints from the last one not after the piece's begin to the first one not before its end:
+  /// all that say where it is within the piece.
+  struct Stretch {
+    std::span<const double> times;
+    std::span<const Position> positions;
+  };
+
+  /// Times of the step as whole numbers of one unit, 2^(low - e).
+  struct Unit {
+    int low;
+    unsigned e;
+
+    Integer operator()(double t) const { return integer(t, low) << e; }
+  };
+
+  /// At both ends of the piece and at each breakpoint of the parts between. Nothing if they are too many.
+  std::optional<Differences> differences_in(const Part& a, const Part& b, const Piece& piece) const {
+    std::vector<Stretch> vertices;
+    std::size_t of_a = 0, breakpoints = 2;
     for (const Part* part : {&a, &b}) {
       for (std::size_t i = 0; i < part->cell.corners; ++i) {
-        if (part->has(i)) vertices.push_back(part->cell.vertices[i]);
+        if (!part->has(i)) continue;
+        vertices.push_back(stretch(part->cell.vertices[i], piece));
+        breakpoints += vertices.back().times.size() - 2;
       }
       if (part == &a) of_a = vertices.size();
     }
-    for (const VertexId v : vertices) {
-      for (const Position& x : lines_.positions(v)) {
+    if (breakpoints * of_a * (vertices.size() - of_a) > most_exact) return std::nullopt;
+    return differences_at(vertices, of_a, piece);
+  }
+
+  Differences differences_at(const std::vector<Stretch>& vertices, std::size_t of_a, const Piece& piece) const {
+    exact::ExponentRange space, time;
+    for (const Stretch& v : vertices) {
+      for (const Position& x : v.positions) {
         for (std::size_t k = 0; k < Dim; ++k) space.add(x[k]);
       }
-      for (const double t : lines_.times(v)) time.add(t);
+      for (const double t : v.times) time.add(t);
     }
     if (distance_ > 0) space.add(distance_);
     time.add(lines_.first_time());
     time.add(lines_.last_time());
-    const auto scaled = [&](double t) { return integer(t, time.low) << piece.e; };  // times 2^e
-    const Integer first = integer(lines_.first_time(), time.low),
-                  length = integer(lines_.last_time(), time.low) - first;
-    std::vector<Integer> times = {(first << piece.e) + length * piece.k,
-                                  (first << piece.e) + length * (piece.k + Integer(1))};
-    for (const VertexId v : vertices) {
-      for (const double t : lines_.times(v)) {
-        Integer c = scaled(t);
-        if (c > times[0] && c < times[1] && times.size() <= most_exact) times.push_back(std::move(c));
-      }
+    const Unit unit{time.low, piece.e};
+    std::vector<Integer> times = {time_of(piece.k, unit), time_of(piece.k + Integer(1), unit)};
+    for (const Stretch& v : vertices) {
+      for (std::size_t s = 1; s + 1 < v.times.size(); ++s) times.push_back(unit(v.times[s]));
     }
     Differences result;
     std::vector<Integer> denominators;
     for (const Integer& c : times) {
       std::vector<std::pair<IntegerVector, Integer>> at;  // numerators, denominator > 0
-      for (const VertexId v : vertices) at.push_back(position(v, c, space.low, scaled));
+      for (const Stretch& v : vertices) at.push_back(position(v, c, space.low, unit));
       for (std::size_t i = 0; i < of_a; ++i) {
         for (std::size_t j = of_a; j < vertices.size(); ++j) {
           IntegerVector w;
@@ -370,6 +389,28 @@ class ProofParts {
     return result;
   }
 
+  /// The time k / 2^e of the way through the step, in the unit, whose e is the same.
+  Integer time_of(const Integer& k, const Unit& unit) const {
+    const Integer first = integer(lines_.first_time(), unit.low), last = integer(lines_.last_time(), unit.low);
+    return (first << unit.e) + (last - first) * k;
+  }
+
+  /// By search, as breakpoints of the whole step can be many.
+  Stretch stretch(VertexId v, const Piece& piece) const {
+    const auto t = lines_.times(v);
+    const auto order = [&](double time, const Integer& k) {
+      exact::ExponentRange range;
+      for (const double of : {time, lines_.first_time(), lines_.last_time()}) range.add(of);
+      const Unit unit{range.low, piece.e};
+      return mpz_cmp(unit(time).get(), time_of(k, unit).get());
+    };
+    const Integer begin = piece.k, end = piece.k + Integer(1);
+    const auto from = std::partition_point(t.begin() + 1, t.end() - 1, [&](double x) { return order(x, begin) <= 0; });
+    const auto to = std::partition_point(from, t.end() - 1, [&](double x) { return order(x, end) < 0; });
+    const auto first = static_cast<std::size_t>(from - t.begin()) - 1, last = static_cast<std::size_t>(to - t.begin());
+    return {t.subspan(first, last + 1 - first), lines_.positions(v).subspan(first, last + 1 - first)};
+  }
+
   /// Multiplies each vector so that all have the same denominator, which takes the place of the first.
   static void make_common(Differences& differences, std::vector<Integer>& denominators) {
     Integer common = denominators[0];
@@ -381,16 +422,13 @@ class ProofParts {
     denominators[0] = common;
   }
 
-  template <class Scaled>
-  std::pair<IntegerVector, Integer> position(VertexId v, const Integer& c, int low, const Scaled& scaled) const {
-    const auto t = lines_.times(v);
-    const auto x = lines_.positions(v);
+  static std::pair<IntegerVector, Integer> position(const Stretch& v, const Integer& c, int low, const Unit& unit) {
     std::size_t s = 0;
-    while (s + 2 < t.size() && scaled(t[s + 1]) <= c) ++s;
-    const Integer before = c - scaled(t[s]), after = scaled(t[s + 1]) - c;
+    while (s + 2 < v.times.size() && unit(v.times[s + 1]) <= c) ++s;
+    const Integer before = c - unit(v.times[s]), after = unit(v.times[s + 1]) - c;
     IntegerVector numerators;
     for (std::size_t k = 0; k < Dim; ++k)
-      numerators[k] = integer(x[s][k], low) * after + integer(x[s + 1][k], low) * before;
+      numerators[k] = integer(v.positions[s][k], low) * after + integer(v.positions[s + 1][k], low) * before;
     return {std::move(numerators), before + after};
   }
 
@@ -399,6 +437,8 @@ class ProofParts {
   Piece span_;
   double eta_;
   const MeshPaths& paths_;
+  const StopSignal& stop_;
+  bool stopped_ = false;
   double distance_ = 0;  ///< eta_, or 0 where parts need only be disjoint
   std::uint32_t first_cell_ = 0, second_cell_ = 0;
   bool known_ = false;  ///< last_ separated two parts of the same cells

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
@@ -118,6 +119,20 @@ TEST(FuzzScenesCommand, JudgesASceneAgain) {
   const Process wrong = run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "/bodies/0/mesh"});
   EXPECT_EQ(wrong.exit_code, 1) << "said to be wrong, and yet it runs";
   EXPECT_NE(wrong.out.find("accepted: /bodies/0/mesh"), std::string::npos) << wrong.out;
+}
+
+/// Each once ended in a hang or in exit 4. Lengths that are too large or too small for contact are refused now.
+TEST(FuzzScenesCommand, FindsNothingAnyMoreInScenesThatItFound) {
+  const std::filesystem::path found = std::filesystem::path(NOLI_SOURCE_DIR) / "tests/audit/scenes/found";
+  std::size_t count = 0;
+  for (const auto& scene : std::filesystem::directory_iterator(found)) {
+    const Process process = run_noli({"fuzz", "scenes", "--replay", scene.path().string()});
+    EXPECT_EQ(process.exit_code, 0) << scene.path() << process.out << process.err;
+    const bool refused = process.verdict_line().find("refused /contact/thickness") != std::string::npos;
+    EXPECT_EQ(refused, scene.path().filename().string().starts_with("lengths")) << process.verdict_line();
+    ++count;
+  }
+  EXPECT_EQ(count, 3u);
 }
 
 void expect_example(const std::string& page, std::size_t size,
