@@ -94,11 +94,10 @@ ExitCode run(AuditArguments& arguments) {
     require_other_file(*arguments.svg, others, "--svg");
     require_writable_file(*arguments.svg, "--svg");
   }
-  const audit::AuditOutcome outcome = [&] {
-    Progress bar("audit ccd");
-    request.progress = [&](double share) { bar.show(share); };
+  const audit::AuditOutcome outcome = with_progress("audit ccd", [&](const auto& show) {
+    request.progress = show;
     return audit::audit_ccd(request);
-  }();
+  });
   if (arguments.svg) write_file(*arguments.svg, audit_svg(outcome));
   output.write(audit_text(outcome), audit_json(outcome));
   return exit_code(outcome.findings() + outcome.wrong_labels(), outcome.complete);

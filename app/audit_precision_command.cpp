@@ -93,11 +93,10 @@ ExitCode run(const PrecisionArguments& arguments) {
   extent.until = arguments.until;
   request.windows = windows_of(extent, scene);
   const Stopwatch watch;
-  const audit::PrecisionOutcome outcome = [&] {
-    Progress bar("audit precision");
-    request.progress = [&bar](double share) { bar.show(share); };
+  const audit::PrecisionOutcome outcome = with_progress("audit precision", [&](const auto& show) {
+    request.progress = show;
     return audit_scene(scene, request);
-  }();
+  });
   if (arguments.svg) write_file(*arguments.svg, precision_svg(outcome, scene.title));
   Json json = precision_json(outcome);
   json["timing"] = {{"seconds", watch.seconds()}, {"threads", arguments.threads}};

@@ -220,11 +220,10 @@ ExitCode run(ProofsArguments& arguments) {
   }
   if (options.cases.empty()) throw std::runtime_error("no proof could be made to begin with");
   const Stopwatch watch;
-  const audit::ProofFuzzReport report = [&] {
-    Progress bar("fuzz proofs");
-    options.limits.progress = [&](double share) { bar.show(share); };
+  const audit::ProofFuzzReport report = with_progress("fuzz proofs", [&](const auto& show) {
+    options.limits.progress = show;
     return audit::fuzz_proofs(options);
-  }();
+  });
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, options.cases.size(), seconds),
                report_json(arguments, report, options.cases.size(), seconds));

@@ -233,11 +233,10 @@ ExitCode minimise(const FuzzArguments& arguments) {
 ExitCode run_kernel(const FuzzArguments& arguments, const Output& output) {
   audit::FuzzOptions options = arguments.kernel;
   const Stopwatch watch;
-  const audit::FuzzReport report = [&] {
-    Progress bar("fuzz queries");
-    options.progress = [&](const audit::FuzzProgress& progress) { bar.show(share(options, progress)); };
+  const audit::FuzzReport report = with_progress("fuzz queries", [&](const auto& show) {
+    options.progress = [&](const audit::FuzzProgress& progress) { show(share(options, progress)); };
     return audit::fuzz_queries(options);
-  }();
+  });
   const double seconds = watch.seconds();
   output.write(fuzz_text(options, report, seconds), fuzz_json(options, report, seconds));
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
@@ -255,11 +254,10 @@ ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
   options.corpus = kernel.corpus;
   options.command = kernel.command;
   const Stopwatch watch;
-  const audit::LibraryFuzzReport report = [&] {
-    Progress bar("fuzz queries");
-    options.progress = [&](const audit::FuzzProgress& progress) { bar.show(share(kernel, progress)); };
+  const audit::LibraryFuzzReport report = with_progress("fuzz queries", [&](const auto& show) {
+    options.progress = [&](const audit::FuzzProgress& progress) { show(share(kernel, progress)); };
     return audit::fuzz_library(options);
-  }();
+  });
   const double seconds = watch.seconds();
   output.write(library_fuzz_text(options, report, seconds), library_fuzz_json(options, report, seconds));
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);

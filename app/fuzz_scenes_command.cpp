@@ -108,11 +108,10 @@ ExitCode fuzz(ScenesArguments& arguments) {
   options.desk = scratch.path();
   options.out = arguments.common.out;
   const Stopwatch watch;
-  const audit::SceneFuzzReport report = [&] {
-    Progress bar("fuzz scenes");
-    options.limits.progress = [&](double share) { bar.show(share); };
+  const audit::SceneFuzzReport report = with_progress("fuzz scenes", [&](const auto& show) {
+    options.limits.progress = show;
     return audit::fuzz_scenes(options);
-  }();
+  });
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
   return fuzz_exit_code(report.findings_total, report.extent);

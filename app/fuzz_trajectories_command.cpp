@@ -106,11 +106,10 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   if (arguments.corpus) options.corpus = *arguments.corpus;
   options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
   const Stopwatch watch;
-  const audit::TrajectoryReport report = [&] {
-    Progress bar("fuzz trajectories");
-    options.limits.progress = [&](double share) { bar.show(share); };
+  const audit::TrajectoryReport report = with_progress("fuzz trajectories", [&](const auto& show) {
+    options.limits.progress = show;
     return audit::fuzz_trajectories(options);
-  }();
+  });
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
   return fuzz_exit_code(report.findings_total, report.extent);

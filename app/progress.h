@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "noli/app/machine.h"
 
@@ -25,5 +26,12 @@ class Progress {
   bool shown_ = false;
   Stopwatch since_last_;
 };
+
+/// What `work` returns, which is given something to call with the share that is done; the bar is gone then.
+template <class Work>
+auto with_progress(std::string label, const Work& work) {
+  Progress bar(std::move(label));
+  return work([&bar](double share) { bar.show(share); });
+}
 
 }  // namespace noli::app

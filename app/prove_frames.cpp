@@ -7,6 +7,7 @@
 #include "noli/proofs/prover/features.h"
 #include "noli/proofs/prover/hierarchy.h"
 #include "noli/proofs/prover/witness.h"
+#include "noli/proofs/prover/write_tokens.h"
 
 namespace noli::app {
 namespace {
@@ -88,17 +89,7 @@ bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::sp
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
   begin(step, ProofFile::Kind::proof, lines);
   if (!tree_written_) file_.tree(prover_.tree().encoded());
-  bool whole = false;
-  try {
-    whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
-  } catch (...) {
-    file_.discard();
-    throw;
-  }
-  if (!whole) {
-    file_.discard();
-    return false;
-  }
+  if (!write_tokens(file_, prover_, lines, options)) return false;
   file_.commit();
   tree_written_ = true;
   return true;

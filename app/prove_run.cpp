@@ -3,6 +3,7 @@
 
 #include "noli/proofs/prover/features.h"
 #include "noli/proofs/prover/forest.h"
+#include "noli/proofs/prover/write_tokens.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -112,15 +113,7 @@ bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256
                      const VerifyOptions& options) {
   file_.begin_step(window, ProofFile::Kind::proof, lines, 0, hash);
   if (file_.committed().groups == 1) file_.tree(prover_.tree().encoded());
-  bool whole = false;
-  try {
-    whole = prover_.prove(lines, options, [this](std::string_view bytes) { file_.tokens(bytes); });
-  } catch (...) {
-    file_.discard();
-    throw;
-  }
-  if (!whole) file_.discard();
-  return whole;
+  return write_tokens(file_, prover_, lines, options);
 }
 
 void RunProof::commit() { file_.commit(); }

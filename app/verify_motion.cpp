@@ -66,11 +66,7 @@ class MotionRun {
   }
 
  private:
-  bool stopped() {
-    outcome_.interrupted |= interrupted().load(std::memory_order_relaxed);
-    outcome_.out_of_time |= request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline;
-    return outcome_.interrupted || outcome_.out_of_time;
-  }
+  bool stopped() { return outcome_.stop_at(request_.deadline); }
 
   std::optional<RunWindow> read_next() {
     const Stopwatch watch;

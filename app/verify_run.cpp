@@ -61,11 +61,7 @@ class Run {
   }
 
  private:
-  bool stopped() {
-    outcome_.interrupted |= interrupted().load(std::memory_order_relaxed);
-    outcome_.out_of_time |= request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline;
-    return outcome_.interrupted || outcome_.out_of_time;
-  }
+  bool stopped() { return outcome_.stop_at(request_.deadline); }
 
   /// Whether there was another step. Not when the user would not wait for it.
   bool read_next(FrameSequence& sequence) {
@@ -314,6 +310,12 @@ class Run {
 };
 
 }  // namespace
+
+bool VerifyOutcome::stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline) {
+  interrupted |= app::interrupted().load(std::memory_order_relaxed);
+  out_of_time |= deadline && std::chrono::steady_clock::now() >= *deadline;
+  return interrupted || out_of_time;
+}
 
 VerifyOutcome run_verify(const VerifyRequest& request) { return Run(request)(); }
 
