@@ -17,6 +17,7 @@
 #include "noli/app/machine.h"
 #include "noli/audit/start_process.h"
 #include "noli/trajectory/run_file.h"
+#include "noli/trajectory/text.h"
 
 namespace noli::app {
 namespace {
@@ -97,7 +98,7 @@ void CheckerProcess::write(std::string_view bytes) {
 std::string CheckerProcess::why() {
   try {
     const auto verdict = finish();
-    return verdict ? ": " + verdict->words.substr(0, verdict->words.find('\n')) : "";
+    return verdict ? ": " + first_line(verdict->words) : "";
   } catch (const std::runtime_error& error) {
     return std::string(": ") + error.what();
   }

@@ -6,6 +6,7 @@
 #include "noli/app/duration.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/options.h"
+#include "noli/app/output.h"
 
 namespace noli::app {
 
@@ -20,6 +21,10 @@ void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S");
   add_threads_option(command, arguments.limits.threads);
+  command
+      .add_option("--corpus", arguments.corpus,
+                  "Folder of " + what + " that reached something new: judged first, added to")
+      ->type_name("DIR");
   command.add_option("--out", arguments.out, "Folder for findings, made when there is one")
       ->capture_default_str()
       ->type_name("DIR");
@@ -34,7 +39,7 @@ void add_again_options(CLI::App& command, AgainArguments& arguments, const std::
       command.add_option("--minimise", arguments.minimise, "Make this saved " + what + " smaller, into --out, instead")
           ->type_name(type);
   replay->excludes(minimise);
-  excluded.insert(excluded.end(), {"--count", "--for", "--seed"});
+  excluded.insert(excluded.end(), {"--count", "--for", "--seed", "--corpus"});
   for (const std::string& name : excluded) {
     replay->excludes(command.get_option(name));
     minimise->excludes(command.get_option(name));
@@ -46,6 +51,11 @@ void settle_limits(FuzzArgumentsInCommon& arguments) {
     arguments.limits.time_limit = parse_duration(arguments.duration.value_or("60s"), "--for");
   }
   arguments.limits.stop = &interrupted();
+}
+
+std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& arguments) {
+  if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
+  return arguments.corpus;
 }
 
 const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +14,10 @@
 
 namespace noli::app {
 
-/// --seed, --count, --for, --threads, --out, --json.
+/// --seed, --count, --for, --threads, --corpus, --out, --json.
 struct FuzzArgumentsInCommon {
   audit::FuzzLimits limits;
-  std::optional<std::string> duration;
+  std::optional<std::string> duration, corpus;
   std::string out = "fuzz-findings";
   std::optional<std::string> json;
 };
@@ -39,6 +40,9 @@ void add_again_options(CLI::App& command, AgainArguments& arguments, const std::
 
 /// Makes limits of what was given: a minute if nothing was. Throws UsageError.
 void settle_limits(FuzzArgumentsInCommon& arguments);
+
+/// The folder of --corpus, made if it is not there. Throws UsageError.
+std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& arguments);
 
 /// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", "no_finding".
 const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent);

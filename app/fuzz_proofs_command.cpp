@@ -39,12 +39,14 @@ constexpr const char* footer =
     "Examples:\n"
     "  noli fuzz proofs --for 60s --seed 1\n"
     "  noli fuzz proofs proof.noli before.ply after.ply --count 100000\n"
-    "  noli fuzz proofs runs/chain/proof.blocks runs/chain --verified-every 1";
+    "  noli fuzz proofs runs/chain/proof.blocks runs/chain --verified-every 1\n"
+    "  noli fuzz proofs --replay fuzz-findings/seed1-block3-index2";
 
 struct ProofsArguments {
   FuzzArgumentsInCommon common;
   std::vector<fs::path> files;
   std::uint64_t verified_every = 50;
+  std::optional<std::string> replay;
 };
 
 /// Of a proof and its trajectory, which the checker has to take.
@@ -53,8 +55,7 @@ audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& t
   const auto said = checker.finish();
   if (!said) throw ReadInterrupted(proof.string());
   if (said->code == 3) {
-    throw InputError(proof.string(), "",
-                     "expected a proof that holds: " + said->words.substr(0, said->words.find('\n')));
+    throw InputError(proof.string(), "", "expected a proof that holds: " + first_line(said->words));
   }
   audit::ProofCase made;
   made.name = proof.filename().string();
@@ -126,6 +127,7 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
                {"checked_verified", report.checked_verified},
                {"judged", report.judged},
                {"not_judged", report.not_judged},
+               {"corpus", report.corpus_size},
                {"codes", tally_json(report.codes)}};
   json["mutations"] = Json::object();
   for (const auto& [name, tally] : report.mutations) json["mutations"][name] = tally_json(tally);
@@ -158,6 +160,7 @@ std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzz
     fmt::format_to(out, "  {:26} accepted {:7} refuted {:7} rejected {:7}\n", name, tally.accepted, tally.refuted,
                    tally.rejected);
   }
+  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} proofs.\n", report.corpus_size);
   fmt::format_to(out, "Proofs: {}. The verified checker looked at {} mutants. Not judged: {}. Time: {:.1f} s.\n", cases,
                  report.checked_verified, report.not_judged, seconds);
   return text;
@@ -209,6 +212,7 @@ ExitCode run(ProofsArguments& arguments) {
   audit::ProofFuzzOptions options;
   options.limits = arguments.common.limits;
   options.out = arguments.common.out;
+  options.corpus = corpus_folder(arguments.common);
   options.verified_every = arguments.verified_every;
   options.plain = checkers.plain();
   options.verified = checkers.verified();
@@ -230,6 +234,39 @@ ExitCode run(ProofsArguments& arguments) {
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
+const char* said(const audit::ProofAnswer& answer) {
+  if (!answer.failure.empty()) return "failed";
+  return answer.code == 0 ? "accepted" : answer.code == 1 ? "refuted" : "rejected";
+}
+
+/// A saved proof again.
+ExitCode again(const ProofsArguments& arguments) {
+  if (!arguments.files.empty()) throw UsageError("--replay takes a folder that was saved; expected no other files");
+  const Output output(arguments.common.json, {});
+  const audit::ProofFiles files = audit::read_proof_files(*arguments.replay);
+  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
+  CheckersBeside checkers(scratch.path());
+  audit::ProofFuzzOptions options;
+  options.plain = checkers.plain();
+  options.verified = checkers.verified();
+  const audit::ProofJudgement judged = audit::judge_proof(files, options);
+  const bool finding = !judged.difference.empty();
+  const char* const word = finding ? "finding" : judged.stopped ? "undecided" : "no_finding";
+  const char* const verified = judged.verified ? said(*judged.verified) : "not_asked";
+  const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
+  output.write(fmt::format("verdict {} plain {} verified {} claim {}\n{}{}", word, said(judged.plain), verified, claim,
+                           judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + "\n",
+                           finding ? on_one_line(judged.difference) + "\n" : ""),
+               {{"verdict", word},
+                {"plain", said(judged.plain)},
+                {"words", judged.plain.words},
+                {"verified", verified},
+                {"claim", claim},
+                {"difference", finding ? Json(judged.difference) : Json()}});
+  if (finding) return ExitCode::refuted;
+  return judged.stopped ? ExitCode::undecided : ExitCode::holds;
+}
+
 }  // namespace
 
 Command add_fuzz_proofs(CLI::App& fuzz) {
@@ -246,7 +283,10 @@ Command add_fuzz_proofs(CLI::App& fuzz) {
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
-  return {command, [arguments] { return run(*arguments); }};
+  CLI::Option* const replay =
+      command->add_option("--replay", arguments->replay, "Judge this saved proof again instead")->type_name("FOLDER");
+  for (const char* const name : {"--count", "--for", "--seed", "--corpus"}) replay->excludes(command->get_option(name));
+  return {command, [arguments] { return arguments->replay ? again(*arguments) : run(*arguments); }};
 }
 
 }  // namespace noli::app

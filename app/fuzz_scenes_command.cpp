@@ -93,6 +93,7 @@ std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzz
     for (const auto& [end, count] : ends) fmt::format_to(out, " {} {};", end, count);
     text += '\n';
   }
+  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} scenes.\n", report.corpus_size);
   fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
   return text;
 }
@@ -107,6 +108,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
   options.noli = this_program();
   options.desk = scratch.path();
   options.out = arguments.common.out;
+  options.corpus = corpus_folder(arguments.common);
   const Stopwatch watch;
   const audit::SceneFuzzReport report = with_progress("fuzz scenes", [&](const auto& show) {
     options.limits.progress = show;
@@ -117,20 +119,12 @@ ExitCode fuzz(ScenesArguments& arguments) {
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
-audit::SceneJson read_scene(const fs::path& file) {
-  try {
-    return audit::SceneJson::parse(read_whole_file(file));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file.string(), "", std::string("expected a scene: ") + error.what());
-  }
-}
-
 /// A saved scene again, as it is or made smaller.
 ExitCode again(const ScenesArguments& arguments) {
   const fs::path file = arguments.again.saved();
   const Output output(arguments.common.json, {file});
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
-  audit::SceneJson scene = read_scene(file);
+  audit::SceneJson scene = audit::read_saved_scene(file);
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   const audit::RunNoli noli = this_program();
   int number = 0;
@@ -151,8 +145,7 @@ ExitCode again(const ScenesArguments& arguments) {
     make_writable_folder(arguments.common.out, "--out");
     write_file(fs::path(arguments.common.out) / "scene.json", scene.dump(2) + '\n');
   }
-  if (judgement.stopped) return ExitCode::undecided;
-  const char* const word = judgement.difference ? "finding" : "no_finding";
+  const char* const word = judgement.stopped ? "undecided" : judgement.difference ? "finding" : "no_finding";
   output.write(fmt::format("verdict {} end {} verified {} resumed {}\n{}", word, judgement.end, judgement.verified,
                            judgement.resumed, judgement.difference ? *judgement.difference + "\n" : ""),
                {{"verdict", word},
@@ -160,6 +153,7 @@ ExitCode again(const ScenesArguments& arguments) {
                 {"verified", judgement.verified},
                 {"resumed", judgement.resumed},
                 {"difference", judgement.difference ? Json(*judgement.difference) : Json()}});
+  if (judgement.stopped) return ExitCode::undecided;
   return judgement.difference ? ExitCode::refuted : ExitCode::holds;
 }
 

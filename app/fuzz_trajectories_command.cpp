@@ -40,7 +40,6 @@ constexpr const char* footer =
 struct TrajectoriesArguments {
   FuzzArgumentsInCommon common;
   AgainArguments again;
-  std::optional<std::string> corpus;
   bool needs_witness = false;
   std::uint64_t verified_every = 1;
 };
@@ -86,7 +85,7 @@ std::string report_text(const TrajectoriesArguments& arguments, const audit::Tra
     fmt::format_to(out, "  {:12} apart {:6} contact {:6} without_witness {}\n", generator.name, generator.apart,
                    generator.contact, generator.without_witness);
   }
-  if (arguments.corpus) fmt::format_to(out, "Corpus: {} motions.\n", report.corpus_size);
+  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} motions.\n", report.corpus_size);
   fmt::format_to(out, "The verified checker looked at {} proofs. Shapes: {}. Time: {:.1f} s.\n",
                  report.checked_verified, report.shapes, seconds);
   return text;
@@ -96,14 +95,13 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   settle_limits(arguments.common);
   const Output output(arguments.common.json, {});
   require_writable_folder(arguments.common.out, "--out");
-  if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
   VerifyProgram subject(arguments.verified_every);
   if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
   audit::TrajectoryOptions options;
   options.limits = arguments.common.limits;
   options.decide = [&](const audit::FrameMotion& motion) { return subject(motion); };
   options.out = arguments.common.out;
-  if (arguments.corpus) options.corpus = *arguments.corpus;
+  options.corpus = corpus_folder(arguments.common);
   options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
   const Stopwatch watch;
   const audit::TrajectoryReport report = with_progress("fuzz trajectories", [&](const auto& show) {
@@ -158,15 +156,12 @@ Command add_fuzz_trajectories(CLI::App& fuzz_app) {
   const auto arguments = std::make_shared<TrajectoriesArguments>();
   add_fuzz_options(*command, arguments->common, "motions");
   command
-      ->add_option("--corpus", arguments->corpus, "Folder of motions that reached something new: run first, added to")
-      ->type_name("DIR");
-  command
       ->add_option("--verified-every", arguments->verified_every,
                    "Ask the verified checker about one motion of so many")
       ->check(whole_number(1, 1'000'000))
       ->capture_default_str()
       ->type_name("N");
-  add_again_options(*command, arguments->again, "motion", "FOLDER", {"--corpus"});
+  add_again_options(*command, arguments->again, "motion", "FOLDER", {});
   command->add_flag("--needs-witness", arguments->needs_witness,
                     "With --replay or --minimise: a contact without a witness is a finding");
   return {command, [arguments] { return arguments->again.given() ? again(*arguments) : fuzz(*arguments); }};

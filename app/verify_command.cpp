@@ -16,6 +16,7 @@
 #include "noli/app/verify_run.h"
 #include "noli/audit/scratch_folder.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
 
 namespace noli::app {
 namespace {
@@ -114,7 +115,7 @@ class ProofRoute {
     const auto verdict = checker_->finish();
     outcome.check_seconds = watch.seconds();
     if (!verdict) return stopped(outcome);
-    outcome.checked = verdict->words.substr(0, verdict->words.find('\n'));
+    outcome.checked = first_line(verdict->words);
     if (verdict->code != (refuted ? 1 : 0)) {
       throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
                                *outcome.checked);

@@ -10,6 +10,7 @@
 #include "noli/app/json.h"
 #include "noli/app/machine.h"
 #include "noli/audit/run_program.h"
+#include "noli/trajectory/text.h"
 
 namespace noli::app {
 namespace {
@@ -25,7 +26,7 @@ audit::ProgramLimits limits() {
 std::string failure_of(const std::string& program, const audit::ProgramEnd& end) {
   if (end.kind == audit::ProgramEnd::Kind::stopped) return "stopped";
   const std::string& said = end.err.empty() ? end.out : end.err;
-  return fmt::format("{}: {} {}", program, end.words(), said.substr(0, said.find('\n')));
+  return fmt::format("{}: {} {}", program, end.words(), first_line(said));
 }
 
 audit::Feature feature_of(const Json& vertices) {

@@ -43,10 +43,11 @@ struct ProofFuzzOptions {
       50;                     ///< asked about one mutant of so many, and all that are accepted of a changed claim
   std::filesystem::path out;  ///< folder, made for the first finding; empty: nothing is saved
   std::size_t max_findings = 20;
+  std::optional<std::filesystem::path> corpus;  ///< folder that is there: asked about first, added to
 };
 
 struct ProofFinding {
-  std::string name;  ///< of the case
+  std::string name;  ///< of the case, or "corpus/" and the folder
   std::string mutations;
   std::uint64_t block = 0;       ///< of the seed
   std::size_t index = 0;         ///< within the block
@@ -68,12 +69,26 @@ struct ProofFuzzReport {
   std::uint64_t judged = 0;      ///< accepted or refuted, of a changed claim or trajectory, and decided by the oracle
   std::uint64_t not_judged = 0;  ///< the same, about a run
   std::uint64_t findings_total = 0;
+  std::size_t corpus_size = 0;  ///< proofs in the corpus, of before and new
   std::vector<ProofFinding> findings;
 };
 
-/// Runs until a limit; with a count the report is the same for any number of threads. Throws std::system_error when a
-/// finding cannot be saved.
+/// Runs until a limit; with a count and without a corpus the report is the same for any number of threads. Throws
+/// std::system_error when something cannot be saved, InputError for a corpus that cannot be read.
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options);
+
+/// What came of one proof.
+struct ProofJudgement {
+  ProofAnswer plain;
+  std::optional<ProofAnswer> verified;  ///< if it was asked
+  std::optional<bool> truth;            ///< of the claim, where that is judged and the plain checker did not reject it
+  bool judged = false;                  ///< truth was found by the oracle
+  bool stopped = false;                 ///< by the user, before the verified checker had answered
+  std::string difference;               ///< empty: there is nothing wrong
+};
+
+/// Both checkers and the oracle about a proof that was saved.
+ProofJudgement judge_proof(const ProofFiles& files, const ProofFuzzOptions& options);
 
 /// Whether the claim of a proof holds of its trajectory; nothing where that is not judged. `whole`: else only frames
 /// before the first that cannot be read count, as for a witness, behind whose step no checker looks. Throws InputError

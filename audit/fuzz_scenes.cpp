@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/fuzz_scenes.h"
-#include "noli/audit/kind_of_difference.h"
 
 #include <fmt/format.h>
 
 #include <atomic>
 #include <utility>
 
+#include "noli/audit/kind_of_difference.h"
+#include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/sha256.h"
 #include "noli/trajectory/text.h"
@@ -19,8 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t scenes_per_block = 4;
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+constexpr const char *scene_file = "scene.json", *wrong_place_file = "wrong_place";  // of a corpus
 
 /// The word behind a key in a verdict line: "verdict no_contact end done windows 5".
 std::string word_behind(const std::string& line, const std::string& key) {
@@ -148,14 +148,18 @@ struct JudgedScene {
 
 class SceneFuzzing {
  public:
-  explicit SceneFuzzing(const SceneFuzzOptions& options) : options_(options) {}
+  explicit SceneFuzzing(const SceneFuzzOptions& options) : options_(options) {
+    if (options.corpus) corpus_.emplace(*options.corpus);
+  }
 
   SceneFuzzReport run() {
+    if (corpus_) run_corpus();
     report_.extent = fuzz_blocks(
         options_.limits, scenes_per_block,
         [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
         [this](std::vector<JudgedScene> block) { take_block(std::move(block)); });
     report_.extent.items = taken_;
+    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
 
@@ -182,6 +186,27 @@ class SceneFuzzing {
     return judged;
   }
 
+  void run_corpus() {
+    for (const std::string& name : corpus_->names()) {
+      if (options_.limits.stop && options_.limits.stop->load()) return;
+      const fs::path folder = corpus_->folder(name), wrong = folder / wrong_place_file;
+      JudgedScene one{{read_saved_scene(folder / scene_file), {}}, "corpus/" + name, {}};
+      if (fs::exists(wrong)) one.made.wrong_place = first_line(read_whole_file(wrong));
+      one.judgement = judge(one.made);
+      if (one.judgement.difference) keep(std::move(one), 0);
+    }
+  }
+
+  /// The simulations of a generator that end in the same way have one shape.
+  void add_to_corpus(const JudgedScene& one) {
+    const std::string shape = one.generator + ": " + without_numbers(one.judgement.end);
+    if (!corpus_->reached(shape)) return;
+    corpus_->add(shape, [&](const fs::path& folder) {
+      write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
+      if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
+    });
+  }
+
   void take_block(std::vector<JudgedScene> block) {
     for (std::size_t index = 0; index < block.size(); ++index) {
       JudgedScene& one = block[index];
@@ -189,6 +214,7 @@ class SceneFuzzing {
       ++report_.ends[one.generator][one.judgement.end.empty() ? "failed" : one.judgement.end];
       report_.verified += one.judgement.verified ? 1 : 0;
       report_.resumed += one.judgement.resumed ? 1 : 0;
+      if (corpus_ && !one.judgement.difference) add_to_corpus(one);
       if (one.judgement.difference) keep(std::move(one), index);
     }
     ++block_;
@@ -211,10 +237,12 @@ class SceneFuzzing {
   }
 
   void save(SceneFinding& finding) const {
-    const fs::path folder = options_.out / fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
-                                                       finding.index, finding.generator);
+    const bool known = finding.generator.starts_with("corpus/");
+    const fs::path folder = options_.out / (known ? finding.generator
+                                                  : fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed,
+                                                                finding.block, finding.index, finding.generator));
     fs::create_directories(folder);
-    finding.file = folder / "scene.json";
+    finding.file = folder / scene_file;
     write_file(finding.file, finding.shrunk.dump(2) + '\n');
     std::vector<std::string> command = {"noli", "fuzz", "scenes", "--replay", finding.file};
     if (finding.wrong_place) command.insert(command.end(), {"--wrong-place", *finding.wrong_place});
@@ -225,10 +253,19 @@ class SceneFuzzing {
   mutable std::atomic<std::uint64_t> number_ = 0;
   std::uint64_t block_ = 0, taken_ = 0;
   std::map<std::string, std::size_t> alike_;  ///< by difference
+  std::optional<ShapeCorpus> corpus_;
   SceneFuzzReport report_;
 };
 
 }  // namespace
+
+SceneJson read_saved_scene(const fs::path& file) {
+  try {
+    return SceneJson::parse(read_whole_file(file));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file.string(), "", std::string("expected a scene: ") + error.what());
+  }
+}
 
 SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli, const fs::path& folder) {
   return SceneJudge(scene, noli, folder).judge();

@@ -35,15 +35,16 @@ using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
 struct SceneFuzzOptions {
   FuzzLimits limits;
   RunNoli noli;
-  std::filesystem::path desk;       ///< folder that is there, for runs
-  std::filesystem::path out;        ///< folder, made for the first finding; empty: nothing is saved
-  std::size_t max_findings = 20;    ///< shrink and save at most that many; all are counted
-  std::size_t max_alike = 3;        ///< and at most so many whose difference has the same words
-  std::size_t shrink_budget = 150;  ///< scenes to try for each of them
+  std::filesystem::path desk;                   ///< folder that is there, for runs
+  std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
+  std::size_t max_findings = 20;                ///< shrink and save at most that many; all are counted
+  std::size_t max_alike = 3;                    ///< and at most so many whose difference has the same words
+  std::size_t shrink_budget = 150;              ///< scenes to try for each of them
+  std::optional<std::filesystem::path> corpus;  ///< folder that is there: judged first, added to
 };
 
 struct SceneFinding {
-  std::string generator;
+  std::string generator;  ///< or "corpus/" and the folder
   std::uint64_t block = 0;
   std::size_t index = 0;
   std::string difference;      ///< in words, the first of which says what kind of difference it is
@@ -57,11 +58,13 @@ struct SceneFuzzReport {
   /// By generator, how often simulations came to which end: "exit 0", ...
   std::map<std::string, std::map<std::string, std::uint64_t>> ends;
   std::uint64_t verified = 0, resumed = 0;
+  std::size_t corpus_size = 0;  ///< scenes in the corpus, of before and new
   std::uint64_t findings_total = 0;
   std::vector<SceneFinding> findings;
 };
 
-/// Runs until a limit. Throws std::system_error when something cannot be saved.
+/// Runs until a limit. Throws std::system_error when something cannot be saved, InputError for a corpus that cannot be
+/// read.
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options);
 
 /// What came of one scene.
@@ -70,6 +73,9 @@ struct SceneJudgement {
   bool verified = false, resumed = false, stopped = false;
   std::optional<std::string> difference;
 };
+
+/// A scene that was saved. Throws InputError.
+SceneJson read_saved_scene(const std::filesystem::path& file);
 
 /// Simulates and so on, in a folder that is there and empty.
 SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli, const std::filesystem::path& folder);

@@ -11,7 +11,7 @@
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/run_program.h"
-#include "noli/trajectory/sha256.h"
+#include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
 
@@ -47,32 +47,6 @@ Judged judge(GeneratedMotion made, bool needs_witness, const DecideMotion& decid
   }
   return judged;
 }
-
-/// Motions of different shapes, each in a folder of its own with the file `shape`.
-class Corpus {
- public:
-  explicit Corpus(const fs::path& folder) : folder_(folder) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (fs::exists(entry.path() / "shape")) names_.push_back(entry.path().filename().string());
-    }
-    std::ranges::sort(names_);
-  }
-
-  const std::vector<std::string>& names() const { return names_; }
-  FrameMotion motion(const std::string& name) const { return read_frames(folder_ / name); }
-
-  void add(const FrameMotion& motion, const std::string& shape) {
-    names_.push_back("shape-" + hex(sha256(shape)).substr(0, 16));
-    const fs::path folder = folder_ / names_.back();
-    fs::create_directories(folder);
-    write_frames(motion, folder);
-    write_file(folder / "shape", shape + '\n');
-  }
-
- private:
-  fs::path folder_;
-  std::vector<std::string> names_;
-};
 
 class TrajectoryFuzzing {
  public:
@@ -116,7 +90,7 @@ class TrajectoryFuzzing {
   void run_corpus() {
     for (const std::string& name : corpus_->names()) {
       if (options_.limits.stop && options_.limits.stop->load()) return;
-      Judged judged = judge({corpus_->motion(name), {}}, false, options_.decide);
+      Judged judged = judge({read_frames(corpus_->folder(name)), {}}, false, options_.decide);
       shapes_.insert(judged.answer.shape);
       if (judged.difference) keep(std::move(judged), name, 0, 0);
     }
@@ -136,7 +110,7 @@ class TrajectoryFuzzing {
     if (judged.answer.plain != CheckerWord::not_asked) ++report_.checked_plain;
     if (judged.answer.verified != CheckerWord::not_asked) ++report_.checked_verified;
     if (shapes_.insert(judged.answer.shape).second && corpus_ && !judged.difference) {
-      corpus_->add(judged.motion, judged.answer.shape);
+      corpus_->add(judged.answer.shape, [&](const fs::path& folder) { write_frames(judged.motion, folder); });
     }
     if (judged.difference) keep(std::move(judged), tally.name, block_, index);
   }
@@ -179,7 +153,7 @@ class TrajectoryFuzzing {
   }
 
   const TrajectoryOptions& options_;
-  std::optional<Corpus> corpus_;
+  std::optional<ShapeCorpus> corpus_;
   std::set<std::string> shapes_;
   std::uint64_t block_ = 0;
   TrajectoryReport report_;

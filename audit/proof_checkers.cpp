@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -16,6 +17,8 @@
 #include "noli/audit/pipe.h"
 #include "noli/audit/start_process.h"
 #include "noli/trajectory/bytes.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::audit {
@@ -32,8 +35,8 @@ std::string trajectory_name(const ProofFiles& files, std::size_t i) {
 constexpr const char* proof_name = "proof.noli";
 
 ProofAnswer answer_of(int code) {
-  if (code == 0 || code == 1 || code == 3) return {code, ""};
-  return {code, fmt::format("exit code {}", code)};
+  if (code == 0 || code == 1 || code == 3) return {code, "", ""};
+  return {code, fmt::format("exit code {}", code), ""};
 }
 
 /// A host at work.
@@ -59,21 +62,23 @@ class Host {
     return true;
   }
 
-  /// A byte; nothing when it has ended, or says nothing within the limit.
-  std::optional<unsigned char> receive(std::chrono::milliseconds limit) {
+  /// So many bytes; nothing when it has ended, or does not say them within the limit.
+  std::optional<std::string> receive(std::size_t count, std::chrono::milliseconds limit) {
     const auto deadline = std::chrono::steady_clock::now() + limit;
-    for (;;) {
+    std::string bytes;
+    while (bytes.size() < count) {
       const auto left =
           std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
       hung_ = left.count() <= 0;
       if (hung_) return std::nullopt;
       pollfd end{from_.end(0), POLLIN, 0};
       if (::poll(&end, 1, static_cast<int>(left.count())) <= 0) continue;
-      unsigned char byte = 0;
-      const ssize_t got = ::read(from_.end(0), &byte, 1);
-      if (got == 1) return byte;
-      if (got == 0 || errno != EINTR) return std::nullopt;
+      std::array<char, 4096> part;
+      const ssize_t got = ::read(from_.end(0), part.data(), std::min(part.size(), count - bytes.size()));
+      if (got > 0) bytes.append(part.data(), static_cast<std::size_t>(got));
+      if (got == 0 || (got < 0 && errno != EINTR)) return std::nullopt;
     }
+    return bytes;
   }
 
   /// How it ended; it is ended with this.
@@ -119,7 +124,7 @@ class HostedChecker : public ProofChecker {
   }
 
   ProofAnswer check(const ProofFiles& files) override {
-    std::string records = file_record(proof_name, files.proof), run = "R";
+    std::string records = file_record(proof_name, files.proof), run = "W";
     run += static_cast<char>(files.files.size() + 1);
     run += name_record(proof_name);
     for (std::size_t i = 0; i < files.files.size(); ++i) {
@@ -127,13 +132,25 @@ class HostedChecker : public ProofChecker {
       run += name_record(trajectory_name(files, i));
     }
     host_->send(records + run);  // what it does not read it does not answer
-    if (const auto code = host_->receive(limit_)) return answer_of(*code);
-    ProofAnswer answer{-1, host_->last_words()};
+    if (auto answer = receive()) return std::move(*answer);
+    ProofAnswer answer{-1, host_->last_words(), ""};
     host_.emplace(program_, folder_);
     return answer;
   }
 
  private:
+  std::optional<ProofAnswer> receive() {
+    const auto head = host_->receive(5, limit_);
+    if (!head) return std::nullopt;
+    std::uint32_t length;
+    std::memcpy(&length, head->data() + 1, 4);
+    const auto words = host_->receive(length, limit_);
+    if (!words) return std::nullopt;
+    ProofAnswer answer = answer_of(static_cast<unsigned char>((*head)[0]));
+    answer.words = first_line(*words);
+    return answer;
+  }
+
   fs::path program_, folder_;
   std::chrono::milliseconds limit_;
   std::optional<Host> host_;
@@ -148,7 +165,7 @@ class ProgramChecker : public ProofChecker {
     std::vector<std::string> words = {program_.string()};
     for (const std::string& name : write_proof_files(files, folder_)) words.push_back(folder_ / name);
     const ProgramEnd end = run_program(std::move(words), limits_);
-    return end.kind == ProgramEnd::Kind::exited ? answer_of(end.code) : ProofAnswer{-1, end.words()};
+    return end.kind == ProgramEnd::Kind::exited ? answer_of(end.code) : ProofAnswer{-1, end.words(), ""};
   }
 
  private:
@@ -176,6 +193,20 @@ std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::pa
     write_file(folder / names.back(), files.files[i]);
   }
   return names;
+}
+
+ProofFiles read_proof_files(const fs::path& folder) {
+  ProofFiles files;
+  files.proof = read_whole_file(folder / proof_name);
+  for (const char* const extension : {"ply", "obj", "blocks"}) {
+    files.extension = extension;
+    while (fs::exists(folder / trajectory_name(files, files.files.size()))) {
+      files.files.push_back(read_whole_file(folder / trajectory_name(files, files.files.size())));
+      if (files.extension == "blocks") break;
+    }
+    if (!files.files.empty()) return files;
+  }
+  throw InputError(folder.string(), "", "expected trajectory-0.ply, trajectory-0.obj or trajectory.blocks in it");
 }
 
 }  // namespace noli::audit

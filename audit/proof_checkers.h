@@ -28,6 +28,7 @@ struct ProofFiles {
 struct ProofAnswer {
   int code = 0;         ///< 0 accepted, 1 refuted, 3 rejected
   std::string failure;  ///< how it failed to say any of these, in words; then the code does not count
+  std::string words{};  ///< of the host: the first line of what it printed
 };
 
 /// A checker that one thread asks.
@@ -51,5 +52,8 @@ std::unique_ptr<ProofChecker> program_checker(const std::filesystem::path& progr
 
 /// Writes proof.noli and trajectory-0.ply, ... (or trajectory.blocks); the names in the order of a command line.
 std::vector<std::string> write_proof_files(const ProofFiles& files, const std::filesystem::path& folder);
+
+/// What was written so. Throws InputError.
+ProofFiles read_proof_files(const std::filesystem::path& folder);
 
 }  // namespace noli::audit

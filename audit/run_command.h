@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "noli/trajectory/text.h"
+
 namespace noli::audit {
 
 struct CommandRun {
@@ -28,7 +30,7 @@ struct CommandRun {
 
   bool exited(int with) const { return end == End::exited && code == with; }
   /// The first line of its output, without its end.
-  std::string verdict_line() const { return out.substr(0, out.find('\n')); }
+  std::string verdict_line() const { return first_line(out); }
 };
 
 /// "exit 3", "signal 11", "no end after 20 s", "stopped".

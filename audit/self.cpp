@@ -13,6 +13,7 @@
 #include "noli/audit/scratch_folder.h"
 #include "noli/audit/stability_rows.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::audit {
@@ -49,10 +50,9 @@ constexpr std::chrono::minutes grace{10};
 
 struct Stopped {};
 
-std::string first_line(const std::string& text) { return on_one_line(text.substr(0, text.find('\n'))); }
-
 std::string told(const CommandRun& run) {
-  const std::string words = first_line(run.out.starts_with("verdict") || run.err.empty() ? run.out : run.err);
+  const std::string words =
+      on_one_line(first_line(run.out.starts_with("verdict") || run.err.empty() ? run.out : run.err));
   return end_words(run) + (words.empty() ? "" : ": " + words);
 }
 
@@ -166,7 +166,8 @@ class SelfAudit {
     const CommandRun run = noli({"--version"});
     const bool passed = run.out.find("\nrounding self-test passed\n") != std::string::npos;
     if (run.exited(0) && passed) return hold(p);
-    fail(p, run.exited(0) ? first_line(run.out.substr(std::min(run.out.find("rounding"), run.out.size()))) : told(run));
+    fail(p, run.exited(0) ? on_one_line(first_line(run.out.substr(std::min(run.out.find("rounding"), run.out.size()))))
+                          : told(run));
   }
 
   void labels(SelfPart& p) const {

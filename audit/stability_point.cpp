@@ -14,6 +14,7 @@
 
 #include "noli/audit/run_command.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::audit {
@@ -111,7 +112,7 @@ class Asking {
     if (!ended_well(run)) return point_;
     const std::string expected = what.touch ? "verdict contact " : "verdict proved ";
     if (run.code == (what.touch ? 1 : 0) && run.out.starts_with(expected)) return point_;
-    gives("answer", first_line(run.code <= 2 ? run.out : run.err));
+    gives("answer", line_of(run.code <= 2 ? run.out : run.err));
     // What is no answer is none that is wrong.
     if (run.code <= 1) finding(fmt::format("{}, but they {}", run.verdict_line(), what.touch ? "touch" : "stay apart"));
     return point_;
@@ -137,9 +138,9 @@ class Asking {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   /// Without the folder, which has another name each time.
-  std::string first_line(const std::string& text) const {
+  std::string line_of(const std::string& text) const {
     const std::string prefix = path("");
-    std::string line = on_one_line(text.substr(0, text.find('\n')));
+    std::string line = on_one_line(first_line(text));
     for (std::size_t at; (at = line.find(prefix)) != std::string::npos;) line.erase(at, prefix.size());
     return line;
   }
@@ -163,8 +164,8 @@ class Asking {
   bool ended_well(const CommandRun& run) {
     if (run.end == CommandRun::End::stopped) return false;
     if (run.end == CommandRun::End::exited && run.code >= 0 && run.code <= 3) return true;
-    gives(end_words(run), first_line(run.err));
-    finding(end_words(run) + (run.err.empty() ? "" : ": " + first_line(run.err)));
+    gives(end_words(run), line_of(run.err));
+    finding(end_words(run) + (run.err.empty() ? "" : ": " + line_of(run.err)));
     return false;
   }
 
@@ -207,7 +208,7 @@ class Asking {
 
   /// The line that tells why it ends.
   std::string said(const CommandRun& run, const Json& document) const {
-    if (run.code == 3) return first_line(run.err);
+    if (run.code == 3) return line_of(run.err);
     return fmt::format("{} after {} of {} windows", document["end"].get<std::string>(), document["windows"].dump(),
                        document["windows_total"].dump());
   }
@@ -221,7 +222,7 @@ class Asking {
     if (run.code == 0 && good && run.verdict_line().find(steps) != std::string::npos) return;
     gives("verified", run.verdict_line());
     finding(fmt::format("of a run with {} windows `noli verify` says, with exit {}: {}", windows, run.code,
-                        first_line(run.out.empty() ? run.err : run.out)));
+                        line_of(run.out.empty() ? run.err : run.out)));
   }
 
   std::optional<Columns> series(const char* figure) {
@@ -230,7 +231,7 @@ class Asking {
     if (!ended_well(run)) return std::nullopt;
     const Columns columns(bytes_of(file));
     if (run.code == 0 && columns.rows() > 0) return columns;
-    broken("finite", fmt::format("there is no series of {}: {}", figure, first_line(run.err)));
+    broken("finite", fmt::format("there is no series of {}: {}", figure, line_of(run.err)));
     return std::nullopt;
   }
 

@@ -26,6 +26,9 @@ std::string byte_place(std::size_t offset);
 /// A word of the file in quotes, fit for a one-line message: shortened when long, unprintable bytes shown as '?'.
 std::string in_quotes(std::string_view word);
 
+/// What stands before the first line end.
+inline std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
+
 /// Walks over the lines of a text. A line ends with LF or CRLF; the last one may end with the text.
 class Lines {
  public:

@@ -5,11 +5,12 @@
 //
 //   F  name data                writes the file FOLDER/name
 //   R  count name...            runs the checker in this process with these arguments, files in FOLDER
+//   W  count name...            the same, and tells what it printed
 //   E  program count name...    runs a program with them, in a process of its own
 //
 // Names are a byte of length and the bytes; data are a u32 of length, little-endian, and the bytes; a count is a byte.
-// R and E are answered on standard output with one byte: the exit code; 128 and the signal, if E's program ended by
-// one. What the checkers print is dropped.
+// R, W and E are answered on standard output with one byte: the exit code; 128 and the signal, if E's program ended by
+// one; W then with data, at most 65,535 bytes of what the checker printed.
 //
 // What this does not do: it judges no answer, and does not survive a crash of the checker in R; whoever reads its
 // answers sees from their number which proof it was.
@@ -19,6 +20,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -62,28 +64,61 @@ int exit_code_of(const std::string& program, std::vector<char*> arguments) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+/// Where the checker's standard output goes, which is this process's own.
+class Words {
+ public:
+  Words() : file_(memfd_create("words", 0)) {
+    if (file_ < 0 || dup2(file_, STDOUT_FILENO) < 0) stop("standard output cannot be moved");
+  }
+
+  /// What was printed since the last time.
+  std::string take() const {
+    std::fflush(stdout);
+    std::string words(65535, '\0');
+    const ssize_t size = pread(file_, words.data(), words.size(), 0);
+    if (size < 0 || ftruncate(file_, 0) != 0 || lseek(file_, 0, SEEK_SET) != 0) stop("its words cannot be read");
+    words.resize(static_cast<std::size_t>(size));
+    return words;
+  }
+
+ private:
+  int file_;
+};
+
+void answer(int to, const std::string& bytes) {
+  if (write(to, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) stop("nobody reads the answers");
+}
+
+std::string data_record(const std::string& bytes) {
+  const auto length = static_cast<std::uint32_t>(bytes.size());
+  std::string record(4, '\0');
+  std::memcpy(record.data(), &length, 4);
+  return record + bytes;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2 || chdir(argv[1]) != 0) stop("expected a folder");
   const int answers = dup(1);
-  if (answers < 0 || std::freopen("/dev/null", "w", stdout) == nullptr) stop("standard output cannot be moved");
+  if (answers < 0) stop("standard output cannot be moved");
+  const Words words_of_checker;
   for (int kind; (kind = std::getchar()) != EOF;) {
     if (kind == 'F') {
       write_file();
       continue;
     }
-    if (kind != 'R' && kind != 'E') stop("an unknown record");
+    if (kind != 'R' && kind != 'W' && kind != 'E') stop("an unknown record");
     std::vector<std::string> words = {kind == 'E' ? read_name() : "noli_check"};
     for (std::size_t count = read_byte(); count > 0; --count) words.push_back(read_name());
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
     for (auto& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    const auto code =
-        static_cast<unsigned char>(kind == 'R' ? noli_check_main(static_cast<int>(words.size()), arguments.data())
-                                               : exit_code_of(words[0], arguments));
-    if (write(answers, &code, 1) != 1) stop("nobody reads the answers");
+    const int code = kind == 'E' ? exit_code_of(words[0], arguments)
+                                 : noli_check_main(static_cast<int>(words.size()), arguments.data());
+    const std::string said = words_of_checker.take();
+    answer(answers, std::string(1, static_cast<char>(code)) + (kind == 'W' ? data_record(said) : ""));
   }
   return 0;
 }

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
@@ -106,6 +107,26 @@ TEST(FuzzProofsCommand, TakesAProofOfYourOwn) {
   EXPECT_GT(document["judged"], 0);
   folder.write("a.ply", two_triangles(2));
   EXPECT_EQ(run_noli({"fuzz", "proofs", proof, a, b, "--count", "10"}).exit_code, 3) << "a proof of something else";
+}
+
+TEST(FuzzProofsCommand, KeepsAndReplaysWhatReachedSomethingNew) {
+  const Folder folder;
+  const std::string a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(0.5));
+  const std::string proof = folder.path("ab.noli"), corpus = folder.path("corpus");
+  ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof}).exit_code, 0);
+  const std::vector<std::string> words = {"fuzz", "proofs",    proof, a,          b,     "--count",
+                                          "512",  "--threads", "1",   "--corpus", corpus};
+  const Json document = json_of(words, 0);
+  EXPECT_GT(document["corpus"], 10);
+  std::set<std::string> said;
+  for (const auto& kept : std::filesystem::directory_iterator(corpus)) {
+    const Json again = json_of({"fuzz", "proofs", "--replay", kept.path().string()}, 0);
+    EXPECT_EQ(again["verdict"], "no_finding");
+    EXPECT_EQ(again["plain"], again["verified"]);
+    EXPECT_EQ(again["claim"] != "not_judged", again["plain"] != "rejected");
+    said.insert(again["plain"]);
+  }
+  EXPECT_TRUE(said.count("accepted") == 1 && said.count("rejected") == 1);
 }
 
 TEST(FuzzScenesCommand, JudgesASceneAgain) {

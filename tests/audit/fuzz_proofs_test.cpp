@@ -134,9 +134,32 @@ TEST_F(FuzzProofs, FindsCheckersThatDiffer) {
   EXPECT_EQ(finding.difference, "the plain checker: accepted, the verified one: rejected");
   std::ifstream readme(finding.folder / "README");
   const std::string text{std::istreambuf_iterator<char>(readme), {}};
-  EXPECT_NE(text.find("noli check "), std::string::npos) << text;
+  EXPECT_NE(text.find("noli fuzz proofs --replay "), std::string::npos) << text;
+  const ProofFiles saved = read_proof_files(finding.folder);
+  EXPECT_EQ(saved.proof, finding.files.proof);
+  EXPECT_EQ(saved.files, finding.files.files);
+  EXPECT_EQ(judge_proof(saved, options).difference, finding.difference);
   EXPECT_EQ(knows_one(finding.files).code, 3);
   EXPECT_EQ(believes_all(finding.files).code, 0) << "what was saved still shows it";
+}
+
+TEST_F(FuzzProofs, KeepsOneProofOfEachShapeAndJudgesThemFirst) {
+  const auto words_of_size = [](const ProofFiles& files) -> ProofAnswer {
+    return {3, "", "rejected: at " + std::to_string(files.proof.size()) + (files.proof.size() % 2 == 0 ? "" : " odd")};
+  };
+  options.plain = fake(words_of_size);
+  options.verified = {};
+  options.corpus = folder / "corpus";
+  std::filesystem::create_directory(*options.corpus);
+  EXPECT_EQ(fuzz_proofs(options).corpus_size, 2u) << "numbers are no shapes";
+  options.limits.seed = 2;
+  EXPECT_EQ(fuzz_proofs(options).corpus_size, 2u);
+
+  options.plain = fake([](const ProofFiles&) -> ProofAnswer { return {-1, "signal 11"}; });
+  const ProofFuzzReport report = fuzz_proofs(options);
+  ASSERT_GE(report.findings.size(), 2u);
+  EXPECT_TRUE(report.findings[0].name.starts_with("corpus/shape-")) << report.findings[0].name;
+  EXPECT_TRUE(std::filesystem::exists(report.findings[1].folder / "proof.noli"));
 }
 
 TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {

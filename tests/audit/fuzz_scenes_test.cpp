@@ -69,6 +69,22 @@ TEST_F(FuzzScenes, FindsNothingInValidScenesWhereNothingIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(options.out));
 }
 
+TEST_F(FuzzScenes, KeepsOneSceneOfEachShapeAndJudgesThemFirst) {
+  options.limits.count = 11;
+  options.noli = does_well;
+  options.corpus = folder / "corpus";
+  std::filesystem::create_directory(*options.corpus);
+  EXPECT_EQ(fuzz_scenes(options).corpus_size, 11u) << "all end alike, but are of different generators";
+  EXPECT_EQ(fuzz_scenes(options).corpus_size, 11u);
+
+  options.limits.count = 1;
+  options.noli = [](const std::vector<std::string>&) { return ended(4, "", "noli: out of memory"); };
+  const SceneFuzzReport report = fuzz_scenes(options);
+  EXPECT_EQ(report.findings_total, 12u);
+  EXPECT_TRUE(report.findings[0].generator.starts_with("corpus/shape-")) << report.findings[0].generator;
+  EXPECT_TRUE(std::filesystem::exists(report.findings[0].file));
+}
+
 TEST_F(FuzzScenes, AWrongSceneThatIsAcceptedIsAFinding) {
   options.limits.count = 12;
   options.noli = does_well;
