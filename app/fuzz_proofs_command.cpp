@@ -171,23 +171,16 @@ class CheckersBeside {
  public:
   explicit CheckersBeside(const fs::path& folder) : folder_(folder) {}
 
-  audit::MakeChecker plain() {
-    return [this] {
-      return audit::hosted_checker(beside_this_program("noli_check_host"), new_desk(), std::chrono::seconds(20));
-    };
-  }
-
-  /// Nothing where there is none.
-  audit::MakeChecker verified() {
-    const fs::path program = beside_this_program("noli_check_verified");
-    if (!fs::exists(program)) {
-      std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
-      return {};
-    }
-    return [this, program] {
+  audit::MakeCheckers make() {
+    const fs::path verified = beside_this_program("noli_check_verified");
+    const bool has_verified = fs::exists(verified);
+    if (!has_verified) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
+    return [this, verified, has_verified] {
       audit::ProgramLimits limits;
       limits.stop = &interrupted();
-      return audit::program_checker(program, new_desk(), limits);
+      return audit::Checkers{
+          audit::hosted_checker(beside_this_program("noli_check_host"), new_desk(), std::chrono::seconds(20)),
+          has_verified ? audit::program_checker(verified, new_desk(), limits) : nullptr};
     };
   }
 
@@ -214,8 +207,7 @@ ExitCode run(ProofsArguments& arguments) {
   options.out = arguments.common.out;
   options.corpus = corpus_folder(arguments.common);
   options.verified_every = arguments.verified_every;
-  options.plain = checkers.plain();
-  options.verified = checkers.verified();
+  options.make_checkers = checkers.make();
   if (arguments.files.empty()) {
     options.cases = made_cases(scratch.path());
   } else {
@@ -234,11 +226,6 @@ ExitCode run(ProofsArguments& arguments) {
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
-const char* said(const audit::ProofAnswer& answer) {
-  if (!answer.failure.empty()) return "failed";
-  return answer.code == 0 ? "accepted" : answer.code == 1 ? "refuted" : "rejected";
-}
-
 /// A saved proof again.
 ExitCode again(const ProofsArguments& arguments) {
   if (!arguments.files.empty()) throw UsageError("--replay takes a folder that was saved; expected no other files");
@@ -246,19 +233,16 @@ ExitCode again(const ProofsArguments& arguments) {
   const audit::ProofFiles files = audit::read_proof_files(*arguments.replay);
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   CheckersBeside checkers(scratch.path());
-  audit::ProofFuzzOptions options;
-  options.plain = checkers.plain();
-  options.verified = checkers.verified();
-  const audit::ProofJudgement judged = audit::judge_proof(files, options);
+  const audit::ProofJudgement judged = audit::judge_proof(files, checkers.make()());
   const bool finding = !judged.difference.empty();
   const char* const word = finding ? "finding" : judged.stopped ? "undecided" : "no_finding";
-  const char* const verified = judged.verified ? said(*judged.verified) : "not_asked";
+  const char* const verified = judged.verified ? word_of(*judged.verified) : "not_asked";
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
-  output.write(fmt::format("verdict {} plain {} verified {} claim {}\n{}{}", word, said(judged.plain), verified, claim,
-                           judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + "\n",
+  output.write(fmt::format("verdict {} plain {} verified {} claim {}\n{}{}", word, word_of(judged.plain), verified,
+                           claim, judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + "\n",
                            finding ? on_one_line(judged.difference) + "\n" : ""),
                {{"verdict", word},
-                {"plain", said(judged.plain)},
+                {"plain", word_of(judged.plain)},
                 {"words", judged.plain.words},
                 {"verified", verified},
                 {"claim", claim},

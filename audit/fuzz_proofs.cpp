@@ -4,16 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <exception>
 #include <set>
 #include <utility>
 
-#include "noli/audit/claim_oracle.h"
-#include "noli/audit/parsed_claim.h"
+#include "noli/audit/minimise_mutant.h"
 #include "noli/audit/shape_corpus.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frames.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::audit {
@@ -24,199 +19,12 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t mutants_per_block = 512;
 
-const char* word(int code) { return code == 0 ? "accepted" : code == 1 ? "refuted" : "rejected"; }
-
-ProofFiles files_of(const ProofCase& from, const ProofMutant& mutant) {
-  return {mutant.proof, from.extension, mutant.files.value_or(from.files)};
-}
-
-/// The checkers of one thread.
-struct Checkers {
-  std::unique_ptr<ProofChecker> plain, verified;
-};
-
-Checkers make_checkers(const ProofFuzzOptions& options) {
-  return {options.plain(), options.verified ? options.verified() : nullptr};
-}
-
 struct JudgedMutant {
   ProofMutant mutant;
   std::size_t from = 0;  ///< the number of its case
   ProofJudgement judgement;
   std::string shape;
 };
-
-/// Asks the checkers, and the oracle where they accept what was changed.
-class ProofJudge {
- public:
-  ProofJudge(const ProofCase& from, const ProofMutant& mutant, Checkers& checkers)
-      : from_(from), mutant_(mutant), checkers_(checkers), files_(files_of(from, mutant)) {}
-
-  ProofJudgement judge(bool ask_verified) {
-    judgement_.plain = checkers_.plain->check(files_);
-    if (!judgement_.plain.failure.empty()) {
-      found("the plain checker: " + judgement_.plain.failure);
-      return std::move(judgement_);
-    }
-    if (judgement_.plain.code != 3) look_at_truth();
-    const bool accepted_anew = accepted() && (judgement_.judged || !judgement_.truth);
-    if (checkers_.verified && (ask_verified || accepted_anew)) compare();
-    return std::move(judgement_);
-  }
-
- private:
-  bool accepted() const { return judgement_.plain.code == 0; }
-  void found(const std::string& what) { judgement_.difference = what; }
-
-  void look_at_truth() {
-    const char* const said = word(judgement_.plain.code);
-    try {
-      find_truth();
-    } catch (const InputError& error) {
-      return found(fmt::format("the plain checker: {}, but Noli cannot read it: {}", said, error.what()));
-    }
-    if (judgement_.truth && *judgement_.truth != accepted())
-      found(fmt::format("the plain checker: {}, but the claim is {}", said, *judgement_.truth ? "true" : "false"));
-  }
-
-  /// Where neither claim nor trajectory was changed, what was true of the case is.
-  void find_truth() {
-    const bool unchanged =
-        !mutant_.files && parse_claim(parse_proof(mutant_.proof, "mutant")) == parse_claim(from_.groups);
-    judgement_.truth = unchanged ? !from_.refutes : claim_is_true(from_, mutant_, accepted());
-    judgement_.judged = !unchanged && judgement_.truth.has_value();
-  }
-
-  void compare() {
-    judgement_.verified = checkers_.verified->check(files_);
-    const ProofAnswer& verified = *judgement_.verified;
-    judgement_.stopped = verified.failure == "stopped";
-    if (judgement_.stopped) return;
-    if (!verified.failure.empty()) return found("the verified checker: " + verified.failure);
-    if (verified.code == judgement_.plain.code) return;
-    found(fmt::format("the plain checker: {}, the verified one: {}", word(judgement_.plain.code), word(verified.code)));
-  }
-
-  const ProofCase& from_;
-  const ProofMutant& mutant_;
-  Checkers& checkers_;
-  ProofFiles files_;
-  ProofJudgement judgement_;
-};
-
-/// What a mutant reached: where the checker rejects it, or that it takes what was changed.
-std::string shape_of(const ProofJudgement& judgement) {
-  if (judgement.plain.code == 3) return without_numbers(judgement.plain.words);
-  return fmt::format("{}: {}", word(judgement.plain.code),
-                     judgement.judged ? "a changed claim" : "the claim as it was");
-}
-
-/// A saved proof as a mutant of nothing: its claim is judged.
-JudgedMutant judge_saved(const ProofFiles& files, Checkers& checkers) {
-  ProofCase from;
-  from.name = "saved";
-  from.extension = files.extension;
-  from.files = files.files;
-  JudgedMutant judged;
-  judged.mutant = {"", files.proof, files.files};
-  judged.judgement = ProofJudge(from, judged.mutant, checkers).judge(true);
-  judged.shape = shape_of(judged.judgement);
-  return judged;
-}
-
-/// Puts back what the finding does not need to be changed.
-class MutantMinimiser {
- public:
-  MutantMinimiser(const ProofCase& from, ProofMutant mutant, std::function<bool(const ProofMutant&)> fails)
-      : from_(from), mutant_(std::move(mutant)), fails_(std::move(fails)) {}
-
-  ProofMutant run() {
-    put_back_files();
-    try {
-      ProofGroups groups = parse_proof(mutant_.proof, "mutant");
-      put_back_blocks(groups);
-    } catch (const InputError&) {  // its bytes are no blocks
-      put_back_bytes(mutant_.proof, from_.proof,
-                     [](ProofMutant& candidate, const std::string& bytes) { candidate.proof = bytes; });
-    }
-    return mutant_;
-  }
-
- private:
-  bool accept(const ProofMutant& candidate) {
-    if (!fails_(candidate)) return false;
-    mutant_ = candidate;
-    return true;
-  }
-
-  void put_back_files() {
-    if (!mutant_.files) return;
-    ProofMutant candidate = mutant_;
-    candidate.files.reset();
-    accept(candidate);
-  }
-
-  void put_back_blocks(ProofGroups& groups) {
-    for (std::size_t g = 0; g < std::min(groups.size(), from_.groups.size()); ++g) {
-      for (std::size_t b = 0; b < std::min(groups[g].size(), from_.groups[g].size()); ++b) {
-        if (groups[g][b] == from_.groups[g][b]) continue;
-        ProofGroups candidate = groups;
-        candidate[g][b] = from_.groups[g][b];
-        if (with(candidate)) {
-          groups = candidate;
-          continue;
-        }
-        put_back_bytes(groups[g][b].payload, from_.groups[g][b].payload,
-                       [&](ProofMutant& changed, const std::string& payload) {
-                         candidate = groups;
-                         candidate[g][b].payload = payload;
-                         changed.proof = proof_bytes(candidate);
-                       });
-      }
-    }
-  }
-
-  bool with(const ProofGroups& groups) {
-    ProofMutant candidate = mutant_;
-    candidate.proof = proof_bytes(groups);
-    return accept(candidate);
-  }
-
-  /// Byte by byte, where the lengths are equal.
-  template <class Change>
-  void put_back_bytes(std::string bytes, const std::string& original, const Change& change) {
-    for (std::size_t i = 0; bytes.size() == original.size() && i < bytes.size() && i < 4096; ++i) {
-      if (bytes[i] == original[i]) continue;
-      std::string candidate_bytes = bytes;
-      candidate_bytes[i] = original[i];
-      ProofMutant candidate = mutant_;
-      change(candidate, candidate_bytes);
-      if (accept(candidate)) bytes = candidate_bytes;
-    }
-  }
-
-  const ProofCase& from_;
-  ProofMutant mutant_;
-  std::function<bool(const ProofMutant&)> fails_;
-};
-
-/// The frames; if not the whole trajectory counts, up to the first that cannot be read.
-FrameMotion read_trajectory(const std::string& extension, const std::vector<std::string>& files, bool whole) {
-  FrameMotion motion;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    try {
-      const std::string name = fmt::format("frame-{}.{}", i, extension);
-      Frame frame = parse_frame(files[i], name);
-      if (i == 0) motion.mesh = frame.mesh;
-      require_same_mesh(motion.mesh, "frame-0", frame.mesh, name);
-      motion.frames.push_back(std::move(frame.positions));
-    } catch (const InputError&) {
-      if (whole) throw;
-      break;
-    }
-  }
-  return motion;
-}
 
 class ProofFuzzing {
  public:
@@ -240,7 +48,7 @@ class ProofFuzzing {
 
   std::vector<JudgedMutant> make_block(std::uint64_t block, std::uint64_t count) const {
     Random random(options_.limits.seed, block);
-    Checkers checkers = make_checkers(options_);
+    const Checkers checkers = options_.make_checkers();
     std::vector<JudgedMutant> all;
     std::set<std::string> shapes;
     for (std::uint64_t index = 0; index < count && !stopped(); ++index) {
@@ -248,7 +56,7 @@ class ProofFuzzing {
       judged.from = random.below(options_.cases.size());
       judged.mutant = make_mutant(options_.cases[judged.from], options_.cases, random);
       const bool ask_verified = (block * mutants_per_block + index) % options_.verified_every == 0;
-      judged.judgement = ProofJudge(options_.cases[judged.from], judged.mutant, checkers).judge(ask_verified);
+      judged.judgement = judge_mutant(options_.cases[judged.from], judged.mutant, checkers, ask_verified);
       judged.shape = shape_of(judged.judgement);
       const bool wanted = corpus_ && shapes.insert(judged.shape).second;
       if (judged.judgement.difference.empty() && !wanted) judged.mutant = {judged.mutant.mutations, {}, {}};
@@ -258,15 +66,15 @@ class ProofFuzzing {
   }
 
   void run_corpus() {
-    Checkers checkers = make_checkers(options_);
+    const Checkers checkers = options_.make_checkers();
     for (const std::string& name : corpus_->names()) {
       if (stopped()) return;
       const ProofFiles files = read_proof_files(corpus_->folder(name));
-      const JudgedMutant judged = judge_saved(files, checkers);
-      corpus_->reached(judged.shape);
-      if (judged.judgement.difference.empty()) continue;
+      const ProofJudgement judged = judge_proof(files, checkers);
+      corpus_->reached(shape_of(judged));
+      if (judged.difference.empty()) continue;
       ++report_.findings_total;
-      keep({"corpus/" + name, "", 0, 0, judged.judgement.difference, files, {}}, name);
+      keep({"corpus/" + name, "", 0, 0, judged.difference, files, {}}, name);
     }
   }
 
@@ -303,11 +111,11 @@ class ProofFuzzing {
     ++report_.findings_total;
     if (report_.findings.size() >= options_.max_findings) return;
     const ProofCase& from = options_.cases[judged.from];
-    Checkers checkers = make_checkers(options_);
+    const Checkers checkers = options_.make_checkers();
     const std::string& difference = judged.judgement.difference;
-    const ProofMutant simpler = MutantMinimiser(from, judged.mutant, [&](const ProofMutant& candidate) {
-                                  return ProofJudge(from, candidate, checkers).judge(true).difference == difference;
-                                }).run();
+    const ProofMutant simpler = minimise(from, judged.mutant, [&](const ProofMutant& candidate) {
+      return judge_mutant(from, candidate, checkers, true).difference == difference;
+    });
     keep({from.name, judged.mutant.mutations, block_, index, difference, files_of(from, simpler), {}},
          fmt::format("seed{}-block{}-index{}", options_.limits.seed, block_, index));
   }
@@ -334,25 +142,6 @@ class ProofFuzzing {
 };
 
 }  // namespace
-
-std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole) {
-  if (from.extension == "blocks") return std::nullopt;
-  const auto claim = parse_claim(parse_proof(mutant.proof, "mutant"));
-  if (claim && claim->source == 2) return std::nullopt;
-  const bool possible = claim && claim->source < 2 && (claim->dimension == 2 || claim->dimension == 3) &&
-                        std::isfinite(claim->eta) && claim->eta >= 0;
-  if (!possible) throw InputError("mutant", "", "makes no claim that could be true");
-  const FrameMotion motion = read_trajectory(from.extension, mutant.files ? *mutant.files : from.files, whole);
-  const auto claimed = claimed_mesh(*claim, motion.mesh);
-  if (!claimed) throw InputError("mutant", "", "merges a vertex that is not there");
-  if (motion.frames.size() < (claim->source == 1 ? 1 : 2)) throw InputError("mutant", "", "is about no step");
-  return claim_holds(*claim, *claimed, motion.frames);
-}
-
-ProofJudgement judge_proof(const ProofFiles& files, const ProofFuzzOptions& options) {
-  Checkers checkers = make_checkers(options);
-  return judge_saved(files, checkers).judgement;
-}
 
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options) { return ProofFuzzing(options).run(); }
 

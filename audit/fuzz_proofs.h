@@ -26,19 +26,15 @@
 #include <vector>
 
 #include "noli/audit/fuzz_blocks.h"
-#include "noli/audit/proof_checkers.h"
+#include "noli/audit/proof_judge.h"
 #include "noli/audit/proof_mutations.h"
 
 namespace noli::audit {
 
-/// A checker for each thread that asks for one.
-using MakeChecker = std::function<std::unique_ptr<ProofChecker>()>;
-
 struct ProofFuzzOptions {
   FuzzLimits limits;
   std::vector<ProofCase> cases;  ///< at least one
-  MakeChecker plain;             ///< asked about every mutant
-  MakeChecker verified;          ///< empty: there is none
+  MakeCheckers make_checkers;    ///< plain: asked about every mutant
   std::uint64_t verified_every =
       50;                     ///< asked about one mutant of so many, and all that are accepted of a changed claim
   std::filesystem::path out;  ///< folder, made for the first finding; empty: nothing is saved
@@ -76,23 +72,5 @@ struct ProofFuzzReport {
 /// Runs until a limit; with a count and without a corpus the report is the same for any number of threads. Throws
 /// std::system_error when something cannot be saved, InputError for a corpus that cannot be read.
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options);
-
-/// What came of one proof.
-struct ProofJudgement {
-  ProofAnswer plain;
-  std::optional<ProofAnswer> verified;  ///< if it was asked
-  std::optional<bool> truth;            ///< of the claim, where that is judged and the plain checker did not reject it
-  bool judged = false;                  ///< truth was found by the oracle
-  bool stopped = false;                 ///< by the user, before the verified checker had answered
-  std::string difference;               ///< empty: there is nothing wrong
-};
-
-/// Both checkers and the oracle about a proof that was saved.
-ProofJudgement judge_proof(const ProofFiles& files, const ProofFuzzOptions& options);
-
-/// Whether the claim of a proof holds of its trajectory; nothing where that is not judged. `whole`: else only frames
-/// before the first that cannot be read count, as for a witness, behind whose step no checker looks. Throws InputError
-/// for what cannot be read.
-std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole);
 
 }  // namespace noli::audit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Mutants of good proofs: wrong in one place or a few, and sometimes still right. What the checkers have to say of one
-// is decided elsewhere (audit/fuzz_proofs.h).
+// is decided elsewhere (audit/proof_judge.h).
 //
 // Most mutations know the format and put lengths, checksums and hashes right afterwards, so that the mutant reaches
 // what lies behind them; others are of plain bytes, or leave one hash wrong.

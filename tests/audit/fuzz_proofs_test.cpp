@@ -59,19 +59,17 @@ ProofCase example() {
   return made;
 }
 
+using Answer = ProofAnswer (*)(const ProofFiles& files);
+
 /// A checker that is a function.
 class FakeChecker : public ProofChecker {
  public:
-  explicit FakeChecker(ProofAnswer (*answer)(const ProofFiles& files)) : answer_(answer) {}
+  explicit FakeChecker(Answer answer) : answer_(answer) {}
   ProofAnswer check(const ProofFiles& files) override { return answer_(files); }
 
  private:
-  ProofAnswer (*answer_)(const ProofFiles& files);
+  Answer answer_;
 };
-
-MakeChecker fake(ProofAnswer (*answer)(const ProofFiles& files)) {
-  return [answer] { return std::make_unique<FakeChecker>(answer); };
-}
 
 /// Accepts the example, and nothing else.
 ProofAnswer knows_one(const ProofFiles& files) {
@@ -96,13 +94,16 @@ class FuzzProofs : public testing::Test {
     options.limits.count = 2000;
     options.limits.threads = 1;
     options.cases = {example()};
-    options.plain = fake(knows_one);
-    options.verified = fake(knows_one);
+    options.make_checkers = [this] {
+      return Checkers{std::make_unique<FakeChecker>(plain),
+                      verified == nullptr ? nullptr : std::make_unique<FakeChecker>(verified)};
+    };
     options.out = folder / "out";
     options.max_findings = 3;
   }
 
   test::TemporaryFolder folder;
+  Answer plain = knows_one, verified = knows_one;
   ProofFuzzOptions options;
 };
 
@@ -116,8 +117,8 @@ TEST_F(FuzzProofs, FindsNothingWhereNothingIsWrong) {
 }
 
 TEST_F(FuzzProofs, FindsAFalseClaimThatIsAccepted) {
-  options.plain = fake(believes_all);
-  options.verified = nullptr;
+  plain = believes_all;
+  verified = nullptr;
   const ProofFuzzReport report = fuzz_proofs(options);
   ASSERT_FALSE(report.findings.empty());
   std::set<std::string> differences;
@@ -126,7 +127,7 @@ TEST_F(FuzzProofs, FindsAFalseClaimThatIsAccepted) {
 }
 
 TEST_F(FuzzProofs, FindsCheckersThatDiffer) {
-  options.plain = fake(believes_all);
+  plain = believes_all;
   options.verified_every = 1;
   const ProofFuzzReport report = fuzz_proofs(options);
   ASSERT_FALSE(report.findings.empty());
@@ -138,7 +139,7 @@ TEST_F(FuzzProofs, FindsCheckersThatDiffer) {
   const ProofFiles saved = read_proof_files(finding.folder);
   EXPECT_EQ(saved.proof, finding.files.proof);
   EXPECT_EQ(saved.files, finding.files.files);
-  EXPECT_EQ(judge_proof(saved, options).difference, finding.difference);
+  EXPECT_EQ(judge_proof(saved, options.make_checkers()).difference, finding.difference);
   EXPECT_EQ(knows_one(finding.files).code, 3);
   EXPECT_EQ(believes_all(finding.files).code, 0) << "what was saved still shows it";
 }
@@ -147,15 +148,15 @@ TEST_F(FuzzProofs, KeepsOneProofOfEachShapeAndJudgesThemFirst) {
   const auto words_of_size = [](const ProofFiles& files) -> ProofAnswer {
     return {3, "", "rejected: at " + std::to_string(files.proof.size()) + (files.proof.size() % 2 == 0 ? "" : " odd")};
   };
-  options.plain = fake(words_of_size);
-  options.verified = {};
+  plain = words_of_size;
+  verified = nullptr;
   options.corpus = folder / "corpus";
   std::filesystem::create_directory(*options.corpus);
   EXPECT_EQ(fuzz_proofs(options).corpus_size, 2u) << "numbers are no shapes";
   options.limits.seed = 2;
   EXPECT_EQ(fuzz_proofs(options).corpus_size, 2u);
 
-  options.plain = fake([](const ProofFiles&) -> ProofAnswer { return {-1, "signal 11"}; });
+  plain = [](const ProofFiles&) -> ProofAnswer { return {-1, "signal 11"}; };
   const ProofFuzzReport report = fuzz_proofs(options);
   ASSERT_GE(report.findings.size(), 2u);
   EXPECT_TRUE(report.findings[0].name.starts_with("corpus/shape-")) << report.findings[0].name;
@@ -164,14 +165,14 @@ TEST_F(FuzzProofs, KeepsOneProofOfEachShapeAndJudgesThemFirst) {
 
 TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
   // A fault that hangs on one byte: which source the claim names.
-  options.plain = fake([](const ProofFiles& files) -> ProofAnswer {
+  plain = [](const ProofFiles& files) -> ProofAnswer {
     try {
       const auto claim = parse_claim(parse_proof(files.proof, "proof"));
       if (claim && claim->source == 3) return {-1, "signal 11"};
     } catch (const InputError&) {
     }
     return {3, ""};
-  });
+  };
   const ProofFuzzReport report = fuzz_proofs(options);
   ASSERT_FALSE(report.findings.empty());
   const ProofCase good = example();
@@ -187,7 +188,7 @@ TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
 TEST_F(FuzzProofs, DependsOnTheSeedAlone) {
   const auto codes = [&](int threads) {
     options.limits.threads = threads;
-    options.plain = fake(believes_all);
+    plain = believes_all;
     const ProofFuzzReport report = fuzz_proofs(options);
     return std::array{report.codes.accepted, report.codes.rejected, report.judged, report.findings_total};
   };
