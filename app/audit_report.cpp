@@ -28,6 +28,7 @@ Json counts_json(const AuditCounts& counts) {
           {"late", errors_json(counts.late)},
           {"early", errors_json(counts.early)},
           {"bad_times", counts.bad_times},
+          {"no_times", counts.no_times},
           {"changed", counts.changed},
           {"failures", counts.failures},
           {"crashes", counts.crashes},
@@ -174,11 +175,12 @@ void append_findings(const AuditOutcome& outcome, const LibraryAudit& audit, std
 }  // namespace
 
 Json errors_json(const audit::TimeErrors& errors) {
+  const auto figure = [&](double value) { return errors.count() == 0 ? Json() : Json(value); };
   return {{"count", errors.count()},
-          {"median", errors.median()},
-          {"worst", errors.worst()},
-          {"median_relative", errors.median_relative()},
-          {"worst_relative", errors.worst_relative()}};
+          {"median", figure(errors.median())},
+          {"worst", figure(errors.worst())},
+          {"median_relative", figure(errors.median_relative())},
+          {"worst_relative", figure(errors.worst_relative())}};
 }
 
 /// Columns as wide as their widest cell; the first `words` columns to the left, the rest to the right.

@@ -130,7 +130,8 @@ ExitCode run(SelfArguments& arguments) {
   audit::SelfOptions& options = arguments.options;
   options.fuzz_time = parse_duration(arguments.fuzz_time, "--for");
   options.scene_time = parse_duration(arguments.scene_time, "--scene-time");
-  options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : beside_this_program("noli");
+  if (arguments.program) require_program(*arguments.program, "--program");
+  options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : this_program_file();
   options.data = data_folder(arguments.data);
   options.scenes = arguments.scenes;
   options.out = arguments.out;

@@ -174,7 +174,8 @@ ExitCode run(StabilityArguments& arguments) {
   std::vector<StabilityRow> rows = chosen_rows(arguments.rows);
   for (StabilityRow& row : rows) row.values.resize(std::min<std::size_t>(row.values.size(), arguments.points));
   options.point_limit = parse_duration(arguments.point_limit, "--point-limit");
-  options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : beside_this_program("noli");
+  if (arguments.program) require_program(*arguments.program, "--program");
+  options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : this_program_file();
   const Output output(arguments.json, {options.program});
   require_writable_folder(arguments.out, "--out");
   options.out = arguments.out;

@@ -75,7 +75,7 @@ std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, cons
   const fs::path proof = desk / "proof.noli";
   const std::vector<fs::path> files = audit::write_frames(motion, desk);
   std::vector<std::string> words = {
-      beside_this_program("noli").string(), "verify", "--threads", "1", "--no-check", "--proof", proof};
+      this_program_file().string(), "verify", "--threads", "1", "--no-check", "--proof", proof};
   if (motion.at_rest()) words.emplace_back("--static");
   words.insert(words.end(), claim.begin(), claim.end());
   for (const fs::path& file : files) words.push_back(file);
@@ -223,6 +223,7 @@ ExitCode run(ProofsArguments& arguments) {
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, options.cases.size(), seconds),
                report_json(arguments, report, options.cases.size(), seconds));
+  report.extent.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 

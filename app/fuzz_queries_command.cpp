@@ -53,10 +53,12 @@ constexpr const char* queries_footer =
 
 constexpr const char* default_folder = "fuzz-findings";
 
+constexpr std::uint64_t default_megabytes = 2000;
+
 struct FuzzArguments {
   audit::FuzzOptions kernel;      ///< what the run against a library does not use is in here
   audit::LibraryUnderTest asked;  ///< path empty: none
-  std::uint64_t megabytes = 2000;
+  std::uint64_t megabytes = default_megabytes;
   bool first_only = false;
   std::string duration = "60s";
   std::string query_limit = "1s";
@@ -74,6 +76,7 @@ std::string again(const FuzzArguments& arguments, const fs::path& file) {
     command += " --library " + audit::quoted(arguments.asked.path.string());
     command += fmt::format(" --tolerance {}", arguments.asked.tolerance);
     if (arguments.query_limit != "1s") command += " --query-limit " + audit::quoted(arguments.query_limit);
+    if (arguments.megabytes != default_megabytes) command += fmt::format(" --memory-limit {}", arguments.megabytes);
     if (arguments.asked.exact) command += " --exact";
   }
   return on_one_line(command + " --replay " + audit::quoted(file.string()));
@@ -108,14 +111,20 @@ class OneFile {
     }
     audit::require_ccd_library(arguments_.asked.path, arguments_.asked.host);
     knows_times_ = audit::knows_times(arguments_.asked);
+    std::vector<audit::AnyQuery> queries;
+    for (const audit::SavedQuery& saved : saved_) queries.push_back(saved.query);
+    found_ = audit::faults_of(arguments_.asked, first.pair, queries, knows_times_);
   }
+
+  /// Of how many queries there is an answer.
+  std::size_t asked() const { return arguments_.asks_a_library() ? found_.asked : saved_.size(); }
 
   const std::vector<audit::SavedQuery>& queries() const { return saved_; }
 
   /// In words, one line each; nothing for what is right.
   std::vector<std::string> differences() const {
     std::vector<std::string> result;
-    for (const auto& fault : faults()) {
+    for (const auto& fault : found_.faults) {
       if (fault) result.push_back(fault->words);
     }
     if (arguments_.asks_a_library()) return result;
@@ -133,15 +142,15 @@ class OneFile {
       const auto same = [&](const audit::Finding& other) { return other.shrunk == finding.shrunk; };
       if (std::none_of(result.begin(), result.end(), same)) result.push_back(std::move(finding));
     };
-    const auto all_faults = faults();
     for (std::size_t i = 0; i < saved_.size() && !interrupted(); ++i) {
       if (!arguments_.asks_a_library()) {
         auto finding = audit::shrunk_finding(saved_[i].query, saved_[i].probe);
         if (!finding) continue;
         finding->index = i;
         keep(std::move(*finding));
-      } else if (all_faults[i]) {
-        const auto shrunk = audit::shrink_for_library(arguments_.asked, saved_[i].query, *all_faults[i], knows_times_);
+      } else if (found_.faults[i]) {
+        const auto shrunk =
+            audit::shrink_for_library(arguments_.asked, saved_[i].query, *found_.faults[i], knows_times_);
         audit::Finding finding;
         finding.index = i;
         finding.query = saved_[i].query;
@@ -155,36 +164,41 @@ class OneFile {
   }
 
  private:
-  std::vector<std::optional<audit::FaultFound>> faults() const {
-    if (!arguments_.asks_a_library()) return {};
-    std::vector<audit::AnyQuery> queries;
-    for (const audit::SavedQuery& saved : saved_) queries.push_back(saved.query);
-    return audit::faults_of(arguments_.asked, queries.at(0).pair, queries, knows_times_);
-  }
-
   const FuzzArguments& arguments_;
   std::vector<audit::SavedQuery> saved_;
   bool knows_times_ = false;
+  audit::FaultsFound found_;
 };
+
+/// What a replay says where the library hung so often that it was not asked any more.
+std::string not_asked_text(const OneFile& file) {
+  const std::size_t left = file.queries().size() - file.asked();
+  return left == 0 ? ""
+                   : fmt::format("Not asked, after too many hangs or an interruption: {} of {}.\n", left,
+                                 file.queries().size());
+}
 
 /// Decides the queries of a file again. Throws InputError.
 ExitCode replay(const FuzzArguments& arguments) {
   const Output output(arguments.json, inputs(arguments));
   const OneFile file(arguments, *arguments.replay);
   const std::vector<std::string> differences = file.differences();
-  const std::size_t queries = file.queries().size();
-  const char* const word = interrupted()                ? "undecided"
+  const std::size_t queries = file.asked();
+  const bool undecided = interrupted() || (queries < file.queries().size() && differences.empty());
+  const char* const word = undecided                    ? "undecided"
                            : !differences.empty()       ? "finding"
                            : arguments.asks_a_library() ? "no_finding"
                                                         : "no_difference";
   std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, queries, differences.size());
   for (const std::string& difference : differences) lines += difference + '\n';
+  lines += not_asked_text(file);
   output.write(lines, {{"verdict", word},
                        {"queries", queries},
+                       {"not_asked", file.queries().size() - queries},
                        {"findings", differences.size()},
                        {"probe", file.queries().at(0).probe.has_value()},
                        {"differences", differences}});
-  return fuzz_exit_code(differences.size(), queries, interrupted());
+  return fuzz_exit_code(differences.size(), queries, undecided);
 }
 
 /// "queries-edge-edge.csv" gives "queries-edge-edge-query3-minimised.csv", beside it or in the folder of --out.
@@ -239,6 +253,7 @@ ExitCode run_kernel(const FuzzArguments& arguments, const Output& output) {
   });
   const double seconds = watch.seconds();
   output.write(fuzz_text(options, report, seconds), fuzz_json(options, report, seconds));
+  report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }
 
@@ -260,6 +275,7 @@ ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
   });
   const double seconds = watch.seconds();
   output.write(library_fuzz_text(options, report, seconds), library_fuzz_json(options, report, seconds));
+  report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }
 

@@ -45,7 +45,7 @@ struct ScenesArguments {
 
 /// `noli` itself, as a program of its own.
 audit::RunNoli this_program() {
-  return [noli = beside_this_program("noli").string()](const std::vector<std::string>& arguments) {
+  return [noli = this_program_file().string()](const std::vector<std::string>& arguments) {
     std::vector<std::string> words = {noli};
     words.insert(words.end(), arguments.begin(), arguments.end());
     audit::ProgramLimits limits;
@@ -99,6 +99,7 @@ std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzz
 }
 
 ExitCode fuzz(ScenesArguments& arguments) {
+  if (arguments.wrong_place) throw UsageError("--wrong-place goes with --replay or --minimise");
   settle_limits(arguments.common);
   const Output output(arguments.common.json, {});
   require_writable_folder(arguments.common.out, "--out");
@@ -116,6 +117,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
   });
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  report.extent.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
@@ -124,6 +126,8 @@ ExitCode again(const ScenesArguments& arguments) {
   const fs::path file = arguments.again.saved();
   const Output output(arguments.common.json, {file});
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  if (arguments.wrong_place && !arguments.wrong_place->starts_with('/'))
+    throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
   audit::SceneJson scene = audit::read_saved_scene(file);
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   const audit::RunNoli noli = this_program();
@@ -136,23 +140,30 @@ ExitCode again(const ScenesArguments& arguments) {
     return judged;
   };
   audit::SceneJudgement judgement = judge(scene);
+  std::optional<fs::path> saved;
   if (judgement.difference && arguments.again.minimise) {
     const std::string kind(audit::kind_of(*judgement.difference));
     scene = audit::minimise(
         scene, [&](const audit::SceneJson& candidate) { return audit::is_of_kind(judge(candidate).difference, kind); },
         1000);
-    judgement = judge(scene);
+    if (audit::SceneJudgement last = judge(scene); last.difference) judgement = std::move(last);
+    saved = fs::path(arguments.common.out) / (file.stem().string() + "-minimised.json");
     make_writable_folder(arguments.common.out, "--out");
-    write_file(fs::path(arguments.common.out) / "scene.json", scene.dump(2) + '\n');
+    require_other_file(*saved, {file}, "--out");
+    write_file(*saved, scene.dump(2) + '\n');
   }
+  judgement.stopped |= interrupted();
   const char* const word = judgement.stopped ? "undecided" : judgement.difference ? "finding" : "no_finding";
-  output.write(fmt::format("verdict {} end {} verified {} resumed {}\n{}", word, judgement.end, judgement.verified,
-                           judgement.resumed, judgement.difference ? *judgement.difference + "\n" : ""),
-               {{"verdict", word},
-                {"end", judgement.end},
-                {"verified", judgement.verified},
-                {"resumed", judgement.resumed},
-                {"difference", judgement.difference ? Json(*judgement.difference) : Json()}});
+  std::string text = fmt::format("verdict {} end {} verified {} resumed {}\n", word,
+                                 judgement.end.empty() ? "none" : judgement.end, judgement.verified, judgement.resumed);
+  if (judgement.difference) text += *judgement.difference + '\n';
+  if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
+  output.write(text, {{"verdict", word},
+                      {"end", judgement.end},
+                      {"verified", judgement.verified},
+                      {"resumed", judgement.resumed},
+                      {"difference", judgement.difference ? Json(*judgement.difference) : Json()},
+                      {"file", saved ? Json(saved->string()) : Json()}});
   if (judgement.stopped) return ExitCode::undecided;
   return judgement.difference ? ExitCode::refuted : ExitCode::holds;
 }

@@ -7,6 +7,7 @@
 
 #include "noli/app/commands.h"
 #include "noli/app/fuzz_options.h"
+#include "noli/app/interrupt.h"
 #include "noli/app/json.h"
 #include "noli/app/machine.h"
 #include "noli/app/options.h"
@@ -92,6 +93,7 @@ std::string report_text(const TrajectoriesArguments& arguments, const audit::Tra
 }
 
 ExitCode fuzz(TrajectoriesArguments& arguments) {
+  if (arguments.needs_witness) throw UsageError("--needs-witness goes with --replay or --minimise");
   settle_limits(arguments.common);
   const Output output(arguments.common.json, {});
   require_writable_folder(arguments.common.out, "--out");
@@ -110,7 +112,14 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   });
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  report.extent.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
+}
+
+/// "FOLDER-minimised" in --out, so that nothing of what was read is overwritten.
+fs::path minimised_folder(const TrajectoriesArguments& arguments, const fs::path& folder) {
+  const fs::path name = fs::absolute(folder / "").lexically_normal().parent_path().filename();
+  return fs::path(arguments.common.out) / (name.string() + "-minimised");
 }
 
 /// A saved motion again, as it is or made smaller.
@@ -124,26 +133,31 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   VerifyProgram subject(1);
   const auto what = [&](const audit::FrameMotion& candidate) {
     return audit::difference(
-        candidate, [&](const auto& one) { return subject(one); }, arguments.needs_witness);
+        candidate, [&](const auto& one) { return subject(one); }, arguments.needs_witness, &interrupted());
   };
   auto found = what(motion);
+  std::optional<fs::path> saved;
   if (found && arguments.again.minimise) {
     const std::string kind(audit::kind_of(*found));
     motion = audit::minimise(
         motion, [&](const audit::FrameMotion& candidate) { return audit::is_of_kind(what(candidate), kind); }, 5000);
-    found = what(motion);
-    make_writable_folder(arguments.common.out, "--out");
-    audit::write_frames(motion, arguments.common.out);
+    if (auto still = what(motion)) found = std::move(still);
+    saved = minimised_folder(arguments, folder);
+    make_writable_folder(*saved, "--out");
+    audit::write_frames(motion, *saved);
   }
-  const char* const word = found ? "finding" : "no_finding";
+  const char* const word = interrupted() ? "undecided" : found ? "finding" : "no_finding";
   std::string text = fmt::format("verdict {} frames {} cells {} vertices {}\n", word, motion.frames.size(),
                                  motion.mesh.cell_count(), motion.mesh.vertex_count);
   if (found) text += on_one_line(*found) + '\n';
+  if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
   output.write(text, {{"verdict", word},
                       {"frames", motion.frames.size()},
                       {"cells", motion.mesh.cell_count()},
                       {"vertices", motion.mesh.vertex_count},
-                      {"difference", found ? Json(*found) : Json()}});
+                      {"difference", found ? Json(*found) : Json()},
+                      {"folder", saved ? Json(saved->string()) : Json()}});
+  if (interrupted()) return ExitCode::undecided;
   return found ? ExitCode::refuted : ExitCode::holds;
 }
 

@@ -47,10 +47,12 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-std::filesystem::path beside_this_program(const std::string& name) {
+std::filesystem::path this_program_file() {
   std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
+  return std::filesystem::read_symlink("/proc/self/exe", error);
 }
+
+std::filesystem::path beside_this_program(const std::string& name) { return this_program_file().parent_path() / name; }
 
 void prepare_for_the_worst() {
   hold_standard_descriptors();

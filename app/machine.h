@@ -18,6 +18,9 @@ std::uint64_t peak_memory_bytes();
 /// standard output.
 void prepare_for_the_worst();
 
+/// The file of this very program, whatever its name is.
+std::filesystem::path this_program_file();
+
 /// Where a program of this name lies if it lies beside this one. It need not be there.
 std::filesystem::path beside_this_program(const std::string& name);
 

@@ -170,6 +170,15 @@ void require_writable_file(const std::filesystem::path& file, const std::string&
                    "; expected a file in a folder that is there and may be written to");
 }
 
+void require_program(const std::filesystem::path& program, const std::string& option) {
+  std::error_code error;
+  const bool file = std::filesystem::is_regular_file(program, error);
+  if (!file || ::access(program.c_str(), X_OK) != 0) {
+    throw UsageError(option + " " + program.string() + (file ? ": is not executable" : ": is no file that is there") +
+                     "; expected a program that can be started");
+  }
+}
+
 void make_writable_folder(const std::filesystem::path& folder, const std::string& option) {
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);

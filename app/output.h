@@ -44,6 +44,9 @@ void require_writable_file(const std::filesystem::path& file, const std::string&
 /// itself.
 void require_writable_folder(const std::string& folder, const std::string& option);
 
+/// Throws UsageError, naming `option`, when this is no program that can be started.
+void require_program(const std::filesystem::path& program, const std::string& option);
+
 /// Makes a folder, and those that it is in, unless it is there. Throws UsageError, naming `option`, when it cannot be
 /// made, or no files in it.
 void make_writable_folder(const std::filesystem::path& folder, const std::string& option);

@@ -72,6 +72,7 @@ std::string table_of_runs(const PrecisionOutcome& outcome) {
 
 std::string order_text(const PrecisionOutcome& outcome) {
   const auto time = outcome.order_changes();
+  if (!time && last_in_order(outcome) == nullptr) return "Order of events: no window was compared.\n";
   if (!time) return "Order of events: the same.\n";
   const auto& acts = outcome.runs.back().changes.acts.first;
   if (acts && acts->time == *time) {

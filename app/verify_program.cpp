@@ -88,7 +88,7 @@ class Desk {
 }  // namespace
 
 VerifyProgram::VerifyProgram(std::uint64_t verified_every)
-    : noli_(beside_this_program("noli")),
+    : noli_(this_program_file()),
       plain_(beside_this_program("noli_check")),
       verified_(beside_this_program("noli_check_verified")),
       has_verified_(fs::exists(verified_)),

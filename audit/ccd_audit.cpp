@@ -68,6 +68,9 @@ class Marking {
 
   FileAudit run() {
     counts_.queries = exam_.queries.size();
+    knows_times_ = std::any_of(answers_.answers.begin(), answers_.answers.end(), [](const GivenAnswer& answer) {
+      return answer.state == AnswerState::answered && answer.code == NOLI_CCD_HIT && !std::isnan(answer.time);
+    });
     for (std::size_t i = 0; i < exam_.queries.size(); ++i) mark(i);
     counts_.crashes = answers_.crashes;
     counts_.hangs = answers_.hangs;
@@ -103,7 +106,7 @@ class Marking {
       ++counts_.changed;
       report(i, "changed");
     }
-    if (answer.code < 0) {
+    if (answer.code != NOLI_CCD_HIT && answer.code != NOLI_CCD_NO_HIT) {
       ++counts_.failures;
       return report(i, "failure", fmt::format("code {}", answer.code));
     }
@@ -122,9 +125,12 @@ class Marking {
     }
   }
 
-  /// NaN: the library knows none.
   void mark_time(std::size_t i, double time, double exact) {
-    if (std::isnan(time)) return;
+    if (std::isnan(time)) {
+      counts_.no_times += knows_times_ ? 1 : 0;
+      if (knows_times_) report(i, "no_time", fmt::format("exact first time {:.17g}", exact));
+      return;
+    }
     ++counts_.times;
     const double error = exact - time, relative = exact > 0 ? std::abs(error) / exact : 0;
     if (!(time >= 0 && time <= 1)) {
@@ -141,6 +147,7 @@ class Marking {
   const Exam& exam_;
   const LibraryAnswers& answers_;
   std::size_t max_reports_;
+  bool knows_times_ = false;
   FileAudit audit_;
   AuditCounts& counts_ = audit_.counts;
 };
@@ -232,6 +239,7 @@ AuditCounts& AuditCounts::operator+=(const AuditCounts& other) {
   false_negatives += other.false_negatives;
   times += other.times;
   bad_times += other.bad_times;
+  no_times += other.no_times;
   changed += other.changed;
   crashes += other.crashes;
   hangs += other.hangs;
@@ -246,7 +254,7 @@ AuditCounts& AuditCounts::operator+=(const AuditCounts& other) {
 }
 
 std::uint64_t AuditCounts::findings() const {
-  return false_negatives + late.count() + bad_times + changed + failures + crashes + hangs + memory + leaks;
+  return false_negatives + late.count() + bad_times + no_times + changed + failures + crashes + hangs + memory + leaks;
 }
 
 double AuditCounts::ns_per_query() const { return queries > 0 ? seconds * 1e9 / static_cast<double>(queries) : 0; }

@@ -8,6 +8,7 @@
 //   false negative   "no hit" where they meet
 //   late             a time of impact after the first time at which they meet; a simulation that goes there is through
 //   early            one before it, or the very time, rounded down
+//   no time          none (NaN) for a contact, by a library that gives some in the same file
 //   bad time         one outside [0, 1]
 //   changed          asked again, the library gave another answer
 // Findings are all of these but false positives and early times, and failures, crashes, hangs and leaks.
@@ -58,6 +59,7 @@ struct AuditCounts {
   std::uint64_t false_positives = 0, false_negatives = 0;
   std::uint64_t times = 0;  ///< given, of hits that are contacts
   std::uint64_t bad_times = 0, changed = 0;
+  std::uint64_t no_times = 0;  ///< of contacts that were hit, by a library that gave some
   std::uint64_t crashes = 0, hangs = 0, memory = 0, leaks = 0;
   TimeErrors late, early;
   double unit_seconds = 0;  ///< what the textbook method takes for all queries

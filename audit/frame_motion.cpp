@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <charconv>
 #include <exception>
+#include <optional>
+#include <string_view>
+#include <system_error>
 
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/frames.h"
@@ -62,6 +66,31 @@ std::vector<fs::path> write_frames(const FrameMotion& motion, const fs::path& fo
   return files;
 }
 
+namespace {
+
+/// The number of "frame-12.ply" or "frame-12.obj".
+std::optional<std::size_t> frame_number(const fs::path& file) {
+  const std::string name = file.filename().string();
+  std::size_t number = 0;
+  constexpr std::size_t begin = std::string_view("frame-").size();
+  if (!name.starts_with("frame-") || (file.extension() != ".ply" && file.extension() != ".obj")) return std::nullopt;
+  const char* const end = name.data() + name.size() - 4;
+  const auto [last, error] = std::from_chars(name.data() + begin, end, number);
+  return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
+}
+
+/// Frames that come after the last one that was read: behind a gap, or of the other format.
+void require_no_more(const fs::path& folder, const fs::path& missing) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto number = frame_number(entry.path());
+    if (!number || *number < frame_number(missing)) continue;
+    throw InputError(folder.string(), "",
+                     fmt::format("has {}, but no {}", entry.path().filename().string(), missing.filename().string()));
+  }
+}
+
+}  // namespace
+
 FrameMotion read_frames(const fs::path& folder) {
   FrameMotion motion;
   motion.format = FrameFormat::obj;
@@ -71,7 +100,10 @@ FrameMotion read_frames(const fs::path& folder) {
   motion.format = format_of(first);
   for (std::size_t frame = 0;; ++frame) {
     const fs::path file = folder / file_name(frame, motion.format);
-    if (!fs::exists(file)) return motion;
+    if (!fs::exists(file)) {
+      require_no_more(folder, file);
+      return motion;
+    }
     Frame one = read_frame(file);
     if (frame == 0) motion.mesh = one.mesh;
     require_same_mesh(motion.mesh, first, one.mesh, file);

@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "noli/audit/not_saved.h"
 #include "noli/kernel/parallel.h"
 
 namespace noli::audit {
@@ -38,6 +39,7 @@ struct FuzzLimits {
 struct FuzzExtent {
   std::uint64_t items = 0;
   bool interrupted = false;  ///< by the stop flag
+  NotSaved not_saved;
 };
 
 /// Calls make(block, items), which returns what one block gave, from several threads, and take(that) from the caller's,

@@ -226,7 +226,8 @@ class LibraryFuzzing {
       if (tally != nullptr) tally->faults[i] += asked.faults[i];
     }
     for (const auto& [signature, i] : asked.reached) {
-      if (corpus_->reached(signature)) corpus_->keep(signature, {asked.queries[i], std::nullopt}, asked.contact[i]);
+      if (!corpus_->reached(signature)) continue;
+      report_.not_saved.attempt([&] { corpus_->keep(signature, {asked.queries[i], std::nullopt}, asked.contact[i]); });
     }
     for (LibraryFinding& finding : asked.findings) keep(std::move(finding));
   }
@@ -265,8 +266,14 @@ class LibraryFuzzing {
                        file_suffix({finding.query.pair, finding.query.dimension}));
   }
 
-  void save(const LibraryFinding& finding) const {
-    if (finding.file.empty()) return;
+  void save(LibraryFinding& finding) {
+    if (finding.file.empty() || report_.not_saved.attempt([&] { write(finding); })) return;
+    std::error_code ignored;  // part of it may be there
+    fs::remove(finding.file, ignored);
+    finding.file.clear();
+  }
+
+  void write(const LibraryFinding& finding) const {
     std::vector<std::string> comments = {"# " + finding.found.words, "# from " + finding.generator};
     if (options_.command) comments.push_back("# " + options_.command(finding.file));
     save_query(finding.file, finding.shrunk, finding.found.kind != ContactKind::apart, comments);
@@ -324,13 +331,15 @@ ShrunkForLibrary shrink_for_library(const LibraryUnderTest& library, const AnyQu
   return {shrunk, *found};
 }
 
-std::vector<std::optional<FaultFound>> faults_of(const LibraryUnderTest& library, FeaturePair pair,
-                                                 std::span<const AnyQuery> queries, bool knows_times) {
-  std::vector<std::optional<FaultFound>> result(queries.size());
+FaultsFound faults_of(const LibraryUnderTest& library, FeaturePair pair, std::span<const AnyQuery> queries,
+                      bool knows_times) {
+  FaultsFound result;
+  result.faults.resize(queries.size());
   const std::vector<LibraryAnswer> answers = ask(library, pair, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
+    result.asked += answers[i].given.state == AnswerState::not_asked ? 0 : 1;
     const auto fault = fault_of(answers[i], exact_contact(queries[i]), knows_times);
-    if (fault && counts(fault->fault, library.exact)) result[i] = fault;
+    if (fault && counts(fault->fault, library.exact)) result.faults[i] = fault;
   }
   return result;
 }

@@ -74,11 +74,12 @@ struct LibraryFuzzReport {
   CorpusTally corpus;
   bool knows_times = false;
   bool interrupted = false;
+  NotSaved not_saved;
 };
 
 /// With `limits.count` and without hangs or memory limits the report is the same for any number of threads. Throws
-/// InputError (a library or a corpus that is not as it has to be), std::system_error when a file cannot be written, and
-/// what ask_library throws.
+/// InputError (a library or a corpus that is not as it has to be), and what ask_library throws. What cannot be saved is
+/// in `not_saved`.
 LibraryFuzzReport fuzz_library(const LibraryFuzzOptions& options);
 
 /// A simpler query with the same fault, and the fault of it. Precondition: it has that fault.
@@ -89,8 +90,13 @@ struct ShrunkForLibrary {
 ShrunkForLibrary shrink_for_library(const LibraryUnderTest& library, const AnyQuery& query, const FaultFound& fault,
                                     bool knows_times);
 
-/// The faults of each of some queries, all of one pair; nothing where there is none that counts.
-std::vector<std::optional<FaultFound>> faults_of(const LibraryUnderTest& library, FeaturePair pair,
-                                                 std::span<const AnyQuery> queries, bool knows_times);
+/// The faults of each of some queries, all of one pair; nothing where there is none that counts, or where it was not
+/// asked any more, as it hung too often before.
+struct FaultsFound {
+  std::vector<std::optional<FaultFound>> faults;
+  std::size_t asked = 0;
+};
+FaultsFound faults_of(const LibraryUnderTest& library, FeaturePair pair, std::span<const AnyQuery> queries,
+                      bool knows_times);
 
 }  // namespace noli::audit

@@ -39,6 +39,7 @@ class ProofFuzzing {
         [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
         [this](std::vector<JudgedMutant> block) { take_block(std::move(block)); });
     report_.extent.items = report_.codes.accepted + report_.codes.refuted + report_.codes.rejected;
+    report_.extent.not_saved = not_saved_;
     report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
@@ -102,8 +103,10 @@ class ProofFuzzing {
     report_.not_judged += said && !judgement.truth && judgement.difference.empty() ? 1 : 0;
     if (!judgement.difference.empty()) return shrink(judged, index);
     if (!corpus_ || !corpus_->reached(judged.shape)) return;
-    corpus_->add(judged.shape, [&](const fs::path& folder) {
-      write_proof_files(files_of(options_.cases[judged.from], judged.mutant), folder);
+    not_saved_.attempt([&] {
+      corpus_->add(judged.shape, [&](const fs::path& folder) {
+        write_proof_files(files_of(options_.cases[judged.from], judged.mutant), folder);
+      });
     });
   }
 
@@ -122,7 +125,7 @@ class ProofFuzzing {
 
   void keep(ProofFinding finding, const std::string& name) {
     if (report_.findings.size() >= options_.max_findings) return;
-    if (!options_.out.empty()) save(finding, name);
+    if (!options_.out.empty() && !not_saved_.attempt([&] { save(finding, name); })) finding.folder.clear();
     report_.findings.push_back(std::move(finding));
   }
 
@@ -138,6 +141,7 @@ class ProofFuzzing {
   const ProofFuzzOptions& options_;
   std::optional<ShapeCorpus> corpus_;
   std::uint64_t block_ = 0;
+  NotSaved not_saved_;
   ProofFuzzReport report_;
 };
 

@@ -69,8 +69,9 @@ struct ProofFuzzReport {
   std::vector<ProofFinding> findings;
 };
 
-/// Runs until a limit; with a count and without a corpus the report is the same for any number of threads. Throws
-/// std::system_error when something cannot be saved, InputError for a corpus that cannot be read.
+/// Runs until a limit; with a count and without a corpus the report is the same for any number of threads. What
+/// cannot be saved is in `extent.not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
+/// the machine fails.
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options);
 
 }  // namespace noli::audit

@@ -231,7 +231,8 @@ class Fuzzing {
     report_.stages += result.stages;
     report_.findings_total += result.findings.size();
     for (const Reached& one : result.reached) {
-      if (corpus_->reached(one.signature)) corpus_->keep(one.signature, one.saved, one.contact);
+      if (!corpus_->reached(one.signature)) continue;
+      report_.not_saved.attempt([&] { corpus_->keep(one.signature, one.saved, one.contact); });
     }
     for (RawFinding& raw : result.findings) keep(std::move(raw));
   }
@@ -240,7 +241,11 @@ class Fuzzing {
     if (report_.findings.size() >= options_.max_findings) return;
     if (raw.fault == Fault::contact) shrink(raw.finding, options_.decide);
     if (raw.fault == Fault::probe) shrink_probe(raw.finding, options_.decide_probe);
-    if (!options_.out.empty()) save(raw.finding, options_);
+    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(raw.finding, options_); })) {
+      std::error_code ignored;  // part of it may be there
+      std::filesystem::remove(raw.finding.file, ignored);
+      raw.finding.file.clear();
+    }
     report_.findings.push_back(std::move(raw.finding));
   }
 

@@ -28,6 +28,7 @@
 
 #include "noli/audit/any_query.h"
 #include "noli/audit/block_loop.h"
+#include "noli/audit/not_saved.h"
 #include "noli/audit/probe.h"
 #include "noli/audit/query_corpus.h"
 #include "noli/kernel/contact.h"
@@ -128,11 +129,12 @@ struct FuzzReport {
   std::vector<Finding> findings;  ///< the first max_findings: of the corpus, then by block and index
   CorpusTally corpus;
   bool interrupted = false;  ///< by the stop flag
+  NotSaved not_saved;
 };
 
 /// Runs until count, time limit or stop flag; at least one of the three must be given, else std::invalid_argument.
-/// With `count` the report is the same for any number of threads. Throws std::system_error when a finding or a query of
-/// the corpus cannot be saved, InputError when the corpus cannot be read.
+/// With `count` the report is the same for any number of threads. What cannot be saved
+/// is in `not_saved`. Throws InputError when the corpus cannot be read.
 FuzzReport fuzz_queries(const FuzzOptions& options);
 
 /// What is wrong with the subject's answers to a saved query, one line each; nothing if they are the oracle's.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cctype>
 #include <utility>
 
 #include "noli/audit/kind_of_difference.h"
@@ -30,6 +31,17 @@ std::string word_behind(const std::string& line, const std::string& key) {
   return line.substr(begin, line.find(' ', begin) - begin);
 }
 
+/// Whether a message names a place of the scene, or one in it: "/bodies/1" is named by "/bodies/1/mesh", and not by
+/// "/bodies/10".
+bool names_place(const std::string& message, const std::string& place) {
+  for (std::size_t at = 0; (at = message.find(place, at)) != std::string::npos; ++at) {
+    const std::size_t end = at + place.size();
+    if (end == message.size() || !(std::isalnum(static_cast<unsigned char>(message[end])) || message[end] == '_'))
+      return true;
+  }
+  return false;
+}
+
 bool agree(const std::string& verdict, int code) {
   if (code == 0) return verdict == "no_contact";
   if (code == 1) return verdict == "contact" || verdict == "too_near" || verdict == "not_finite";
@@ -52,7 +64,7 @@ class SceneJudge {
     } else if (end.code == 3) {
       const std::size_t at = end.err.find("scene.json: ");
       if (at == std::string::npos) {
-        found("message: does not name the file: " + first_line(end.err));
+        found("message: does not name the file: " + first_complaint(end.err));
         return judgement_;
       }
       judgement_.end = "refused " + end.err.substr(at, end.err.find(':', at + 12) - at).substr(12);
@@ -74,7 +86,7 @@ class SceneJudge {
     judgement_.stopped |= end.kind == ProgramEnd::Kind::stopped;
     const bool documented = end.kind == ProgramEnd::Kind::exited && end.code >= 0 && end.code <= 3;
     if (!documented && !judgement_.stopped) {
-      found(fmt::format("failure: noli {}: {}: {}", arguments[0], end.words(), first_line(end.err)));
+      found(fmt::format("failure: noli {}: {}: {}", arguments[0], end.words(), first_complaint(end.err)));
     }
     return end;
   }
@@ -87,8 +99,8 @@ class SceneJudge {
 
   void require_refusal(const ProgramEnd& end) {
     if (end.code != 3) return found(fmt::format("accepted: {} is wrong, and yet {}", *scene_.wrong_place, end.words()));
-    if (end.err.find(*scene_.wrong_place) == std::string::npos) {
-      found(fmt::format("message: does not name {}: {}", *scene_.wrong_place, first_line(end.err)));
+    if (!names_place(end.err, *scene_.wrong_place)) {
+      found(fmt::format("message: does not name {}: {}", *scene_.wrong_place, first_complaint(end.err)));
     }
   }
 
@@ -105,11 +117,12 @@ class SceneJudge {
     const ProgramEnd end = run({"verify", folder_ / "run", "--threads", "1"});
     if (judgement_.stopped || judgement_.difference) return;
     judgement_.verified = true;
-    if (end.code != 0) found(fmt::format("verify: {}: {}{}", end.words(), first_line(end.out), first_line(end.err)));
+    if (end.code != 0)
+      found(fmt::format("verify: {}: {}{}", end.words(), first_line(end.out), first_complaint(end.err)));
     if (!fs::exists(folder_ / "run" / "proof.blocks") || judgement_.difference) return;
     const ProgramEnd check = run({"check", folder_ / "run"});
     if (!judgement_.stopped && check.code != 0) {
-      found(fmt::format("check: {}: {}{}", check.words(), first_line(check.out), first_line(check.err)));
+      found(fmt::format("check: {}: {}{}", check.words(), first_line(check.out), first_complaint(check.err)));
     }
   }
 
@@ -159,6 +172,7 @@ class SceneFuzzing {
         [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
         [this](std::vector<JudgedScene> block) { take_block(std::move(block)); });
     report_.extent.items = taken_;
+    report_.extent.not_saved = not_saved_;
     report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
@@ -201,9 +215,11 @@ class SceneFuzzing {
   void add_to_corpus(const JudgedScene& one) {
     const std::string shape = one.generator + ": " + without_numbers(one.judgement.end);
     if (!corpus_->reached(shape)) return;
-    corpus_->add(shape, [&](const fs::path& folder) {
-      write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
-      if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
+    not_saved_.attempt([&] {
+      corpus_->add(shape, [&](const fs::path& folder) {
+        write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
+        if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
+      });
     });
   }
 
@@ -232,7 +248,7 @@ class SceneFuzzing {
     // A scene that is wrong stays wrong in other places when something is left out: its message proves nothing then.
     if (!one.made.wrong_place) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
     finding.difference = now(finding.shrunk).value_or(finding.difference);
-    if (!options_.out.empty()) save(finding);
+    if (!options_.out.empty() && !not_saved_.attempt([&] { save(finding); })) finding.file.clear();
     report_.findings.push_back(std::move(finding));
   }
 
@@ -254,14 +270,21 @@ class SceneFuzzing {
   std::uint64_t block_ = 0, taken_ = 0;
   std::map<std::string, std::size_t> alike_;  ///< by difference
   std::optional<ShapeCorpus> corpus_;
+  NotSaved not_saved_;
   SceneFuzzReport report_;
 };
 
 }  // namespace
 
 SceneJson read_saved_scene(const fs::path& file) {
+  constexpr int most_levels = 64;  // as in integrator/scene/json_text.h: what comes after this calls itself
+  const auto within_levels = [&](int depth, SceneJson::parse_event_t, SceneJson&) {
+    if (depth > most_levels)
+      throw InputError(file.string(), "", fmt::format("expected a scene of at most {} levels", most_levels));
+    return true;
+  };
   try {
-    return SceneJson::parse(read_whole_file(file));
+    return SceneJson::parse(read_whole_file(file), within_levels);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file.string(), "", std::string("expected a scene: ") + error.what());
   }

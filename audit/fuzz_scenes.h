@@ -63,8 +63,8 @@ struct SceneFuzzReport {
   std::vector<SceneFinding> findings;
 };
 
-/// Runs until a limit. Throws std::system_error when something cannot be saved, InputError for a corpus that cannot be
-/// read.
+/// Runs until a limit. What cannot be saved is in `extent.not_saved`. Throws InputError for a corpus that cannot be read,
+/// std::system_error when the desk cannot be used.
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options);
 
 /// What came of one scene.

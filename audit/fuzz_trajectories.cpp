@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "noli/audit/kind_of_difference.h"
@@ -31,17 +33,25 @@ struct Judged {
   std::optional<std::string> difference;
 };
 
-Judged judge(GeneratedMotion made, bool needs_witness, const DecideMotion& decide) {
+Judged judge(GeneratedMotion made, bool needs_witness, const TrajectoryOptions& options) {
   Judged judged;
   judged.motion = std::move(made.motion);
   judged.needs_witness = needs_witness;
   try {
-    const MotionTruth truth = truth_of(judged.motion);
+    const MotionTruth truth = truth_of(judged.motion, options.limits.stop);
     judged.contact = truth.contact;
-    judged.answer = decide(judged.motion);
+    if (truth.stopped) {
+      judged.answer.failure = "stopped";
+      return judged;
+    }
+    judged.answer = options.decide(judged.motion);
     judged.difference = difference(judged.motion, truth, judged.answer, needs_witness);
     if (const auto broken = broken_promise(judged.motion, made.planted, truth)) judged.difference = broken;
     if (std::string fault = text_fault(judged.motion); !fault.empty()) judged.difference = "files: " + fault;
+  } catch (const std::system_error&) {
+    throw;  // the machine's fault, or a program is not there
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     judged.difference = fmt::format("threw: {}", error.what());
   }
@@ -65,6 +75,7 @@ class TrajectoryFuzzing {
     report_.extent.items = 0;  // an interruption leaves blocks that are not whole
     for (const TrajectoryTally& tally : report_.generators) report_.extent.items += tally.apart + tally.contact;
     report_.shapes = shapes_.size();
+    report_.extent.not_saved = not_saved_;
     report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
@@ -81,7 +92,7 @@ class TrajectoryFuzzing {
     std::vector<Judged> judged;
     for (std::size_t index = 0; index < count; ++index) {
       const MotionGenerator& by = generator(block, index);
-      judged.push_back(judge(by.make(random), by.witnesses, options_.decide));
+      judged.push_back(judge(by.make(random), by.witnesses, options_));
       if (options_.limits.stop && options_.limits.stop->load()) break;
     }
     return judged;
@@ -90,7 +101,8 @@ class TrajectoryFuzzing {
   void run_corpus() {
     for (const std::string& name : corpus_->names()) {
       if (options_.limits.stop && options_.limits.stop->load()) return;
-      Judged judged = judge({read_frames(corpus_->folder(name)), {}}, false, options_.decide);
+      Judged judged = judge({read_frames(corpus_->folder(name)), {}}, false, options_);
+      if (judged.answer.failure == "stopped") return;
       shapes_.insert(judged.answer.shape);
       if (judged.difference) keep(std::move(judged), name, 0, 0);
     }
@@ -110,7 +122,9 @@ class TrajectoryFuzzing {
     if (judged.answer.plain != CheckerWord::not_asked) ++report_.checked_plain;
     if (judged.answer.verified != CheckerWord::not_asked) ++report_.checked_verified;
     if (shapes_.insert(judged.answer.shape).second && corpus_ && !judged.difference) {
-      corpus_->add(judged.answer.shape, [&](const fs::path& folder) { write_frames(judged.motion, folder); });
+      not_saved_.attempt([&] {
+        corpus_->add(judged.answer.shape, [&](const fs::path& folder) { write_frames(judged.motion, folder); });
+      });
     }
     if (judged.difference) keep(std::move(judged), tally.name, block_, index);
   }
@@ -120,7 +134,7 @@ class TrajectoryFuzzing {
     if (report_.findings.size() >= options_.max_findings) return;
     TrajectoryFinding finding{generator, block, index, *judged.difference, judged.motion, judged.motion, {}};
     shrink(finding, judged.needs_witness);
-    if (!options_.out.empty()) save(finding);
+    if (!options_.out.empty() && !not_saved_.attempt([&] { save(finding); })) finding.folder.clear();
     report_.findings.push_back(std::move(finding));
   }
 
@@ -129,7 +143,7 @@ class TrajectoryFuzzing {
     const std::string kind(kind_of(finding.difference));
     const auto now = [&](const FrameMotion& motion) -> std::optional<std::string> {
       try {
-        return difference(motion, options_.decide, needs_witness);
+        return difference(motion, options_.decide, needs_witness, options_.limits.stop);
       } catch (const std::exception& error) {
         return fmt::format("threw: {}", error.what());
       }
@@ -156,6 +170,7 @@ class TrajectoryFuzzing {
   std::optional<ShapeCorpus> corpus_;
   std::set<std::string> shapes_;
   std::uint64_t block_ = 0;
+  NotSaved not_saved_;
   TrajectoryReport report_;
 };
 

@@ -16,6 +16,7 @@
 // counts); it knows no least distance and no excluded pairs.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -43,7 +44,7 @@ struct MotionAnswer {
     double time = 0;       ///< the first time rounded down to double
   };
 
-  std::string failure;   ///< how it failed to answer, in words; then the rest does not count
+  std::string failure;   ///< how it failed to answer, in words ("stopped": by the user); then the rest does not count
   bool contact = false;  ///< else it says that nothing touches
   std::size_t step = 0;  ///< the last step that it looked at, from 0
   bool initial = false;  ///< cells meet at the first time
@@ -92,12 +93,15 @@ struct TrajectoryReport {
   std::uint64_t corpus_size = 0;  ///< motions in the corpus, of before and new
 };
 
-/// Runs until a limit. With a count and without a corpus the report is the same for any number of threads. Throws
-/// std::system_error when something cannot be saved, InputError for a corpus that cannot be read.
+/// Runs until a limit. With a count and without a corpus the report is the same for any number of threads. What
+/// cannot be saved is in `extent.not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
+/// the machine fails.
 TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options);
 
-/// What is wrong with the subject's answer, or the files of the motion, in words; nothing if all is well.
-std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness);
+/// What is wrong with the subject's answer, or the files of the motion, in words; nothing if all is well, or if it was
+/// stopped before that was known.
+std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness,
+                                      const std::atomic<bool>* stop = nullptr);
 
 /// What is wrong with an answer.
 std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer,

@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "noli/audit/start_process.h"
@@ -28,8 +29,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
-
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 /// With the memory as its descriptor 3, and no other input or output.
 pid_t start(std::vector<std::string> words, int memory) {
@@ -75,7 +74,7 @@ Ending HostProcess::wait() {
   for (;;) {
     if (const auto status = ended()) return ending(*status);
     if (stopped()) return ended_by_us(Ending::Kind::stopped, "stopped");
-    if (hangs()) return ended_by_us(Ending::Kind::hung, fmt::format("no answer after {:g} s", seconds(limit())));
+    if (hangs()) return ended_by_us(Ending::Kind::hung, fmt::format("no answer after {:.1f} s", seconds(waited())));
     if (resident_bytes() > options_.most_memory) {
       return ended_by_us(Ending::Kind::too_much_memory, fmt::format("more than {} bytes", options_.most_memory));
     }
@@ -89,13 +88,10 @@ bool HostProcess::stopped() const {
   return options_.deadline && Clock::now() >= *options_.deadline;
 }
 
+/// What the library has started ends with it: its group is ended before its number can be another's.
 std::optional<int> HostProcess::ended() {
-  int status = 0;
-  const pid_t pid = ::waitpid(pid_, &status, WNOHANG);
-  if (pid < 0 && errno != EINTR) fail("waiting for a process");
-  if (pid != pid_) return std::nullopt;
-  pid_ = -1;
-  return status;
+  if (!has_ended(pid_)) return std::nullopt;
+  return end_process(std::exchange(pid_, -1), std::chrono::milliseconds(0));
 }
 
 Ending HostProcess::ending(int status) const {
@@ -114,12 +110,7 @@ Ending HostProcess::ended_by_us(Ending::Kind kind, const std::string& words) {
 }
 
 void HostProcess::end_it() {
-  if (pid_ < 0) return;
-  ::kill(-pid_, SIGKILL);
-  ::kill(pid_, SIGKILL);  // before it has a group of its own
-  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
-  }
-  pid_ = -1;
+  if (pid_ >= 0) end_process(std::exchange(pid_, -1), std::chrono::milliseconds(0));
 }
 
 /// What the process has computed so far, all its threads together.
@@ -139,7 +130,7 @@ void HostProcess::begin_call() {
 nanoseconds HostProcess::limit() const {
   const HostPhase phase = status_.phase.load(std::memory_order_relaxed);
   if (phase == HostPhase::searching) return search_limit * options_.query_limit;
-  if (phase == HostPhase::loading) return std::max<nanoseconds>(options_.query_limit, std::chrono::seconds(10));
+  if (phase == HostPhase::loading) return std::max<nanoseconds>(options_.query_limit, std::chrono::seconds(3));
   return options_.query_limit;
 }
 
@@ -149,8 +140,7 @@ bool HostProcess::hangs() {
     begin_call();
     return false;
   }
-  const auto waited = Clock::now() - begin_;
-  return waited >= limit() && (computed() - computed_ >= limit() || waited >= 10 * limit());
+  return waited() >= limit() && (computed() - computed_ >= limit() || waited() >= 10 * limit());
 }
 
 std::uint64_t HostProcess::resident_bytes() const {

@@ -79,6 +79,7 @@ class HostProcess {
   std::chrono::nanoseconds computed() const;
   std::chrono::nanoseconds limit() const;
   void begin_call();
+  std::chrono::nanoseconds waited() const { return std::chrono::steady_clock::now() - begin_; }
   bool hangs();
   std::uint64_t resident_bytes() const;
 

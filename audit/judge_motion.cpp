@@ -81,9 +81,14 @@ std::optional<std::string> difference(const FrameMotion& motion, const MotionTru
   return checker_difference(answer);
 }
 
-std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness) {
+std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness,
+                                      const std::atomic<bool>* stop) {
   if (std::string fault = text_fault(motion); !fault.empty()) return "files: " + fault;
-  return difference(motion, truth_of(motion), decide(motion), needs_witness);
+  const MotionTruth truth = truth_of(motion, stop);
+  if (truth.stopped) return std::nullopt;
+  const MotionAnswer answer = decide(motion);
+  if (answer.failure == "stopped") return std::nullopt;
+  return difference(motion, truth, answer, needs_witness);
 }
 
 std::optional<std::string> broken_promise(const FrameMotion& motion, const PlantedTruth& planted,

@@ -83,7 +83,8 @@ std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optio
     case AnswerState::answered: break;
   }
   const int code = answer.given.code;
-  if (code < 0) return found(LibraryFault::failure, fmt::format("code {}", code));
+  if (code != NOLI_CCD_HIT && code != NOLI_CCD_NO_HIT)
+    return found(LibraryFault::failure, fmt::format("code {}", code));
   const bool hit = code != NOLI_CCD_NO_HIT;
   if (hit && exact) return fault_of_time(answer.given.time, *exact, knows_times);
   if (hit) return found(LibraryFault::false_positive, "hit, but they stay apart");

@@ -8,7 +8,7 @@
 //   late             a time after t*, by however little
 //   bad_time         one outside [0, 1]
 //   no_time          none (NaN), though the library knows times (`knows_times`)
-//   failure          a negative answer
+//   failure          an answer but "hit" and "no hit"
 //   crash, hang, memory   how the process ended in which the library ran
 // and of one that claims to be exact also
 //   false_positive   "hit", but they stay apart

@@ -191,11 +191,13 @@ bool are_compared(const Mesh& mesh, const FeatureTwo& features) {
   return false;
 }
 
-MotionTruth truth_of(const FrameMotion& motion) {
+MotionTruth truth_of(const FrameMotion& motion, const std::atomic<bool>* stop) {
   const std::vector<Feature> cells = cells_of(motion.mesh);
   MotionTruth truth;
   for (; truth.step < motion.steps(); ++truth.step) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
+      truth.stopped = stop != nullptr && stop->load(std::memory_order_relaxed);
+      if (truth.stopped) return truth;
       for (std::size_t j = i + 1; j < cells.size(); ++j) add(motion, truth.step, cells[i], cells[j], truth);
     }
     truth.contact = truth.initial || truth.time.has_value();

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -41,9 +42,11 @@ struct MotionTruth {
   bool initial = false;              ///< cells meet at the first time of all (at rest: at its time)
   std::optional<oracle::Time> time;  ///< when features first meet in that step, in [0, 1]; nothing if none do
   std::vector<FeatureTwo> first;     ///< all largest pairs that meet then
+  bool stopped = false;              ///< nothing of this counts
 };
 
-MotionTruth truth_of(const FrameMotion& motion);
+/// `stop`: polled; the oracle takes long for more than a few hundred cells.
+MotionTruth truth_of(const FrameMotion& motion, const std::atomic<bool>* stop = nullptr);
 
 /// What the oracle says of two features in a step. Precondition: one and three vertices or two and two (3D), or fewer.
 oracle::Answer answer_of(const FrameMotion& motion, std::size_t step, const FeatureTwo& features);

@@ -94,12 +94,7 @@ class Host {
 
  private:
   void end_it() {
-    if (pid_ < 0) return;
-    ::kill(-pid_, SIGKILL);
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
-    pid_ = -1;
+    if (pid_ >= 0) end_process(std::exchange(pid_, -1), std::chrono::milliseconds(0));
   }
 
   Pipe to_, from_;

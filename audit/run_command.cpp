@@ -21,6 +21,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// What a program has left to clean up after itself, and to end those that it started.
+constexpr std::chrono::seconds patience{6};
+
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 /// A file without a name: a program can write to it as much as it likes without anybody reading.
@@ -61,12 +64,6 @@ std::optional<int> status_of(pid_t pid, int options) {
   }
 }
 
-void end_group(pid_t pid) {
-  ::kill(-pid, SIGKILL);
-  ::kill(pid, SIGKILL);  // before it has a group of its own
-  status_of(pid, 0);
-}
-
 /// Waits, looking ever less often, at least fifty times a second.
 void wait_for(pid_t pid, std::chrono::nanoseconds limit, const std::atomic<bool>* stop, CommandRun& run) {
   const Clock::time_point begin = Clock::now();
@@ -81,7 +78,7 @@ void wait_for(pid_t pid, std::chrono::nanoseconds limit, const std::atomic<bool>
     }
     const bool asked = stop != nullptr && stop->load(std::memory_order_relaxed);
     if (asked || Clock::now() - begin >= limit) {
-      end_group(pid);
+      end_process(pid, patience);
       run.end = asked ? CommandRun::End::stopped : CommandRun::End::hung;
       return;
     }

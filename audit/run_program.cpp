@@ -23,6 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// What a program has left to clean up after itself, and to end those that it started.
+constexpr std::chrono::seconds patience{3};
+
 /// A program at work, ended with this.
 class Running {
  public:
@@ -77,9 +80,7 @@ class Running {
   }
 
   void end_it() {
-    if (pid_ < 0) return;
-    ::kill(-pid_, SIGKILL);  // and whatever it may have started
-    wait();
+    if (pid_ >= 0) end_process(std::exchange(pid_, -1), patience);
   }
 
   Pipe out_, err_;

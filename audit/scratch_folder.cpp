@@ -16,7 +16,12 @@ namespace fs = std::filesystem;
 fs::path path_of(ScratchFolder::Place place) {
   const fs::path memory = "/dev/shm";
   const bool there = place == ScratchFolder::Place::memory && ::access(memory.c_str(), W_OK | X_OK) == 0;
-  return there ? memory : fs::temp_directory_path();
+  if (there) return memory;
+  try {
+    return fs::temp_directory_path();
+  } catch (const fs::filesystem_error& error) {  // which does not name it in what it says
+    throw std::system_error(error.code(), "the folder for temporary files (TMPDIR), " + error.path1().string());
+  }
 }
 
 }  // namespace

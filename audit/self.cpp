@@ -52,8 +52,8 @@ struct Stopped {};
 
 std::string told(const CommandRun& run) {
   const std::string words =
-      on_one_line(first_line(run.out.starts_with("verdict") || run.err.empty() ? run.out : run.err));
-  return end_words(run) + (words.empty() ? "" : ": " + words);
+      run.out.starts_with("verdict") || run.err.empty() ? first_line(run.out) : first_complaint(run.err);
+  return end_words(run) + ": " + (words.empty() ? "it says nothing" : on_one_line(words));
 }
 
 std::string bytes_of(const fs::path& path) {
@@ -166,8 +166,9 @@ class SelfAudit {
     const CommandRun run = noli({"--version"});
     const bool passed = run.out.find("\nrounding self-test passed\n") != std::string::npos;
     if (run.exited(0) && passed) return hold(p);
-    fail(p, run.exited(0) ? on_one_line(first_line(run.out.substr(std::min(run.out.find("rounding"), run.out.size()))))
-                          : told(run));
+    if (!run.exited(0)) return fail(p, told(run));
+    const std::size_t at = run.out.find("rounding");
+    fail(p, at == std::string::npos ? "--version says nothing of it" : on_one_line(first_line(run.out.substr(at))));
   }
 
   void labels(SelfPart& p) const {
@@ -243,6 +244,7 @@ class SelfAudit {
   void checked(std::uint64_t steps, SelfPart& p) const {
     p.figures.emplace_back("steps", steps);
     p.figures.emplace_back("checkers", present_.size());
+    if (present_.empty()) return fail(p, "there is no checker that could say so");
     hold(p);
   }
 

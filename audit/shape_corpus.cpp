@@ -2,6 +2,7 @@
 #include "noli/audit/shape_corpus.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "noli/trajectory/sha256.h"
@@ -24,9 +25,15 @@ ShapeCorpus::ShapeCorpus(fs::path folder) : folder_(std::move(folder)) {
 
 void ShapeCorpus::add(const std::string& shape, const std::function<void(const fs::path&)>& write) {
   const std::string name = "shape-" + hex(sha256(shape)).substr(0, 16);
-  fs::create_directories(folder(name));
-  write(folder(name));
-  write_file(folder(name) / "shape", shape + '\n');
+  try {
+    fs::create_directories(folder(name));
+    write(folder(name));
+    write_file(folder(name) / "shape", shape + '\n');
+  } catch (...) {
+    std::error_code ignored;  // what cannot be removed has no shape, and is passed over
+    fs::remove_all(folder(name), ignored);
+    throw;
+  }
   names_.push_back(name);
 }
 

@@ -3,19 +3,21 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-#include <stdexcept>
+#include <cerrno>
+#include <csignal>
 #include <system_error>
+#include <thread>
 
 extern char** environ;
 
 namespace noli::audit {
 
 pid_t start_process(std::vector<std::string> words, std::span<const GivenDescriptor> descriptors) {
-  if (::access(words[0].c_str(), X_OK) != 0) {
-    throw std::runtime_error(words[0] + " is not there; expected it beside this program");
-  }
+  if (::access(words[0].c_str(), X_OK) != 0)
+    throw std::system_error(errno, std::generic_category(), words[0] + " cannot be started");
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
@@ -36,8 +38,32 @@ pid_t start_process(std::vector<std::string> words, std::span<const GivenDescrip
   const int error = ::posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::system_error(error, std::generic_category(), words[0]);
+  if (error != 0) throw std::system_error(error, std::generic_category(), words[0] + " cannot be started");
   return pid;
+}
+
+bool has_ended(pid_t pid) {
+  siginfo_t info = {};
+  const int error = ::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT);
+  if (error != 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for a program");
+  return error == 0 && info.si_pid == pid;
+}
+
+int end_process(pid_t pid, std::chrono::milliseconds patience) {
+  const auto signal = [pid](int number) {
+    ::kill(-pid, number);
+    ::kill(pid, number);  // before it has a group of its own
+  };
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  if (patience.count() > 0) signal(SIGTERM);
+  while (std::chrono::steady_clock::now() < deadline && !has_ended(pid))
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  signal(SIGKILL);
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0) {
+    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for a program");
+  }
+  return status;
 }
 
 }  // namespace noli::audit

@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,14 @@ struct GivenDescriptor {
 };
 
 /// The program is words[0], the rest its arguments; in a group of processes of its own, so that it does not share the
-/// signals of the terminal. Throws std::runtime_error when it is not there, std::system_error when it cannot be started.
+/// signals of the terminal. Throws std::system_error when it is not there or cannot be started.
 pid_t start_process(std::vector<std::string> words, std::span<const GivenDescriptor> descriptors);
+
+/// Whether it has ended; it can still be waited for, and its number is not another's yet.
+bool has_ended(pid_t pid);
+
+/// Ends it and what is left of its group, and returns its status: asks, and insists when it is still there after
+/// `patience`. With patience a program can end its own programs and remove what it has written for itself.
+int end_process(pid_t pid, std::chrono::milliseconds patience);
 
 }  // namespace noli::audit

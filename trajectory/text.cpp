@@ -82,6 +82,14 @@ std::string in_quotes(std::string_view word) {
   return shown + (word.size() > longest ? "...'" : "'");
 }
 
+std::string first_complaint(std::string_view text) {
+  Lines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    if (line.find(": note: ") == std::string_view::npos) return std::string(line);
+  }
+  return first_line(text);
+}
+
 bool Lines::next(std::string_view& line) {
   if (rest_.empty()) return false;
   const std::size_t end = rest_.find('\n');

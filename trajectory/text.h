@@ -29,6 +29,9 @@ std::string in_quotes(std::string_view word);
 /// What stands before the first line end.
 inline std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
 
+/// The first line of what a program says on standard error that is no note ("noli: note: ..."); a note if all are.
+std::string first_complaint(std::string_view text);
+
 /// Walks over the lines of a text. A line ends with LF or CRLF; the last one may end with the text.
 class Lines {
  public:

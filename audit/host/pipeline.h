@@ -94,11 +94,11 @@ class Pipeline {
         library_.ask(static_cast<int>(pair.kind), query.x_t0.data(), query.x_t1.data(), e_.tolerance, &time);
     MeshContact* const contact = contact_of(pair);
     if (contact != nullptr) contact->found = 1;
-    if (code < 0) {
+    if (code != NOLI_CCD_HIT && code != NOLI_CCD_NO_HIT) {
       ++e_.failures;
       if (contact != nullptr) contact->failed = 1;
     }
-    if (code <= 0) return;
+    if (code != NOLI_CCD_HIT) return;
     if (contact == nullptr) {
       ++e_.false_positives[pair.kind];
     } else {

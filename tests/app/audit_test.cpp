@@ -156,6 +156,30 @@ TEST_F(AuditCcd, FindsTimesThatAreLateOrNone) {
   EXPECT_EQ(none["times"], 0);
 }
 
+TEST_F(AuditCcd, AContactWithoutATimeIsAFindingWhereOthersHaveOne) {
+  const Json audit = json(faulty("has_few_times"), 1)["audits"][0];
+  EXPECT_EQ(audit["times"], 1);
+  EXPECT_EQ(audit["no_times"], 1);
+  EXPECT_EQ(json(faulty("lies_about_time"), 1)["audits"][0]["no_times"], 0);
+}
+
+TEST_F(AuditCcd, AnAnswerThatTheInterfaceDoesNotKnowIsAFailure) {
+  const Json audit = json(faulty("answers_two"), 1)["audits"][0];
+  EXPECT_EQ(audit["failures"], 4);
+  EXPECT_EQ(audit["false_positives"], 0);
+}
+
+TEST_F(AuditCcd, EndsWhatALibraryHasStarted) {
+  const std::string file = folder.path("pid");
+  ::setenv("NOLI_TEST_PID_FILE", file.c_str(), 1);
+  json(faulty("leaves_a_process"), 0);
+  ::unsetenv("NOLI_TEST_PID_FILE");
+  std::string pid;
+  ASSERT_TRUE(std::ifstream(file) >> pid);
+  std::string number, name, state;  // of /proc/PID/stat: one that nobody has waited for yet is a zombie
+  if (std::ifstream("/proc/" + pid + "/stat") >> number >> name >> state) EXPECT_EQ(state, "Z") << name;
+}
+
 TEST_F(AuditCcd, CountsFailures) {
   const Json audit = json(faulty("fails"), 1)["audits"][0];
   EXPECT_EQ(audit["failures"], 4);

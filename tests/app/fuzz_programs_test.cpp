@@ -6,6 +6,8 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "noli/tests/app/process.h"
@@ -140,6 +142,23 @@ TEST(FuzzScenesCommand, JudgesASceneAgain) {
   const Process wrong = run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "/bodies/0/mesh"});
   EXPECT_EQ(wrong.exit_code, 1) << "said to be wrong, and yet it runs";
   EXPECT_NE(wrong.out.find("accepted: /bodies/0/mesh"), std::string::npos) << wrong.out;
+}
+
+TEST(FuzzScenesCommand, DoesNotOverwriteWhatItMinimises) {
+  const Folder folder;
+  const std::string text =
+      R"({"noli_scene": 1, "dimension": 2, "duration": 0.02, "bodies": [{"mesh": {"ring": {"radius": 1, "segments": 5}},
+          "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})";
+  const std::string scene = folder.write("scene.json", text);
+  const Process process =
+      run_noli({"fuzz", "scenes", "--minimise", scene, "--wrong-place", "/bodies/0/mesh", "--out", folder.path("")});
+  EXPECT_EQ(process.exit_code, 1) << process.err;
+  EXPECT_NE(process.out.find("saved as " + folder.path("scene-minimised.json")), std::string::npos) << process.out;
+  std::ifstream file(scene);
+  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), text);
+  EXPECT_EQ(run_noli({"fuzz", "scenes", "--count", "1", "--wrong-place", "/bodies"}).exit_code, 3);
+  EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "bodies"}).exit_code, 3);
+  EXPECT_EQ(run_noli({"fuzz", "trajectories", "--count", "1", "--needs-witness"}).exit_code, 3);
 }
 
 /// Each once ended in a hang or in exit 4. Lengths that are too large or too small for contact are refused now.

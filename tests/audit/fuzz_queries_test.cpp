@@ -317,7 +317,12 @@ TEST_F(FuzzQueries, WantsToKnowWhenToStop) {
 TEST_F(FuzzQueries, SaysWhereItCannotSave) {
   std::ofstream(options.out) << "a file where a folder should be";
   options.decide = forgets_the_end;
-  EXPECT_THROW(fuzz_queries(options), std::system_error);
+  const FuzzReport report = fuzz_queries(options);
+  EXPECT_THROW(report.not_saved.require_nothing(), std::runtime_error);
+  ASSERT_FALSE(report.findings.empty()) << "what was found is told all the same";
+  EXPECT_TRUE(report.findings[0].file.empty());
+  std::filesystem::remove(options.out);
+  EXPECT_NO_THROW(fuzz_queries(options).not_saved.require_nothing());
 }
 
 TEST_F(FuzzQueries, TheKernelPassesABlockOfEachGenerator) {

@@ -93,6 +93,33 @@ TEST_F(FuzzScenes, AWrongSceneThatIsAcceptedIsAFinding) {
   EXPECT_TRUE(report.findings[0].difference.starts_with("accepted: /")) << report.findings[0].difference;
 }
 
+TEST_F(FuzzScenes, APlaceIsNotNamedByALongerNumber) {
+  const GeneratedScene wrong{SceneJson::object(), "/bodies/1"};
+  const auto refusing = [](const char* place) {
+    return [place](const std::vector<std::string>& arguments) {
+      return ended(3, "", "noli: " + arguments[1] + ": " + place + ": expected something else");
+    };
+  };
+  const auto judged = [&](const char* place) {
+    std::filesystem::remove_all(options.desk);
+    std::filesystem::create_directory(options.desk);
+    return judge_scene(wrong, refusing(place), options.desk).difference;
+  };
+  EXPECT_FALSE(judged("/bodies/1"));
+  EXPECT_FALSE(judged("/bodies/1/mesh"));
+  EXPECT_TRUE(judged("/bodies/10"));
+  EXPECT_TRUE(judged("/bodies"));
+}
+
+TEST_F(FuzzScenes, ASavedSceneHasNotAnyDepth) {
+  const auto nested = [&](std::size_t levels) {
+    write_file(folder / "deep.json", std::string(levels, '[') + std::string(levels, ']'));
+    return folder / "deep.json";
+  };
+  EXPECT_NO_THROW(read_saved_scene(nested(60)));
+  EXPECT_THROW(read_saved_scene(nested(100'000)), InputError);
+}
+
 TEST_F(FuzzScenes, AMessageHasToNameThePlace) {
   GeneratedScene wrong{{{"noli_scene", 1}}, "/bodies/0/mesh"};
   const auto judged = [&](const std::string& message) {

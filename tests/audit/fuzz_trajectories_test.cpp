@@ -174,6 +174,32 @@ TEST_F(FuzzTrajectories, KeepsOneMotionOfEachShape) {
   EXPECT_GE(fuzz_trajectories(options).findings_total, 2u) << "what is in the corpus is run first";
 }
 
+TEST(ReadFrames, RefusesAGap) {
+  const test::TemporaryFolder folder;
+  Random random(1);
+  FrameMotion motion = motion_generators()[0].make(random).motion;
+  motion.format = FrameFormat::ply_ascii;
+  motion.frames.resize(1);
+  for (int more = 0; more < 2; ++more) motion.frames.push_back(motion.frames[0]);
+  write_frames(motion, folder.path());
+  EXPECT_EQ(read_frames(folder.path()).frames.size(), 3u);
+  std::filesystem::remove(folder / "frame-1.ply");
+  EXPECT_THROW(read_frames(folder.path()), InputError);
+  std::filesystem::rename(folder / "frame-2.ply", folder / "other.ply");
+  EXPECT_EQ(read_frames(folder.path()).frames.size(), 1u) << "what has another name is none of its frames";
+  std::filesystem::rename(folder / "other.ply", folder / "frame-1.obj");
+  EXPECT_THROW(read_frames(folder.path()), InputError);
+}
+
+TEST(MotionOracle, StopsWhenAsked) {
+  Random random(1);
+  const FrameMotion motion = motion_generators()[0].make(random).motion;
+  std::atomic<bool> stop = false;
+  EXPECT_FALSE(truth_of(motion, &stop).stopped);
+  stop = true;
+  EXPECT_TRUE(truth_of(motion, &stop).stopped);
+}
+
 TEST(MotionGenerators, SayWhatTheOracleSays) {
   Random random(11);
   for (const MotionGenerator& generator : motion_generators()) {

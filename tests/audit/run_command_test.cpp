@@ -46,6 +46,13 @@ TEST(RunCommand, EndsWhatHangsWithAllThatItHasStarted) {
   EXPECT_LT(run.seconds, 60);
 }
 
+TEST(RunCommand, LetsWhatHangsCleanUp) {
+  const CommandRun run =
+      shell("trap 'echo cleaned; exit 3' TERM; echo begun; while :; do sleep 0.01; done", milliseconds(200));
+  EXPECT_EQ(run.end, CommandRun::End::hung);
+  EXPECT_EQ(run.out, "begun\ncleaned\n");
+}
+
 TEST(RunCommand, StopsWhenAsked) {
   std::atomic<bool> stop = false;
   std::thread asking([&] {

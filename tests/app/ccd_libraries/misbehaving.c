@@ -3,6 +3,7 @@
 #define _DEFAULT_SOURCE
 #include <noli/ccd_plugin.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -18,7 +19,10 @@ enum behaviour {
   leaks,
   lies_about_time,
   has_wild_times,
+  has_few_times,
   fails,
+  answers_two,
+  leaves_a_process,
   changes_its_mind,
   has_no_version,
   has_no_query,
@@ -59,6 +63,20 @@ static void at_some_queries(double first) {
   while (IS(takes_memory)) leak((size_t)1 << 20);
 }
 
+/* Its number goes to the file that NOLI_TEST_PID_FILE names. */
+static void leave_a_process(void) {
+  const char* const name = getenv("NOLI_TEST_PID_FILE");
+  FILE* const file = name == NULL ? NULL : fopen(name, "wx"); /* once */
+  if (file == NULL) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    sleep(600);
+    _exit(0);
+  }
+  fprintf(file, "%d", (int)child);
+  fclose(file);
+}
+
 static int is_asked_again(void) {
   static int calls = 0;
   return ++calls > 3;
@@ -68,10 +86,13 @@ int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], doubl
   (void)kind, (void)x_t1, (void)tolerance;
   at_some_queries(x_t0[0]);
   if (IS(leaks)) leak(4096);
+  if (IS(leaves_a_process)) leave_a_process();
   if (IS(fails)) return NOLI_CCD_FAILED;
+  if (IS(answers_two)) return 2;
   if (IS(crashes_when_asked_again) && is_asked_again()) crash();
   if (IS(changes_its_mind)) return is_asked_again() ? NOLI_CCD_HIT : NOLI_CCD_NO_HIT;
   if (IS(never_hits)) return NOLI_CCD_NO_HIT;
+  if (IS(has_few_times) && x_t0[0] > 0) return NOLI_CCD_HIT;
   *time_of_impact = IS(lies_about_time) ? 1 : IS(has_wild_times) ? -7 : 0;
   return NOLI_CCD_HIT;
 }
