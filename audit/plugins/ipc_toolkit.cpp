@@ -8,7 +8,7 @@
 // What this does not do: ask for the time at which features touch. The toolkit stops before they do, at a fifth of
 // their first distance, so hits are early by design, and what comes nearer than that without contact is a hit too.
 //
-// What was not done: running it. The machines that Noli is built on have no such package.
+// What was not done: running it. It was compiled against a stand-in for the interface, for lack of the package.
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 
 #include "vector.h"
