@@ -9,14 +9,18 @@
 // zero and for the resolution in time, 1e-5 for what counts as inside); use FCL's hierarchies of boxes.
 #include <fcl/config.h>
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
+#include <noli/ccd_plugin.h>
 
-#include "vector.h"
+#include <array>
 
 namespace {
 
 using Intersect = fcl::detail::Intersect<double>;
+using Points = std::array<fcl::Vector3d, 4>;
 
-fcl::Vector3d at(const double x[12], std::size_t i) { return {x[3 * i], x[3 * i + 1], x[3 * i + 2]}; }
+Points points(const double x[12]) {
+  return {{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10], x[11]}}};
+}
 
 }  // namespace
 
@@ -24,15 +28,15 @@ extern "C" uint32_t noli_ccd_version() { return NOLI_CCD_VERSION; }
 
 extern "C" const char* noli_ccd_description() { return "FCL " FCL_VERSION ", as installed"; }
 
-extern "C" int noli_ccd_query(int kind, const double x[12], const double y[12], double /*tolerance*/,
+extern "C" int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], double /*tolerance*/,
                               double* time_of_impact) try {
+  const Points x = points(x_t0), y = points(x_t1);
   fcl::Vector3d place;  // where they meet, which nobody asks
   double time = 2;
-  const bool hit = kind == NOLI_CCD_EDGE_EDGE
-                       ? Intersect::intersect_EE(at(x, 0), at(x, 1), at(x, 2), at(x, 3), at(y, 0), at(y, 1), at(y, 2),
-                                                 at(y, 3), &time, &place)
-                       : Intersect::intersect_VF(at(x, 1), at(x, 2), at(x, 3), at(x, 0), at(y, 1), at(y, 2), at(y, 3),
-                                                 at(y, 0), &time, &place);  // the face comes first
+  const bool hit =
+      kind == NOLI_CCD_EDGE_EDGE
+          ? Intersect::intersect_EE(x[0], x[1], x[2], x[3], y[0], y[1], y[2], y[3], &time, &place)
+          : Intersect::intersect_VF(x[1], x[2], x[3], x[0], y[1], y[2], y[3], y[0], &time, &place);  // face, vertex
   if (!hit) return NOLI_CCD_NO_HIT;
   *time_of_impact = time;
   return NOLI_CCD_HIT;
