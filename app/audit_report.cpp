@@ -11,6 +11,8 @@
 namespace noli::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 using audit::AuditCounts;
 using audit::AuditedFile;
 using audit::AuditOutcome;
@@ -51,6 +53,7 @@ Json file_audit_json(const AuditOutcome& outcome, const FileAudit& file) {
 
 Json library_json(const AuditOutcome& outcome, const LibraryAudit& audit) {
   Json json = {{"library", audit.plugin.string()}, {"tolerance", audit.tolerance}};
+  if (!audit.description.empty()) json["description"] = audit.description;
   json.update(counts_json(audit.total));
   json["files"] = Json::array();
   for (const FileAudit& file : audit.files) json["files"].push_back(file_audit_json(outcome, file));
@@ -145,6 +148,16 @@ std::string table_of_file(const AuditOutcome& outcome, std::size_t file) {
   return table_text(rows, 1);
 }
 
+/// What libraries say that they are.
+void append_descriptions(const AuditOutcome& outcome, std::string& text) {
+  const fs::path* last = nullptr;  // all tolerances of a library come together
+  for (const LibraryAudit& audit : outcome.audits) {
+    if (audit.description.empty() || (last != nullptr && *last == audit.plugin)) continue;
+    last = &audit.plugin;
+    text += fmt::format("{} is {}\n", audit_name(outcome, audit.plugin), on_one_line(audit.description));
+  }
+}
+
 void append_file(const AuditOutcome& outcome, std::size_t i, std::string& text) {
   const AuditedFile& file = outcome.files[i];
   const std::string path = on_one_line(file.path.string());
@@ -222,6 +235,7 @@ std::string audit_text(const AuditOutcome& outcome) {
       audit_verdict(outcome), outcome.audits.size(), sum.queries, outcome.findings(), sum.false_positives,
       sum.false_negatives, sum.late.count(), sum.bad_times, sum.changed, sum.failures, sum.crashes, sum.hangs,
       sum.memory, sum.leaks, outcome.wrong_labels(), outcome.complete);
+  append_descriptions(outcome, text);
   if (outcome.files.size() > 1) text += "All files:\n" + table_of_libraries(outcome);
   for (std::size_t i = 0; i < outcome.files.size(); ++i) append_file(outcome, i, text);
   for (const LibraryAudit& audit : outcome.audits) append_findings(outcome, audit, text);

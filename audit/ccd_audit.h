@@ -95,6 +95,7 @@ struct FileAudit {
 struct LibraryAudit {
   std::filesystem::path plugin;
   double tolerance = 0;
+  std::string description;  ///< what it says that it is; "" if it says nothing
   std::vector<FileAudit> files;
   AuditCounts total;
 };

@@ -4,6 +4,7 @@
 #include <noli/ccd_plugin.h>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <new>
 
@@ -39,6 +40,7 @@ class Asking {
     const GivenAnswer* const answers = answers_of(e_);
     result_.answers.assign(answers, answers + e_.count);
     result_.ns_per_query = ns_per_query();
+    result_.description.assign(e_.description.data(), ::strnlen(e_.description.data(), e_.description.size()));
     look_for_leaks();
     return std::move(result_);
   }

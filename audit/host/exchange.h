@@ -27,6 +27,7 @@ struct HostStatus {
   LoadResult loaded = LoadResult::ok;
   std::uint32_t version = 0;
   std::array<char, 1024> message{};
+  std::array<char, 101> description{};  ///< what the library says that it is; empty if it says nothing
 };
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<HostPhase>::is_always_lock_free,

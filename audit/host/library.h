@@ -28,11 +28,17 @@ inline double seconds() {
 
 inline void enter(HostStatus& status, HostPhase phase) { status.phase.store(phase, std::memory_order_release); }
 
+/// As much of it as there is room for.
+template <std::size_t size>
+void write_words(const char* words, std::array<char, size>& where) {
+  std::copy_n(words, std::min(std::strlen(words), size - 1), where.begin());
+}
+
 /// Without `ask`: the library has not what it has to have; the status says why.
 inline Library load(HostStatus& status, const char* path, bool pipeline) {
   const auto refuse = [&](LoadResult why, const char* message = "") {
     status.loaded = why;
-    std::copy_n(message, std::min(std::strlen(message), status.message.size() - 1), status.message.begin());
+    write_words(message, status.message);
     enter(status, HostPhase::done);
     return Library{};
   };
@@ -46,6 +52,8 @@ inline Library load(HostStatus& status, const char* path, bool pipeline) {
                         reinterpret_cast<Search>(::dlsym(handle, "noli_ccd_candidates"))};
   if (library.ask == nullptr) return refuse(LoadResult::no_query);
   if (pipeline && library.search == nullptr) return refuse(LoadResult::no_candidates);
+  const auto describe = reinterpret_cast<decltype(&noli_ccd_description)>(::dlsym(handle, "noli_ccd_description"));
+  if (const char* const words = describe != nullptr ? describe() : nullptr) write_words(words, status.description);
   return library;
 }
 

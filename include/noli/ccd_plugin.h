@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What a library has to offer so that `noli audit ccd --library LIB.so QUERIES.csv...` can ask it: two functions of
- * C99. A third one, for the search of candidates, may be there too. A whole library is examples/swept_boxes.c:
+ * C99. Two more, for the search of candidates and for what the library is, may be there too. A whole library is
+ * examples/swept_boxes.c:
  *
  *     cc -std=c99 -O2 -shared -fPIC -I PREFIX/include -o swept_boxes.so swept_boxes.c
  *     noli audit ccd --library swept_boxes.so cloth-funnel-vertex-face.csv
@@ -75,6 +76,12 @@ typedef void (*noli_ccd_candidate)(void* data, int kind, uint32_t first, uint32_
 int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1, size_t edges,
                         const uint32_t* edge_vertices, size_t faces, const uint32_t* face_vertices, double distance,
                         noli_ccd_candidate found, void* data);
+
+/*
+ * Optional: what is asked here, in a few words, such as "FCL 0.7.0"; what an audit found is true of that version. At
+ * most 100 bytes of UTF-8, on one line. The string is the library's, and lasts.
+ */
+const char* noli_ccd_description(void);
 
 #ifdef __cplusplus
 }

@@ -31,7 +31,9 @@ enum behaviour {
   crashes_when_loaded,
   finds_nothing,
   finds_neighbours,
-  crashes_when_searching
+  crashes_when_searching,
+  says_what_it_is,
+  says_too_much
 };
 
 #define IS(behaviour) (MISBEHAVIOUR == (behaviour))
@@ -108,5 +110,13 @@ int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1,
     for (uint32_t f = 0; f < faces; ++f) found(data, NOLI_CCD_VERTEX_FACE, v, f);
   }
   return 0;
+}
+#endif
+
+#if defined(WITH_DESCRIPTION)
+const char* noli_ccd_description(void) {
+  static char much[300];
+  memset(much, 'x', sizeof much - 1);
+  return IS(says_too_much) ? much : "tests 1.0\nof Noli";
 }
 #endif
