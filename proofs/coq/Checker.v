@@ -231,7 +231,8 @@ Definition part (t W : Z) : Z :=
 (** How far a breakpoint, with a coarse position, is from the chord, less than [slack] too much or too little. *)
 Definition stray (T0 W : Z) (o w : vec) (t : Z) (p : vec) : vec :=
   let u := part (t - T0) W in
-  by_axis Z.sub p (by_axis (fun o w => o + Z.shiftr (w * u) time_bits) o w).
+  let on p o w := p - (o + Z.shiftr (w * u) time_bits) in
+  V3 (on (vx p) (vx o) (vx w)) (on (vy p) (vy o) (vy w)) (on (vz p) (vz o) (vz w)).
 Definition slack (w : Z) : Z := Z.shiftr (Z.abs w) time_bits + 1 + 1.
 
 (** The least and the greatest of breakpoints, and of those before; [f] gives coarse positions. *)

@@ -231,9 +231,11 @@ let part t w =
 
 let stray t0 w o w0 t p =
   let u = part (Zint.sub t t0) w in
-  by_axis Zint.sub p
-    (by_axis (fun o0 w1 ->
-      Zint.add o0 (Zint.shiftr (Zint.mul w1 u) Zint.time_bits)) o w0)
+  let on = fun p0 o0 w1 ->
+    Zint.sub p0 (Zint.add o0 (Zint.shiftr (Zint.mul w1 u) Zint.time_bits))
+  in
+  { vx = (on p.vx o.vx w0.vx); vy = (on p.vy o.vy w0.vy); vz =
+  (on p.vz o.vz w0.vz) }
 
 (** val slack : Zint.t -> Zint.t **)
 
