@@ -122,8 +122,8 @@ Proof.
   rewrite path_read. apply IH.
 Qed.
 
-Lemma build_same g : build_by wf_read (unit_bits (fun v => [(first_time (read v), place (first_spot (read v)))])) vertex_read s g
-  = build s g.
+Lemma build_same g :
+  build_by wf_read (unit_bits (fun v => [(first_time (read v), place (first_spot (read v)))])) vertex_read s g = build s g.
 Proof.
   unfold build, build_by. cbv zeta. rewrite unit_same, vertices_same by apply greater_left.
   replace (forallb wf_read _) with (forallb (wf_vertex s) (group_ids (fun v => v) s g)); auto.

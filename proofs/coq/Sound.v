@@ -729,11 +729,13 @@ Qed.
 
 Lemma strays_sound s T0 W o w r : forall l h, let e := strays (coarse s) T0 W o w r l h in
   vec_le (fst e) l /\ vec_le h (snd e) /\
-  forall t p, In (t, p) r -> vec_le (fst e) (stray T0 W o w t (coarse s p)) /\ vec_le (stray T0 W o w t (coarse s p)) (snd e).
+  forall t p, In (t, p) r ->
+    vec_le (fst e) (stray T0 W o w t (coarse s p)) /\ vec_le (stray T0 W o w t (coarse s p)) (snd e).
 Proof.
   induction r as [|(t1, p1) r IH]; intros l h e; cbn [strays] in e.
   - unfold e, vec_le; cbn. split; [lia|]. split; [lia|easy].
-  - destruct (IH (by_axis lesser l (stray T0 W o w t1 (coarse s p1))) (by_axis greater h (stray T0 W o w t1 (coarse s p1))))
+  - destruct (IH (by_axis lesser l (stray T0 W o w t1 (coarse s p1)))
+                 (by_axis greater h (stray T0 W o w t1 (coarse s p1))))
       as (L & H & A). fold e in L, H, A.
     destruct (by_axis_lesser l (stray T0 W o w t1 (coarse s p1))), (by_axis_greater h (stray T0 W o w t1 (coarse s p1))).
     split; [eauto using vec_le_trans|]. split; [eauto using vec_le_trans|].

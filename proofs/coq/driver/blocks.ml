@@ -89,6 +89,7 @@ let crc_table =
   table
 
 let crc32c before s =
+  let next crc byte = crc_table.((crc lxor byte) land 255) lxor (crc lsr 8) in
   let crc = ref before and whole = String.length s land -8 in
   for i = 0 to (whole / 8) - 1 do
     let x = Int64.logxor (String.get_int64_le s (8 * i)) (Int64.of_int !crc) in
@@ -97,7 +98,7 @@ let crc32c before s =
     crc := at 7 low 0 lxor at 6 low 8 lxor at 5 low 16 lxor at 4 low 24
            lxor at 3 high 0 lxor at 2 high 8 lxor at 1 high 16 lxor at 0 high 24
   done;
-  for i = whole to String.length s - 1 do crc := crc_table.((!crc lxor Char.code s.[i]) land 255) lxor (!crc lsr 8) done;
+  for i = whole to String.length s - 1 do crc := next !crc (Char.code s.[i]) done;
   !crc
 
 (* SHA-256, FIPS 180-4. What is less than a block waits. *)

@@ -3,7 +3,8 @@
    Checks a proof that nothing touches, or that something does (proofs/FORMAT.md); for its exit codes see section 6.
 
    What this does: it reads the files, compares hashes, and turns numbers into integers. Whether a token may be used
-   and a witness holds, the functions decide that are extracted from Coq: Reading.start_read, Checker.step, Hit.check_hit.
+   and a witness holds, the functions decide that are extracted from Coq: Reading.start_read, Checker.step,
+   Hit.check_hit.
    What it does not do: it finds nothing by itself, and shares nothing with the other checker but the document. *)
 open Blocks
 open Trajectory

@@ -2,11 +2,11 @@
 (* The motion, step by step, from frames or from the block file of a run, each read when it is needed. *)
 open Blocks
 
-(* As in block LINE: bytes has the times of all breakpoints, from a place on, and from another their positions. Breakpoint
-   first.(v) is the first of vertex v; behind them all is the number of all. A vertex becomes a list when it is asked for,
-   for in this form a run takes a tenth of the memory. *)
-type motion = { t0 : float; t1 : float; dimension : int; first : int array; bytes : string; times : int; positions : int;
-                hash : string Lazy.t }
+(* As in block LINE: bytes has the times of all breakpoints, from a place on, and from another their positions.
+   Breakpoint first.(v) is the first of vertex v; behind them all is the number of all. A vertex becomes a list when it
+   is asked for: in lists, a run takes ten times the memory. *)
+type motion = { t0 : float; t1 : float; dimension : int; first : int array; bytes : string; times : int;
+                positions : int; hash : string Lazy.t }
 
 (* The bits of its numbers; a third coordinate that is not there is 0. *)
 let time m i = String.get_int64_le m.bytes (m.times + (8 * i))
