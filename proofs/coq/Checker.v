@@ -51,7 +51,7 @@ Inductive token :=
 (** ** Trajectories *)
 
 (** Times increase strictly from [t0] on, and the last is [T] or after. *)
-Fixpoint reaches (t0 T : Z) (r : traj) : bool :=
+Fixpoint reaches {A} (t0 T : Z) (r : list (Z * A)) : bool :=
   match r with
   | [] => T <=? t0
   | (t1, _) :: r' => (t0 <? t1) && reaches t1 T r'
@@ -192,6 +192,7 @@ Definition inside (h : halfspace) (a b d : Z) (x : search traj) : bool :=
     the places where they begin. *)
 Definition place_bits : Z := 40.
 Definition time_bits : Z := 20.
+Definition half_bits : Z := 10.
 Definition d_quick : Z := 2 ^ 8.
 
 Definition lesser (a b : Z) : Z := if b <? a then b else a.
@@ -217,38 +218,47 @@ Definition unit_bits (path : Z -> traj) (ids : list Z) : Z :=
 Definition coarse (s : Z) (p : vec) : vec := V3 (Z.shiftr (vx p) s) (Z.shiftr (vy p) s) (Z.shiftr (vz p) s).
 
 (** The last breakpoint, if [t], [p] is the one before [r]. *)
-Fixpoint last_from (t : Z) (p : vec) (r : traj) : Z * vec :=
+Fixpoint last_from {A} (t : Z) (p : A) (r : list (Z * A)) : Z * A :=
   match r with [] => (t, p) | (t1, p1) :: r' => last_from t1 p1 r' end.
 
-(** How far a breakpoint is from the chord, less than [slack] too much or too little. *)
-Definition stray (s T0 W : Z) (o w : vec) (t : Z) (p : vec) : vec :=
-  let u := Z.shiftl (t - T0) time_bits / W in
-  by_axis Z.sub (coarse s p) (by_axis (fun o w => o + Z.shiftr (w * u) time_bits) o w).
+(** The part [t] of the time [W], in units of 2^-20: [t] times 2^20 by [W], in two steps, for
+    whose numbers the machine's integers are long enough if those for [W] have 10 bits to spare. *)
+Definition part (t W : Z) : Z :=
+  let t' := Z.shiftl t half_bits in
+  let q := t' / W in
+  Z.shiftl q half_bits + Z.shiftl (t' - q * W) half_bits / W.
+
+(** How far a breakpoint, with a coarse position, is from the chord, less than [slack] too much or too little. *)
+Definition stray (T0 W : Z) (o w : vec) (t : Z) (p : vec) : vec :=
+  let u := part (t - T0) W in
+  let on p o w := p - (o + Z.shiftr (w * u) time_bits) in
+  V3 (on (vx p) (vx o) (vx w)) (on (vy p) (vy o) (vy w)) (on (vz p) (vz o) (vz w)).
 Definition slack (w : Z) : Z := Z.shiftr (Z.abs w) time_bits + 1 + 1.
 
-(** The least and the greatest of breakpoints, and of those before. *)
-Fixpoint strays (s T0 W : Z) (o w : vec) (r : traj) (l h : vec) : vec * vec :=
+(** The least and the greatest of breakpoints, and of those before; [f] gives coarse positions. *)
+Fixpoint strays {A} (f : A -> vec) (T0 W : Z) (o w : vec) (r : list (Z * A)) (l h : vec) : vec * vec :=
   match r with
   | [] => (l, h)
   | (t, p) :: r' =>
-      let e := stray s T0 W o w t p in
-      strays s T0 W o w r' (by_axis lesser l e) (by_axis greater h e)
+      let e := stray T0 W o w t (f p) in
+      strays f T0 W o w r' (by_axis lesser l e) (by_axis greater h e)
   end.
 
-(** The chord of a trajectory that begins at [T0] and ends at [T1]. *)
-Definition chord_of (s T0 T1 : Z) (tr : traj) : option chord :=
+(** The chord of a trajectory that begins at [T0] and ends at [T1]; [f] gives coarse positions. *)
+Definition chord_by {A} (f : A -> vec) (s T0 T1 : Z) (tr : list (Z * A)) : option chord :=
   match tr with
   | [] => None
   | (t0, p0) :: r =>
       let e := last_from t0 p0 r in
       if (t0 =? T0) && (fst e =? T1) && (T0 <? T1) then
-        let o := coarse s p0 in
-        let w := by_axis Z.sub (coarse s (snd e)) o in
-        let lh := strays s T0 (T1 - T0) o w r (V3 0 0 0) (V3 0 0 0) in
+        let o := f p0 in
+        let w := by_axis Z.sub (f (snd e)) o in
+        let lh := strays f T0 (T1 - T0) o w r (V3 0 0 0) (V3 0 0 0) in
         Some (Chord (Z.shiftl 1 s) o w
           (by_axis (fun l w => l - slack w) (fst lh) w) (by_axis (fun h w => h + slack w) (snd lh) w))
       else None
   end.
+Definition chord_of (s T0 T1 : Z) (tr : traj) : option chord := chord_by (coarse s) s T0 T1 tr.
 
 (** *** In integers of the machine
 
@@ -286,8 +296,14 @@ Definition band_of (c : chord) : option band :=
       (to_word (vx h)) (to_word (vy h)) (to_word (vz h)) (to_word (vx m)) (to_word (vy m)) (to_word (vz m)))
   else None.
 
-(** A vertex: its id, the search tree of its trajectory, and its band if it has one. *)
-Record vertex := Vertex { vid : Z; trail : search traj; line : option band }.
+(** What is computed when it is asked for, and then kept. *)
+Inductive delayed (A : Type) := Delay (f : unit -> A).
+Arguments Delay {A} _.
+Definition force {A} (x : delayed A) : A := match x with Delay f => f tt end.
+
+(** A vertex: its id, the search tree of its trajectory, which few are asked for, and its band if it has one. *)
+Record vertex := Vertex { vid : Z; delayed_trail : delayed (search traj); line : option band }.
+Definition trail (v : vertex) : search traj := force (delayed_trail v).
 
 (** The band of a trajectory that begins at [T0] and ends at [T1]. *)
 Definition line_of (s T0 T1 : Z) (tr : traj) : option band :=
@@ -603,14 +619,16 @@ Fixpoint group_ids (f : Z -> Z) (s : scene) (g : group) : list Z :=
 Definition wf_vertex (s : scene) (v : Z) : bool :=
   wf_traj (tbeg s) (tend s) (path s v) && ((same s v =? v) || equal_traj (path s (same s v)) (path s v)).
 
-(** The vertices with these ids, by their ids: each trajectory's search tree and band are
-    made once, in units of 2^e, however many cells the vertex is in.  [acc] has the earlier ones, last first. *)
-Fixpoint vertices (e : Z) (s : scene) (ids : list Z) (acc : list (Z * search vertex)) : list (Z * search vertex) :=
+(** The vertex [v], with its band in units of 2^e. *)
+Definition vertex_of (s : scene) (e v : Z) : vertex :=
+  Vertex v (Delay (fun _ => index (path s v))) (line_of e (tbeg s) (tend s) (path s v)).
+
+(** The vertices with these ids, by their ids: each is made once, however many cells it is in.
+    [acc] has the earlier ones, last first. *)
+Fixpoint vertices (make : Z -> vertex) (ids : list Z) (acc : list (Z * search vertex)) : list (Z * search vertex) :=
   match ids with
   | [] => rev_append acc []
-  | v :: r =>
-      let w := Vertex v (index (path s v)) (line_of e (tbeg s) (tend s) (path s v)) in
-      vertices e s r ((v, Found w) :: acc)
+  | v :: r => vertices make r ((v, Found (make v)) :: acc)
   end.
 
 (** The vertex [v] in a search tree by ids. *)
@@ -645,15 +663,18 @@ Fixpoint build_from (table : search vertex) (s : scene) (g : group) : option tre
   end.
 
 (** The tree of a scene; [None] if a vertex makes no sense.  The vertices in it are those
-    that stand for others, or for themselves. *)
-Definition build (s : scene) (g : group) : option tree :=
-  if forallb (wf_vertex s) (group_ids (fun v => v) s g) then
+    that stand for others, or for themselves.  [wf] tells which vertices make sense, [bits] the unit of bands from
+    the ids, [make] makes a vertex with its band in such units. *)
+Definition build_by (wf : Z -> bool) (bits : list Z -> Z) (make : Z -> Z -> vertex) (s : scene) (g : group)
+  : option tree :=
+  if forallb wf (group_ids (fun v => v) s g) then
     let ids := group_ids (same s) s g in
-    match join_all ids (vertices (unit_bits (path s) ids) s ids []) with
+    match join_all ids (vertices (make (bits ids)) ids []) with
     | Some table => build_from table s g
     | None => None
     end
   else None.
+Definition build (s : scene) : group -> option tree := build_by (wf_vertex s) (unit_bits (path s)) (vertex_of s) s.
 
 (** The cells of a tree, in order, each once. *)
 Fixpoint ids_of (g : group) : list Z :=
@@ -860,13 +881,14 @@ Fixpoint run (st : list obligation) (toks : list token) : option (list obligatio
 End Steps.
 
 (** The stack before the first token; [None] for a scene or tree that makes no sense. *)
-Definition start (s : scene) (g : group) : option (list obligation) :=
+Definition start_by (make : group -> option tree) (s : scene) (g : group) : option (list obligation) :=
   if (tbeg s <? tend s) && (0 <? ncell s) && (0 <=? eta s) && (0 <? ring s) && covers (ncell s) g then
-    match build s g with
+    match make g with
     | Some x => Some [Self x (if 0 <? eta s then Distance else Disjoint) (tbeg s) (tend s) 1]
     | None => None
     end
   else None.
+Definition start (s : scene) : group -> option (list obligation) := start_by (build s) s.
 
 (** The answer: all obligations are met, and no token is left over. *)
 Definition check (strict : bool) (s : scene) (g : group) (toks : list token) : bool :=

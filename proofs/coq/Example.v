@@ -10,7 +10,7 @@
 
     Not here: the reading of files. *)
 Require Import ZArith List.
-From Noli Require Import Spec Checker Sound Glue Poly Hit.
+From Noli Require Import Spec Checker Sound Reading Glue Poly Hit.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -34,7 +34,7 @@ Definition spaced t0 t1 p n c l e eta := Scene t0 t1 p (fun v => v) n c l e eta 
 Definition touching t0 t1 p n c l e := spaced t0 t1 p n c l e 0.
 
 (** A vertex without a chord. *)
-Definition bare v tr := Vertex v (index tr) None.
+Definition bare v tr := Vertex v (Delay (fun _ => index tr)) None.
 
 (** ** A triangle at rest, and a point that falls towards it *)
 
@@ -256,6 +256,28 @@ Proof. computed. Qed.
 Lemma no_groups_second : forallb (fun w => negb (hd true (ways_of (groups (-1) w) point_first up))) [6; 7; 8] = true.
 Proof. computed. Qed.
 
+(** ** As it is read: exponents, and the same start *)
+
+Lemma ok_coarse_part : map (fun s => coarse_part s (-13) 3) [0; 2; 3; 4; 9; 99] = [-104; -26; -13; -7; -1; -1].
+Proof. computed. Qed.
+Lemma ok_part_of_time : map (fun t => Checker.part t 3) [0; 1; 2; 3; -1] = [0; 349525; 699050; 1048576; -349526]. Proof. computed. Qed.
+
+(** The scene's trajectories, with coordinates as multiples of 2^e. *)
+Definition reading_of e (s : scene) v :=
+  let spot p := Spot (vx p / 2 ^ e) e (vy p / 2 ^ e) e (vz p / 2 ^ e) e in
+  match path s v with
+  | (t, p) :: r => Reading t (spot p) (Delay (fun _ => map (fun b => (fst b, spot (snd b))) r))
+  | [] => Reading 0 (Spot 0 0 0 0 0 0) (Delay (fun _ => []))
+  end.
+Definition accepts_reading read s toks :=
+  match start_read read s point_first with Some st => run false s st toks | None => None end.
+Lemma ok_reading : map (fun e => accepts_reading (reading_of e (fall 2)) (fall 2) (close (above 1))) [0; 1] = [Some []; Some []].
+Proof. computed. Qed.
+Lemma no_reading : map (fun s => accepts_reading (reading_of 0 s) s (close (above 1)))
+  [fall 0; over_tri [(0, V3 2 2 8); (4, V3 2 2 8); (1, V3 2 2 8)]; over_tri [(0, V3 2 2 8); (1, V3 2 2 8)];
+   over_tri [(1, V3 2 2 8); (4, V3 2 2 8)]] = [None; None; None; None].
+Proof. computed. Qed.
+
 (** ** T: halves *)
 
 (** One point passes the other at a corner: a direction serves half of the time. *)
@@ -433,7 +455,7 @@ Lemma no_cell_negative : start row (Join (Cell (-1)) row_left) = None. Proof. co
 Lemma no_cell_negative_instead : start row (Join (Cell (-1)) (two 1 2)) = None. Proof. computed. Qed.
 
 (** A vertex that is not in the table of vertices is not found. *)
-Definition table ids := join_all ids (vertices 0 row ids []).
+Definition table ids := join_all ids (vertices (vertex_of row 0) ids []).
 Lemma ok_look_up : match table [1; 4; 5; 8; 9] with
   | Some x => map (fun v => match look_up x v with Some w => vid w | None => -1 end) [0; 1; 2; 4; 5; 7; 8; 9; 10]
   | None => []

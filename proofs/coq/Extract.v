@@ -11,7 +11,7 @@
     they take.  Each is one line below, to be read. *)
 Require Import ZArith List Bool.
 Require Import ExtrOcamlBasic.
-From Noli Require Import Spec Checker Poly Hit.
+From Noli Require Import Spec Checker Reading Poly Hit.
 
 (** Only 0, 1 and -1 occur as constants; numbers are never taken apart.  Divisors are positive;
     shifts are by numbers that are not negative. *)
@@ -32,6 +32,7 @@ Extract Inlined Constant Z.shiftl => "Zint.shiftl".
 Extract Inlined Constant Z.shiftr => "Zint.shiftr".
 Extract Inlined Constant place_bits => "Zint.place_bits".
 Extract Inlined Constant time_bits => "Zint.time_bits".
+Extract Inlined Constant half_bits => "Zint.half_bits".
 Extract Inlined Constant d_quick => "Zint.d_quick".
 Extract Inlined Constant d_max => "Zint.d_max".
 Extract Inlined Constant few => "Zint.few".
@@ -50,6 +51,11 @@ Extract Inlined Constant word_lt => "Zint.word_lt".
 Extract Inlined Constant word_zero => "0".
 Extract Inlined Constant word_most => "max_int".
 
+(** What is delayed is OCaml's: computed when it is asked for, and then kept.  Functions here have no effect, so when, and how
+    often, makes no difference. *)
+Extract Inductive delayed => "Lazy.t" [ "Lazy.from_fun" ] "Zint.no_match".
+Extract Inlined Constant force => "Lazy.force".
+
 Extract Inlined Constant fst => "fst".
 Extract Inlined Constant snd => "snd".
 Extract Inlined Constant negb => "not".
@@ -62,4 +68,4 @@ Extract Inlined Constant filter => "List.filter".
 Extract Inlined Constant map => "List.map".
 Extract Inlined Constant app => "List.append".
 
-Separate Extraction check start step run check_hit.
+Separate Extraction start_read step check_hit.

@@ -678,6 +678,14 @@ Proof.
   - apply Rle_trans with ((q + 1) * pow s); [lra|]. rewrite (Rmult_comm (q + 1)). apply Rmult_le_compat_l; lra.
 Qed.
 
+(** Two steps divide as one does. *)
+Lemma part_sound t w : (0 < w)%Z -> part t w = (Z.shiftl t time_bits / w)%Z.
+Proof.
+  intros W. unfold part. set (t' := Z.shiftl t half_bits). cbv zeta.
+  replace (Z.shiftl t time_bits) with (Z.shiftl t' half_bits) by (unfold t'; now rewrite Z.shiftl_shiftl).
+  rewrite !(Z.shiftl_mul_pow2 _ half_bits) by easy. rewrite <- Z.div_add_l by lia. f_equal. ring.
+Qed.
+
 (** What is true of breakpoints is true between them. *)
 Lemma above_line n u v r : forall t0 p0, increasing t0 r ->
   u + v * IZR t0 <= dotR n (inj p0) -> (forall t p, In (t, p) r -> u + v * IZR t <= dotR n (inj p)) ->
@@ -719,20 +727,22 @@ Proof.
     (Z.ltb_spec (vz p) (vz q)); lia.
 Qed.
 
-Lemma strays_sound s T0 W o w r : forall l h, let e := strays s T0 W o w r l h in
+Lemma strays_sound s T0 W o w r : forall l h, let e := strays (coarse s) T0 W o w r l h in
   vec_le (fst e) l /\ vec_le h (snd e) /\
-  forall t p, In (t, p) r -> vec_le (fst e) (stray s T0 W o w t p) /\ vec_le (stray s T0 W o w t p) (snd e).
+  forall t p, In (t, p) r ->
+    vec_le (fst e) (stray T0 W o w t (coarse s p)) /\ vec_le (stray T0 W o w t (coarse s p)) (snd e).
 Proof.
   induction r as [|(t1, p1) r IH]; intros l h e; cbn [strays] in e.
   - unfold e, vec_le; cbn. split; [lia|]. split; [lia|easy].
-  - destruct (IH (by_axis lesser l (stray s T0 W o w t1 p1)) (by_axis greater h (stray s T0 W o w t1 p1)))
+  - destruct (IH (by_axis lesser l (stray T0 W o w t1 (coarse s p1)))
+                 (by_axis greater h (stray T0 W o w t1 (coarse s p1))))
       as (L & H & A). fold e in L, H, A.
-    destruct (by_axis_lesser l (stray s T0 W o w t1 p1)), (by_axis_greater h (stray s T0 W o w t1 p1)).
+    destruct (by_axis_lesser l (stray T0 W o w t1 (coarse s p1))), (by_axis_greater h (stray T0 W o w t1 (coarse s p1))).
     split; [eauto using vec_le_trans|]. split; [eauto using vec_le_trans|].
     intros t p [[= <- <-]|I]; [eauto using vec_le_trans|now apply A].
 Qed.
 
-Lemma last_from_time r : forall t p, fst (last_from t p r) = last_time t r.
+Lemma last_from_time (r : traj) : forall t p, fst (last_from t p r) = last_time t r.
 Proof. induction r as [|(t1, p1) r IH]; cbn; auto. Qed.
 
 (** What [least_from] has of a vertex, in integers of any length: what one axis, and all, contribute, and both ends. *)
@@ -760,7 +770,7 @@ Lemma chord_sound s T0 T1 tr c : (0 <= s)%Z -> covers_time T0 T1 tr -> chord_of 
   pow s * (IZR (dot n (origin c) + least_stray n c)
            + IZR (dot n (motion c)) * ((t - IZR T0) / (IZR T1 - IZR T0))) <= far n tr t.
 Proof.
-  destruct tr as [|(t0, p0) r]; [easy|]. intros S (_ & I & _). unfold chord_of. rewrite last_from_time.
+  destruct tr as [|(t0, p0) r]; [easy|]. intros S (_ & I & _). unfold chord_of, chord_by. rewrite last_from_time.
   destruct (_ && _)%bool eqn:E; [|discriminate]. rewrite !andb_true_iff, !Z.eqb_eq, Z.ltb_lt in E.
   destruct E as [[-> E] L]. cbv zeta. set (o := coarse s p0).
   set (w := by_axis Z.sub _ o). intros [= <-].
@@ -770,11 +780,11 @@ Proof.
   cbn [origin motion]. set (c := Chord _ _ _ _ _). intros n t Ht. unfold far; cbn [pos].
   assert (0 < T1 - T0)%Z as W by lia. pose proof (pow_positive s S) as P.
   set (g := IZR (dot n o + least_stray n c)). set (m := IZR (dot n w)).
-  assert (forall t p, vec_le (fst lh) (stray s T0 (T1 - T0) o w t p) ->
-    vec_le (stray s T0 (T1 - T0) o w t p) (snd lh) ->
+  assert (forall t p, vec_le (fst lh) (stray T0 (T1 - T0) o w t (coarse s p)) ->
+    vec_le (stray T0 (T1 - T0) o w t (coarse s p)) (snd lh) ->
     pow s * (g + m * ((IZR t - IZR T0) / (IZR T1 - IZR T0))) <= dotR n (inj p)) as A.
   { clear t Ht. intros t p (L1 & L2 & L3) (H1 & H2 & H3).
-    unfold stray, coarse in *; cbn [by_axis vx vy vz] in *.
+    unfold stray, coarse in *; cbn [by_axis vx vy vz] in *. rewrite part_sound in L1, L2, L3, H1, H2, H3 by exact W.
     unfold g, m, dot, least_stray, c, dotR, inj; cbn [lows highs by_axis vx vy vz px py pz].
     repeat (rewrite plus_IZR || rewrite mult_IZR). rewrite <- !minus_IZR.
     assert (forall n l h x o w, let q := (Z.shiftr x s - (o + Z.shiftr (w * (Z.shiftl (t - T0) time_bits / (T1 - T0))) time_bits))%Z in
@@ -795,9 +805,9 @@ Proof.
     = pow s * (g + m * ((t' - IZR T0) / (IZR T1 - IZR T0)))) as F by (intros; field; lra).
   apply above_line; auto.
   - rewrite F. apply A.
-    + apply vec_le_trans with (1 := SL). unfold stray, vec_le, o, coarse. rewrite Z.sub_diag, Z.shiftl_0_l.
+    + apply vec_le_trans with (1 := SL). unfold stray, vec_le, o, coarse. rewrite Z.sub_diag, part_sound, Z.shiftl_0_l by exact W.
       rewrite Z.div_0_l by lia. cbn [by_axis vx vy vz]. rewrite !Z.mul_0_r, Z.shiftr_0_l. lia.
-    + apply vec_le_trans with (2 := SH). unfold stray, vec_le, o, coarse. rewrite Z.sub_diag, Z.shiftl_0_l.
+    + apply vec_le_trans with (2 := SH). unfold stray, vec_le, o, coarse. rewrite Z.sub_diag, part_sound, Z.shiftl_0_l by exact W.
       rewrite Z.div_0_l by lia. cbn [by_axis vx vy vz]. rewrite !Z.mul_0_r, Z.shiftr_0_l. lia.
   - intros t' p' I'. rewrite F. now apply A; apply SA.
   - rewrite E. exact Ht.
@@ -1672,7 +1682,7 @@ Proof.
 Qed.
 
 Lemma vertices_sound l : (forall v, In v l -> covers_time (tbeg s) (tend s) (path s v)) ->
-  forall acc, Forall (sorted_in resolved vid) acc -> Forall (sorted_in resolved vid) (vertices bits s l acc).
+  forall acc, Forall (sorted_in resolved vid) acc -> Forall (sorted_in resolved vid) (vertices (vertex_of s bits) l acc).
 Proof.
   induction l as [|v l IH]; cbn [vertices]; intros C acc F.
   - rewrite rev_append_rev, app_nil_r. now apply Forall_rev.
@@ -1764,7 +1774,7 @@ Lemma build_sound g x : bits = bits_of s g -> build s g = Some x ->
   (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) /\
   exists table, each resolved table /\ build_from table s g = Some x.
 Proof.
-  intros Eb. unfold build. on_forallb (group_ids (fun v => v) s g) F. cbn zeta.
+  intros Eb. unfold build, build_by. on_forallb (group_ids (fun v => v) s g) F. cbn zeta.
   change (unit_bits _ _) with (bits_of s g). rewrite <- Eb.
   assert (forall i v, In i (ids g) -> In v (cell s i) -> sensible v) as C.
   { intros i v Hi Hv. rewrite forallb_forall in F. apply wf_vertex_sound, F, (group_ids_in _ g i); auto.
@@ -1787,7 +1797,7 @@ Qed.
 Lemma start_sound g st : bits = bits_of s g -> start s g = Some st ->
   well_formed s /\ (Forall holds st -> never_touch strict s).
 Proof.
-  intros Eb. unfold start. destruct (_ && _)%bool eqn:E; [|discriminate].
+  intros Eb. unfold start, start_by. destruct (_ && _)%bool eqn:E; [|discriminate].
   rewrite !andb_true_iff in E. destruct E as [[[[E0 E1] E2] E3] C].
   apply Z.ltb_lt in E0, E1, E3. apply Z.leb_le in E2. destruct (build s g) as [x|] eqn:B; [|discriminate].
   apply (build_sound _ _ Eb) in B as (W & table & R & B).

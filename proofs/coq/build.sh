@@ -14,10 +14,10 @@ compile Noli
 
 # What the theorems rest on.
 theorems=(check_sound check_sound_cells check_well_formed run_app glue_sound glue_well_formed chain_sound
-          check_hit_sound check_hit_sound_both)
+          check_hit_sound check_hit_sound_both start_read_same start_read_sound)
 {
   echo 'Require Import ZArith List Reals.'
-  echo 'From Noli Require Import Spec Checker Sound Glue Hit.'
+  echo 'From Noli Require Import Spec Checker Sound Reading Glue Hit.'
   echo 'Open Scope Z_scope. Open Scope R_scope.'
   for theorem in "${theorems[@]}"; do
     echo "Check $theorem."
@@ -27,7 +27,7 @@ theorems=(check_sound check_sound_cells check_well_formed run_app glue_sound glu
 
 # The extracted checker: the same text, and it compiles with Zarith alone.
 mkdir extracted
-for module in Spec Checker Poly Hit; do
+for module in Spec Checker Reading Poly Hit; do
   for end in ml mli; do
     { echo '(* SPDX-License-Identifier: Apache-2.0 *)'
       echo "(* Extracted from $module.v by build.sh --renew: not to be edited. *)"
@@ -37,7 +37,7 @@ done
 cp "$here/extracted/zint.ml" extracted
 cp -r extracted compiled
 (cd compiled && ocamlfind ocamlopt -package zarith -c zint.ml Spec.mli Spec.ml Checker.mli Checker.ml \
-  Poly.mli Poly.ml Hit.mli Hit.ml) ||
+  Reading.mli Reading.ml Poly.mli Poly.ml Hit.mli Hit.ml) ||
   fail "the extracted checker does not compile"
 
 keep assumptions.txt "the theorems, or what they rest on, differ from assumptions.txt"

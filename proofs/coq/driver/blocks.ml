@@ -29,6 +29,16 @@ let small c z = if Z.fits_int z then Z.to_int z else fail c "a number is too lar
 let u64 c = small c (Z.of_bits (take c 8))
 let finite c (x : float) = check c (x -. x = 0.0) "expected a finite number"; x
 let f64 c = finite c (Int64.float_of_bits (String.get_int64_le c.bytes (skip c 8)))
+
+(* The next n numbers are finite; they stay where they are. *)
+let finite_numbers c n =
+  let there = Int.min n (left c / 8) in
+  for _ = 1 to there do
+    let bits = String.get_int64_le c.bytes c.at in c.at <- c.at + 8;
+    check c (Int64.to_int (Int64.shift_right_logical bits 52) land 0x7ff < 0x7ff) "expected a finite number"
+  done;
+  need c (n - there) 8
+
 let same_bits x y = Int64.equal (Int64.bits_of_float x) (Int64.bits_of_float y)
 
 (* How many pairs a <= b, and they, ascending strictly. *)
@@ -50,27 +60,49 @@ let sint c = let u = groups c 1200 true in Z.logxor (Z.shift_right u 1) (if Z.is
 let shift c = let s = uint c in check c (s <= 4096) "a shift is above 4,096"; s
 let scaled c = let s = shift c in Z.shift_left (sint c) s
 
-(* x / 2^p, which has to be an integer; |x| is m 2^(k + p), with an integer m below 2^53. *)
-let integer c p x =
-  let bits = Int64.to_int (Int64.bits_of_float x) in
-  let e = (bits lsr 52) land 0x7ff and fraction = bits land 0xfffffffffffff in
-  let m = if e = 0 then fraction else fraction lor 0x10000000000000 and k = (if e = 0 then 1 else e) - 1075 - p in
-  check c (m = 0 || k >= 0 || (k > -53 && m land ((1 lsl -k) - 1) = 0)) "a number is no multiple of the step's unit";
-  let m = if x < 0.0 then -m else m in
-  if m = 0 then Z.zero else if k < 0 then Z.of_int (m asr -k)
-  else if k < 9 then Z.of_int (m lsl k) else Z.shift_left (Z.of_int m) k
+(* The bits of a finite binary64 number: it is plus or minus significand 2^unit. *)
+let biased bits = Int64.to_int (Int64.shift_right_logical bits 52) land 0x7ff
+let significand bits = (Int64.to_int bits land 0xfffffffffffff) lor (if biased bits = 0 then 0 else 0x10000000000000)
+let unit bits = Int.max 1 (biased bits) - 1075
 
+(* x / 2^p is an integer: digits 2^zeros. *)
+let is_multiple p bits =
+  let m = significand bits and k = unit bits - p in
+  k >= 0 || m = 0 || (k > -53 && m land ((1 lsl -k) - 1) = 0)
+let zeros p bits = Int.max 0 (unit bits - p)
+let digits p bits =
+  let k = unit bits - p in
+  let m = if k >= 0 then significand bits else if k > -53 then significand bits lsr -k else 0 in
+  if Int64.compare bits 0L < 0 then -m else m
+let exact p bits =
+  let m = digits p bits and k = zeros p bits in
+  if k < 9 then Z.of_int (m lsl k) else Z.shift_left (Z.of_int m) k
+
+let check_multiple c p bits = check c (is_multiple p bits) "a number is no multiple of the step's unit"
+let integer c p x = let bits = Int64.bits_of_float x in check_multiple c p bits; exact p bits
+
+(* CRC-32C, eight bytes at once: number 256 k + byte is the remainder of that byte with k bytes of 0 behind it. *)
 let crc_table =
   let bit c _ = (c lsr 1) lxor (if c land 1 = 1 then 0x82F63B78 else 0) in
-  Array.init 256 (fun byte -> List.fold_left bit byte [1; 2; 3; 4; 5; 6; 7; 8])
+  let table = Array.init 2048 (fun i -> List.fold_left bit (i land 255) [1; 2; 3; 4; 5; 6; 7; 8]) in
+  for i = 256 to 2047 do let c = table.(i - 256) in table.(i) <- table.(c land 255) lxor (c lsr 8) done;
+  table
 
 let crc32c before s =
-  let crc = ref before in
-  for i = 0 to String.length s - 1 do crc := crc_table.((!crc lxor Char.code s.[i]) land 255) lxor (!crc lsr 8) done;
+  let next crc byte = crc_table.((crc lxor byte) land 255) lxor (crc lsr 8) in
+  let crc = ref before and whole = String.length s land -8 in
+  for i = 0 to (whole / 8) - 1 do
+    let x = Int64.logxor (String.get_int64_le s (8 * i)) (Int64.of_int !crc) in
+    let low = Int64.to_int x and high = Int64.to_int (Int64.shift_right_logical x 32) in
+    let at k word shift = crc_table.((256 * k) + ((word lsr shift) land 255)) in
+    crc := at 7 low 0 lxor at 6 low 8 lxor at 5 low 16 lxor at 4 low 24
+           lxor at 3 high 0 lxor at 2 high 8 lxor at 1 high 16 lxor at 0 high 24
+  done;
+  for i = whole to String.length s - 1 do crc := next !crc (Char.code s.[i]) done;
   !crc
 
 (* SHA-256, FIPS 180-4. What is less than a block waits. *)
-type hash = { state : int array; mutable waits : string; mutable hashed : int }
+type hash = { state : int array; waits : Bytes.t; mutable hashed : int }
 
 (* The first 32 fractional bits of roots of the first n primes. *)
 let roots degree n =
@@ -79,31 +111,68 @@ let roots degree n =
   let root i = Z.root (Z.shift_left (Z.of_int primes.(i)) (32 * degree)) degree in
   Array.init n (fun i -> Z.to_int (Z.extract (root i) 0 32))
 
-let k = roots 3 64 and start = roots 2 8 and w = Array.make 64 0
-let hash () = { state = Array.copy start; waits = ""; hashed = 0 }
-let rotated x n = (x lor (x lsl 32)) lsr n  (* in its lowest 32 bits *)
+let start = roots 2 8
+let hash () = { state = Array.copy start; waits = Bytes.create 64; hashed = 0 }
 
-let rec rounds i a b c d e f g h =
-  if i = 64 then [| a; b; c; d; e; f; g; h |]
-  else
-    let s0 = rotated a 2 lxor rotated a 13 lxor rotated a 22 and s1 = rotated e 6 lxor rotated e 11 lxor rotated e 25 in
-    let t1 = h + (s1 land mask) + (g lxor (e land (f lxor g))) + k.(i) + w.(i) in
-    let t2 = (s0 land mask) + ((a land b) lor (c land (a lor b))) in
-    rounds (i + 1) ((t1 + t2) land mask) a b c ((d + t1) land mask) e f g
+(* Most of a checker's time would go here, so words are in int64, which the compiler keeps unboxed within a function,
+   with neither tags nor tests. Of 64 bits the lowest 32 count. A rotated word is a shifted one that was there twice.
+   Indices of w and k, which are not tested, are multiples of 8 below 512. *)
+module Compress = struct
+  external get : Bytes.t -> int -> int64 = "%caml_bytes_get64u"
+  external set : Bytes.t -> int -> int64 -> unit = "%caml_bytes_set64u"
+  let ( ^ ) = Int64.logxor and ( & ) = Int64.logand and ( || ) = Int64.logor and ( >> ) = Int64.shift_right_logical
+  let ( + ) = Int64.add
+  let w = Bytes.create 512 and k = Bytes.create 512
+  let () = Array.iteri (fun i x -> set k (8 * i) (Int64.of_int x)) (roots 3 64)
+  let[@inline] twice x = let x = x & 0xffffffffL in x || Int64.shift_left x 32
+  let[@inline] word i = get w (8 * i)
 
-let compress v s at =
-  for i = 0 to 15 do w.(i) <- Int32.to_int (String.get_int32_be s (at + (4 * i))) land mask done;
-  for i = 16 to 63 do
-    let x = w.(i - 15) and y = w.(i - 2) in
-    let s0 = rotated x 7 lxor rotated x 18 lxor (x lsr 3) and s1 = rotated y 17 lxor rotated y 19 lxor (y lsr 10) in
-    w.(i) <- (w.(i - 16) + (s0 land mask) + w.(i - 7) + (s1 land mask)) land mask
-  done;
-  Array.iteri (fun i x -> v.(i) <- (v.(i) + x) land mask) (rounds 0 v.(0) v.(1) v.(2) v.(3) v.(4) v.(5) v.(6) v.(7))
+  let schedule s at =
+    for i = 0 to 15 do
+      set w (8 * i) (Int64.of_int32 (String.get_int32_be s (Stdlib.( + ) at (4 * i))) & 0xffffffffL)
+    done;
+    for i = 16 to 63 do
+      let x = word (i - 15) and y = word (i - 2) in
+      let xx = twice x and yy = twice y in
+      let s0 = (xx >> 7) ^ (xx >> 18) ^ (x >> 3) and s1 = (yy >> 17) ^ (yy >> 19) ^ (y >> 10) in
+      set w (8 * i) ((word (i - 16) + s0 + word (i - 7) + s1) & 0xffffffffL)
+    done
+
+  (* T1 and T2 of round i. *)
+  let[@inline] t1 e f g h i =
+    h + ((e >> 6) ^ (e >> 11) ^ (e >> 25)) + (g ^ (e & (f ^ g))) + get k (8 * i) + word i
+  let[@inline] t2 a b c = ((a >> 2) ^ (a >> 13) ^ (a >> 22)) + ((a & b) || (c & (a || b)))
+
+  let block v s at =
+    schedule s at;
+    let get i = twice (Int64.of_int v.(i)) in
+    let a = ref (get 0) and b = ref (get 1) and c = ref (get 2) and d = ref (get 3) in
+    let e = ref (get 4) and f = ref (get 5) and g = ref (get 6) and h = ref (get 7) in
+    (* Four rounds at once: in each, two words change; then all have moved by four. *)
+    for quarter = 0 to 15 do
+      let i = 4 * quarter and a0 = !a and b0 = !b and c0 = !c and e0 = !e and f0 = !f and g0 = !g in
+      let t = t1 e0 f0 g0 !h i in
+      let d1 = twice (!d + t) and h1 = twice (t + t2 a0 b0 c0) in
+      let t = t1 d1 e0 f0 g0 (i lor 1) in
+      let c1 = twice (c0 + t) and g1 = twice (t + t2 h1 a0 b0) in
+      let t = t1 c1 d1 e0 f0 (i lor 2) in
+      let b1 = twice (b0 + t) and f1 = twice (t + t2 g1 h1 a0) in
+      let t = t1 b1 c1 d1 e0 (i lor 3) in
+      e := twice (a0 + t); f := b1; g := c1; h := d1;
+      a := twice (t + t2 f1 g1 h1); b := f1; c := g1; d := h1
+    done;
+    let add i x = v.(i) <- Int64.to_int ((Int64.of_int v.(i) + x) & 0xffffffffL) in
+    add 0 !a; add 1 !b; add 2 !c; add 3 !d; add 4 !e; add 5 !f; add 6 !g; add 7 !h
+end
 
 let add h s =
-  let all = h.waits ^ s in let n = String.length all / 64 * 64 in
-  for i = 0 to (n / 64) - 1 do compress h.state all (64 * i) done;
-  h.waits <- String.sub all n (String.length all - n); h.hashed <- h.hashed + String.length s
+  let n = String.length s and used = h.hashed land 63 in
+  let first = min n ((64 - used) land 63) in  (* these go to what waits *)
+  Bytes.blit_string s 0 h.waits used first;
+  if first > 0 && used + first = 64 then Compress.block h.state (Bytes.to_string h.waits) 0;
+  let blocks = (n - first) / 64 in let rest = first + (64 * blocks) in
+  for i = 0 to blocks - 1 do Compress.block h.state s (first + (64 * i)) done;
+  Bytes.blit_string s rest h.waits 0 (n - rest); h.hashed <- h.hashed + n
 
 (* So many bytes of an integer, the lowest first. *)
 let text size n = String.init size (fun i -> Char.chr ((n lsr (8 * i)) land 255))

@@ -3,7 +3,8 @@
    Checks a proof that nothing touches, or that something does (proofs/FORMAT.md); for its exit codes see section 6.
 
    What this does: it reads the files, compares hashes, and turns numbers into integers. Whether a token may be used
-   and a witness holds, the functions decide that are extracted from Coq: Checker.start, Checker.step, Hit.check_hit.
+   and a witness holds, the functions decide that are extracted from Coq: Reading.start_read, Checker.step,
+   Hit.check_hit.
    What it does not do: it finds nothing by itself, and shares nothing with the other checker but the document. *)
 open Blocks
 open Trajectory
@@ -55,7 +56,7 @@ let read_claim file paths =
            && not (Float.sign_bit eta) && ring >= 1 && (eta > 0.0 || ring = 1))
     "a field of the claim has an impossible value";
   check c (not is_run || List.length paths = 1) "the proof is of a run: expected its trajectory.blocks, one file";
-  let motion = if is_run then of_run (List.hd paths) else of_frames paths (source = 1) in
+  let motion = if is_run then of_run (List.hd paths) else of_frames paths dimension (source = 1) in
   let same = read_merged c motion.mesh.vertices in let excluded = pairs u32 c in
   finish c;
   let cells = if is_run then motion.mesh.cells else cells_of motion.mesh same (flags >= 2) in
@@ -64,21 +65,24 @@ let read_claim file paths =
   check c (motion.fits excluded) "other pairs are excluded than those of the run";
   let labels = read_labels file is_run cells (if is_run then motion.labels else Array.map (fun _ -> 0) cells) in
   check c (cells <> [||] && cells_hash same cells labels = hash) "the claim is about other cells, or about none";
-  let motion = { motion with dimension; labels } in
+  let motion = { motion with labels } in
   { source; points = flags >= 2; strict = flags land 1 = 1; ring; eta; excluded; same; cells; motion }
 
-let next_motion claim =
-  let motion = claim.motion.next () and flatten (_, x) = x.(2) <- 0.0 in
-  if claim.motion.dimension = 2 then Option.iter (fun m -> Array.iter (Array.iter flatten) m.lines) motion;
-  motion
+(* The trajectory of a vertex in integers, all of which are multiples. *)
+let read m p q v : Reading.reading =
+  let from = m.first.(v) and last = m.first.(v + 1) - 1 in
+  let instant i = exact q (time m i) in
+  let spot i : Reading.spot =
+    let x = coordinate m i 0 and y = coordinate m i 1 and z = coordinate m i 2 in
+    let digits bits = Z.of_int (digits p bits) and zeros bits = Z.of_int (zeros p bits) in
+    { xm = digits x; xe = zeros x; ym = digits y; ye = zeros y; zm = digits z; ze = zeros z } in
+  let rec later i behind = if i = from then behind else later (i - 1) ((instant i, spot i) :: behind) in
+  { first_time = instant from; first_spot = spot from; later = lazy (later last []) }
 
 (* The claim about a step, in integers. *)
 let scene_of c claim m p q ring cell : Spec.scene =
-  let vertex line = Array.fold_right (fun (t, x) path ->
-    let x k = integer c p x.(k) in
-    (integer c q t, { Spec.vx = x 0; vy = x 1; vz = x 2 }) :: path) line [] in
-  let paths = Array.map vertex m.lines and ids numbers = List.map Z.of_int (Array.to_list numbers) in
-  { tbeg = integer c q m.t0; tend = integer c q m.t1; path = (fun v -> paths.(Z.to_int v));
+  let ids numbers = List.map Z.of_int (Array.to_list numbers) in
+  { tbeg = integer c q m.t0; tend = integer c q m.t1; path = (fun v -> Reading.traj_of (read m p q (Z.to_int v)));
     same = (fun v -> Z.of_int claim.same.(Z.to_int v)); ncell = Z.of_int (Array.length claim.cells);
     cell = (fun i -> ids (cell claim.cells.(Z.to_int i))); label = (fun i -> Z.of_int claim.motion.labels.(Z.to_int i));
     eta = integer c p claim.eta; ring = Z.of_int ring;
@@ -112,7 +116,7 @@ let token c =
   | _ -> fail c "the byte before this is no token"
 
 (* The tree of the proof, if it holds; known is that of the last proof. *)
-let prove file claim known scene =
+let prove file claim known read scene =
   let rec use c stack =
     if left c = 0 then stack
     else match Checker.step claim.strict scene stack (token c) with
@@ -124,7 +128,7 @@ let prove file claim known scene =
     if kind = "TOKS" then let stack = use c stack in tokens stack (next file) in
   let kind, c = next file in let has_tree = kind = "TREE" in
   let tree = if has_tree then Some (read_tree c 0) else known in if has_tree then finish c;
-  match Option.bind tree (Checker.start scene) with
+  match Option.bind tree (Reading.start_read (fun v -> read (Z.to_int v)) scene) with
   | None -> fail c "there is no tree, it has not each cell once, or the step makes no sense"
   | Some stack -> tokens stack (if has_tree then next file else (kind, c)); tree
 
@@ -156,12 +160,12 @@ let rec check_steps file claim seen tree words =
   match next file with
   | "", c ->
     check c (seen > 0) "a claim about no steps";
-    check c (words <> None || next_motion claim = None) "the proof ends, but the trajectory goes on";
+    check c (words <> None || claim.motion.next () = None) "the proof ends, but the trajectory goes on";
     (seen, words)
   | kind, c ->
     let number = if kind = "STEP" then u64 c else fail c "expected a block STEP" in
     check c (number >= seen && (words <> None || number = seen)) "a step has the wrong number";
-    let rec go_on k = match next_motion claim with
+    let rec go_on k = match claim.motion.next () with
       | Some m -> if k < number then go_on (k + 1) else m
       | None -> fail c "the trajectory has no such step" in
     (* What a large step before this one needed is given back first. *)
@@ -172,12 +176,12 @@ let rec check_steps file claim seen tree words =
     if seen = 0 then span.(0) <- t0 +. 0.0; span.(1) <- t1 +. 0.0;
     check c (abs p <= 1200 && abs q <= 1200 && is_witness <= 1) "a field of the step has an impossible value";
     check c (take c 32 = Lazy.force m.hash && left c = 0) "the step is about another motion than the trajectory's";
-    let at_one_place v s = check c (v = s || m.lines.(v) = m.lines.(s)) "merged vertices are not at one place" in
-    Array.iteri at_one_place claim.same;
+    let at_one_place v s = check c (v = s || together m v s) "merged vertices are not at one place" in
+    Array.iteri at_one_place claim.same; check_multiples c p q m;
     (* A witness names vertices after merging. Paths are searched: no shortest one has as many edges as vertices. *)
     let ring = if is_witness = 0 then claim.ring else min claim.ring (Array.length claim.same) in
     let scene = scene_of c claim m p q ring (if is_witness = 0 then Fun.id else Array.map (fun v -> claim.same.(v))) in
-    if is_witness = 0 then check_steps file claim (number + 1) (prove file claim tree scene) words
+    if is_witness = 0 then check_steps file claim (number + 1) (prove file claim tree (read m p q) scene) words
     else
       let found = Printf.sprintf "refuted: in step %d, %s" (number + 1) (refute file claim scene) in
       check_steps file claim (number + 1) tree (if words = None then Some found else words)
@@ -209,7 +213,7 @@ let run proof paths =
 
 let () =
   let reject why = (try Printf.printf "rejected: %s\n%!" why with _ -> ()); 3 in
-  Gc.set { (Gc.get ()) with minor_heap_size = 1 lsl 20; space_overhead = 200 };
+  Gc.set { (Gc.get ()) with minor_heap_size = 1 lsl 18; space_overhead = 200 };
   exit
     (match Array.to_list Sys.argv with
      | _ :: proof :: (_ :: _ as paths) -> (

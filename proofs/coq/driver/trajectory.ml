@@ -2,34 +2,70 @@
 (* The motion, step by step, from frames or from the block file of a run, each read when it is needed. *)
 open Blocks
 
-(* By vertex its breakpoints, time and place. *)
-type motion = { t0 : float; t1 : float; lines : (float * float array) array array; hash : string Lazy.t }
+(* As in block LINE: bytes has the times of all breakpoints, from a place on, and from another their positions.
+   Breakpoint first.(v) is the first of vertex v; behind them all is the number of all. A vertex becomes a list when it
+   is asked for: in lists, a run takes ten times the memory. *)
+type motion = { t0 : float; t1 : float; dimension : int; first : int array; bytes : string; times : int;
+                positions : int; hash : string Lazy.t }
+
+(* The bits of its numbers; a third coordinate that is not there is 0. *)
+let time m i = String.get_int64_le m.bytes (m.times + (8 * i))
+let coordinate m i k =
+  if k < m.dimension then String.get_int64_le m.bytes (m.positions + (8 * ((m.dimension * i) + k))) else 0L
+let position m i = String.sub m.bytes (m.positions + (8 * m.dimension * i)) (8 * m.dimension)
+
+(* Two vertices are at one place at all times. *)
+let together m v s =
+  let equal a b = Int64.float_of_bits a = Int64.float_of_bits b and i = m.first.(v) and j = m.first.(s) in
+  let same n = equal (time m (i + n)) (time m (j + n))
+               && List.for_all (fun k -> equal (coordinate m (i + n) k) (coordinate m (j + n) k)) [0; 1; 2] in
+  let count = m.first.(v + 1) - i in
+  count = m.first.(s + 1) - j && List.for_all same (List.init count Fun.id)
+
+(* All times are multiples of 2^q, and all coordinates of 2^p. *)
+let check_multiples c p q m =
+  let check_from at until p =
+    for i = 0 to ((until - at) / 8) - 1 do check_multiple c p (String.get_int64_le m.bytes (at + (8 * i))) done in
+  let n = m.first.(Array.length m.first - 1) in
+  check_from m.times (m.times + (8 * n)) q; check_from m.positions (m.positions + (8 * m.dimension * n)) p
 
 (* Labels are one a cell; of a run, fits tells whether a list of their pairs is that of those which it excludes. *)
 type trajectory = { dimension : int; mesh : Frames.mesh; labels : int array; fits : (int * int) list -> bool;
                     next : unit -> motion option }
 
-let hash_of lines =
-  let h = hash () and put b x = Buffer.add_int64_le b (Int64.bits_of_float (x +. 0.0)) in  (* -0 becomes +0 *)
-  let line l =
-    let b = Buffer.create 80 in Buffer.add_string b (text 8 (Array.length l));
-    Array.iter (fun (t, x) -> put b t; Array.iter (put b) x) l;
-    add h (Buffer.contents b) in
-  Array.iter line lines; digest h
+let hash_of m =
+  let h = hash () in
+  for v = 0 to Array.length m.first - 2 do
+    let b = Buffer.create 80 and from = m.first.(v) and until = m.first.(v + 1) in
+    let put x = Buffer.add_int64_le b (if x = Int64.min_int then 0L else x) in  (* -0 becomes +0 *)
+    put (Int64.of_int (until - from));
+    for i = from to until - 1 do put (time m i); List.iter (fun k -> put (coordinate m i k)) [0; 1; 2] done;
+    add h (Buffer.contents b)
+  done;
+  digest h
 
-let of_frames paths at_rest =
+(* Each vertex goes from where it is in one frame to where it is in another. *)
+let between t0 t1 dimension before after =
+  let n = Array.length after in let b = Buffer.create (8 * n * (2 + (2 * dimension))) in
+  let put x = Buffer.add_int64_le b (Int64.bits_of_float x) in
+  Array.iter (fun _ -> put t0; put t1) after;
+  let place x = for k = 0 to dimension - 1 do put x.(k) done in
+  Array.iter2 (fun x y -> place x; place y) before after;
+  let first = Array.init (n + 1) (fun v -> 2 * v) and bytes = Buffer.contents b in
+  let rec m = { t0; t1; dimension; first; bytes; times = 0; positions = 16 * n; hash = lazy (hash_of m) } in m
+
+let of_frames paths dimension at_rest =
   let mesh, x = Frames.read_frame (List.hd paths) in
   let rest = ref (if at_rest then paths else List.tl paths) and now = ref x and step = ref 0.0 in
   if !rest = [] then raise (Rejected "the command line: expected more frames");
   let read path =
     let found, x = Frames.read_frame path in
     if found <> mesh then raise (Rejected (path ^ ": another mesh than that of the frame before"));
-    let t0 = if at_rest then 0.0 else !step in let t1 = t0 +. 1.0 in
-    let lines = Array.map2 (fun a b -> [| (t0, a); (t1, b) |]) (if at_rest then x else !now) x in
-    rest := List.tl !rest; now := x; step := !step +. 1.0;
-    { t0; t1; lines; hash = lazy (hash_of lines) } in
+    let t0 = if at_rest then 0.0 else !step in
+    let m = between t0 (t0 +. 1.0) dimension (if at_rest then x else !now) x in
+    rest := List.tl !rest; now := x; step := !step +. 1.0; m in
   let next () = Option.map read (List.nth_opt !rest 0) in
-  { dimension = 3; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next }
+  { dimension; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next }
 
 let read_mesh c =
   let vertices = u64 c and faces, edges = both u64 c in
@@ -71,18 +107,21 @@ let read_labels file (mesh : Frames.mesh) =
   (labels, fits)
 
 (* LINE: all world lines of a window. *)
-let read_lines c dimension vertices t0 t1 =
+let read_lines c dimension vertices t0 t1 hash =
   need c vertices 4;
-  let counts = many vertices u32 c in
-  check c (Array.for_all (fun n -> n >= 2) counts) "too few breakpoints";
-  let times = Array.map (fun n -> need c n 8; many n f64 c) counts in
-  let place _ = Array.init 3 (fun k -> if k < dimension then f64 c else 0.0) in
-  let line times =
-    Array.iteri (fun i t -> check c (i = 0 || times.(i - 1) < t) "times do not ascend") times;
-    check c (same_bits times.(0) t0 && same_bits times.(Array.length times - 1) t1) "other ends than the window's";
-    Array.map (fun t -> (t, place t)) times in
-  let lines = Array.map line times in finish c;
-  lines
+  let first = Array.make (vertices + 1) 0 in
+  for v = 0 to vertices - 1 do first.(v + 1) <- first.(v) + u32 c done;
+  let count v = first.(v + 1) - first.(v) and each part = for v = 0 to vertices - 1 do part v done in
+  each (fun v -> check c (count v >= 2) "too few breakpoints");
+  let times = c.at in each (fun v -> need c (count v) 8; finite_numbers c (count v));
+  let m = { t0; t1; dimension; first; bytes = c.bytes; times; positions = c.at; hash } in
+  let seconds i = Int64.float_of_bits (time m i) in
+  let line v =
+    let last = first.(v + 1) - 1 in
+    for i = first.(v) + 1 to last do check c (seconds (i - 1) < seconds i) "times do not ascend" done;
+    check c (same_bits (seconds first.(v)) t0 && same_bits (seconds last) t1) "other ends than the window's";
+    finite_numbers c (dimension * count v) in
+  each line; finish c; m
 
 let of_run path =
   let file = open_file path "TRAJ" in let c = expect file "HEAD" in
@@ -91,18 +130,21 @@ let of_run path =
     "not of dimension 2 or 3, or recorded frames alone, which are not its motion, or without a window length";
   let mesh = read_mesh (expect file "MESH") in
   let labels, fits = read_labels file mesh and windows = ref 0 and before = ref None in
-  (* Each vertex begins where it was at the end of the window before. *)
-  let follows old line =
-    let t, x = old.(Array.length old - 1) and u, y = line.(0) in same_bits t u && Array.for_all2 same_bits x y in
   let next () = match next file with
     | "", _ -> None
     | kind, c ->
       check c (kind = "WIND" && u64 c = !windows) "expected a block WIND with the number of the next window";
       let t0, t1 = both f64 c in
       check c (t0 < t1 && left c = 0) "a window ends before it begins, or is too long";
-      let lines = read_lines (expect file "LINE") dimension mesh.vertices t0 t1 in
-      let goes_on = match !before with Some old -> Array.for_all2 follows old lines | None -> true in
-      check c goes_on "a window does not go on from the one before"; before := Some lines; incr windows;
+      let c = expect file "LINE" in
+      let m = read_lines c dimension mesh.vertices t0 t1 (lazy file.last) in
+      (* Each vertex begins where it was at the end of the window before. *)
+      let follows (t, places) =
+        let goes_on = ref (same_bits t t0) in
+        Array.iteri (fun v x -> goes_on := !goes_on && x = position m m.first.(v)) places; !goes_on in
+      check c (Option.fold ~none:true ~some:follows !before) "a window does not go on from the one before";
+      before := Some (t1, Array.init mesh.vertices (fun v -> position m (m.first.(v + 1) - 1))); incr windows;
       List.iter (fun kind -> ignore (expect file kind)) ["VELO"; "STAT"; "CMIT"];
-      Some { t0; t1; lines; hash = Lazy.from_val file.last } in
+      ignore (Lazy.force m.hash);  (* the last commit is that of this window now *)
+      Some m in
   { dimension; mesh; labels; fits; next }

@@ -24,7 +24,7 @@ type token =
 | TOne
 | TBoth
 
-(** val reaches : Zint.t -> Zint.t -> traj -> bool **)
+(** val reaches : Zint.t -> Zint.t -> (Zint.t * 'a1) list -> bool **)
 
 let rec reaches t0 t = function
 | [] -> Zint.leq t t0
@@ -199,9 +199,9 @@ type chord = { grain : Zint.t; origin : vec; motion : vec; lows : vec;
 
 (** val unit_bits : (Zint.t -> traj) -> Zint.t list -> Zint.t **)
 
-let unit_bits path0 ids =
+let unit_bits path ids =
   let most = fun m v ->
-    match path0 v with
+    match path v with
     | [] -> m
     | p0 :: _ ->
       let (_, p) = p0 in
@@ -213,26 +213,29 @@ let unit_bits path0 ids =
       (Zint.log2 ((fun f l a -> List.fold_left f a l) most ids Zint.zero))
       Zint.place_bits)
 
-(** val coarse : Zint.t -> vec -> vec **)
-
-let coarse s p =
-  { vx = (Zint.shiftr p.vx s); vy = (Zint.shiftr p.vy s); vz =
-    (Zint.shiftr p.vz s) }
-
-(** val last_from : Zint.t -> vec -> traj -> Zint.t * vec **)
+(** val last_from : Zint.t -> 'a1 -> (Zint.t * 'a1) list -> Zint.t * 'a1 **)
 
 let rec last_from t p = function
 | [] -> (t, p)
 | p0 :: r' -> let (t1, p1) = p0 in last_from t1 p1 r'
 
-(** val stray :
-    Zint.t -> Zint.t -> Zint.t -> vec -> vec -> Zint.t -> vec -> vec **)
+(** val part : Zint.t -> Zint.t -> Zint.t **)
 
-let stray s t0 w o w0 t p =
-  let u = Zint.fdiv (Zint.shiftl (Zint.sub t t0) Zint.time_bits) w in
-  by_axis Zint.sub (coarse s p)
-    (by_axis (fun o0 w1 ->
-      Zint.add o0 (Zint.shiftr (Zint.mul w1 u) Zint.time_bits)) o w0)
+let part t w =
+  let t' = Zint.shiftl t Zint.half_bits in
+  let q = Zint.fdiv t' w in
+  Zint.add (Zint.shiftl q Zint.half_bits)
+    (Zint.fdiv (Zint.shiftl (Zint.sub t' (Zint.mul q w)) Zint.half_bits) w)
+
+(** val stray : Zint.t -> Zint.t -> vec -> vec -> Zint.t -> vec -> vec **)
+
+let stray t0 w o w0 t p =
+  let u = part (Zint.sub t t0) w in
+  let on = fun p0 o0 w1 ->
+    Zint.sub p0 (Zint.add o0 (Zint.shiftr (Zint.mul w1 u) Zint.time_bits))
+  in
+  { vx = (on p.vx o.vx w0.vx); vy = (on p.vy o.vy w0.vy); vz =
+  (on p.vz o.vz w0.vz) }
 
 (** val slack : Zint.t -> Zint.t **)
 
@@ -241,29 +244,31 @@ let slack w =
     Zint.one
 
 (** val strays :
-    Zint.t -> Zint.t -> Zint.t -> vec -> vec -> traj -> vec -> vec ->
-    vec * vec **)
+    ('a1 -> vec) -> Zint.t -> Zint.t -> vec -> vec -> (Zint.t * 'a1) list ->
+    vec -> vec -> vec * vec **)
 
-let rec strays s t0 w o w0 r l h =
+let rec strays f t0 w o w0 r l h =
   match r with
   | [] -> (l, h)
   | p0 :: r' ->
     let (t, p) = p0 in
-    let e = stray s t0 w o w0 t p in
-    strays s t0 w o w0 r' (by_axis lesser l e) (by_axis greater h e)
+    let e = stray t0 w o w0 t (f p) in
+    strays f t0 w o w0 r' (by_axis lesser l e) (by_axis greater h e)
 
-(** val chord_of : Zint.t -> Zint.t -> Zint.t -> traj -> chord option **)
+(** val chord_by :
+    ('a1 -> vec) -> Zint.t -> Zint.t -> Zint.t -> (Zint.t * 'a1) list ->
+    chord option **)
 
-let chord_of s t0 t1 = function
+let chord_by f s t0 t1 = function
 | [] -> None
 | p :: r ->
   let (t2, p0) = p in
   let e = last_from t2 p0 r in
   if (&&) ((&&) (Zint.equal t2 t0) (Zint.equal (fst e) t1)) (Zint.lt t0 t1)
-  then let o = coarse s p0 in
-       let w = by_axis Zint.sub (coarse s (snd e)) o in
+  then let o = f p0 in
+       let w = by_axis Zint.sub (f (snd e)) o in
        let lh =
-         strays s t0 (Zint.sub t1 t0) o w r { vx = Zint.zero; vy = Zint.zero;
+         strays f t0 (Zint.sub t1 t0) o w r { vx = Zint.zero; vy = Zint.zero;
            vz = Zint.zero } { vx = Zint.zero; vy = Zint.zero; vz = Zint.zero }
        in
        Some { grain = (Zint.shiftl Zint.one s); origin = o; motion = w;
@@ -300,14 +305,13 @@ let band_of c =
          (Zint.to_word m.vy); mz = (Zint.to_word m.vz) }
   else None
 
-type vertex = { vid : Zint.t; trail : traj search; line : band option }
+type vertex = { vid : Zint.t; delayed_trail : traj search Lazy.t;
+                line : band option }
 
-(** val line_of : Zint.t -> Zint.t -> Zint.t -> traj -> band option **)
+(** val trail : vertex -> traj search **)
 
-let line_of s t0 t1 tr =
-  match chord_of s t0 t1 tr with
-  | Some c -> band_of c
-  | None -> None
+let trail v =
+  Lazy.force v.delayed_trail
 
 (** val least_on : int -> int -> int -> int **)
 
@@ -542,12 +546,12 @@ let apart_by_walk k n a b d x y =
   match x with
   | [] -> true
   | w :: ws ->
-    let add = fun cs v -> union (fun c -> c) (times d a b v.trail) cs in
+    let add = fun cs v -> union (fun c -> c) (times d a b (trail v)) cs in
     let cs =
       (fun f l a -> List.fold_left f a l) add y
         ((fun f l a -> List.fold_left f a l) add x (a :: (b :: [])))
     in
-    let at_times = fun v -> values n a b d cs v.trail in
+    let at_times = fun v -> values n a b d cs (trail v) in
     (match cs with
      | [] -> false
      | c :: _ ->
@@ -568,9 +572,9 @@ let apart_by_walk k n a b d x y =
 
 let apart_by_plane e h w a b d x y =
   if wide e h.normal w
-  then if List.for_all (fun v -> inside h a b d v.trail) x
+  then if List.for_all (fun v -> inside h a b d (trail v)) x
        then let h' = behind h w in
-            List.for_all (fun v -> inside h' a b d v.trail) y
+            List.for_all (fun v -> inside h' a b d (trail v)) y
        else false
   else false
 
@@ -595,7 +599,7 @@ let least_at n d c = function
 | [] -> Zint.zero
 | v :: r ->
   (fun f l a -> List.fold_left f a l) (fun m v0 ->
-    lesser m (floor_at n d c v0.trail)) r (floor_at n d c v.trail)
+    lesser m (floor_at n d c (trail v0))) r (floor_at n d c (trail v))
 
 (** val plane_between :
     Zint.t -> vec -> Zint.t -> Zint.t -> Zint.t -> vertex list -> vertex list
@@ -716,25 +720,14 @@ let rec group_ids f s = function
 | Cell i -> cell_ids f s i
 | Join (l, r) -> union (fun u -> u) (group_ids f s l) (group_ids f s r)
 
-(** val wf_vertex : scene -> Zint.t -> bool **)
-
-let wf_vertex s v =
-  (&&) (wf_traj s.tbeg s.tend (s.path v))
-    ((||) (Zint.equal (s.same v) v)
-      (equal_traj (s.path (s.same v)) (s.path v)))
-
 (** val vertices :
-    Zint.t -> scene -> Zint.t list -> (Zint.t * vertex search) list ->
+    (Zint.t -> vertex) -> Zint.t list -> (Zint.t * vertex search) list ->
     (Zint.t * vertex search) list **)
 
-let rec vertices e s ids acc =
+let rec vertices make ids acc =
   match ids with
   | [] -> List.rev_append acc []
-  | v :: r ->
-    let w = { vid = v; trail = (index (s.path v)); line =
-      (line_of e s.tbeg s.tend (s.path v)) }
-    in
-    vertices e s r ((v, (Found w)) :: acc)
+  | v :: r -> vertices make r ((v, (Found (make v))) :: acc)
 
 (** val look_up : vertex search -> Zint.t -> vertex option **)
 
@@ -769,12 +762,14 @@ let rec build_from table s = function
       | None -> None)
    | None -> None)
 
-(** val build : scene -> group -> tree option **)
+(** val build_by :
+    (Zint.t -> bool) -> (Zint.t list -> Zint.t) -> (Zint.t -> Zint.t ->
+    vertex) -> scene -> group -> tree option **)
 
-let build s g =
-  if List.for_all (wf_vertex s) (group_ids (fun v -> v) s g)
+let build_by wf bits make s g =
+  if List.for_all wf (group_ids (fun v -> v) s g)
   then let ids = group_ids s.same s g in
-       (match join_all ids (vertices (unit_bits s.path ids) s ids []) with
+       (match join_all ids (vertices (make (bits ids)) ids []) with
         | Some table -> build_from table s g
         | None -> None)
   else None
@@ -998,40 +993,19 @@ let step strict s st tok =
      | Pair (x, y, o, a, b, d) -> step_pair s x y o a b d k tok
      | Self (x, o, a, b, d) -> step_self strict s x o a b d k tok)
 
-(** val run :
-    bool -> scene -> obligation list -> token list -> obligation list option **)
+(** val start_by :
+    (group -> tree option) -> scene -> group -> obligation list option **)
 
-let rec run strict s st = function
-| [] -> Some st
-| tok :: r ->
-  (match step strict s st tok with
-   | Some st' -> run strict s st' r
-   | None -> None)
-
-(** val start : scene -> group -> obligation list option **)
-
-let start s g =
+let start_by make s g =
   if (&&)
        ((&&)
          ((&&) ((&&) (Zint.lt s.tbeg s.tend) (Zint.lt Zint.zero s.ncell))
            (Zint.leq Zint.zero s.eta)) (Zint.lt Zint.zero s.ring))
        (covers s.ncell g)
-  then (match build s g with
+  then (match make g with
         | Some x ->
           Some ((Self (x,
             (if Zint.lt Zint.zero s.eta then Distance else Disjoint), s.tbeg,
             s.tend, Zint.one)) :: [])
         | None -> None)
   else None
-
-(** val check : bool -> scene -> group -> token list -> bool **)
-
-let check strict s g toks =
-  match start s g with
-  | Some st ->
-    (match run strict s st toks with
-     | Some l -> (match l with
-                  | [] -> true
-                  | _ :: _ -> false)
-     | None -> false)
-  | None -> false

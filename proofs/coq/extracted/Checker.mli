@@ -24,7 +24,7 @@ type token =
 | TOne
 | TBoth
 
-val reaches : Zint.t -> Zint.t -> traj -> bool
+val reaches : Zint.t -> Zint.t -> (Zint.t * 'a1) list -> bool
 
 val wf_traj : Zint.t -> Zint.t -> traj -> bool
 
@@ -78,18 +78,21 @@ type chord = { grain : Zint.t; origin : vec; motion : vec; lows : vec;
 
 val unit_bits : (Zint.t -> traj) -> Zint.t list -> Zint.t
 
-val coarse : Zint.t -> vec -> vec
+val last_from : Zint.t -> 'a1 -> (Zint.t * 'a1) list -> Zint.t * 'a1
 
-val last_from : Zint.t -> vec -> traj -> Zint.t * vec
+val part : Zint.t -> Zint.t -> Zint.t
 
-val stray : Zint.t -> Zint.t -> Zint.t -> vec -> vec -> Zint.t -> vec -> vec
+val stray : Zint.t -> Zint.t -> vec -> vec -> Zint.t -> vec -> vec
 
 val slack : Zint.t -> Zint.t
 
 val strays :
-  Zint.t -> Zint.t -> Zint.t -> vec -> vec -> traj -> vec -> vec -> vec * vec
+  ('a1 -> vec) -> Zint.t -> Zint.t -> vec -> vec -> (Zint.t * 'a1) list ->
+  vec -> vec -> vec * vec
 
-val chord_of : Zint.t -> Zint.t -> Zint.t -> traj -> chord option
+val chord_by :
+  ('a1 -> vec) -> Zint.t -> Zint.t -> Zint.t -> (Zint.t * 'a1) list -> chord
+  option
 
 val word_lesser : int -> int -> int
 
@@ -100,9 +103,10 @@ type band = { grid : Zint.t; lx : int; ly : int; lz : int; hx : int;
 
 val band_of : chord -> band option
 
-type vertex = { vid : Zint.t; trail : traj search; line : band option }
+type vertex = { vid : Zint.t; delayed_trail : traj search Lazy.t;
+                line : band option }
 
-val line_of : Zint.t -> Zint.t -> Zint.t -> traj -> band option
+val trail : vertex -> traj search
 
 val least_on : int -> int -> int -> int
 
@@ -196,10 +200,8 @@ val cell_ids : (Zint.t -> Zint.t) -> scene -> Zint.t -> Zint.t list
 
 val group_ids : (Zint.t -> Zint.t) -> scene -> group -> Zint.t list
 
-val wf_vertex : scene -> Zint.t -> bool
-
 val vertices :
-  Zint.t -> scene -> Zint.t list -> (Zint.t * vertex search) list ->
+  (Zint.t -> vertex) -> Zint.t list -> (Zint.t * vertex search) list ->
   (Zint.t * vertex search) list
 
 val look_up : vertex search -> Zint.t -> vertex option
@@ -208,7 +210,9 @@ val look_up_all : vertex search -> Zint.t list -> vertex list option
 
 val build_from : vertex search -> scene -> group -> tree option
 
-val build : scene -> group -> tree option
+val build_by :
+  (Zint.t -> bool) -> (Zint.t list -> Zint.t) -> (Zint.t -> Zint.t -> vertex)
+  -> scene -> group -> tree option
 
 val ids_of : group -> Zint.t list
 
@@ -257,9 +261,5 @@ val step_self :
 
 val step : bool -> scene -> obligation list -> token -> obligation list option
 
-val run :
-  bool -> scene -> obligation list -> token list -> obligation list option
-
-val start : scene -> group -> obligation list option
-
-val check : bool -> scene -> group -> token list -> bool
+val start_by :
+  (group -> tree option) -> scene -> group -> obligation list option

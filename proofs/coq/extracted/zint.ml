@@ -9,12 +9,16 @@ let lt a b = if are_small a b then small a < small b else Z.lt a b
 let leq a b = if are_small a b then small a <= small b else Z.leq a b
 let equal a b = if are_small a b then small a = small b else Z.equal a b
 
+(* Rounded down: of numbers that are not negative OCaml's own division is. *)
+let fdiv a b = if are_small a b && small a >= 0 && small b > 0 then of_int (Stdlib.( / ) (small a) (small b)) else Z.fdiv a b
+
 (* 2^1024, as d_max in Checker.v *)
 let d_max = shift_left one 1024
 
 (* As in Checker.v *)
 let place_bits = of_int 40
 let time_bits = of_int 20
+let half_bits = of_int 10
 let d_quick = of_int 256
 let few = of_int 1024
 let most_place = shift_left one 41
