@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "noli/tests/support/temporary_folder.h"
+#include "noli/trajectory/error.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::audit {

@@ -12,6 +12,7 @@
 #include "noli/audit/motion_generators.h"
 #include "noli/proofs/prover/verifier.h"
 #include "noli/tests/support/temporary_folder.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::audit {
 namespace {
