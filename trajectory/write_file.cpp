@@ -1,13 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/trajectory/write_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdint>
 #include <fstream>
+#include <string>
 #include <system_error>
 
 #include "noli/trajectory/block_sink.h"
 
 namespace noli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An empty file in this folder that nobody has: what has such a name is somebody's, if only of a process that was
+/// killed. The name is short, so that it is not too long where the target's is not.
+fs::path new_file(const fs::path& folder) {
+  for (std::uint64_t number = 0;; ++number) {
+    const fs::path path = folder / (".noli-" + std::to_string(number));
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      return path;
+    }
+    if (errno != EEXIST) throw std::system_error(errno, std::generic_category(), path.string());
+  }
+}
+
+void require_file_or_nothing(const fs::path& path) {
+  const fs::file_status there = fs::symlink_status(path);
+  if (!fs::exists(there) || fs::is_regular_file(there)) return;
+  throw std::system_error(std::make_error_code(std::errc::invalid_argument), path.string() + ": is no regular file");
+}
+
+}  // namespace
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
   errno = 0;
@@ -18,17 +48,16 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 void replace_file(const std::filesystem::path& path, std::string_view bytes) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code ignored;  // most often there is none to be removed
-  std::filesystem::remove(part, ignored);
+  require_file_or_nothing(path);
+  const fs::path part = new_file(path.parent_path());
   try {
-    FileSink sink(part, FileSink::Open::create);
+    FileSink sink(part, FileSink::Open::existing);
     sink.write(bytes);
     sink.sync();
-    std::filesystem::rename(part, path);
+    fs::rename(part, path);
   } catch (...) {
-    std::filesystem::remove(part, ignored);
+    std::error_code ignored;
+    fs::remove(part, ignored);
     throw;
   }
   sync_folder(path.parent_path());

@@ -2,6 +2,7 @@
 //
 // What is in the folder of a run beside its motion: manifest, copy of the scene, log.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -121,13 +122,37 @@ TEST(RunLog, IsWrittenByOneAtATime) {
 TEST(ReplaceFile, IsThereWholeOrAsItWas) {
   const test::TemporaryFolder folder;
   replace_file(folder / "a", "one");
-  folder.write("a.part", "left over");
   replace_file(folder / "a", "two");
   EXPECT_EQ(test::read_text(folder / "a"), "two");
   std::filesystem::create_directory(folder / "b");
   EXPECT_THROW(replace_file(folder / "b", "x"), std::system_error);
   EXPECT_THROW(replace_file(folder / "absent/a", "x"), std::system_error);
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "b"})) << "nothing is left beside them";
+}
+
+TEST(ReplaceFile, TakesNothingThatSomebodyHas) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> others = {".noli-0", ".noli-1", "a.part"};
+  for (const std::string& name : others) folder.write(name, "mine");
+  replace_file(folder / "a", "one");
+  EXPECT_EQ(test::read_text(folder / "a"), "one");
+  for (const std::string& name : others) EXPECT_EQ(test::read_text(folder / name), "mine");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{".noli-0", ".noli-1", "a", "a.part"}));
+}
+
+TEST(ReplaceFile, LeavesWhatIsNoFile) {
+  const test::TemporaryFolder folder;
+  folder.write("a", "mine");
+  std::filesystem::create_symlink(folder / "a", folder / "link");
+  std::filesystem::create_symlink(folder / "absent", folder / "dangling");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const char* const name : {"link", "dangling", "pipe"}) {
+    EXPECT_THROW(replace_file(folder / name, "x"), std::system_error) << name;
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link") && std::filesystem::is_symlink(folder / "dangling"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_EQ(test::read_text(folder / "a"), "mine");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "dangling", "link", "pipe"}));
 }
 
 }  // namespace
