@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "noli/app/report_page.h"
 #include "noli/app/report_results.h"
 #include "noli/app/report_run.h"
+#include "noli/app/report_verdict.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/version.h"
 #include "noli/trajectory/base64.h"
@@ -37,6 +39,8 @@ constexpr const char* footer =
     "  noli verify a.ply b.ply --json ab.json; noli report ab.json a.ply b.ply -o ab.html\n"
     "  noli verify runs/cloth --json cloth.json; noli report runs/cloth cloth.json -o cloth.html\n"
     "  noli report audit.json audit.svg -o audit.html";
+
+constexpr double most_rate = 1000;  ///< frames a second
 
 struct ReportArguments {
   std::vector<fs::path> inputs;
@@ -92,7 +96,7 @@ class Report {
     report_.page = {
         {"title", ""},
         {"made", fmt::format("Made by noli {}. Nothing on this page is fetched from elsewhere.", version_number())},
-        {"verdict", {{"word", "report"}, {"lines", Json::array()}}},
+        {"verdict", no_verdict()},
         {"facts", Json::array()},
         {"statement", Json::array()},
         {"scene", nullptr},
@@ -109,8 +113,10 @@ class Report {
     if (verified_) put_verdict_of_verify();
     for (const fs::path& path : inputs_.pictures) {
       const std::string image = "data:image/svg+xml;base64," + base64(read_whole_file(path));
-      report_.page["pictures"].push_back({{"name", path.stem().string()}, {"image", image}});
+      report_.page["pictures"].push_back({{"name", page_name(path)}, {"image", image}});
     }
+    put_other_words();
+    put_sources();
     put_title();
     return report_;
   }
@@ -124,10 +130,34 @@ class Report {
         verified_ = VerifyResult{path, std::move(result)};
         continue;
       }
-      if (result.contains("verdict") && result["verdict"].is_string() && inputs_.results.size() == 1 && !inputs_.run) {
-        report_.page["verdict"]["word"] = result["verdict"];
-      }
-      report_.page["results"].push_back({{"name", path.stem().string()}, {"result", std::move(result)}});
+      report_.page["results"].push_back({{"name", page_name(path)}, {"result", std::move(result)}});
+    }
+  }
+
+  /// After those of the run and of verify: of equals the first is at the head.
+  void put_other_words() {
+    for (const Json& other : report_.page["results"]) {
+      const Json& result = other["result"];
+      if (!result.contains("verdict") || !result["verdict"].is_string()) continue;
+      const auto word = result["verdict"].get<std::string>();
+      take_word(word, report_);
+      report_.page["verdict"]["lines"].push_back(
+          fmt::format("{} says {}.", other["name"].get<std::string>(), spoken(word)));
+    }
+  }
+
+  /// Which file each part comes from; tables and pictures have the names of theirs above them.
+  void put_sources() {
+    const auto add = [&](const char* what, const std::string& from) { report_.page["facts"].push_back({what, from}); };
+    if (inputs_.run) add("From", fmt::format("the run {}: how it ended, motion, series", page_name(*inputs_.run)));
+    if (!inputs_.frames.empty()) {
+      const std::string first = page_name(inputs_.frames.front()), last = page_name(inputs_.frames.back());
+      add("From", inputs_.frames.size() == 1
+                      ? fmt::format("{}: the frame that is shown", first)
+                      : fmt::format("{} to {}: the {} frames that are shown", first, last, inputs_.frames.size()));
+    }
+    if (verified_) {
+      add("From", fmt::format("{}: what noli verify says, its statement and its contacts", page_name(verified_->path)));
     }
   }
 
@@ -139,13 +169,11 @@ class Report {
                        fmt::format("is about {} {}, but {} frames were given", steps.count,
                                    steps.run ? "windows of a run" : "frames", inputs_.frames.size()));
     }
-    report_frames(inputs_.frames, steps.at_rest, arguments_.limits, report_);
+    report_frames(inputs_.frames, {steps.at_rest, steps.flat}, arguments_.limits, report_);
   }
 
   void put_verdict_of_verify() {
     const auto& [path, json] = *verified_;
-    std::optional<std::uint64_t> vertices;
-    if (!report_.page["scene"].is_null()) vertices = report_.page["scene"]["vertices"].get<std::uint64_t>();
     if (inputs_.run) {
       const VerifiedSteps steps = verified_steps(json, path);
       const std::size_t windows = report_.page["scene"]["steps"]["list"].size();
@@ -155,7 +183,7 @@ class Report {
                                      steps.run ? "windows" : "frames", windows));
       }
     }
-    put_verdict(json, path, vertices, report_);
+    put_verdict(json, path, report_);
     if (report_.page["title"] == "") report_.page["title"] = path.stem().string();
   }
 
@@ -170,11 +198,29 @@ class Report {
   ReportPage report_;
 };
 
+/// A page replaces a file. What is there and is none (a device, a pipe, a link to what somebody else has) stays.
+void require_place_of_page(const ReportArguments& arguments) {
+  require_other_file(arguments.output, arguments.inputs, "-o");
+  const fs::file_status there = fs::symlink_status(arguments.output);
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
+    throw UsageError("-o " + arguments.output.string() + ": is no regular file; expected the name of a file");
+  }
+  require_place_of_run(arguments.output, arguments.inputs.front(), arguments.force);
+}
+
+CLI::Validator is_rate() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        const double rate = std::strtod(text.c_str(), nullptr);  // is_positive() has seen that it is a number
+        return rate <= most_rate ? "" : fmt::format("{}: expected at most {}", text, most_rate);
+      },
+      "");
+}
+
 ExitCode run(const ReportArguments& arguments) {
   if (!has_report_page())
     throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
-  require_other_file(arguments.output, arguments.inputs, "-o");
-  require_place_of_run(arguments.output, arguments.inputs.front(), arguments.force);
+  require_place_of_page(arguments);
   Report report(arguments);
   const ReportPage& page = report();
   const std::string html = report_html(page);
@@ -198,6 +244,7 @@ Command add_report(CLI::App& app) {
   command->add_option("--title", arguments->title, "What stands at its head")->type_name("TEXT");
   command->add_option("--fps", arguments->limits.fps, "Frames a second of simulated time, at most")
       ->check(is_positive())
+      ->check(is_rate())
       ->capture_default_str();
   command->add_flag("--force", arguments->force, "Replace a page that is there");
   return {command, [arguments] { return run(*arguments); }};

@@ -4,7 +4,7 @@
 //
 // What the page reads (viewer/src/data.js), as JSON:
 //   title, made      texts
-//   verdict          word, lines: texts
+//   verdict          word, tone: "neutral", "good", "open" or "bad" (report_verdict.h), lines: texts
 //   facts            pairs of texts; statement: the same
 //   scene            null, or dimension, vertices, cells {faces, edges, points}, parts [{name, first, vertices, fixed}],
 //                    frames, times, unit, least, greatest, steps {begin, list: the ends of the steps}, note

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Results that noli wrote with --json, as a report shows them.
+//
+// What this does not do: a result names no hash of what it is about. What it counts is compared with what is shown;
+// whether it is about that very motion is not known, and the page says so.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 
 #include "noli/app/report_page.h"
 
 namespace noli::app {
 
-/// Throws InputError when it is no JSON object.
+/// Throws InputError when it is no JSON object, has a number beyond the range of double, or more than 64 levels. Whole
+/// numbers of which a browser would lose digits become texts.
 Json read_result(const std::filesystem::path& path);
 
 /// Whether it is one of `noli verify`, with contacts and a statement.
@@ -23,12 +26,15 @@ struct VerifiedSteps {
   bool run = false;
   std::uint64_t count = 0;
   bool at_rest = false;
+  bool flat = false;  ///< in two dimensions
 };
 VerifiedSteps verified_steps(const Json& result, const std::filesystem::path& path);
 
-/// Fills verdict, statement, contacts from a result of `noli verify`; `vertices`: of the mesh that is shown, or nothing.
-/// Throws InputError where members are not as `noli verify` writes them, or name a vertex that the mesh has not.
-void put_verdict(const Json& result, const std::filesystem::path& path, std::optional<std::uint64_t> vertices,
-                 ReportPage& report);
+/// Fills verdict, statement, contacts from a result of `noli verify`. Throws InputError where members are not as `noli
+/// verify` writes them; or where it names or counts another mesh than that of the scene, if there is one.
+void put_verdict(const Json& result, const std::filesystem::path& path, ReportPage& report);
+
+/// "cloth.json", "cloth" for the folder of a run: as a page calls an input. Not where it is, which is nobody's matter.
+std::string page_name(const std::filesystem::path& path);
 
 }  // namespace noli::app

@@ -9,8 +9,11 @@
 
 #include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/not_compared.h"
+#include "noli/app/report_end.h"
 #include "noli/app/report_plots.h"
 #include "noli/app/report_scene.h"
+#include "noli/app/report_verdict.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/run_series.h"
@@ -21,6 +24,9 @@
 
 namespace noli::app {
 namespace {
+
+/// Of a window: more than that are a question of patience, and not of looking.
+constexpr double most_samples = 1e6;
 
 void stop_if_interrupted(const std::filesystem::path& what) {
   if (interrupted().load(std::memory_order_relaxed)) throw ReadInterrupted(what.string());
@@ -40,7 +46,8 @@ class Run {
     const LogFacts log = read_log(path_);
     require_all_windows(path_, log, rows_.size());
     report.page["title"] = title_of(path_);
-    report.page["verdict"] = verdict(log);
+    take_word(word_of_end(log.last_end, log.going_on), report);
+    add_lines(log, report.page["verdict"]["lines"]);
     report.page["facts"] = facts(log);
     report.page["plots"] = report_plots(rows_);
     PackedFrames frames = packer_.pack();
@@ -61,32 +68,44 @@ class Run {
   }
 
   void add_samples(const RunWindow& window) {
-    for_each_frame_time(window.index, window.begin, window.end, limits_.fps, [&](double t) {
+    const double rate = std::min(limits_.fps, most_samples / reader_.header().window_length);
+    for_each_frame_time(window.index, window.begin, window.end, rate, [&](double t) {
       if (!packer_.skip()) packer_.add(t, sample(*window.lines, t));
       return !interrupted().load(std::memory_order_relaxed);
     });
   }
 
-  /// As the run's log has it.
-  Json verdict(const LogFacts& log) const {
-    const bool contact = log.last_end == "contact";
-    const bool near = log.last_end == "too_near";
-    const char* const word = contact                  ? "contact"
-                             : near                   ? "too_near"
-                             : log.last_end == "done" ? "no_contact"
-                                                      : "undecided";
-    Json lines = {
-        fmt::format("Nothing touches in the {} windows of this run, from {} s to {} s: each was decided in exact "
-                    "arithmetic before it was written.",
-                    rows_.size(), begin_, ends_.back())};
-    if (contact) lines.push_back("In the window after them something touches, so it is not in the run.");
-    if (near) lines.push_back("In the window after them a pair comes nearer than the scene's layers of contact allow.");
+  void add_lines(const LogFacts& log, Json& lines) const {
+    const std::string where =
+        fmt::format("in the {} windows of this run, from {} s to {} s", rows_.size(), begin_, ends_.back());
+    lines.push_back(nothing_touches(left_out(log), where) +
+                    " Each window was decided in exact arithmetic before it was written.");
+    if (const std::string end = end_line(log); !end.empty()) lines.push_back(end);
     if (log.going_on) lines.push_back("The run has not ended, or was killed.");
     if (reader_.open_window()) lines.push_back("A window that was never committed follows; it is left out.");
     lines.push_back(full()
                         ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."
                         : "The run recorded frames and the hash of its motion, which can be computed again from it.");
-    return {{"word", word}, {"lines", lines}};
+  }
+
+  /// Why the window after the last is not in the run, as its log has it.
+  std::string end_line(const LogFacts& log) const {
+    const std::string what = what_ended(path_, log.names);
+    const std::string named = what.empty() ? "" : ": " + on_one_line(what);
+    if (log.last_end == "contact") {
+      return "In the window after them something touches, so it is not in the run" + named + ".";
+    }
+    if (log.last_end == "too_near") {
+      return "In the window after them a pair comes nearer than the scene's layers of contact allow" + named + ".";
+    }
+    if (log.last_end != "not_finite") return "";
+    return "In the window after them numbers run out: a velocity or position is not finite. It is not in the run.";
+  }
+
+  NotCompared left_out(const LogFacts& log) const {
+    std::vector<std::uint8_t> held;
+    for (const std::uint8_t label : reader_.scene().labels) held.push_back(label & scripted_vertex);
+    return not_compared(reader_.mesh(), held, reader_.scene().exclusions, log.names);
   }
 
   Json facts(const LogFacts& log) const {
@@ -159,8 +178,9 @@ void report_run(const std::filesystem::path& run, const ReportLimits& limits, Re
   Run(run, limits).put(report);
 }
 
-void report_frames(const std::vector<std::filesystem::path>& frames, bool at_rest, const ReportLimits& limits,
-                   ReportPage& report) {
+void report_frames(const std::vector<std::filesystem::path>& frames, const ReportedFrames& how,
+                   const ReportLimits& limits, ReportPage& report) {
+  const bool at_rest = how.at_rest;
   Frame first = read_frame(frames.front());
   MotionPacker packer(first.mesh.vertex_count, limits.most_bytes);
   if (!packer.skip()) packer.add(0, first.positions);
@@ -178,7 +198,7 @@ void report_frames(const std::vector<std::filesystem::path>& frames, bool at_res
                              : "Between these frames every vertex moves on a straight line: that motion was decided.";
   if (packer.stride() > 1) note += fmt::format(" One frame of {} is shown.", packer.stride());
   note += " Positions are rounded for the picture.";
-  const bool flat = packed.least[2] == packed.greatest[2];
+  const bool flat = how.flat || packed.least[2] == packed.greatest[2];
   put_scene({flat ? 2 : 3,
              first.mesh,
              {{"mesh", 0, first.mesh.vertex_count, false}},

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "noli/app/report_page.h"
 
@@ -17,11 +18,18 @@ struct ReportLimits {
   std::size_t most_bytes = 9'000'000;  ///< of the packed motion
 };
 
-/// Fills title, verdict, facts, scene and plots. Throws InputError (no run, a damaged one), ReadInterrupted.
+/// Fills title, verdict, facts, scene and plots. Throws InputError (no run, a damaged one), ReadInterrupted. The
+/// verdict is that of the run's own end: it stays, whatever others say of the windows before it.
 void report_run(const std::filesystem::path& run, const ReportLimits& limits, ReportPage& report);
 
-/// The same of frames, which are `steps` of a verdict at rest or moving; fills scene alone. Throws InputError.
-void report_frames(const std::vector<std::filesystem::path>& frames, bool at_rest, const ReportLimits& limits,
-                   ReportPage& report);
+/// How a verdict looks at its frames.
+struct ReportedFrames {
+  bool at_rest = false;  ///< each by itself, or moving from one to the next
+  bool flat = false;     ///< in two dimensions
+};
+
+/// The same of frames; fills scene alone. Throws InputError.
+void report_frames(const std::vector<std::filesystem::path>& frames, const ReportedFrames& how,
+                   const ReportLimits& limits, ReportPage& report);
 
 }  // namespace noli::app

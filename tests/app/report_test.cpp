@@ -2,8 +2,10 @@
 //
 // `noli report`: what is in a page. How it looks in a browser is tested by viewer/test.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "noli/tests/app/simulate_fixture.h"
+#include "noli/tests/app/worked_example.h"
 
 namespace noli::app_tests {
 namespace {
@@ -47,6 +49,37 @@ class Report : public Simulate {
     return json;
   }
 
+  /// The run of falling_triangle(), which ends in contact at 0.3125 s, and what verify says of its windows.
+  std::vector<std::string> run_with_contact() {
+    const std::string run = run_path("run"), result = folder.path("run.json");
+    EXPECT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run}).exit_code, 1);
+    EXPECT_EQ(run_noli({"verify", run, "--json", result}).exit_code, 0);
+    return {run, result};
+  }
+  /// Changes the last line of the log of a run, the one of its end.
+  static void change_end(const std::string& run, const Json& changes) {
+    const fs::path log = fs::path(run) / "log.jsonl";
+    const std::string before = bytes_of(log);
+    Json end = last_entry(run);
+    end.update(changes);
+    std::ofstream(log, std::ios::binary) << before.substr(0, before.rfind('\n', before.size() - 2) + 1) << end << "\n";
+  }
+  void expect_verdict(const std::vector<std::string>& inputs, const std::string& word, const std::string& tone) {
+    const Json verdict = page(inputs)["verdict"];
+    EXPECT_EQ(verdict["word"], word) << verdict;
+    EXPECT_EQ(verdict["tone"], tone) << verdict;
+  }
+  static bool says(const Json& json, const std::string& text) {
+    return json["verdict"]["lines"].dump().find(text) != std::string::npos;
+  }
+  /// What the statement of a page has under this name; "" if it is not there.
+  static std::string stated(const Json& json, const std::string& name) {
+    for (const Json& pair : json["statement"]) {
+      if (pair[0] == name) return pair[1];
+    }
+    return "";
+  }
+
   bool built_ = false;
 };
 
@@ -75,7 +108,54 @@ TEST_F(Report, OfARunThatEndsInContact) {
   ASSERT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run}).exit_code, 1);
   const Json json = page({run});
   EXPECT_EQ(json["verdict"]["word"], "contact");
-  EXPECT_NE(json["verdict"]["lines"].dump().find("something touches"), std::string::npos);
+  EXPECT_TRUE(says(json, "something touches"));
+  EXPECT_TRUE(says(json, "upright[0] meets ")) << json["verdict"];
+  EXPECT_TRUE(says(json, "at 0.3125 s"));
+}
+
+TEST_F(Report, TheEndOfARunStaysWhateverVerifySays) {
+  const std::vector<std::string> both = run_with_contact();
+  const Json json = page(both);
+  EXPECT_EQ(json["verdict"]["word"], "contact");
+  EXPECT_EQ(json["verdict"]["tone"], "bad");
+  EXPECT_TRUE(says(json, "noli verify says proved (run.json)"));
+  EXPECT_TRUE(says(json, "at 0.3125 s"));
+  EXPECT_TRUE(says(json, "was not checked"));
+  const Json alone = page({both[1]});
+  EXPECT_EQ(alone["verdict"]["word"], "contact");
+  EXPECT_TRUE(says(alone, "The run ends at ")) << alone["verdict"];
+  for (const char* const end : {"too_near", "not_finite", "interrupted", "done"}) {
+    change_end(both[0], {{"end", end}});
+    const bool stopped = end == std::string("interrupted"), done = end == std::string("done");
+    expect_verdict(both, stopped ? "undecided" : done ? "proved" : end, stopped ? "open" : done ? "good" : "bad");
+  }
+  change_end(both[0], {{"end", "contact"}, {"first", "damaged"}});
+  expect_verdict(both, "contact", "bad");
+}
+
+TEST_F(Report, ARunThatGoesOnIsNotGreen) {
+  const std::vector<std::string> both = run_with_contact();
+  change_end(both[0], {{"end", "done"}});
+  expect_verdict({both[0]}, "no_contact", "good");
+  std::ofstream(fs::path(both[0]) / "log.jsonl", std::ios::app) << R"({"event": "resume"})"
+                                                                << "\n";
+  expect_verdict(both, "undecided", "open");
+}
+
+TEST_F(Report, SaysWhoCameTooNear) {
+  const std::vector<std::string> both = run_with_contact();
+  change_end(both[0], {{"end", "too_near"}, {"too_near", {{"time", 0.5}, {"names", "vertex a[1] and face b[2]"}}}});
+  EXPECT_TRUE(says(page({both[0]}), "vertex a[1] and face b[2], at 0.5 s"));
+}
+
+TEST_F(Report, SaysWhatIsNotCompared) {
+  const std::string run = run_path("run");
+  ASSERT_EQ(run_noli({"simulate", scene(two_cloths()), "-o", run}).exit_code, 0);
+  const Json json = page({run});
+  EXPECT_TRUE(says(json, "Not compared: two cells of lying whose vertices are all scripted or pinned")) << json;
+  const std::string free = run_path("free");
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", free}).exit_code, 0);
+  EXPECT_FALSE(says(page({free}), "Not compared"));
 }
 
 TEST_F(Report, OfAVerdictWithItsFrames) {
@@ -87,7 +167,31 @@ TEST_F(Report, OfAVerdictWithItsFrames) {
   EXPECT_EQ(json["contacts"]["counts"]["vertex_face"], 1);
   EXPECT_EQ(json["contacts"]["listed"][0]["features"], Json::parse("[[3], [0, 1, 2]]"));
   EXPECT_EQ(json["scene"]["frames"], 2);
-  EXPECT_FALSE(json["statement"].empty());
+  EXPECT_TRUE(says(json, "That verdict.json is about these frames was not checked"));
+  EXPECT_NE(json["facts"].dump().find("0.obj to 1.obj"), std::string::npos);
+  EXPECT_EQ(json.dump().find(folder.path("")), std::string::npos) << "where files are is nobody's matter";
+}
+
+TEST_F(Report, HasEveryConditionOfTheStatement) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
+  const std::string result = verdict(frames, 1);
+  const Json json = page({result});
+  EXPECT_EQ(json["statement"].size(), Json::parse(bytes_of(result))["statement"].size());
+  EXPECT_EQ(stated(json, "dimension"), "3");
+  EXPECT_EQ(stated(json, "not compared"), "nothing");
+  EXPECT_EQ(stated(json, "least distance"), "0");
+  EXPECT_EQ(stated(json, "vertices that are always in one place are merged"), "no");
+  EXPECT_EQ(stated(json, "stops at any contact, which need not be the earliest"), "no");
+  EXPECT_TRUE(says(json, "The first is a crossing")) << json["verdict"];
+  EXPECT_FALSE(says(json, "there may be more"));
+  const std::string first = folder.path("first.json");
+  ASSERT_EQ(run_noli({"verify", "--first-only", "--merge-identical", "--json", first, frames[0], frames[1]}).exit_code,
+            1);
+  const Json any = page({first});
+  EXPECT_EQ(stated(any, "vertices that are always in one place are merged"), "yes");
+  EXPECT_EQ(stated(any, "stops at any contact, which need not be the earliest"), "yes");
+  EXPECT_TRUE(says(any, "The first that was found is a crossing"));
+  EXPECT_TRUE(says(any, "(first contact only): there may be more contacts, and earlier ones"));
 }
 
 TEST_F(Report, OfAVerdictAlone) {
@@ -104,6 +208,7 @@ TEST_F(Report, OfOtherResultsAndPictures) {
   EXPECT_EQ(json["title"], "An </script> audit");
   EXPECT_EQ(json["verdict"]["word"], "finding");
   EXPECT_EQ(json["results"][0]["result"]["rows"][0]["b"]["c"], 2);
+  EXPECT_EQ(json["results"][0]["name"], "audit.json");
   EXPECT_EQ(json["pictures"][0]["image"].get<std::string>().substr(0, 26), "data:image/svg+xml;base64,");
 }
 
@@ -118,12 +223,114 @@ TEST_F(Report, ListsAThousandContactsAndCountsAll) {
   EXPECT_EQ(json["contacts"]["listed"].size(), 1000u);
 }
 
+TEST_F(Report, TheWorstOfAllResultsIsAtTheHead) {
+  const auto result = [&](const std::string& word) {
+    return folder.write(word + ".json", Json{{"verdict", word}}.dump());
+  };
+  const std::string quiet = result("no_finding"), measured = result("measured"), open = result("undecided");
+  expect_verdict({quiet}, "no_finding", "good");
+  expect_verdict({measured}, "measured", "neutral");
+  expect_verdict({open}, "undecided", "open");
+  expect_verdict({result("nobody_knows")}, "nobody_knows", "open");
+  expect_verdict({quiet, measured}, "no_finding", "good");
+  expect_verdict({quiet, open, measured}, "undecided", "open");
+  for (const char* const word : {"finding", "disagreement", "not_finite", "different", "refuted", "rejected"}) {
+    expect_verdict({quiet, result(word), open}, word, "bad");
+  }
+  for (const char* const word : {"agreement", "nothing_fails", "no_difference", "accepted", "same", "holds"}) {
+    expect_verdict({result(word)}, word, "good");
+  }
+  EXPECT_TRUE(says(page({quiet, open}), "no_finding.json says no finding."));
+  const std::string contact = verdict({frame("0.obj", 1), frame("1.obj", -1)}, 1);
+  expect_verdict({quiet, contact}, "contact", "bad");
+  expect_verdict({result("finding"), verdict({frame("0.obj", 2), frame("1.obj", 1)}, 0)}, "finding", "bad");
+}
+
+TEST_F(Report, KeepsTheDigitsOfSeeds) {
+  const Json json = page({folder.write("a.json", R"({"seed": 18446744073709551615, "n": [-9007199254740993, 7]})")});
+  EXPECT_EQ(json["results"][0]["result"]["seed"], "18446744073709551615");
+  EXPECT_EQ(json["results"][0]["result"]["n"], Json::parse(R"(["-9007199254740993", 7])"));
+}
+
+TEST_F(Report, RefusesJsonThatItCannotShow) {
+  const auto nested = [&](std::size_t levels) {
+    return folder.write("deep.json", R"({"a":)" + std::string(levels - 1, '[') + std::string(levels - 1, ']') + "}");
+  };
+  write({nested(64)});
+  write({nested(65)}, 3, "expected at most 64 levels");
+  write({nested(200'000)}, 3, "expected at most 64 levels");
+  write({folder.write("large.json", R"({"a":1e999})")}, 3, "large.json: line 1, column ");
+  write({folder.write("large.json", R"({"a":1e300})")});
+}
+
+TEST_F(Report, RefusesMoreFramesThanAnybodySees) {
+  const std::string run = run_path("run");
+  ASSERT_EQ(run_noli({"simulate", scene(resting_bar(0.5, 0.25)), "-o", run}).exit_code, 0);
+  write({run, "--fps", "1e300"}, 3, "1e300: expected at most 1000");
+  write({run, "--fps", "1000.5"}, 3, "expected at most 1000");
+  write({run, "--fps", "0"}, 3, "above 0");
+  EXPECT_EQ(page({run, "--fps", "1000"})["scene"]["frames"], 501);
+}
+
+TEST_F(Report, RefusesAResultThatIsNoneOfVerify) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
+  const Json result = Json::parse(bytes_of(verdict(frames, 1)));
+  const auto refuse = [&](const std::string& pointer, const Json& value, const std::string& complaint) {
+    Json changed = result;
+    changed[Json::json_pointer(pointer)] = value;
+    write({folder.write("changed.json", changed.dump())}, 3, complaint);
+  };
+  refuse("/reports/contacts/0/features", Json::parse("[[3]]"), "not of two features");
+  refuse("/reports/contacts/0/features", Json::parse("[[3], [0], [1]]"), "not of two features");
+  refuse("/reports/contacts/0/features", Json::parse("[[3], []]"), "one to three vertices");
+  refuse("/reports/contacts/0/features", Json::parse("[[3], [0, 1, -2]]"), "expected a whole number from 0");
+  refuse("/reports/contacts/0/step", 0, "in step 0 of 1");
+  refuse("/reports/contacts/0/step", 2, "in step 2 of 1");
+  refuse("/contacts/vertex_face", -1, "expected a whole number from 0");
+  refuse("/contacts/vertex_face", 0.5, "expected a whole number from 0");
+  refuse("/contacts/vertex_face", 0, "lists 1 contacts, but counts 0");
+  refuse("/initial_intersections", -1, "expected a whole number from 0");
+  refuse("/steps", 2, "looked at 2 of 1 steps");
+  refuse("/steps_total", 2, "states something of 1 steps, but has 2");
+  refuse("/verdict", "proved", "says proved, but counts 1 contacts");
+  write({folder.write("same.json", result.dump())});
+}
+
+TEST_F(Report, RefusesAResultAboutAnotherMesh) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
+  Json result = Json::parse(bytes_of(verdict(frames, 1)));
+  for (const char* const count : {"vertices", "faces", "edges", "points"}) {
+    Json other = result;
+    other[count] = other[count].get<int>() + 1;
+    const std::string path = folder.write("other.json", other.dump());
+    write({path, frames[0], frames[1]}, 3, std::string("is about another mesh: it has ") + other[count].dump());
+    write({path});
+  }
+  const std::vector<std::string> both = run_with_contact();
+  Json flat = Json::parse(bytes_of(both[1]));
+  flat["statement"]["dimension"] = 2;
+  write({both[0], folder.write("flat.json", flat.dump())}, 3, "is about 2 dimensions, but the run has 3");
+}
+
+TEST_F(Report, OfFramesWhoseVerticesWereMergedOrMadePoints) {
+  const auto frame_of = [&](const std::string& name, double z) {
+    return folder.write(name, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 0\nv 0 4 0\nv 4 0 0\nf 1 2 3\np 4\nl 5 6\nv 1 1 " +
+                                  std::to_string(z) + "\n");
+  };
+  const std::vector<std::string> frames = {frame_of("0.obj", 2), frame_of("1.obj", 1)};
+  const std::string result = folder.path("result.json");
+  ASSERT_EQ(run_noli({"verify", "--merge-identical", "--points", "--json", result, frames[0], frames[1]}).exit_code, 0);
+  const Json json = page({result, frames[0], frames[1]});
+  EXPECT_EQ(stated(json, "vertices that were merged"), "3");
+  EXPECT_EQ(json["scene"]["vertices"], 7);
+}
+
 TEST_F(Report, RefusesWhatDoesNotFit) {
   const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
   const std::string result = verdict(frames, 1);
   write({frames[0], frames[1]}, 3, "no result of noli verify");
   write({result, frames[0]}, 3, "is about 2 frames, but 1 frames were given");
-  write({folder.write("none.json", "{")}, 3, "is no JSON");
+  write({folder.write("none.json", "{")}, 3, "is not JSON");
   write({folder.write("list.json", "[]")}, 3, "expected an object");
   write({folder.write("no.txt", "x")}, 3, "expected the folder of a run");
   Json other = Json::parse(bytes_of(result));
@@ -141,6 +348,33 @@ TEST_F(Report, ReplacesNothingUnasked) {
   EXPECT_NE(process.err.find("is there already"), std::string::npos);
   EXPECT_EQ(bytes_of(there), "mine");
   EXPECT_EQ(run_noli({"report", result, "-o", result, "--force"}).exit_code, 3);
+}
+
+TEST_F(Report, ReplacesNothingButFiles) {
+  const std::string result = folder.write("a.json", R"({"verdict": "same"})");
+  const std::string mine = folder.write("mine.html", "mine"), part = folder.write("new.html.part", "mine");
+  const std::string pipe = folder.path("pipe"), link = folder.path("link"), dangling = folder.path("dangling");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink(mine, link);
+  fs::create_symlink(folder.path("absent"), dangling);
+  for (const std::string& there : {pipe, link, dangling, std::string("/dev/null")}) {
+    const Process process = run_noli({"report", result, "-o", there, "--force"});
+    EXPECT_EQ(process.exit_code, 3) << there;
+    EXPECT_NE(process.err.find("is no regular file"), std::string::npos) << process.err;
+  }
+  EXPECT_TRUE(fs::is_fifo(pipe) && fs::is_symlink(link) && fs::is_symlink(dangling));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_FALSE(fs::exists(folder.path("absent")));
+  EXPECT_EQ(run_noli({"report", result, "-o", folder.path("new.html")}).exit_code, 0);
+  EXPECT_EQ(bytes_of(mine) + bytes_of(part), "minemine");
+}
+
+TEST_F(Report, TheWorkedExample) {
+  const auto commands = worked_example("viewer/REPORT.md", "## An example");
+  ASSERT_EQ(commands.size(), 3u);
+  expect_worked_example(commands, {{"noli ", std::string(NOLI_COMMAND) + " "}, {"sheets", folder.path("sheets")}},
+                        " bytes");
+  EXPECT_TRUE(fs::exists(folder.path("sheets.html")));
 }
 
 }  // namespace

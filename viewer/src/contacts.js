@@ -27,7 +27,7 @@ export function contactSection(contacts, pick) {
     row.onkeydown = (event) => { if (event.key === "Enter") choose(); };
     return row;
   });
-  const head = element("tr", {}, ...["", "step", "kind", "features, by vertex"].map((h) => element("th", {}, h)));
+  const head = element("tr", {}, ...["", "step", "pair", "features, by vertex"].map((h) => element("th", {}, h)));
   const left = contacts.total - contacts.listed.length;
   return section("Contacts", counted, element("h3", {}, "First ones found"),
     element("div", { className: "scroll" }, element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows))),

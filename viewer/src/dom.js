@@ -16,4 +16,9 @@ export function section(title, ...children) {
   return element("section", {}, element("h2", {}, title), ...children);
 }
 
-export const number = (x) => (Number.isInteger(x) ? x.toLocaleString("en") : Number(x.toPrecision(6)).toString());
+/** Whole numbers in full, others to six digits; with an exponent where there would be too many digits to be read. */
+export function number(x) {
+  const size = Math.abs(x);
+  if (size >= 1e15 || (size > 0 && size < 1e-4)) return Number(x.toPrecision(6)).toExponential();
+  return Number.isInteger(x) ? x.toLocaleString("en") : Number(x.toPrecision(6)).toString();
+}

@@ -9,14 +9,10 @@ import { plotSection } from "./plots.js";
 import { describe } from "./results.js";
 import { View } from "./view.js";
 
-const good = ["no_contact", "proved", "no_difference", "accepted", "same", "holds", "explained"];
-const bad = ["contact", "too_near", "finding", "findings", "refuted", "rejected", "differs"];
-
 function head(page) {
-  const word = page.verdict.word;
-  const colour = good.includes(word) ? "good" : bad.includes(word) ? "bad" : "";
+  const { word, tone } = page.verdict;
   return element("header", {}, element("h1", {}, page.title),
-    element("p", {}, element("span", { className: `badge ${colour}` }, word.replaceAll("_", " "))),
+    element("p", {}, element("span", { className: `badge ${tone}` }, word.replaceAll("_", " "))),
     ...page.verdict.lines.map((line) => element("p", {}, line)),
     page.facts.length > 0 ? list(page.facts) : null,
     element("p", { className: "soft" }, page.made));

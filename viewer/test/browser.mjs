@@ -6,7 +6,7 @@
 //
 //   node browser.mjs CHROMIUM REPORT.html SCREENSHOTS [--expect JSON]
 //
-// JSON: {"listed": n, "total": "text", "word": "text", "plots": n, "frames": n, "most_open_seconds": s}
+// JSON: {"listed": n, "says": ["text", ...], "lacks": [...], "word": "text", "tone": "text", "plots": n, "frames": n, "most_open_seconds": s}
 import { createRequire } from "node:module";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { basename, resolve } from "node:path";
@@ -78,6 +78,7 @@ async function look(browser, name, [width, height]) {
     const { view, player } = await window.noliReport;
     return {
       word: document.querySelector(".badge").textContent,
+      tone: document.querySelector(".badge").className.replace("badge ", ""),
       text: document.body.innerText,
       listed: document.querySelectorAll("tr.pick").length,
       plots: document.querySelectorAll(".plot canvas").length,
@@ -87,10 +88,11 @@ async function look(browser, name, [width, height]) {
     };
   });
   expect(found.wide <= 0, `${name}: the page is ${found.wide} pixels too wide`);
-  for (const key of ["word", "listed", "plots", "frames"]) {
+  for (const key of ["word", "tone", "listed", "plots", "frames"]) {
     if (key in expected) expect(found[key] === expected[key], `${name}: ${key}: expected ${expected[key]}, found ${found[key]}`);
   }
-  if ("total" in expected) expect(found.text.includes(expected.total), `${name}: the page does not say ${expected.total}`);
+  for (const text of expected.says ?? []) expect(found.text.includes(text), `${name}: the page does not say ${text}`);
+  for (const text of expected.lacks ?? []) expect(!found.text.includes(text), `${name}: the page says ${text}`);
   if ("most_open_seconds" in expected) expect(seconds <= expected.most_open_seconds, `${name}: opened in ${seconds} s`);
   const result = { name, open_seconds: seconds, frames: found.frames, listed: found.listed, plots: found.plots };
   if (found.view) {
@@ -111,6 +113,13 @@ async function look(browser, name, [width, height]) {
   if (found.listed > 0) {
     await page.click("tr.pick");
     expect(await page.$("tr.picked"), `${name}: a contact cannot be picked`);
+  }
+  const closed = await page.$("tr.nested details:not([open])");
+  if (closed) {
+    await closed.evaluate((details) => { details.open = true; });
+    const filled = await page.waitForFunction((details) => details.querySelector("td"), { timeout: 10000, polling: 100 }, closed)
+      .then(() => true, () => false);
+    expect(filled, `${name}: a table in a row stays empty`);
   }
   await page.screenshot({ path: `${folder}/${basename(report, ".html")}-${name}.png`, fullPage: true });
   await page.close();
