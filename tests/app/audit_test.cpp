@@ -3,8 +3,10 @@
 // `noli audit ccd`: libraries of all sorts, most of them with a fault that has to be found.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
@@ -176,9 +178,13 @@ TEST_F(AuditCcd, EndsWhatALibraryHasStarted) {
   ::unsetenv("NOLI_TEST_PID_FILE");
   std::string pid;
   ASSERT_TRUE(std::ifstream(file) >> pid);
-  std::string number, name, state;  // of /proc/PID/stat: one that nobody has waited for yet is a zombie
-  const bool there = static_cast<bool>(std::ifstream("/proc/" + pid + "/stat") >> number >> name >> state);
-  EXPECT_TRUE(!there || state == "Z") << name << ' ' << state;
+  // Whoever is told to end needs a moment; a zombie is one that nobody has waited for yet.
+  const auto ended = [&] {
+    std::string number, name, state;
+    return !(std::ifstream("/proc/" + pid + "/stat") >> number >> name >> state) || state == "Z";
+  };
+  for (int i = 0; i < 1000 && !ended(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(ended()) << pid;
 }
 
 TEST_F(AuditCcd, CountsFailures) {
