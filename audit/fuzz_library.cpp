@@ -169,6 +169,7 @@ class LibraryFuzzing {
       report_.interrupted = end == BlockEnd::interrupted;
     }
     shrink_findings();
+    report_.interrupted |= options_.limits.stop != nullptr && options_.limits.stop->load();  // while they were shrunk
     if (corpus_) {
       report_.corpus.signatures = corpus_->signatures();
       report_.corpus.kept = corpus_->kept();
