@@ -184,12 +184,14 @@ class Report {
       }
     }
     put_verdict(json, path, report_);
-    if (report_.page["title"] == "") report_.page["title"] = path.stem().string();
+    if (!has_title()) report_.page["title"] = path.stem().string();
   }
+
+  bool has_title() const { return !report_.page.at("title").get_ref<const std::string&>().empty(); }
 
   void put_title() {
     if (arguments_.title) report_.page["title"] = *arguments_.title;
-    if (report_.page["title"] == "") report_.page["title"] = arguments_.inputs.front().stem().string();
+    if (!has_title()) report_.page["title"] = arguments_.inputs.front().stem().string();
   }
 
   const ReportArguments& arguments_;

@@ -6,8 +6,9 @@
 //   title, made      texts
 //   verdict          word, tone: "neutral", "good", "open" or "bad" (report_verdict.h), lines: texts
 //   facts            pairs of texts; statement: the same
-//   scene            null, or dimension, vertices, cells {faces, edges, points}, parts [{name, first, vertices, fixed}],
-//                    frames, times, unit, least, greatest, steps {begin, list: the ends of the steps}, note
+//   scene            null, or dimension, vertices, cells {faces, edges, points},
+//                    parts [{name, first, vertices, fixed}], frames, times, unit, least, greatest,
+//                    steps {begin, list: the ends of the steps}, note
 //   contacts         null, or counts by kind, total, initial, listed [{step, pair, features}]
 //   plots            [{title, x, y, log, times, series: [{name, values}]}]
 //   pictures         [{name, image: a data: address}]; results: [{name, result: any JSON}]

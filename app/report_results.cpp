@@ -103,7 +103,7 @@ class Verified {
   }
 
   void require_feature(const Json& feature) const {
-    const bool of_three = feature.is_array() && feature.size() >= 1 && feature.size() <= 3;
+    const bool of_three = feature.is_array() && !feature.empty() && feature.size() <= 3;
     if (!of_three) refuse("names a feature that has not one to three vertices");
     for (const Json& v : feature) {
       const std::uint64_t number = count(v, "a vertex");
@@ -150,7 +150,7 @@ class Verified {
                     page_name(path_), looked_at_, steps_,
                     result_.at("statement").contains("windows") ? "window(s) were" : "step(s) were", contacts_)};
     if (!end_.empty()) lines.push_back(end_);
-    if (!result_.at("complete").get<bool>()) lines.push_back("Not all that was asked for was decided.");
+    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not all that was asked for was decided.");
     add_first(lines);
     add_near(lines);
     add_proof(lines);

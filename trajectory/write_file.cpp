@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// killed. The name is short, so that it is not too long where the target's is not.
 fs::path new_file(const fs::path& folder) {
   for (std::uint64_t number = 0;; ++number) {
-    const fs::path path = folder / (".noli-" + std::to_string(number));
+    fs::path path = folder / (".noli-" + std::to_string(number));
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
       ::close(descriptor);

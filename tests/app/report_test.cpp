@@ -28,7 +28,7 @@ class Report : public Simulate {
 
   /// Where a page was written.
   std::string write(std::vector<std::string> inputs, int exit_code = 0, const std::string& complaint = "") {
-    const std::string page = folder.path("page.html");
+    std::string page = folder.path("page.html");
     inputs.insert(inputs.begin(), "report");
     inputs.insert(inputs.end(), {"-o", page, "--force"});
     const Process process = run_noli(inputs);
