@@ -173,6 +173,7 @@ Command add_audit_self(CLI::App& audit) {
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
   command->add_option("--scenes", arguments->scenes, "Folder with scenes, which are run in their short forms")
+      ->check(CLI::ExistingDirectory)
       ->capture_default_str()
       ->type_name("DIR");
   command->add_option("--program", arguments->program, "Ask this `noli` instead of this one")

@@ -200,13 +200,8 @@ class Report {
   ReportPage report_;
 };
 
-/// A page replaces a file. What is there and is none (a device, a pipe, a link to what somebody else has) stays.
 void require_place_of_page(const ReportArguments& arguments) {
   require_other_file(arguments.output, arguments.inputs, "-o");
-  const fs::file_status there = fs::symlink_status(arguments.output);
-  if (fs::exists(there) && !fs::is_regular_file(there)) {
-    throw UsageError("-o " + arguments.output.string() + ": is no regular file; expected the name of a file");
-  }
   require_place_of_run(arguments.output, arguments.inputs.front(), arguments.force);
 }
 

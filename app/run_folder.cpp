@@ -156,6 +156,9 @@ void require_place_of_run(const fs::path& output, const fs::path& run, bool forc
   require_other_file(output, with_files_of_runs({run}), "-o");
   require_writable_file(output, "-o");
   std::error_code error;
+  const fs::file_status there = fs::symlink_status(output, error);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw UsageError("-o " + output.string() + ": is no regular file; expected the name of a file");
   if (force || !fs::exists(output, error)) return;
   throw UsageError("-o " + output.string() + ": is there already; expected no such file, or --force");
 }

@@ -24,7 +24,10 @@ class AuditSelf : public testing::Test {
       return std::find(more.begin(), more.end(), option) != more.end();
     };
     if (!given("--for")) words.insert(words.end(), {"--for", "200ms"});
-    if (!given("--scenes")) words.insert(words.end(), {"--scenes", folder.path("none")});
+    if (!given("--scenes")) {
+      std::filesystem::create_directories(folder.path("none"));
+      words.insert(words.end(), {"--scenes", folder.path("none")});
+    }
     if (!given("--data")) words.insert(words.end(), {"--data", folder.path("")});
     words.insert(words.end(), more.begin(), more.end());
     return words;
