@@ -145,7 +145,8 @@ class Audit {
     Comparison<Dim>& comparison = replay.comparison();
     const double t = engine_.time();
     for (std::size_t i = 0; i < engine_.particles().size(); ++i) {
-      const auto &a = engine_.particles()[i], &b = replay.particles()[i];
+      const auto& a = engine_.particles()[i];
+      const auto& b = replay.particles()[i];
       const bool same_clock = a.t == b.t;
       if (!same_clock || !same(a.x, b.x)) comparison.differ(t, static_cast<VertexId>(i));
       if (!same(a.v, b.v)) comparison.differ(t, "velocity of vertex " + std::to_string(i));
