@@ -57,6 +57,45 @@ TEST(Tokens, THasTheFirstHalfOnTop) {
   EXPECT_REJECTED(proof.with(of_pair(T + pz + mx)), "does not separate");
 }
 
+/// Points one after another along x, in a tree that halves them; of a node over more than 1,024 of them the checker
+/// keeps no list.
+struct Row {
+  Proof proof;
+  std::string tokens;
+
+  explicit Row(std::uint32_t count) {
+    Points x;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      x.push_back({2.0 * i, 0, 0});
+      proof.cells.push_back({i});
+    }
+    proof.frames = {x, x};
+    add(0, count);
+  }
+
+  void add(std::uint32_t begin, std::uint32_t end) {
+    if (end - begin == 1) {
+      proof.tree += uint(begin + 1);
+      tokens += F;
+      return;
+    }
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    proof.tree += uint(0);
+    tokens += N;
+    add(begin, middle);
+    tokens += mx;
+    add(middle, end);
+  }
+};
+
+TEST(Tokens, GroupsOfManyVerticesAreSeparatedByAllOfThem) {
+  Row row(2200);
+  EXPECT_ACCEPTED(row.proof.with(row.tokens));
+  row.proof.frames[1][1099][0] =
+      1100.5;  // the last of the first half, behind the first of the second: only they differ
+  EXPECT_REJECTED(row.proof.with(row.tokens), "does not separate");
+}
+
 TEST(Tokens, LAndRAreForPairsWithParts) {
   const std::string first = of_itself(py, my), second = of_itself(pz, mz);
   EXPECT_ACCEPTED(two_edges().with(B + L + R + first + mx + R + px + second));
