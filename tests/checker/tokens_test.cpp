@@ -66,7 +66,7 @@ struct Row {
   explicit Row(std::uint32_t count) {
     Points x;
     for (std::uint32_t i = 0; i < count; ++i) {
-      x.push_back({2.0 * i, 0, 0});
+      x.push_back({4.0 * i, 0, 0});
       proof.cells.push_back({i});
     }
     proof.frames = {x, x};
@@ -91,8 +91,8 @@ struct Row {
 TEST(Tokens, GroupsOfManyVerticesAreSeparatedByAllOfThem) {
   Row row(2200);
   EXPECT_ACCEPTED(row.proof.with(row.tokens));
-  row.proof.frames[1][1099][0] =
-      1100.5;  // the last of the first half, behind the first of the second: only they differ
+  // The last of the first half goes behind the first of the second: only the root's token is wrong.
+  row.proof.frames[1][1099][0] = 4402;
   EXPECT_REJECTED(row.proof.with(row.tokens), "does not separate");
 }
 
