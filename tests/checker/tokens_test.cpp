@@ -63,14 +63,15 @@ struct Row {
   Proof proof;
   std::string tokens;
 
-  explicit Row(std::uint32_t count) {
+  /// `first`: how many are in the root's left child.
+  Row(std::uint32_t count, std::uint32_t first) {
     Points x;
     for (std::uint32_t i = 0; i < count; ++i) {
       x.push_back({4.0 * i, 0, 0});
       proof.cells.push_back({i});
     }
     proof.frames = {x, x};
-    add(0, count);
+    parts(0, first, count);
   }
 
   void add(std::uint32_t begin, std::uint32_t end) {
@@ -79,7 +80,10 @@ struct Row {
       tokens += F;
       return;
     }
-    const std::uint32_t middle = begin + (end - begin) / 2;
+    parts(begin, begin + (end - begin) / 2, end);
+  }
+
+  void parts(std::uint32_t begin, std::uint32_t middle, std::uint32_t end) {
     proof.tree += uint(0);
     tokens += N;
     add(begin, middle);
@@ -89,11 +93,17 @@ struct Row {
 };
 
 TEST(Tokens, GroupsOfManyVerticesAreSeparatedByAllOfThem) {
-  Row row(2200);
+  Row row(2200, 1100);
   EXPECT_ACCEPTED(row.proof.with(row.tokens));
   // The last of the first half goes behind the first of the second: only the root's token is wrong.
   row.proof.frames[1][1099][0] = 4402;
   EXPECT_REJECTED(row.proof.with(row.tokens), "does not separate");
+  Row lopsided(1200, 1);
+  EXPECT_ACCEPTED(lopsided.proof.with(lopsided.tokens));
+  lopsided.proof.frames[1][0][0] = 1;
+  EXPECT_ACCEPTED(lopsided.proof.with(lopsided.tokens));
+  lopsided.proof.frames[1][0][0] = 4;
+  EXPECT_REJECTED(lopsided.proof.with(lopsided.tokens), "does not separate");
 }
 
 TEST(Tokens, LAndRAreForPairsWithParts) {
