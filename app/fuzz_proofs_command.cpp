@@ -223,7 +223,7 @@ ExitCode run(ProofsArguments& arguments) {
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, options.cases.size(), seconds),
                report_json(arguments, report, options.cases.size(), seconds));
-  report.extent.not_saved.require_nothing();
+  report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 

@@ -117,7 +117,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
   });
   const double seconds = watch.seconds();
   output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
-  report.extent.not_saved.require_nothing();
+  report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 

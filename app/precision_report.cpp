@@ -169,14 +169,18 @@ ExitCode precision_exit_code(const PrecisionOutcome& outcome) {
 
 std::string precision_text(const PrecisionOutcome& outcome) {
   const auto changes = outcome.order_changes();
-  const double time = outcome.energies.empty() ? 0 : outcome.energies.back().time;
+  const bool compared = !outcome.energies.empty();
+  const double time = compared ? outcome.energies.back().time : 0;
+  const std::string position = number(greatest_position(outcome.runs.back(), outcome.windows_in_order()));
   std::string text = fmt::format(
       "verdict {} windows {} time {} vertices {} events {} examined {} impulses {} bits {} position {} order_changes "
       "{} "
       "complete {}\n",
       precision_verdict(outcome), outcome.windows, number(time), outcome.vertices, outcome.events, outcome.examined,
-      outcome.impulses, outcome.runs.back().arithmetic.bits,
-      number(greatest_position(outcome.runs.back(), outcome.windows_in_order())), changes ? number(*changes) : "none",
+      outcome.impulses, outcome.runs.back().arithmetic.bits, compared ? position : "unknown",
+      changes    ? number(*changes)
+      : compared ? "none"
+                 : "unknown",
       outcome.complete);
   if (outcome.difference) {
     text += fmt::format("53 bits differ from double: first the {}, at {} s.\n", outcome.difference->what,

@@ -3,33 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 #include <vector>
 
 #include "noli/app/json.h"
 
 namespace noli::app {
 namespace {
-
-bool is_end(const Json& entry) {
-  return entry.is_object() && entry.contains("event") && entry["event"] == "end" && entry.contains("end");
-}
-
-/// Lines that are no end of a part, or no JSON, are passed over.
-Json last_end(const std::filesystem::path& log) {
-  Json last;
-  if (!std::filesystem::exists(log)) return last;
-  std::ifstream in(log, std::ios::binary);
-  for (std::string line; std::getline(in, line);) {
-    if (line.find("\"end\"") == std::string::npos) continue;
-    Json entry = Json::parse(line, nullptr, false);
-    if (is_end(entry)) last = std::move(entry);
-  }
-  if (in.bad() || !in.eof()) throw std::system_error(errno, std::generic_category(), log.string());
-  return last;
-}
 
 std::string feature(const Json& vertices, const BodyNames& names) {
   const auto list = vertices.get<std::vector<VertexId>>();
@@ -49,10 +28,9 @@ std::string words_of(const Json& end, const BodyNames& names) {
 
 }  // namespace
 
-std::string what_ended(const std::filesystem::path& run, const BodyNames& names) {
-  const Json end = last_end(run / "log.jsonl");
+std::string what_ended(const LogFacts& log) {
   try {
-    return end.is_null() ? "" : words_of(end, names);
+    return words_of(log.last_end_line, log.names);
   } catch (const Json::exception&) {
     return "";
   }

@@ -5,15 +5,14 @@
 // What this does not do: it decides nothing; a log that does not say it, or is damaged, gives no words.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
-#include "noli/app/body_names.h"
+#include "noli/app/run_log_facts.h"
 
 namespace noli::app {
 
 /// Of the part that ended last: "edge a[1]-a[2] meets edge b[6]-b[7], crossing, at 0.25 s" or "vertex a[0] and vertex
-/// b[1], at 0.25 s"; or nothing. Throws std::system_error when the log cannot be read.
-std::string what_ended(const std::filesystem::path& run, const BodyNames& names);
+/// b[1], at 0.25 s"; or nothing.
+std::string what_ended(const LogFacts& log);
 
 }  // namespace noli::app

@@ -90,7 +90,7 @@ class Run {
 
   /// Why the window after the last is not in the run, as its log has it.
   std::string end_line(const LogFacts& log) const {
-    const std::string what = what_ended(path_, log.names);
+    const std::string what = what_ended(log);
     const std::string named = what.empty() ? "" : ": " + on_one_line(what);
     if (log.last_end == "contact") {
       return "In the window after them something touches, so it is not in the run" + named + ".";

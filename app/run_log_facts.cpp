@@ -82,6 +82,7 @@ class Reader {
     facts_.going_on = false;
     const Json& why = member(entry, "end");
     facts_.last_end = why.is_string() ? why.get<std::string>() : "";
+    facts_.last_end_line = entry;
     const Json& timing = member(entry, "timing");
     facts_.verifying_seconds += number<double>(timing, "verifying_seconds");
     for (std::size_t i = 0; i < integrator::phases; ++i) {

@@ -30,6 +30,7 @@ struct LogFacts {
   std::uint32_t deepest = 0;  ///< layer that was active in any of these windows
   std::vector<Json> roll_backs;
   std::string last_end;   ///< of the last part that ended: "done", "interrupted", ...
+  Json last_end_line;     ///< of the same, whole
   bool going_on = false;  ///< the last part has no line of its end: it goes on still, or was killed
   PhaseSeconds phases{};
   double verifying_seconds = 0;

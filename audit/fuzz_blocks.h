@@ -19,7 +19,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "noli/audit/not_saved.h"
 #include "noli/kernel/parallel.h"
 
 namespace noli::audit {
@@ -39,7 +38,6 @@ struct FuzzLimits {
 struct FuzzExtent {
   std::uint64_t items = 0;
   bool interrupted = false;  ///< by the stop flag
-  NotSaved not_saved;
 };
 
 /// Calls make(block, items), which returns what one block gave, from several threads, and take(that) from the caller's,

@@ -23,7 +23,6 @@ struct JudgedMutant {
   ProofMutant mutant;
   std::size_t from = 0;  ///< the number of its case
   ProofJudgement judgement;
-  std::string shape;
 };
 
 class ProofFuzzing {
@@ -39,7 +38,6 @@ class ProofFuzzing {
         [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
         [this](std::vector<JudgedMutant> block) { take_block(std::move(block)); });
     report_.extent.items = report_.codes.accepted + report_.codes.refuted + report_.codes.rejected;
-    report_.extent.not_saved = not_saved_;
     report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
@@ -58,9 +56,9 @@ class ProofFuzzing {
       judged.mutant = make_mutant(options_.cases[judged.from], options_.cases, random);
       const bool ask_verified = (block * mutants_per_block + index) % options_.verified_every == 0;
       judged.judgement = judge_mutant(options_.cases[judged.from], judged.mutant, checkers, ask_verified);
-      judged.shape = shape_of(judged.judgement);
-      const bool wanted = corpus_ && shapes.insert(judged.shape).second;
-      if (judged.judgement.difference.empty() && !wanted) judged.mutant = {judged.mutant.mutations, {}, {}};
+      const bool finding = !judged.judgement.difference.empty();
+      const bool may_be_kept = corpus_ && !finding && shapes.insert(shape_of(judged.judgement)).second;
+      if (!finding && !may_be_kept) judged.mutant = {judged.mutant.mutations, {}, {}};
       all.push_back(std::move(judged));
     }
     return all;
@@ -102,9 +100,11 @@ class ProofFuzzing {
     report_.judged += judgement.judged ? 1 : 0;
     report_.not_judged += said && !judgement.truth && judgement.difference.empty() ? 1 : 0;
     if (!judgement.difference.empty()) return shrink(judged, index);
-    if (!corpus_ || !corpus_->reached(judged.shape)) return;
-    not_saved_.attempt([&] {
-      corpus_->add(judged.shape, [&](const fs::path& folder) {
+    if (!corpus_) return;
+    const std::string shape = shape_of(judgement);
+    if (!corpus_->reached(shape)) return;
+    report_.not_saved.attempt([&] {
+      corpus_->add(shape, [&](const fs::path& folder) {
         write_proof_files(files_of(options_.cases[judged.from], judged.mutant), folder);
       });
     });
@@ -125,7 +125,7 @@ class ProofFuzzing {
 
   void keep(ProofFinding finding, const std::string& name) {
     if (report_.findings.size() >= options_.max_findings) return;
-    if (!options_.out.empty() && !not_saved_.attempt([&] { save(finding, name); })) finding.folder.clear();
+    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding, name); })) finding.folder.clear();
     report_.findings.push_back(std::move(finding));
   }
 
@@ -141,7 +141,6 @@ class ProofFuzzing {
   const ProofFuzzOptions& options_;
   std::optional<ShapeCorpus> corpus_;
   std::uint64_t block_ = 0;
-  NotSaved not_saved_;
   ProofFuzzReport report_;
 };
 

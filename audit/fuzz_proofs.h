@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "noli/audit/fuzz_blocks.h"
+#include "noli/audit/not_saved.h"
 #include "noli/audit/proof_judge.h"
 #include "noli/audit/proof_mutations.h"
 
@@ -59,6 +60,7 @@ struct CodeTally {
 
 struct ProofFuzzReport {
   FuzzExtent extent;
+  NotSaved not_saved;
   CodeTally codes;
   std::map<std::string, CodeTally> mutations;  ///< by name
   std::uint64_t checked_verified = 0;
@@ -70,7 +72,7 @@ struct ProofFuzzReport {
 };
 
 /// Runs until a limit; with a count and without a corpus the report is the same for any number of threads. What
-/// cannot be saved is in `extent.not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
+/// cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
 /// the machine fails.
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options);
 

@@ -9,6 +9,7 @@
 
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/shape_corpus.h"
+#include "noli/integrator/scene/json_text.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/sha256.h"
 #include "noli/trajectory/text.h"
@@ -172,7 +173,6 @@ class SceneFuzzing {
         [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
         [this](std::vector<JudgedScene> block) { take_block(std::move(block)); });
     report_.extent.items = taken_;
-    report_.extent.not_saved = not_saved_;
     report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
@@ -215,7 +215,7 @@ class SceneFuzzing {
   void add_to_corpus(const JudgedScene& one) {
     const std::string shape = one.generator + ": " + without_numbers(one.judgement.end);
     if (!corpus_->reached(shape)) return;
-    not_saved_.attempt([&] {
+    report_.not_saved.attempt([&] {
       corpus_->add(shape, [&](const fs::path& folder) {
         write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
         if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
@@ -248,7 +248,7 @@ class SceneFuzzing {
     // A scene that is wrong stays wrong in other places when something is left out: its message proves nothing then.
     if (!one.made.wrong_place) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
     finding.difference = now(finding.shrunk).value_or(finding.difference);
-    if (!options_.out.empty() && !not_saved_.attempt([&] { save(finding); })) finding.file.clear();
+    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.file.clear();
     report_.findings.push_back(std::move(finding));
   }
 
@@ -270,24 +270,13 @@ class SceneFuzzing {
   std::uint64_t block_ = 0, taken_ = 0;
   std::map<std::string, std::size_t> alike_;  ///< by difference
   std::optional<ShapeCorpus> corpus_;
-  NotSaved not_saved_;
   SceneFuzzReport report_;
 };
 
 }  // namespace
 
 SceneJson read_saved_scene(const fs::path& file) {
-  constexpr int most_levels = 64;  // as in integrator/scene/json_text.h: what comes after this calls itself
-  const auto within_levels = [&](int depth, SceneJson::parse_event_t, SceneJson&) {
-    if (depth > most_levels)
-      throw InputError(file.string(), "", fmt::format("expected a scene of at most {} levels", most_levels));
-    return true;
-  };
-  try {
-    return SceneJson::parse(read_whole_file(file), within_levels);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file.string(), "", std::string("expected a scene: ") + error.what());
-  }
+  return integrator::parse_json(read_whole_file(file), file.string());
 }
 
 SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli, const fs::path& folder) {

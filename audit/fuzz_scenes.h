@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "noli/audit/fuzz_blocks.h"
+#include "noli/audit/not_saved.h"
 #include "noli/audit/run_program.h"
 #include "noli/audit/scene_generators.h"
 
@@ -55,6 +56,7 @@ struct SceneFinding {
 
 struct SceneFuzzReport {
   FuzzExtent extent;
+  NotSaved not_saved;
   /// By generator, how often simulations came to which end: "exit 0", ...
   std::map<std::string, std::map<std::string, std::uint64_t>> ends;
   std::uint64_t verified = 0, resumed = 0;
@@ -63,7 +65,7 @@ struct SceneFuzzReport {
   std::vector<SceneFinding> findings;
 };
 
-/// Runs until a limit. What cannot be saved is in `extent.not_saved`. Throws InputError for a corpus that cannot be read,
+/// Runs until a limit. What cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read,
 /// std::system_error when the desk cannot be used.
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options);
 

@@ -75,7 +75,6 @@ class TrajectoryFuzzing {
     report_.extent.items = 0;  // an interruption leaves blocks that are not whole
     for (const TrajectoryTally& tally : report_.generators) report_.extent.items += tally.apart + tally.contact;
     report_.shapes = shapes_.size();
-    report_.extent.not_saved = not_saved_;
     report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
@@ -122,7 +121,7 @@ class TrajectoryFuzzing {
     if (judged.answer.plain != CheckerWord::not_asked) ++report_.checked_plain;
     if (judged.answer.verified != CheckerWord::not_asked) ++report_.checked_verified;
     if (shapes_.insert(judged.answer.shape).second && corpus_ && !judged.difference) {
-      not_saved_.attempt([&] {
+      report_.not_saved.attempt([&] {
         corpus_->add(judged.answer.shape, [&](const fs::path& folder) { write_frames(judged.motion, folder); });
       });
     }
@@ -134,7 +133,7 @@ class TrajectoryFuzzing {
     if (report_.findings.size() >= options_.max_findings) return;
     TrajectoryFinding finding{generator, block, index, *judged.difference, judged.motion, judged.motion, {}};
     shrink(finding, judged.needs_witness);
-    if (!options_.out.empty() && !not_saved_.attempt([&] { save(finding); })) finding.folder.clear();
+    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.folder.clear();
     report_.findings.push_back(std::move(finding));
   }
 
@@ -170,7 +169,6 @@ class TrajectoryFuzzing {
   std::optional<ShapeCorpus> corpus_;
   std::set<std::string> shapes_;
   std::uint64_t block_ = 0;
-  NotSaved not_saved_;
   TrajectoryReport report_;
 };
 

@@ -28,6 +28,7 @@
 #include "noli/audit/frame_motion.h"
 #include "noli/audit/fuzz_blocks.h"
 #include "noli/audit/motion_oracle.h"
+#include "noli/audit/not_saved.h"
 #include "noli/audit/whole_motion.h"
 
 namespace noli::audit {
@@ -85,6 +86,7 @@ struct TrajectoryTally {
 
 struct TrajectoryReport {
   FuzzExtent extent;
+  NotSaved not_saved;
   std::uint64_t findings_total = 0;
   std::vector<TrajectoryFinding> findings;  ///< the first max_findings
   std::vector<TrajectoryTally> generators;
@@ -94,7 +96,7 @@ struct TrajectoryReport {
 };
 
 /// Runs until a limit. With a count and without a corpus the report is the same for any number of threads. What
-/// cannot be saved is in `extent.not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
+/// cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
 /// the machine fails.
 TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options);
 

@@ -74,7 +74,8 @@ Ending HostProcess::wait() {
   for (;;) {
     if (const auto status = ended()) return ending(*status);
     if (stopped()) return ended_by_us(Ending::Kind::stopped, "stopped");
-    if (hangs()) return ended_by_us(Ending::Kind::hung, fmt::format("no answer after {:.1f} s", seconds(waited())));
+    if (hangs())
+      return ended_by_us(Ending::Kind::hung, fmt::format("no answer within its limit of {:g} s", seconds(limit())));
     if (resident_bytes() > options_.most_memory) {
       return ended_by_us(Ending::Kind::too_much_memory, fmt::format("more than {} bytes", options_.most_memory));
     }

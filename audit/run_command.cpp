@@ -21,9 +21,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a program has left to clean up after itself, and to end those that it started.
-constexpr std::chrono::seconds patience{6};
-
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 /// A file without a name: a program can write to it as much as it likes without anybody reading.
@@ -78,7 +75,7 @@ void wait_for(pid_t pid, std::chrono::nanoseconds limit, const std::atomic<bool>
     }
     const bool asked = stop != nullptr && stop->load(std::memory_order_relaxed);
     if (asked || Clock::now() - begin >= limit) {
-      end_process(pid, patience);
+      end_process(pid, 2 * time_to_end);  // it may have programs of its own, which have that time
       run.end = asked ? CommandRun::End::stopped : CommandRun::End::hung;
       return;
     }

@@ -23,9 +23,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a program has left to clean up after itself, and to end those that it started.
-constexpr std::chrono::seconds patience{3};
-
 /// A program at work, ended with this.
 class Running {
  public:
@@ -80,7 +77,7 @@ class Running {
   }
 
   void end_it() {
-    if (pid_ >= 0) end_process(std::exchange(pid_, -1), patience);
+    if (pid_ >= 0) end_process(std::exchange(pid_, -1), time_to_end);
   }
 
   Pipe out_, err_;

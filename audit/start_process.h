@@ -25,6 +25,9 @@ pid_t start_process(std::vector<std::string> words, std::span<const GivenDescrip
 /// Whether it has ended; it can still be waited for, and its number is not another's yet.
 bool has_ended(pid_t pid);
 
+/// What a program has to clean up after itself when it is asked to end.
+constexpr std::chrono::seconds time_to_end{3};
+
 /// Ends it and what is left of its group, and returns its status: asks, and insists when it is still there after
 /// `patience`. With patience a program can end its own programs and remove what it has written for itself.
 int end_process(pid_t pid, std::chrono::milliseconds patience);

@@ -11,18 +11,9 @@
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 #include <noli/ccd_plugin.h>
 
-#include <array>
-
-namespace {
+#include "vector.h"
 
 using Intersect = fcl::detail::Intersect<double>;
-using Points = std::array<fcl::Vector3d, 4>;
-
-Points points(const double x[12]) {
-  return {{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10], x[11]}}};
-}
-
-}  // namespace
 
 extern "C" uint32_t noli_ccd_version() { return NOLI_CCD_VERSION; }
 
@@ -30,7 +21,7 @@ extern "C" const char* noli_ccd_description() { return "FCL " FCL_VERSION ", as 
 
 extern "C" int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], double /*tolerance*/,
                               double* time_of_impact) try {
-  const Points x = points(x_t0), y = points(x_t1);
+  const auto x = noli::plugins::points_as<fcl::Vector3d>(x_t0), y = noli::plugins::points_as<fcl::Vector3d>(x_t1);
   fcl::Vector3d place;  // where they meet, which nobody asks
   double time = 2;
   const bool hit =

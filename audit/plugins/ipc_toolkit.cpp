@@ -13,17 +13,7 @@
 #include <noli/ccd_plugin.h>
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 
-#include <array>
-
-namespace {
-
-using Points = std::array<Eigen::Vector3d, 4>;
-
-Points points(const double x[12]) {
-  return {{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10], x[11]}}};
-}
-
-}  // namespace
+#include "vector.h"
 
 extern "C" uint32_t noli_ccd_version() { return NOLI_CCD_VERSION; }
 
@@ -31,7 +21,7 @@ extern "C" const char* noli_ccd_description() { return "IPC Toolkit, as installe
 
 extern "C" int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], double tolerance,
                               double* time_of_impact) try {
-  const Points x = points(x_t0), y = points(x_t1);
+  const auto x = noli::plugins::points_as<Eigen::Vector3d>(x_t0), y = noli::plugins::points_as<Eigen::Vector3d>(x_t1);
   const ipc::TightInclusionCCD ccd(tolerance > 0 ? tolerance : ipc::TightInclusionCCD::DEFAULT_TOLERANCE);
   double time = 0;
   const bool hit = kind == NOLI_CCD_EDGE_EDGE

@@ -30,9 +30,13 @@ inline double determinant(const Vec& a, const Vec& b, const Vec& c) { return dot
 /// Four points.
 using Points = std::array<Vec, 4>;
 
-inline Points points(const double x[12]) {
+/// As points of another library, which are made of three numbers.
+template <class Point>
+std::array<Point, 4> points_as(const double x[12]) {
   return {{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10], x[11]}}};
 }
+
+inline Points points(const double x[12]) { return points_as<Vec>(x); }
 
 /// Where they are at time t, x_t0 being where they start and `change` how far they go.
 inline Points moved(const Points& x_t0, const Points& change, double t) {

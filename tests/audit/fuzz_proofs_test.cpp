@@ -163,6 +163,20 @@ TEST_F(FuzzProofs, KeepsOneProofOfEachShapeAndJudgesThemFirst) {
   EXPECT_TRUE(std::filesystem::exists(report.findings[1].folder / "proof.noli"));
 }
 
+TEST_F(FuzzProofs, KeepsAMutantThatIsNoFindingThoughOneOfItsShapeIs) {
+  plain = [](const ProofFiles&) -> ProofAnswer { return {3, "", "rejected: always"}; };
+  verified = [](const ProofFiles& files) -> ProofAnswer { return {files.proof.size() % 2 == 0 ? 0 : 3, ""}; };
+  options.verified_every = 1;
+  options.corpus = folder / "corpus";
+  std::filesystem::create_directory(*options.corpus);
+  const ProofFuzzReport report = fuzz_proofs(options);
+  ASSERT_GT(report.findings_total, 0u);
+  ASSERT_LT(report.findings_total, report.extent.items);
+  ASSERT_EQ(report.corpus_size, 1u);
+  const auto kept = std::filesystem::directory_iterator(*options.corpus)->path();
+  EXPECT_EQ(read_proof_files(kept).proof.size() % 2, 1u) << "what was kept is what was no finding";
+}
+
 TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
   // A fault that hangs on one byte: which source the claim names.
   plain = [](const ProofFiles& files) -> ProofAnswer {
