@@ -83,43 +83,29 @@ class ObjParser {
 
   void parse_face() {
     if (words_.size() < 4) fail(fmt::format("a face has at least 3 corners, found {}", words_.size() - 1));
-    parse_corners(3);
+    parse_corners();
     add_polygon(frame_.mesh, corners_);
   }
 
   void parse_line() {
     if (words_.size() < 3) fail(fmt::format("a line has at least 2 vertices, found {}", words_.size() - 1));
-    parse_corners(2);
+    parse_corners();
     for (std::size_t i = 1; i < corners_.size(); ++i) frame_.mesh.edges.push_back({corners_[i - 1], corners_[i]});
   }
 
   void parse_points() {
     if (words_.size() < 2) fail("expected at least one vertex after 'p'");
-    parse_corners(1);
+    parse_corners();
     frame_.mesh.points.insert(frame_.mesh.points.end(), corners_.begin(), corners_.end());
   }
 
-  /// All words after the keyword, each of at most `most_parts` indices joined by '/'.
-  void parse_corners(std::size_t most_parts) {
+  /// All words after the keyword. What follows a '/' is not looked at: no texture or normal moves a vertex, and some
+  /// programs write "3/" or "3//" where they have none.
+  void parse_corners() {
     corners_.clear();
-    for (std::size_t i = 1; i < words_.size(); ++i) corners_.push_back(parse_corner(words_[i], most_parts));
-  }
-
-  VertexId parse_corner(std::string_view word, std::size_t most_parts) {
-    const std::size_t slash = word.find('/');
-    if (slash != std::string_view::npos) check_other_parts(word, word.substr(slash + 1), most_parts - 1);
-    return resolve(word, parse_index(word, word.substr(0, slash)));
-  }
-
-  /// Texture and normal: indices that are checked for their form only. `v//vn` leaves the texture out.
-  void check_other_parts(std::string_view word, std::string_view parts, std::size_t most) const {
-    const std::size_t slash = parts.find('/');
-    const bool normal_follows = slash != std::string_view::npos;
-    if (most == 0 || (most == 1 && normal_follows))
-      fail(fmt::format("too many parts in the index {}", in_quotes(word)));
-    const std::string_view texture = parts.substr(0, slash);
-    if (!texture.empty() || !normal_follows) parse_index(word, texture);
-    if (normal_follows) parse_index(word, parts.substr(slash + 1));
+    for (std::size_t i = 1; i < words_.size(); ++i) {
+      corners_.push_back(resolve(words_[i], parse_index(words_[i], words_[i].substr(0, words_[i].find('/')))));
+    }
   }
 
   std::int64_t parse_index(std::string_view word, std::string_view part) const {

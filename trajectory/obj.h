@@ -4,10 +4,11 @@
 //
 //   v x y [z]      a vertex; without z, z = 0. After z may follow a weight, a colour, or a weight and a colour: finite
 //                  numbers that are ignored
-//   f a b c ...    a polygon (cells.h), three corners or more, each v, v/vt, v//vn or v/vt/vn
-//   l a b ...      a line through two vertices or more, each v or v/vt: loose edges
+//   f a b c ...    a polygon (cells.h), three corners or more
+//   l a b ...      a line through two vertices or more: loose edges
 //   p a ...        loose points
 //
+// A corner is v, v/vt, v//vn or v/vt/vn; what follows the first '/' is not looked at.
 // Indices count from 1, negative ones back from the last vertex so far; a positive one may refer to a vertex that
 // follows. A '#' that begins a word begins a comment. A '\' at the end of a line joins the next one to it. Ignored: vt
 // vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj. Every other statement

@@ -39,6 +39,14 @@ TEST(Obj, NegativeIndicesCountBackFromWhereTheyStand) {
   EXPECT_TRUE(frame.mesh.edges.empty()) << "4-3 is an edge of the second face";
 }
 
+TEST(Obj, DoesNotLookAtWhatFollowsASlash) {
+  for (const std::string corner : {"3/", "3//", "3/x", "3/1/1/1", "-2//0"}) {
+    const Frame frame = parse_obj(four + "f 1 2 " + corner + "\nl 1/1/1 4/\np 4/1\n", "t");
+    EXPECT_EQ(frame.mesh.faces, (Faces{{0, 1, 2}})) << corner;
+    EXPECT_EQ(frame.mesh.edges, (Edges{{0, 3}})) << corner;
+  }
+}
+
 struct BadObj {
   const char* name;
   std::string text;
@@ -74,11 +82,6 @@ const BadObj bad_objs[] = {
      "line 5: '-9223372036854775808' points back beyond the first vertex, 4 are known here"},
     {"real_index", four + "f 1 2 3.0\n", "line 5: expected an index, found '3.0'"},
     {"empty_vertex", four + "f 1 2 /1\n", "line 5: expected an index, found '/1'"},
-    {"empty_texture", four + "f 1 2 3/\n", "line 5: expected an index, found '3/'"},
-    {"empty_normal", four + "f 1 2 3//\n", "line 5: expected an index, found '3//'"},
-    {"four_parts", four + "f 1 2 3/1/1/1\n", "line 5: expected an index, found '3/1/1/1'"},
-    {"line_with_normal", four + "l 1/1/1 2/1/1\n", "line 5: too many parts in the index '1/1/1'"},
-    {"point_with_texture", four + "p 1/1\n", "line 5: too many parts in the index '1/1'"},
     {"joined_lines", four + "f \\\n1 2 \\\n x\nf 1 2 3\n", "line 5: expected an index, found 'x'"},
     {"joined_to_nothing", four + "f 1 2 \\", "line 5: a face has at least 3 corners, found 2"},
 };
