@@ -68,8 +68,9 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
   const audit::AuditRequest& request = arguments.request;
   if (arguments.svg) throw UsageError("--svg: there is no picture of --frames");
   const Output output(arguments.json, inputs(arguments));
-  const audit::PipelineOutcome outcome = audit::audit_pipeline(
-      {request.libraries, arguments.frames[0], arguments.frames[1], request.tolerances, request.host});
+  const audit::PipelineOutcome outcome =
+      audit::audit_pipeline({request.libraries, arguments.frames[0], arguments.frames[1], request.tolerances,
+                             request.max_reports, request.host});
   output.write(pipeline_text(outcome), pipeline_json(outcome));
   return exit_code(outcome.findings(), outcome.complete);
 }
@@ -145,8 +146,9 @@ Command add_audit_ccd(CLI::App& audit) {
       ->capture_default_str()
       ->type_name("N");
   command
-      ->add_option("--max-reports", request.max_reports,
-                   "List at most so many findings for each library, tolerance and file; counts are always exact")
+      ->add_option(
+          "--max-reports", request.max_reports,
+          "List at most so many findings for each library, tolerance and file (or step); counts are always exact")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "noli/app/audit_report.h"
+#include "noli/app/contact_report.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -32,6 +33,15 @@ Json pair_json(const std::array<std::uint64_t, 2>& numbers) {
   return {{"vertex_face", numbers[0]}, {"edge_edge", numbers[1]}};
 }
 
+Json reports_json(const PipelineAudit& audit) {
+  Json json = Json::array();
+  for (const audit::PipelineFinding& finding : audit.reports) {
+    json.push_back(contact_json(finding.contact));
+    json.back().update({{"finding", finding.what}, {"words", finding.words}});
+  }
+  return json;
+}
+
 Json audit_json(const PipelineAudit& audit) {
   return {{"library", audit.plugin.string()},
           {"tolerance", audit.tolerance},
@@ -45,7 +55,8 @@ Json audit_json(const PipelineAudit& audit) {
           {"failures", audit.failures},
           {"bad_pairs", audit.bad_pairs},
           {"ending", ending(audit)},
-          {"words", audit.ending}};
+          {"words", audit.ending},
+          {"reports", reports_json(audit)}};
 }
 
 TableRow row_of(const PipelineAudit& audit) {
@@ -66,6 +77,14 @@ TableRow row_of(const PipelineAudit& audit) {
           fmt::format("{:.3g}", audit.query_seconds)};
 }
 
+void append_findings(const PipelineAudit& audit, std::string& text) {
+  const std::string name = fmt::format("{}, tolerance {:g}", on_one_line(audit.plugin.string()), audit.tolerance);
+  if (!audit.ending.empty()) text += fmt::format("{}: {}: {}\n", name, ending(audit), audit.ending);
+  for (const audit::PipelineFinding& finding : audit.reports) {
+    text += fmt::format("{}: {}: {}: {}\n", name, finding.what, contact_text(finding.contact), finding.words);
+  }
+}
+
 }  // namespace
 
 std::string pipeline_text(const PipelineOutcome& outcome) {
@@ -79,11 +98,7 @@ std::string pipeline_text(const PipelineOutcome& outcome) {
                                  "queries-s"}};
   for (const PipelineAudit& audit : outcome.audits) rows.push_back(row_of(audit));
   text += table_text(rows, 1);
-  for (const PipelineAudit& audit : outcome.audits) {
-    if (audit.ending.empty()) continue;
-    text += fmt::format("{}, tolerance {:g}: {}: {}\n", on_one_line(audit.plugin.string()), audit.tolerance,
-                        ending(audit), audit.ending);
-  }
+  for (const PipelineAudit& audit : outcome.audits) append_findings(audit, text);
   return text;
 }
 

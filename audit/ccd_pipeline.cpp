@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/ccd_pipeline.h"
 
+#include <fmt/format.h>
 #include <noli/ccd_plugin.h>
 
 #include <algorithm>
@@ -32,6 +33,7 @@ struct Step {
   std::vector<Face> faces;
   std::vector<MeshContact> contacts;  ///< sorted by kind, first, second
   std::vector<double> times;          ///< the exact first time of each, rounded down
+  std::vector<VertexId> number;       ///< of each vertex, in the frames
 };
 
 /// Numbers for the vertices that some cell has.
@@ -50,10 +52,11 @@ class Renumbering {
     for (VertexId& v : vertices) v = number_[v];
     return vertices;
   }
-  std::vector<Position> kept(std::span<const Position> x) const {
-    std::vector<Position> result;
-    for (std::size_t v = 0; v < x.size(); ++v) {
-      if (number_[v] != none) result.push_back(x[v]);
+  /// The old numbers of the vertices, in the order of the new ones.
+  std::vector<VertexId> kept() const {
+    std::vector<VertexId> result;
+    for (VertexId v = 0; v < number_.size(); ++v) {
+      if (number_[v] != none) result.push_back(v);
     }
     return result;
   }
@@ -68,6 +71,12 @@ class Renumbering {
 
   std::vector<VertexId> number_;
 };
+
+std::vector<Position> chosen(std::span<const Position> x, const std::vector<VertexId>& vertices) {
+  std::vector<Position> result;
+  for (const VertexId v : vertices) result.push_back(x[v]);
+  return result;
+}
 
 std::vector<Edge> edges_of(const Mesh& mesh) {
   std::vector<Edge> edges;
@@ -118,13 +127,28 @@ double first_time(const Step& step, const std::array<VertexId, 4>& vertices) {
   return first_contact(query).value().time.lower();
 }
 
-double first_time(const Step& step, const MeshContact& contact) {
+std::array<VertexId, 4> vertices_of(const Step& step, const MeshContact& contact) {
   if (contact.kind == NOLI_CCD_EDGE_EDGE) {
     const Edge &a = step.edges[contact.first], &b = step.edges[contact.second];
-    return first_time<EdgeEdge3>(step, {a[0], a[1], b[0], b[1]});
+    return {a[0], a[1], b[0], b[1]};
   }
   const Face& f = step.faces[contact.second];
-  return first_time<VertexFace3>(step, {contact.first, f[0], f[1], f[2]});
+  return {contact.first, f[0], f[1], f[2]};
+}
+
+double first_time(const Step& step, const MeshContact& contact) {
+  const std::array<VertexId, 4> vertices = vertices_of(step, contact);
+  return contact.kind == NOLI_CCD_EDGE_EDGE ? first_time<EdgeEdge3>(step, vertices)
+                                            : first_time<VertexFace3>(step, vertices);
+}
+
+/// The contact in the frames' own numbers.
+FeatureContact named(const Step& step, const MeshContact& contact) {
+  FeatureContact result;
+  result.pair = contact.kind == NOLI_CCD_EDGE_EDGE ? FeaturePair::edge_edge : FeaturePair::vertex_face;
+  result.vertices = vertices_of(step, contact);
+  for (VertexId& v : result.vertices) v = step.number[v];
+  return result;
 }
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -156,8 +180,9 @@ class PipelineRun {
   bool prepare(const FrameSequence& frames) {
     const Mesh& mesh = frames.mesh();
     const Renumbering renumbered(mesh);
-    step_.x_t0 = renumbered.kept(frames.x_t0());
-    step_.x_t1 = renumbered.kept(frames.x_t1());
+    step_.number = renumbered.kept();
+    step_.x_t0 = chosen(frames.x_t0(), step_.number);
+    step_.x_t1 = chosen(frames.x_t1(), step_.number);
     Mesh kept{step_.x_t0.size(), {}, {}, {}};
     for (const Face& face : mesh.faces) kept.faces.push_back(renumbered(face));
     for (const Edge& edge : mesh.edges) kept.edges.push_back(renumbered(edge));
@@ -238,21 +263,32 @@ class PipelineRun {
     return audit;
   }
 
-  static void mark(const MeshContact& contact, double exact, PipelineAudit& audit) {
+  void mark(const MeshContact& contact, double exact, PipelineAudit& audit) const {
+    const auto report = [&](const char* what) {
+      if (audit.reports.size() == request_.max_reports) return;
+      const std::string truth = fmt::format("exact first time {:.17g}", exact);
+      const bool timed = contact.found != 0 && contact.hit != 0 && contact.failed == 0;
+      audit.reports.push_back(
+          {named(step_, contact), what, timed ? fmt::format("{:.17g}, {}", contact.time, truth) : truth});
+    };
     if (contact.found == 0) {
       ++audit.not_found;
-    } else if (contact.hit == 0 && contact.failed == 0) {
-      ++audit.false_negatives;
-    } else if (contact.failed == 0 && !std::isnan(contact.time)) {
-      const double error = exact - contact.time, relative = exact > 0 ? std::abs(error) / exact : 0;
-      if (!(contact.time >= 0 && contact.time <= 1)) {
-        ++audit.bad_times;
-      } else if (contact.time > exact) {
-        audit.late.add(-error, relative);
-      } else {
-        audit.early.add(error, relative);
-      }
+      return report("not_found");
     }
+    if (contact.failed != 0) return report("failure");
+    if (contact.hit == 0) {
+      ++audit.false_negatives;
+      return report("false_negative");
+    }
+    if (std::isnan(contact.time)) return;
+    if (!(contact.time >= 0 && contact.time <= 1)) {
+      ++audit.bad_times;
+      return report("bad_time");
+    }
+    const double error = exact - contact.time, relative = exact > 0 ? std::abs(error) / exact : 0;
+    if (error >= 0) return audit.early.add(error, relative);
+    audit.late.add(-error, relative);
+    report("late");
   }
 
   const PipelineRequest& request_;

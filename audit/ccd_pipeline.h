@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "noli/audit/ccd_audit.h"
+#include "noli/proofs/prover/verifier.h"
 
 namespace noli::audit {
 
@@ -26,7 +27,15 @@ struct PipelineRequest {
   std::vector<std::filesystem::path> libraries;
   std::filesystem::path before, after;  ///< frames of one mesh
   std::vector<double> tolerances;
+  std::size_t max_reports = 5;  ///< for each library and tolerance
   HostOptions host;
+};
+
+/// A contact of the step that a library does not tell as it is.
+struct PipelineFinding {
+  FeatureContact contact;  ///< numbers of the frames' vertices
+  std::string what;        ///< "not_found", "false_negative", "failure", "bad_time" or "late"
+  std::string words;       ///< times, as parts of the step
 };
 
 /// One library with one tolerance. Pairs of numbers are [vertex-face, edge-edge].
@@ -38,6 +47,7 @@ struct PipelineAudit {
   std::uint64_t failures = 0;   ///< of the search or of queries
   std::uint64_t bad_pairs = 0;  ///< candidates that are no two features without a vertex in common; not asked
   TimeErrors late, early;
+  std::vector<PipelineFinding> reports;  ///< of contacts, in their order; at most max_reports
   std::string ending;  ///< how the process ended before all was done, in words; "" if it did not
   Ending::Kind end = Ending::Kind::finished;
   double search_seconds = 0, query_seconds = 0;

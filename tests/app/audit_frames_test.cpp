@@ -53,6 +53,41 @@ TEST_F(AuditFrames, FindsWhatTheSearchMisses) {
   const Json audit = json_of(command(faulty("finds_nothing")), 1)["audits"][0];
   EXPECT_EQ(audit["not_found"], 3);
   EXPECT_EQ(audit["false_negatives"], 0);
+  const Json first = {{"pair", "vertex_face"},
+                      {"features", {{3}, {0, 1, 2}}},
+                      {"finding", "not_found"},
+                      {"words", "exact first time 0.5"}};
+  EXPECT_EQ(audit["reports"].size(), 3);
+  EXPECT_EQ(audit["reports"][0], first);
+}
+
+TEST_F(AuditFrames, NamesVerticesAsTheFramesDo) {
+  const auto frame = [&](const char* name, double height) {
+    return folder.write(
+        name,
+        ply_text(
+            {{9, 9, 9}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 8, 8}, {1, 1, height}, {1.5, 1, height}, {1, 1.5, height}},
+            {{1, 2, 3}, {5, 6, 7}}));
+  };
+  const Process process = run_noli({"audit", "ccd", "--library", faulty("finds_nothing"), "--frames", frame("a.ply", 1),
+                                    frame("b.ply", -1), "--max-reports", "2"});
+  const auto listed = [&](const char* words) { return process.out.find(words) != std::string::npos; };
+  EXPECT_TRUE(listed("not_found: vertex 5 meets face 1-2-3: exact first time 0.5\n")) << process.out;
+  EXPECT_TRUE(listed("vertex 6 meets face 1-2-3")) << process.out;
+  EXPECT_FALSE(listed("vertex 7 meets face 1-2-3")) << process.out;
+}
+
+TEST_F(AuditFrames, SaysWhatIsWrongWithAContact) {
+  const auto listed = [&](const std::string& library, const std::string& words) {
+    const Process process = run_noli(command(faulty(library)));
+    EXPECT_EQ(process.exit_code, 1);
+    EXPECT_NE(process.out.find(words), std::string::npos) << process.out;
+  };
+  const std::string contact = "vertex 3 meets face 0-1-2: ", truth = "exact first time 0.5\n";
+  listed("never_hits", "false_negative: " + contact + truth);
+  listed("fails", "failure: " + contact + truth);
+  listed("lies_about_time", "late: " + contact + "1, " + truth);
+  listed("has_wild_times", "bad_time: " + contact + "-7, " + truth);
 }
 
 TEST_F(AuditFrames, FindsCandidatesThatAreNone) {

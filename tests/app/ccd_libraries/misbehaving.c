@@ -106,7 +106,7 @@ int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1,
                         noli_ccd_candidate found, void* data) {
   (void)x_t0, (void)x_t1, (void)edges, (void)edge_vertices, (void)face_vertices, (void)distance;
   if (IS(crashes_when_searching)) crash();
-  for (uint32_t v = 0; IS(finds_neighbours) && v < vertices; ++v) {
+  for (uint32_t v = 0; !IS(finds_nothing) && v < vertices; ++v) {
     for (uint32_t f = 0; f < faces; ++f) found(data, NOLI_CCD_VERTEX_FACE, v, f);
   }
   return 0;
