@@ -42,13 +42,14 @@ class Run {
       add(*window);
       stop_if_interrupted(path_);
     }
-    if (rows_.empty()) throw InputError(path_.string(), "", "the run has no windows; expected at least one to show");
     const LogFacts log = read_log(path_);
     require_all_windows(path_, log, rows_.size());
     report.page["title"] = title_of(path_);
-    take_word(word_of_end(log.last_end, log.going_on), report);
+    // Without a window nothing was decided, however the run ended.
+    take_word(rows_.empty() && log.last_end == "done" ? "undecided" : word_of_end(log.last_end, log.going_on), report);
     add_lines(log, report.page["verdict"]["lines"]);
     report.page["facts"] = facts(log);
+    if (rows_.empty()) return;  // nothing moves
     report.page["plots"] = report_plots(rows_);
     PackedFrames frames = packer_.pack();
     put_scene(scene(log), std::move(frames), report);
@@ -76,30 +77,34 @@ class Run {
   }
 
   void add_lines(const LogFacts& log, Json& lines) const {
-    const std::string where =
-        fmt::format("in the {} windows of this run, from {} s to {} s", rows_.size(), begin_, ends_.back());
-    lines.push_back(nothing_touches(left_out(log), where) +
-                    " Each window was decided in exact arithmetic before it was written.");
+    lines.push_back(rows_.empty() ? "No window was committed: nothing is claimed." : claim(log));
     if (const std::string end = end_line(log); !end.empty()) lines.push_back(end);
     if (log.going_on) lines.push_back("The run has not ended, or was killed.");
     if (reader_.open_window()) lines.push_back("A window that was never committed follows; it is left out.");
+    if (rows_.empty()) return;
     lines.push_back(full()
                         ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."
                         : "The run recorded frames and the hash of its motion, which can be computed again from it.");
+  }
+
+  std::string claim(const LogFacts& log) const {
+    const std::string where =
+        fmt::format("in the {} windows of this run, from {} s to {} s", rows_.size(), begin_, ends_.back());
+    return nothing_touches(left_out(log), where) +
+           " Each window was decided in exact arithmetic before it was written.";
   }
 
   /// Why the window after the last is not in the run, as its log has it.
   std::string end_line(const LogFacts& log) const {
     const std::string what = what_ended(log);
     const std::string named = what.empty() ? "" : ": " + on_one_line(what);
-    if (log.last_end == "contact") {
-      return "In the window after them something touches, so it is not in the run" + named + ".";
-    }
+    const std::string in_it = rows_.empty() ? "In the first window " : "In the window after them ";
+    if (log.last_end == "contact") return in_it + "something touches, so it is not in the run" + named + ".";
     if (log.last_end == "too_near") {
-      return "In the window after them a pair comes nearer than the scene's layers of contact allow" + named + ".";
+      return in_it + "a pair comes nearer than the scene's layers of contact allow" + named + ".";
     }
     if (log.last_end != "not_finite") return "";
-    return "In the window after them numbers run out: a velocity or position is not finite. It is not in the run.";
+    return in_it + "numbers run out: a velocity or position is not finite. It is not in the run.";
   }
 
   NotCompared left_out(const LogFacts& log) const {
@@ -119,7 +124,7 @@ class Run {
     const auto add = [&](const std::string& name, const std::string& text) { facts.push_back({name, text}); };
     add("Mesh", fmt::format("{} vertices, {} faces, {} loose edges, {} loose points", mesh.vertex_count,
                             mesh.faces.size(), mesh.edges.size(), mesh.points.size()));
-    add("Windows", fmt::format("{}, up to {} s", rows_.size(), ends_.back()));
+    add("Windows", rows_.empty() ? "none" : fmt::format("{}, up to {} s", rows_.size(), ends_.back()));
     add("Events", fmt::format("{}", events));
     add("Breakpoints", fmt::format("{}", breakpoints));
     add("Ended", log.last_end.empty() ? "its log does not say how" : log.last_end);

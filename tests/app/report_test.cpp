@@ -113,6 +113,22 @@ TEST_F(Report, OfARunThatEndsInContact) {
   EXPECT_TRUE(says(json, "at 0.3125 s"));
 }
 
+TEST_F(Report, OfARunWithoutAnyWindow) {
+  const std::string run = run_path("run");
+  Json falling = falling_triangle();
+  falling["window"] = falling["duration"];
+  ASSERT_EQ(run_noli({"simulate", scene(falling), "-o", run}).exit_code, 1);
+  const Json json = page({run});
+  EXPECT_EQ(json["verdict"]["word"], "contact");
+  EXPECT_TRUE(says(json, "No window was committed: nothing is claimed."));
+  EXPECT_TRUE(says(json, "In the first window something touches")) << json["verdict"];
+  EXPECT_TRUE(says(json, "at 0.3125 s"));
+  EXPECT_TRUE(json["scene"].is_null());
+  EXPECT_TRUE(json["plots"].empty());
+  change_end(run, {{"end", "done"}});
+  expect_verdict({run}, "undecided", "open");
+}
+
 TEST_F(Report, TheEndOfARunStaysWhateverVerifySays) {
   const std::vector<std::string> both = run_with_contact();
   const Json json = page(both);
