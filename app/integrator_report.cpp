@@ -103,7 +103,10 @@ void append_result(const IntegratorResult& result, std::string& text) {
   fmt::format_to(out, "The reference itself is uncertain by: trajectory {} m, energy {}, momentum {}, angular {}.\n",
                  number(u.trajectory), number(u.energy), number(u.momentum), number(u.angular_momentum));
   if (!result.plain) {
-    text += "With damping, scripts or contact `verlet` is this integrator with one step for all forces.\n";
+    text +=
+        "With damping, scripts or contact `verlet` is this integrator with one step for all forces, and `euler` is "
+        "left "
+        "out.\n";
   }
 }
 
