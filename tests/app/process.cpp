@@ -12,6 +12,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
@@ -148,6 +149,12 @@ nlohmann::json json_of(std::vector<std::string> arguments, int expected_exit_cod
 std::string without_timing(nlohmann::json document) {
   EXPECT_EQ(document.erase("timing"), 1u);
   return document.dump(2);
+}
+
+void keep_nothing_that_is_freed() {
+  const char* const options = std::getenv("ASAN_OPTIONS");
+  const std::string keep_nothing = "quarantine_size_mb=0:thread_local_quarantine_size_kb=0";
+  ::setenv("ASAN_OPTIONS", (options != nullptr ? options + (":" + keep_nothing) : keep_nothing).c_str(), 1);
 }
 
 }  // namespace noli::app_tests

@@ -42,4 +42,8 @@ nlohmann::json json_of(std::vector<std::string> arguments, int expected_exit_cod
 /// The document without what a clock or the machine decides, as text.
 std::string without_timing(nlohmann::json document);
 
+/// For tests of peak_bytes: under the address sanitizer what is freed is kept, by default up to 256 MB, unless the
+/// programs that are run from now on are told otherwise. Elsewhere this means nothing.
+void keep_nothing_that_is_freed();
+
 }  // namespace noli::app_tests

@@ -47,6 +47,7 @@ TEST_F(SimulateStop, TimeLimitsWithinWindowsChangeNoByte) {
 TEST_F(SimulateStop, WritingTheSeriesCanBeInterrupted) {
   Json json = resting_bar(1, 1);
   json["frame_rate"] = 1e9;  // hours
+  keep_nothing_that_is_freed();
   const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")}, interrupt_after(700));
   EXPECT_EQ(process.exit_code, 2) << process.err;
   EXPECT_LT(process.peak_bytes, 200'000'000u);
