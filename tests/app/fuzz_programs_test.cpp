@@ -121,10 +121,11 @@ TEST(FuzzProofsCommand, KeepsAndReplaysWhatReachedSomethingNew) {
   const Json document = json_of(words, 0);
   EXPECT_GT(document["corpus"], 10);
   std::set<std::string> said;
+  const bool verified = verified_checker_is_there();
   for (const auto& kept : std::filesystem::directory_iterator(corpus)) {
     const Json again = json_of({"fuzz", "proofs", "--replay", kept.path().string()}, 0);
     EXPECT_EQ(again["verdict"], "no_finding");
-    EXPECT_EQ(again["plain"], again["verified"]);
+    EXPECT_EQ(again["verified"], verified ? again["plain"] : Json("not_asked"));
     EXPECT_EQ(again["claim"] != "not_judged", again["plain"] != "rejected");
     said.insert(again["plain"]);
   }

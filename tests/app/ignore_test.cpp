@@ -60,10 +60,7 @@ TEST_F(Ignore, IsPartOfTheClaim) {
   EXPECT_NE(plain.out.find("Not compared, pairs of labels: 1-3 2-3"), std::string::npos) << plain.out;
   EXPECT_NE(plain.out.find("Cells with a label: 1 with 1; 1 with 2; 1 with 3; no others."), std::string::npos)
       << plain.out;
-  if (!fs::exists(fs::path(NOLI_COMMAND).parent_path() / "noli_check_verified")) {
-    std::fputs("skipped: the verified checker, which is not built\n", stderr);
-    return;
-  }
+  if (!verified_checker_is_there()) return;
   arguments.emplace_back("--verified");
   EXPECT_EQ(run_noli(arguments).out, plain.out);
 }

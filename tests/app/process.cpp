@@ -12,7 +12,9 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
@@ -149,6 +151,12 @@ nlohmann::json json_of(std::vector<std::string> arguments, int expected_exit_cod
 std::string without_timing(nlohmann::json document) {
   EXPECT_EQ(document.erase("timing"), 1u);
   return document.dump(2);
+}
+
+bool verified_checker_is_there() {
+  const bool there = std::filesystem::exists(std::filesystem::path(NOLI_COMMAND).parent_path() / "noli_check_verified");
+  if (!there) std::fputs("skipped: the verified checker, which is not built\n", stderr);
+  return there;
 }
 
 void keep_nothing_that_is_freed() {

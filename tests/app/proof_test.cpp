@@ -46,16 +46,11 @@ class Proof : public testing::Test {
   /// What the checkers that are there say of the proof: all the same.
   Process check(const std::vector<std::string>& frames) const {
     const Process plain = check_by({}, frames);
-    if (!verified_is_there()) return plain;
+    if (!verified_checker_is_there()) return plain;
     const Process verified = check_by({"--verified"}, frames);
     EXPECT_EQ(verified.exit_code, plain.exit_code) << plain.out << verified.out;
     EXPECT_EQ(verified.verdict_line(), plain.verdict_line());
     return plain;
-  }
-  static bool verified_is_there() {
-    const bool there = fs::exists(fs::path(NOLI_COMMAND).parent_path() / "noli_check_verified");
-    if (!there) std::fputs("skipped: the verified checker, which is not built\n", stderr);
-    return there;
   }
   std::string proof() const { return folder.path("proof.noli"); }
 

@@ -81,12 +81,7 @@ class RunWitness : public Simulate {
   /// The exit code on which all checkers that are there agree.
   int check(const std::string& run) const {
     const Process plain = run_noli({"check", proof(), run});
-    if (fs::exists(fs::path(NOLI_COMMAND).parent_path() / "noli_check_verified")) {
-      const Process verified = run_noli({"check", "--verified", proof(), run});
-      EXPECT_EQ(verified.out, plain.out);
-    } else {
-      std::fputs("skipped: the verified checker, which is not built\n", stderr);
-    }
+    if (verified_checker_is_there()) EXPECT_EQ(run_noli({"check", "--verified", proof(), run}).out, plain.out);
     return plain.exit_code;
   }
 };
