@@ -226,7 +226,9 @@ class LibraryFuzzing {
       report_.faults[i] += asked.faults[i];
       if (tally != nullptr) tally->faults[i] += asked.faults[i];
     }
-    for (const auto& [signature, i] : asked.reached) {
+    for (const auto& reached : asked.reached) {
+      const std::string& signature = reached.first;
+      const std::size_t i = reached.second;
       if (!corpus_->reached(signature)) continue;
       report_.not_saved.attempt([&] { corpus_->keep(signature, {asked.queries[i], std::nullopt}, asked.contact[i]); });
     }
