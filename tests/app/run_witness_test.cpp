@@ -81,7 +81,9 @@ class RunWitness : public Simulate {
   /// The exit code on which all checkers that are there agree.
   int check(const std::string& run) const {
     const Process plain = run_noli({"check", proof(), run});
-    if (verified_checker_is_there()) EXPECT_EQ(run_noli({"check", "--verified", proof(), run}).out, plain.out);
+    if (verified_checker_is_there()) {
+      EXPECT_EQ(run_noli({"check", "--verified", proof(), run}).out, plain.out);
+    }
     return plain.exit_code;
   }
 };
