@@ -10,6 +10,7 @@
 #include "noli/app/commands.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/proof_info.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_info.h"
 #include "noli/audit/any_query.h"
@@ -22,12 +23,13 @@ namespace {
 
 constexpr const char* footer =
     "For meshes (PLY, OBJ): format, counts, extent, what is degenerate. For queries (CSV): how many, how many with a "
-    "label. For the folder of a run: windows, times, breakpoints, bytes, and whether the file is whole.\n"
+    "label. For the folder of a run: windows, times, breakpoints, bytes, and whether the file is whole. For proofs: "
+    "what they claim, steps, times, bytes.\n"
     "Examples:\n"
     "  noli info frame.ply\n"
     "  noli info frames/*.obj --json info.json\n"
     "  noli info unit-tests-edge-edge-0.csv\n"
-    "  noli info runs/cloth";
+    "  noli info runs/cloth runs/cloth/proof.blocks";
 
 struct InfoArguments {
   std::vector<std::filesystem::path> files;
@@ -82,6 +84,7 @@ Json mesh_info(const std::filesystem::path& path) {
 
 Json info_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return run_info(path);
+  if (is_proof(path)) return proof_info(path);
   return is_csv(path) ? query_info(path) : mesh_info(path);
 }
 
@@ -119,7 +122,7 @@ Command add_info(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("info", "What is in a file");
   command->footer(footer);
   const auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("files", arguments->files, "PLY, OBJ or CSV files, or folders of runs")
+  command->add_option("files", arguments->files, "PLY, OBJ or CSV files, proofs, or folders of runs")
       ->required()
       ->type_name("FILE");
   add_json_option(*command, arguments->json);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 
@@ -28,6 +31,55 @@ TEST(Info, DescribesQueries) {
   EXPECT_EQ(file["queries"], 2);
   EXPECT_EQ(file["labelled"], 2);
   EXPECT_EQ(file["labelled_contact"], 2);
+}
+
+TEST(Info, DescribesAProof) {
+  const Folder folder;
+  const std::string a = folder.write("a.ply", two_triangles(2)), b = folder.write("b.ply", two_triangles(1)),
+                    c = folder.write("c.ply", two_triangles(-1)), proof = folder.path("proof.noli");
+  ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof, "--min-distance", "0.25", "--strict"}).exit_code, 0);
+  const auto told = [&](int exit_code = 0) { return json_of({"info", proof}, exit_code)["files"][0]; };
+  const nlohmann::json apart = told();
+  EXPECT_EQ(apart["format"], "Noli proof");
+  EXPECT_EQ(apart["about"], "frames");
+  EXPECT_EQ(apart["dimension"], 3);
+  EXPECT_EQ(apart["strict"], true);
+  EXPECT_EQ(apart["least_distance"], 0.25);
+  EXPECT_EQ(apart["steps"], 1);
+  EXPECT_EQ(apart["steps_with_a_witness_of_contact"], 0);
+  EXPECT_EQ(apart["begin"], 0);
+  EXPECT_EQ(apart["end"], 1);
+  EXPECT_GT(apart["token_bytes"], 0);
+  EXPECT_EQ(apart["open_group"], false);
+  EXPECT_EQ(apart["bytes"], std::filesystem::file_size(proof));
+
+  ASSERT_EQ(run_noli({"verify", a, b, c, "--proof", proof}).exit_code, 1);
+  const nlohmann::json refuted = told();
+  EXPECT_EQ(refuted["strict"], false);
+  EXPECT_EQ(refuted["steps"], 2);
+  EXPECT_EQ(refuted["steps_with_a_witness_of_contact"], 1);
+  EXPECT_EQ(refuted["end"], 2);
+
+  std::filesystem::resize_file(proof, refuted["bytes"].get<std::uintmax_t>() - 1);
+  const nlohmann::json torn = told();
+  EXPECT_EQ(torn["open_group"], true);
+  EXPECT_EQ(torn["steps"], 1);
+}
+
+TEST(Info, RefusesAProofThatIsNone) {
+  const Folder folder;
+  const std::string a = folder.write("a.ply", two_triangles(2)), proof = folder.path("proof.noli");
+  ASSERT_EQ(run_noli({"verify", "--static", a, "--proof", proof}).exit_code, 0);
+  const auto refused = [&](const std::string& words) {
+    const Process process = run_noli({"info", proof});
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(process.err.find(words), std::string::npos) << process.err;
+  };
+  const auto size = std::filesystem::file_size(proof);
+  std::fstream(proof, std::ios::in | std::ios::out | std::ios::binary).seekp(30).put('\x7f');
+  refused("proof.noli: byte 16: ");
+  std::filesystem::resize_file(proof, size / 4);
+  refused("proof.noli: ends before its claim is committed");
 }
 
 TEST(Info, SaysTheSameInText) {
