@@ -13,7 +13,6 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -157,12 +156,6 @@ bool verified_checker_is_there() {
   const bool there = std::filesystem::exists(std::filesystem::path(NOLI_COMMAND).parent_path() / "noli_check_verified");
   if (!there) std::fputs("skipped: the verified checker, which is not built\n", stderr);
   return there;
-}
-
-void keep_nothing_that_is_freed() {
-  const char* const options = std::getenv("ASAN_OPTIONS");
-  const std::string keep_nothing = "quarantine_size_mb=0:thread_local_quarantine_size_kb=0";
-  ::setenv("ASAN_OPTIONS", (options != nullptr ? options + (":" + keep_nothing) : keep_nothing).c_str(), 1);
 }
 
 }  // namespace noli::app_tests

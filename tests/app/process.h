@@ -45,8 +45,4 @@ std::string without_timing(nlohmann::json document);
 /// Whether the verified checker is built; says so when a test has to go without it.
 bool verified_checker_is_there();
 
-/// For tests of peak_bytes: under the address sanitizer what is freed is kept, by default up to 256 MB, unless the
-/// programs that are run from now on are told otherwise. Elsewhere this means nothing.
-void keep_nothing_that_is_freed();
-
 }  // namespace noli::app_tests

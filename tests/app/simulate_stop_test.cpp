@@ -47,10 +47,11 @@ TEST_F(SimulateStop, TimeLimitsWithinWindowsChangeNoByte) {
 TEST_F(SimulateStop, WritingTheSeriesCanBeInterrupted) {
   Json json = resting_bar(1, 1);
   json["frame_rate"] = 1e9;  // hours
-  keep_nothing_that_is_freed();
   const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")}, interrupt_after(700));
   EXPECT_EQ(process.exit_code, 2) << process.err;
+#if !defined(__SANITIZE_ADDRESS__)  // which has 250 MB before anything runs
   EXPECT_LT(process.peak_bytes, 200'000'000u);
+#endif
   EXPECT_EQ(process.out.rfind("verdict undecided end interrupted windows 1 ", 0), 0) << process.out;
   EXPECT_NE(process.out.find("`--resume` writes it"), std::string::npos) << process.out;
   EXPECT_FALSE(fs::exists(run_path("run/series.h5")));
