@@ -104,9 +104,8 @@ void append_result(const IntegratorResult& result, std::string& text) {
                  number(u.trajectory), number(u.energy), number(u.momentum), number(u.angular_momentum));
   if (!result.plain) {
     text +=
-        "With damping, scripts or contact `verlet` is this integrator with one step for all forces, and `euler` is "
-        "left "
-        "out.\n";
+        "With damping, scripts or contact `verlet` is this integrator with one step for all forces, "
+        "and `euler` is left out.\n";
   }
 }
 

@@ -171,17 +171,14 @@ std::string precision_text(const PrecisionOutcome& outcome) {
   const auto changes = outcome.order_changes();
   const bool compared = !outcome.energies.empty();
   const double time = compared ? outcome.energies.back().time : 0;
-  const std::string position = number(greatest_position(outcome.runs.back(), outcome.windows_in_order()));
+  const auto if_compared = [&](const std::string& text) { return compared ? text : std::string("unknown"); };
   std::string text = fmt::format(
-      "verdict {} windows {} time {} vertices {} events {} examined {} impulses {} bits {} position {} order_changes "
-      "{} "
-      "complete {}\n",
+      "verdict {} windows {} time {} vertices {} events {} examined {} impulses {} bits {} position {} "
+      "order_changes {} complete {}\n",
       precision_verdict(outcome), outcome.windows, number(time), outcome.vertices, outcome.events, outcome.examined,
-      outcome.impulses, outcome.runs.back().arithmetic.bits, compared ? position : "unknown",
-      changes    ? number(*changes)
-      : compared ? "none"
-                 : "unknown",
-      outcome.complete);
+      outcome.impulses, outcome.runs.back().arithmetic.bits,
+      if_compared(number(greatest_position(outcome.runs.back(), outcome.windows_in_order()))),
+      changes ? number(*changes) : if_compared("none"), outcome.complete);
   if (outcome.difference) {
     text += fmt::format("53 bits differ from double: first the {}, at {} s.\n", outcome.difference->what,
                         digits17(outcome.difference->time));
