@@ -46,6 +46,11 @@ void add_again_options(CLI::App& command, AgainArguments& arguments, const std::
   }
 }
 
+std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved) {
+  const auto name = std::filesystem::absolute(saved / "").lexically_normal().parent_path().filename();
+  return std::filesystem::path(arguments.out) / (name.string() + "-minimised");
+}
+
 void settle_limits(FuzzArgumentsInCommon& arguments) {
   if (arguments.duration || !arguments.limits.count) {
     arguments.limits.time_limit = parse_duration(arguments.duration.value_or("60s"), "--for");

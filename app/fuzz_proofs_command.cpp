@@ -16,8 +16,10 @@
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
 #include "noli/audit/fuzz_proofs.h"
+#include "noli/audit/minimise_proof.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/scratch_folder.h"
+#include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/text.h"
 
@@ -40,13 +42,14 @@ constexpr const char* footer =
     "  noli fuzz proofs --for 60s --seed 1\n"
     "  noli fuzz proofs proof.noli before.ply after.ply --count 100000\n"
     "  noli fuzz proofs runs/chain/proof.blocks runs/chain --verified-every 1\n"
-    "  noli fuzz proofs --replay fuzz-findings/seed1-block3-index2";
+    "  noli fuzz proofs --replay fuzz-findings/seed1-block3-index2\n"
+    "  noli fuzz proofs --minimise fuzz-findings/seed1-block3-index2 --out smaller";
 
 struct ProofsArguments {
   FuzzArgumentsInCommon common;
   std::vector<fs::path> files;
+  AgainArguments again;
   std::uint64_t verified_every = 50;
-  std::optional<std::string> replay;
 };
 
 /// Of a proof and its trajectory, which the checker has to take.
@@ -227,29 +230,64 @@ ExitCode run(ProofsArguments& arguments) {
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
-/// A saved proof again.
+/// The same difference, of files that are as small as possible.
+audit::ProofFiles smaller(const audit::ProofFiles& files, const std::string& difference,
+                          const audit::Checkers& checkers) {
+  const auto kind = [](const std::string& words) { return audit::without_numbers(words); };
+  return audit::minimise(
+      files,
+      [&](const audit::ProofFiles& candidate) {
+        return !interrupted() && kind(audit::judge_proof(candidate, checkers).difference) == kind(difference);
+      },
+      20'000);
+}
+
+/// Writes them into --out; where.
+fs::path save_minimised(const ProofsArguments& arguments, const audit::ProofFiles& files) {
+  const fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
+  make_writable_folder(folder, "--out");
+  audit::write_proof_files(files, folder);
+  return folder;
+}
+
+/// A saved proof again, as it is or made smaller.
 ExitCode again(const ProofsArguments& arguments) {
-  if (!arguments.files.empty()) throw UsageError("--replay takes a folder that was saved; expected no other files");
+  if (!arguments.files.empty()) {
+    throw UsageError("--replay and --minimise take a folder that was saved; expected no other files");
+  }
   const Output output(arguments.common.json, {});
-  const audit::ProofFiles files = audit::read_proof_files(*arguments.replay);
+  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  audit::ProofFiles files = audit::read_proof_files(arguments.again.saved());
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
-  CheckersBeside checkers(scratch.path());
-  const audit::ProofJudgement judged = audit::judge_proof(files, checkers.make()());
+  CheckersBeside beside(scratch.path());
+  const audit::Checkers checkers = beside.make()();
+  audit::ProofJudgement judged = audit::judge_proof(files, checkers);
   const bool finding = !judged.difference.empty();
-  const char* const word = finding ? "finding" : judged.stopped ? "undecided" : "no_finding";
+  std::optional<fs::path> saved;
+  if (finding && arguments.again.minimise) {
+    files = smaller(files, judged.difference, checkers);
+    saved = save_minimised(arguments, files);
+    if (!interrupted()) judged = audit::judge_proof(files, checkers);
+  }
+  const bool stopped = judged.stopped || interrupted();
+  const char* const word = stopped ? "undecided" : finding ? "finding" : "no_finding";
   const char* const verified = judged.verified ? word_of(*judged.verified) : "not_asked";
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
-  output.write(fmt::format("verdict {} plain {} verified {} claim {}\n{}{}", word, word_of(judged.plain), verified,
-                           claim, judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + "\n",
-                           finding ? on_one_line(judged.difference) + "\n" : ""),
-               {{"verdict", word},
-                {"plain", word_of(judged.plain)},
-                {"words", judged.plain.words},
-                {"verified", verified},
-                {"claim", claim},
-                {"difference", finding ? Json(judged.difference) : Json()}});
-  if (finding) return ExitCode::refuted;
-  return judged.stopped ? ExitCode::undecided : ExitCode::holds;
+  std::string text =
+      fmt::format("verdict {} plain {} verified {} claim {}\n", word, word_of(judged.plain), verified, claim);
+  if (!judged.plain.words.empty()) text += on_one_line(judged.plain.words) + '\n';
+  if (finding) text += on_one_line(judged.difference) + '\n';
+  if (saved)
+    text += fmt::format("saved as {}, a proof of {} bytes\n", on_one_line(saved->string()), files.proof.size());
+  output.write(text, {{"verdict", word},
+                      {"plain", word_of(judged.plain)},
+                      {"words", judged.plain.words},
+                      {"verified", verified},
+                      {"claim", claim},
+                      {"difference", finding ? Json(judged.difference) : Json()},
+                      {"folder", saved ? Json(saved->string()) : Json()}});
+  if (stopped) return ExitCode::undecided;
+  return finding ? ExitCode::refuted : ExitCode::holds;
 }
 
 }  // namespace
@@ -268,10 +306,8 @@ Command add_fuzz_proofs(CLI::App& fuzz) {
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
-  CLI::Option* const replay =
-      command->add_option("--replay", arguments->replay, "Judge this saved proof again instead")->type_name("FOLDER");
-  for (const char* const name : {"--count", "--for", "--seed", "--corpus"}) replay->excludes(command->get_option(name));
-  return {command, [arguments] { return arguments->replay ? again(*arguments) : run(*arguments); }};
+  add_again_options(*command, arguments->again, "proof", "FOLDER", {});
+  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : run(*arguments); }};
 }
 
 }  // namespace noli::app

@@ -45,11 +45,18 @@ struct TrajectoriesArguments {
   std::uint64_t verified_every = 1;
 };
 
+std::uint64_t undecided(const audit::TrajectoryReport& report) {
+  std::uint64_t count = 0;
+  for (const audit::TrajectoryTally& generator : report.generators) count += generator.undecided;
+  return count;
+}
+
 Json report_json(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
   Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
                {"seed", arguments.common.limits.seed},
                {"trajectories", report.extent.items},
                {"findings", report.findings_total},
+               {"undecided", undecided(report)},
                {"checked", {{"plain", report.checked_plain}, {"verified", report.checked_verified}}},
                {"shapes", report.shapes},
                {"corpus", report.corpus_size}};
@@ -66,7 +73,8 @@ Json report_json(const TrajectoriesArguments& arguments, const audit::Trajectory
     json["generators"].push_back({{"name", generator.name},
                                   {"apart", generator.apart},
                                   {"contact", generator.contact},
-                                  {"without_witness", generator.without_witness}});
+                                  {"without_witness", generator.without_witness},
+                                  {"undecided", generator.undecided}});
   }
   json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
   return json;
@@ -87,8 +95,9 @@ std::string report_text(const TrajectoriesArguments& arguments, const audit::Tra
                    generator.contact, generator.without_witness);
   }
   if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} motions.\n", report.corpus_size);
-  fmt::format_to(out, "The verified checker looked at {} proofs. Shapes: {}. Time: {:.1f} s.\n",
-                 report.checked_verified, report.shapes, seconds);
+  fmt::format_to(
+      out, "The verified checker looked at {} proofs. Not decided in their time: {}. Shapes: {}. Time: {:.1f} s.\n",
+      report.checked_verified, undecided(report), report.shapes, seconds);
   return text;
 }
 
@@ -116,12 +125,6 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
-/// "FOLDER-minimised" in --out, so that nothing of what was read is overwritten.
-fs::path minimised_folder(const TrajectoriesArguments& arguments, const fs::path& folder) {
-  const fs::path name = fs::absolute(folder / "").lexically_normal().parent_path().filename();
-  return fs::path(arguments.common.out) / (name.string() + "-minimised");
-}
-
 /// A saved motion again, as it is or made smaller.
 ExitCode again(const TrajectoriesArguments& arguments) {
   const fs::path folder = arguments.again.saved();
@@ -142,7 +145,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
     motion = audit::minimise(
         motion, [&](const audit::FrameMotion& candidate) { return audit::is_of_kind(what(candidate), kind); }, 5000);
     if (auto still = what(motion)) found = std::move(still);
-    saved = minimised_folder(arguments, folder);
+    saved = minimised_folder(arguments.common, folder);
     make_writable_folder(*saved, "--out");
     audit::write_frames(motion, *saved);
   }

@@ -17,6 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Well before the limit behind which a program hangs: then it says so by itself.
+constexpr const char* time_to_decide = "40s";
+
 audit::ProgramLimits limits() {
   audit::ProgramLimits limits;
   limits.stop = &interrupted();
@@ -101,11 +104,14 @@ audit::MotionAnswer VerifyProgram::operator()(const audit::FrameMotion& motion) 
   std::vector<std::string> files;
   for (const fs::path& file : audit::write_frames(motion, desk.path())) files.push_back(file.string());
   std::vector<std::string> words = {noli_.string(), "verify", "--threads", "1", "--no-check",
-                                    "--proof",      proof,    "--json",    "-"};
+                                    "--proof",      proof,    "--json",    "-", "--time-limit",
+                                    time_to_decide};
   if (motion.at_rest()) words.emplace_back("--static");
   words.insert(words.end(), files.begin(), files.end());
   const audit::ProgramEnd end = audit::run_program(words, limits());
   audit::MotionAnswer answer;
+  answer.undecided = end.exited_with(2);
+  if (answer.undecided) return answer;
   if (!end.exited_with(0) && !end.exited_with(1)) {
     answer.failure = failure_of("noli verify", end);
     return answer;

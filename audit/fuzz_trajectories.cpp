@@ -102,7 +102,7 @@ class TrajectoryFuzzing {
       if (options_.limits.stop && options_.limits.stop->load()) return;
       Judged judged = judge({read_frames(corpus_->folder(name)), {}}, false, options_);
       if (judged.answer.failure == "stopped") return;
-      shapes_.insert(judged.answer.shape);
+      if (!judged.answer.undecided) shapes_.insert(judged.answer.shape);
       if (judged.difference) keep(std::move(judged), name, 0, 0);
     }
   }
@@ -117,10 +117,12 @@ class TrajectoryFuzzing {
     const auto all = motion_generators();
     TrajectoryTally& tally = report_.generators[(block_ * motions_per_block + index) % all.size()];
     ++(judged.contact ? tally.contact : tally.apart);
+    tally.undecided += judged.answer.undecided ? 1 : 0;
     if (judged.answer.contact && !judged.answer.has_proof && !judged.difference) ++tally.without_witness;
     if (judged.answer.plain != CheckerWord::not_asked) ++report_.checked_plain;
     if (judged.answer.verified != CheckerWord::not_asked) ++report_.checked_verified;
-    if (shapes_.insert(judged.answer.shape).second && corpus_ && !judged.difference) {
+    const bool is_new = !judged.answer.undecided && shapes_.insert(judged.answer.shape).second;
+    if (is_new && corpus_ && !judged.difference) {
       report_.not_saved.attempt([&] {
         corpus_->add(judged.answer.shape, [&](const fs::path& folder) { write_frames(judged.motion, folder); });
       });

@@ -8,7 +8,8 @@
 //   planted  what a generator says of its motion; the oracle (audit/motion_oracle.h) has to agree
 //   finding  a motion that cannot be read back to the same bits, or on which the subject is wrong: contact or none, its
 //            step, the exact first time rounded down, features that do not meet then, the kind; no proof or no witness
-//            where there has to be one; a checker that rejects or says otherwise; a crash, a hang
+//            where there has to be one; a checker that rejects or says otherwise; a crash, a hang. Not one that its time was
+//            up, if it says so
 //   shape    what the subject went through, as a word: which stages, how large a proof. What has a new one is kept in
 //            the corpus
 //
@@ -45,10 +46,11 @@ struct MotionAnswer {
     double time = 0;       ///< the first time rounded down to double
   };
 
-  std::string failure;   ///< how it failed to answer, in words ("stopped": by the user); then the rest does not count
-  bool contact = false;  ///< else it says that nothing touches
-  std::size_t step = 0;  ///< the last step that it looked at, from 0
-  bool initial = false;  ///< cells meet at the first time
+  std::string failure;     ///< how it failed to answer, in words ("stopped": by the user); then the rest does not count
+  bool undecided = false;  ///< it says that its time was up, which is no fault; then the rest does not count
+  bool contact = false;    ///< else it says that nothing touches
+  std::size_t step = 0;    ///< the last step that it looked at, from 0
+  bool initial = false;    ///< cells meet at the first time
   std::optional<First> first;
   bool has_proof = false;  ///< a proof, or a witness of a contact
   CheckerWord plain = CheckerWord::not_asked, verified = CheckerWord::not_asked;
@@ -82,6 +84,7 @@ struct TrajectoryTally {
   std::string name;
   std::uint64_t apart = 0, contact = 0;  ///< by the oracle
   std::uint64_t without_witness = 0;     ///< contacts, where none is promised
+  std::uint64_t undecided = 0;           ///< in the time that there was
 };
 
 struct TrajectoryReport {
@@ -101,7 +104,7 @@ struct TrajectoryReport {
 TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options);
 
 /// What is wrong with the subject's answer, or the files of the motion, in words; nothing if all is well, or if it was
-/// stopped before that was known.
+/// stopped, or its time was up, before that was known.
 std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness,
                                       const std::atomic<bool>* stop = nullptr);
 

@@ -60,6 +60,7 @@ std::optional<std::string> checker_difference(const MotionAnswer& answer) {
 std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer,
                                       bool needs_witness) {
   if (!answer.failure.empty()) return "failure: " + answer.failure;
+  if (answer.undecided) return std::nullopt;
   if (answer.contact != truth.contact || (truth.contact && answer.step != truth.step)) {
     return fmt::format("contact: found {}, the oracle says {}", contact_words(answer.contact, answer.step),
                        contact_words(truth.contact, truth.step));

@@ -187,6 +187,9 @@ std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::pa
     names.push_back(trajectory_name(files, i));
     write_file(folder / names.back(), files.files[i]);
   }
+  const bool one_file = files.extension == "blocks";
+  for (std::size_t i = names.size() - 1; !one_file && fs::remove(folder / trajectory_name(files, i)); ++i) {
+  }  // what was here of a longer trajectory
   return names;
 }
 

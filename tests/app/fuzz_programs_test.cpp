@@ -132,6 +132,38 @@ TEST(FuzzProofsCommand, KeepsAndReplaysWhatReachedSomethingNew) {
   EXPECT_TRUE(said.count("accepted") == 1 && said.count("rejected") == 1);
 }
 
+TEST(FuzzProofsCommand, MakesAFindingSmall) {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  const std::string a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(0.5));
+  const std::string proof = folder.path("ab.noli"), finding = folder.path("finding");
+  ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof}).exit_code, 0);
+  fs::create_directory(finding);
+  fs::copy_file(proof, finding + "/proof.noli");
+  fs::copy_file(a, finding + "/trajectory-0.ply");
+  fs::copy_file(b, finding + "/trajectory-1.ply");
+  // A noli whose verified checker takes nothing.
+  ProcessOptions faulty;
+  faulty.program = folder.path("noli");
+  for (const char* const name : {"noli", "noli_check_host"}) {
+    fs::copy_file(fs::path(NOLI_COMMAND).parent_path() / name, folder.path(name));
+  }
+  fs::permissions(folder.write("noli_check_verified", "#!/bin/sh\nexit 3\n"), fs::perms::owner_all);
+
+  const std::vector<std::string> words = {"fuzz", "proofs", "--minimise", finding, "--out", folder.path("out")};
+  const Process process = run_noli(words, faulty);
+  EXPECT_EQ(process.exit_code, 1) << process.err;
+  EXPECT_NE(process.out.find("the plain checker: accepted, the verified one: rejected"), std::string::npos)
+      << process.out;
+  const std::string smaller = folder.path("out/finding-minimised");
+  EXPECT_NE(process.out.find("saved as " + smaller), std::string::npos) << process.out;
+  EXPECT_LE(fs::file_size(smaller + "/proof.noli"), fs::file_size(proof));
+  EXPECT_EQ(run_noli({"fuzz", "proofs", "--replay", smaller}, faulty).exit_code, 1) << "it still shows it";
+  EXPECT_EQ(run_noli({"fuzz", "proofs", "--minimise", finding, "--out", folder.path("none")}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder.path("none"))) << "nothing was wrong";
+  EXPECT_EQ(run_noli({"fuzz", "proofs", "--minimise", finding, "--replay", finding}).exit_code, 3);
+}
+
 TEST(FuzzScenesCommand, JudgesASceneAgain) {
   const Folder folder;
   const std::string scene = folder.write(

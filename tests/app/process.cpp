@@ -70,7 +70,7 @@ void set_up_child(const ProcessOptions& options, const Pipe& out, const Pipe& er
 
 pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& options, const Pipe& out,
             const Pipe& err) {
-  std::vector<std::string> words = {NOLI_COMMAND};
+  std::vector<std::string> words = {options.program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);

@@ -13,6 +13,7 @@
 namespace noli::app_tests {
 
 struct ProcessOptions {
+  std::string program = NOLI_COMMAND;
   /// Sent once the process is ready for it (it catches the signal) and this time has passed.
   std::optional<int> signal;
   std::chrono::milliseconds signal_after{0};

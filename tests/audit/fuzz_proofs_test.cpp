@@ -8,6 +8,7 @@
 #include <set>
 
 #include "noli/audit/claim_oracle.h"
+#include "noli/audit/minimise_proof.h"
 #include "noli/audit/parsed_claim.h"
 #include "noli/proofs/prover/proof_file.h"
 #include "noli/tests/support/temporary_folder.h"
@@ -197,6 +198,62 @@ TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
   }
   EXPECT_EQ(different, 1);
   EXPECT_EQ(report.findings[0].files.files, good.files);
+}
+
+/// As files, with a third frame that the proof does not know.
+ProofFiles example_files() {
+  const ProofCase good = example();
+  return {good.proof, good.extension, {good.files[0], good.files[1], good.files[1]}};
+}
+
+TEST(MinimiseProof, LeavesOutWhatIsNotNeeded) {
+  // A fault that one token is enough for, in whatever block.
+  const auto fails = [](const ProofFiles& files) {
+    if (believes_all(files).code != 0) return false;
+    for (const ProofGroup& group : parse_proof(files.proof, "candidate")) {
+      for (const ProofBlock& block : group) {
+        if (block.payload.find('\x09') != std::string::npos) return true;
+      }
+    }
+    return false;
+  };
+  ASSERT_TRUE(fails(example_files()));
+  const ProofFiles smallest = minimise(example_files(), fails, 5000);
+  EXPECT_EQ(smallest.files.size(), 1u);
+  const ProofGroups groups = parse_proof(smallest.proof, "smallest");
+  ASSERT_EQ(groups.size(), 1u);
+  ASSERT_EQ(groups[0].size(), 1u);
+  EXPECT_EQ(groups[0][0].payload, "\x09");
+}
+
+TEST(MinimiseProof, MakesBytesZero) {
+  const auto size = [](const ProofFiles& files) { return files.proof.size(); };
+  const ProofFiles all = example_files();
+  const ProofFiles smallest = minimise(
+      all, [&](const ProofFiles& files) { return size(files) == size(all) && files.files == all.files; }, 5000);
+  for (const ProofGroup& group : parse_proof(smallest.proof, "smallest")) {
+    for (const ProofBlock& block : group) EXPECT_EQ(block.payload, std::string(block.payload.size(), '\0'));
+  }
+}
+
+TEST(MinimiseProof, TakesBytesThatAreNoBlocks) {
+  const auto fails = [](const ProofFiles& files) { return files.proof.find("needle") != std::string::npos; };
+  const ProofFiles smallest = minimise({"\x89NOLI, some hay, a needle, more hay", "ply", {"a", "b"}}, fails, 5000);
+  EXPECT_EQ(smallest.proof, "needle");
+  EXPECT_EQ(smallest.files.size(), 1u);
+}
+
+TEST(MinimiseProof, KeepsToItsBudget) {
+  const ProofFiles all = example_files();
+  int calls = 0;
+  const auto fails = [&](const ProofFiles& files) {
+    ++calls;
+    return files.proof == all.proof && files.files == all.files;
+  };
+  const ProofFiles same = minimise(all, fails, 7);
+  EXPECT_EQ(calls, 7);
+  EXPECT_EQ(same.proof, all.proof);
+  EXPECT_EQ(same.files, all.files);
 }
 
 TEST_F(FuzzProofs, DependsOnTheSeedAlone) {

@@ -139,6 +139,25 @@ TEST_F(FuzzTrajectories, FindsEveryKindOfWrongAnswer) {
   }
 }
 
+TEST_F(FuzzTrajectories, CountsWhatWasNotDecidedInItsTime) {
+  options.decide = [](const FrameMotion& motion) {
+    MotionAnswer answer = oracle_answer(motion);
+    answer.undecided = answer.contact;
+    answer.contact = false;
+    return answer;
+  };
+  const TrajectoryReport report = fuzz_trajectories(options);
+  EXPECT_EQ(report.findings_total, 0u) << report.findings[0].difference;
+  std::uint64_t undecided = 0, contact = 0;
+  for (const TrajectoryTally& generator : report.generators) {
+    undecided += generator.undecided;
+    contact += generator.contact;
+  }
+  EXPECT_GT(undecided, 0u);
+  EXPECT_EQ(undecided, contact);
+  EXPECT_EQ(report.shapes, 1u) << "what is not decided has none";
+}
+
 TEST_F(FuzzTrajectories, FindsFeaturesThatDoNotMeetFirst) {
   const TrajectoryFinding finding = finding_of([](const FrameMotion& motion) {
     MotionAnswer answer = oracle_answer(motion);

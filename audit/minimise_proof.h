@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Makes a saved proof that fails as small as possible: fewest frames, then steps, blocks and bytes, then bytes that are
+// 0. Checksums and hashes are put right each time, if they were.
+//
+// What this does not do: it changes no frame, as the hashes would not fit then; it knows no tokens, so that it finds
+// them by trying which bytes can go.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "noli/audit/proof_checkers.h"
+
+namespace noli::audit {
+
+/// Stops early after so many calls of `fails`. Precondition: fails(files).
+ProofFiles minimise(const ProofFiles& files, const std::function<bool(const ProofFiles&)>& fails, std::size_t budget);
+
+}  // namespace noli::audit
