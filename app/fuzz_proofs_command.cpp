@@ -244,7 +244,7 @@ audit::ProofFiles smaller(const audit::ProofFiles& files, const std::string& dif
 
 /// Writes them into --out; where.
 fs::path save_minimised(const ProofsArguments& arguments, const audit::ProofFiles& files) {
-  const fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
+  fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
   make_writable_folder(folder, "--out");
   audit::write_proof_files(files, folder);
   return folder;

@@ -127,20 +127,26 @@ module Compress = struct
   let[@inline] twice x = let x = x & 0xffffffffL in x || Int64.shift_left x 32
   let[@inline] word i = get w (8 * i)
 
+  (* Word i, of those before it. *)
+  let[@inline] extend i =
+    let x = word (i - 15) and y = word (i - 2) in
+    let xx = twice x and yy = twice y in
+    let s0 = (xx >> 7) ^ (xx >> 18) ^ (x >> 3) and s1 = (yy >> 17) ^ (yy >> 19) ^ (y >> 10) in
+    set w (8 * i) ((word (i - 16) + word (i - 7) + s0 + s1) & 0xffffffffL)
+
+  (* Unrolled, so that all indices are constants. *)
+  let[@inline] extend_four i = extend i; extend (i lor 1); extend (i lor 2); extend (i lor 3)
+  let[@inline] extend_all i = extend_four i; extend_four (i lor 4); extend_four (i lor 8); extend_four (i lor 12)
+
   let schedule s at =
     for i = 0 to 15 do
       set w (8 * i) (Int64.of_int32 (String.get_int32_be s (Stdlib.( + ) at (4 * i))) & 0xffffffffL)
     done;
-    for i = 16 to 63 do
-      let x = word (i - 15) and y = word (i - 2) in
-      let xx = twice x and yy = twice y in
-      let s0 = (xx >> 7) ^ (xx >> 18) ^ (x >> 3) and s1 = (yy >> 17) ^ (yy >> 19) ^ (y >> 10) in
-      set w (8 * i) ((word (i - 16) + s0 + word (i - 7) + s1) & 0xffffffffL)
-    done
+    extend_all 16; extend_all 32; extend_all 48
 
-  (* T1 and T2 of round i. *)
+  (* T1 and T2 of round i. What is known first is added first: a round waits for e of the one before. *)
   let[@inline] t1 e f g h i =
-    h + ((e >> 6) ^ (e >> 11) ^ (e >> 25)) + (g ^ (e & (f ^ g))) + get k (8 * i) + word i
+    (h + get k (8 * i) + word i) + (g ^ (e & (f ^ g))) + ((e >> 6) ^ (e >> 11) ^ (e >> 25))
   let[@inline] t2 a b c = ((a >> 2) ^ (a >> 13) ^ (a >> 22)) + ((a & b) || (c & (a || b)))
 
   let block v s at =
