@@ -49,7 +49,7 @@ class Input {
   /// So many bytes, or all up to the end. No length is believed: memory grows with what has come.
   std::string read(std::uint64_t bytes) {
     std::string result;
-    result.reserve(std::min<std::uint64_t>(bytes, 1 << 24));
+    result.reserve(std::min<std::uint64_t>(bytes, 1 << 26));
     for (std::size_t got = 1; got > 0 && result.size() < bytes;) {
       const std::size_t have = result.size(), part = std::min<std::uint64_t>(bytes - have, 1 << 20);
       result.resize(have + part);

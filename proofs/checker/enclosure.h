@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick way to see that a direction separates two groups, in integers of 64 bits: boxes around each vertex at both
-// ends of a piece, between which its motion is. If they are apart, so are the vertices; if not, separation.h decides.
+// Two quick ways to see that a direction separates two groups. In integers of 64 bits: boxes around each vertex at both
+// ends of a piece, between which its motion is. If they are apart, so are the vertices. If not, as where cells tremble
+// by more than what is between them, in binary64: at each breakpoint. If that is too close, separation.h decides.
 //
-// Notation, and why it is so
+// Notation, and why boxes are right
 //   unit    a power of two of which all positions and the least distance are less than 2^46
 //   x'      a position in units, cut to an integer: less than 1 off
 //   t'      a time from T0 on, the step being 2^49 to 2^50 long, cut to an integer. The difference from T0 is rounded
@@ -21,6 +22,13 @@
 //           of n are up to 512, and below 2^92 where they are below 2^40
 //   gap     the least n.u less the greatest n.w of the boxes, linear from end to end: a lower bound of what S asks for.
 //           2^20 gap > (units of the least distance, rounded up) root, root >= 2^20 |n|, is what S asks for
+//
+// Why breakpoints are, with u = 2^-53, M the greatest coordinate or the least distance, and N = |nx| + |ny| + |nz|
+//   time    of a breakpoint exact. An end of a piece is less than 8 u of the greatest time off, and is moved outward by
+//           16 u of that, but not out of the step. What is apart for longer is apart
+//   value   n.u = f + (g - f) r between two breakpoints, n.x being f and g there: each less than 4 u N M off, their
+//           difference 10 u N M, and r, from 0 to 1, less than 4 u. So it is less than 32 u N M off
+//   margin  128 u N M: for two values, their difference, and the rounding of the distance and of this itself
 #pragma once
 
 #include "separation.h"
@@ -41,6 +49,9 @@ class Enclosures {
     for (const auto& x : motion.x) most = std::max({most, std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
     usable_ = most <= 0x1p900 && 0x1p-900 <= duration && duration <= 0x1p900;
     if (!usable_) return;
+    most_ = most;
+    least_ = eta;
+    late_ = 0x1p-49 * std::max(std::abs(motion.t0), std::abs(motion.t1));
     unit_ = std::ldexp(1, 45 - std::ilogb(most));
     time_unit_ = std::ldexp(1, 49 - std::ilogb(duration));
     duration_ = time(motion.t1);
@@ -54,7 +65,9 @@ class Enclosures {
     const std::int64_t most = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
     const bool usable = usable_ && piece.halvings <= 30 && most < limit;
     if (!usable) return false;
-    return most <= 512 ? apart<std::int64_t>(n, piece, x, y, distance) : apart<Wide>(n, piece, x, y, distance);
+    const bool boxes =
+        most <= 512 ? boxes_apart<std::int64_t>(n, piece, x, y, distance) : boxes_apart<Wide>(n, piece, x, y, distance);
+    return boxes || breakpoints_apart(n, piece, x, y, distance);
   }
 
   static constexpr std::int64_t limit = std::int64_t{1} << 40;
@@ -67,7 +80,7 @@ class Enclosures {
   };
 
   template <class Number>
-  bool apart(const Point& n, const Piece& piece, Vertices x, Vertices y, bool distance) {
+  bool boxes_apart(const Point& n, const Piece& piece, Vertices x, Vertices y, bool distance) {
     const auto low = least<Number>(n, piece, x), back = least<Number>({-n[0], -n[1], -n[2]}, piece, y);
     const auto square = [&](std::size_t i) { return static_cast<double>(n[i]) * static_cast<double>(n[i]); };
     const double root = distance ? std::ceil(0x1p20 * (1 + 0x1p-40) * std::sqrt(square(0) + square(1) + square(2))) : 0;
@@ -90,6 +103,42 @@ class Enclosures {
     }
     return least;
   }
+
+  bool breakpoints_apart(const Point& n, const Piece& piece, Vertices x, Vertices y, bool distance) {
+    const Position m = {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
+    const double margin = 0x1p-46 * most_ * (std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2])),
+                 asked = (distance ? least_ * std::sqrt(dot(m, m)) * (1 + 0x1p-40) : 0) + margin;
+    const double from = std::max(motion_.t0, instant(piece.k, piece.halvings) - late_),
+                 until = std::min(motion_.t1, instant(piece.k + 1, piece.halvings) + late_);
+    times_ = {from, until};
+    segments_.clear();
+    for (const Vertices& group : {x, y}) {
+      for (const std::uint32_t v : group) {
+        std::uint64_t e = motion_.segment_end(v, [&](std::uint64_t i) { return motion_.times[i] <= from; });
+        segments_.push_back(e);
+        for (; motion_.times[e] < until; ++e) times_.push_back(motion_.times[e]);
+      }
+    }
+    std::ranges::sort(times_);
+    return std::ranges::all_of(times_, [&](double c) { return gap(m, c, x.size()) > asked; });
+  }
+  /// At c, which is not before that of the last call. The ends of segments, the first of which are those of x, follow.
+  double gap(const Position& m, double c, std::size_t of_x) {
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t j = 0; j < segments_.size(); ++j) {
+      std::uint64_t& e = segments_[j];
+      while (motion_.times[e] < c) ++e;
+      const double f = dot(m, motion_.x[e - 1]), g = dot(m, motion_.x[e]), begin = motion_.times[e - 1];
+      const double value = f + (g - f) * ((c - begin) / (motion_.times[e] - begin));
+      if (j < of_x) low = std::min(low, value);
+      if (j >= of_x) high = std::max(high, value);
+    }
+    return low - high;
+  }
+  double instant(std::uint64_t k, std::uint64_t halvings) const {
+    return motion_.t0 + (motion_.t1 - motion_.t0) * std::ldexp(static_cast<double>(k), -static_cast<int>(halvings));
+  }
+  static double dot(const Position& m, const Position& x) { return m[0] * x[0] + m[1] * x[1] + m[2] * x[2]; }
 
   /// A few boxes are remembered.
   const Box& known(std::uint32_t v, const Piece& piece) {
@@ -146,10 +195,12 @@ class Enclosures {
 
   const Motion& motion_;
   bool usable_ = false;
-  double unit_ = 1, time_unit_ = 1;
+  double unit_ = 1, time_unit_ = 1, most_ = 1, least_ = 0, late_ = 0;
   std::int64_t duration_ = 1, eta_ = 0;
   std::vector<Box> whole_step_;  ///< by vertex
   std::vector<Known> known_;
+  std::vector<double> times_;            ///< of the last call, as are
+  std::vector<std::uint64_t> segments_;  ///< which of each vertex's, by its end
 };
 
 }  // namespace noli::checker

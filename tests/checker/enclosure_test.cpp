@@ -138,6 +138,39 @@ TEST(Enclosures, RememberVerticesApart) {
   }
 }
 
+/// Two vertices, one of which goes up and down as the other does, above it by a thousandth of that, and at one of the
+/// breakpoints below.
+Motion side_by_side(std::size_t breakpoints, std::size_t below, double above = 0.001) {
+  Motion m;
+  m.t1 = 1;
+  m.begin = {0};
+  for (const double more : {above, 0.0}) {
+    for (std::size_t i = 0; i < breakpoints; ++i) {
+      m.times.push_back(static_cast<double>(i) / static_cast<double>(breakpoints - 1));
+      m.x.push_back({0, 0, static_cast<double>(i * i % 7) + (i == below ? -more : more)});
+    }
+    m.begin.push_back(m.times.size());
+  }
+  return m;
+}
+
+TEST(Enclosures, LookAtBreakpoints) {
+  const auto is_above = [](const Motion& m, std::uint64_t halvings, double eta = 0) {
+    return apart(m, {0, 0, 3}, halvings, eta);
+  };
+  constexpr std::size_t nowhere = 100;
+  for (const std::uint64_t halvings : {0u, 1u, 4u, 30u}) EXPECT_TRUE(is_above(side_by_side(100, nowhere), halvings));
+  for (const std::size_t below : {0u, 3u, 47u, 52u, 98u, 99u}) {
+    EXPECT_FALSE(is_above(side_by_side(100, below), 0)) << below;
+    EXPECT_EQ(is_above(side_by_side(100, below), 1), below > 50) << "behind the first half, or not: " << below;
+    EXPECT_FALSE(apart(side_by_side(100, below), {0, 0, -3}, 0)) << below;
+  }
+  EXPECT_TRUE(is_above(side_by_side(100, nowhere), 0, 0.000999));
+  EXPECT_FALSE(is_above(side_by_side(100, nowhere), 0, 0.001)) << "as near as the distance is too near";
+  EXPECT_TRUE(is_above(side_by_side(100, nowhere, 0x1p-41), 0));
+  EXPECT_FALSE(is_above(side_by_side(100, nowhere, 0x1p-44), 0)) << "too close for binary64";
+}
+
 TEST(Enclosures, LeaveWhatIsTooLargeToExactNumbers) {
   const std::int64_t large = std::int64_t{1} << 40;
   EXPECT_TRUE(apart(two_at_rest(1), {1, 0, 0}, 0));
