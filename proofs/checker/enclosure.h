@@ -23,17 +23,22 @@
 //   gap     the least n.u less the greatest n.w of the boxes, linear from end to end: a lower bound of what S asks for.
 //           2^20 gap > (units of the least distance, rounded up) root, root >= 2^20 |n|, is what S asks for
 //
-// Why breakpoints are, with u = 2^-53, M the greatest coordinate or the least distance, and N = |nx| + |ny| + |nz|
+// Why breakpoints are, with u = 2^-53, M the greatest coordinate or the least distance, and N = |nx| + |ny| + |nz|.
+// As M is from 2^-900 to 2^900, nothing overflows, and what underflows is far below u M
 //   time    of a breakpoint exact. An end of a piece is less than 8 u of the greatest time off, and is moved outward by
-//           16 u of that, but not out of the step. What is apart for longer is apart
+//           16 u of that, but not out of the step. Who is apart for longer is apart: gaps are concave between
+//           breakpoints, so those at breakpoints and at both ends are enough for any interval
 //   value   n.u = f + (g - f) r between two breakpoints, n.x being f and g there: each less than 4 u N M off, their
-//           difference 10 u N M, and r, from 0 to 1, less than 4 u. So it is less than 32 u N M off
+//           difference 10 u N M, and r less than 4 u; it is from 0 to 1, as rounding keeps order. So a value is less
+//           than 32 u N M off
 //   margin  128 u N M: for two values, their difference, and the rounding of the distance and of this itself
 #pragma once
 
 #include "separation.h"
 
 namespace noli::checker {
+
+static_assert(FLT_EVAL_METHOD == 0, "binary64 has to be computed as binary64");
 
 class Enclosures {
   using Point = std::array<std::int64_t, 3>;
@@ -120,6 +125,7 @@ class Enclosures {
       }
     }
     std::ranges::sort(times_);
+    times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
     return std::ranges::all_of(times_, [&](double c) { return gap(m, c, x.size()) > asked; });
   }
   /// At c, which is not before that of the last call. The ends of segments, the first of which are those of x, follow.
