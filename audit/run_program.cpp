@@ -23,6 +23,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// How long a program was waited for, by the clock on the wall. A time in which this process did not look counts as a
+/// second at most: it was stopped itself, or the machine slept.
+class Patience {
+ public:
+  explicit Patience(std::chrono::nanoseconds limit) : left_(limit) {}
+
+  bool is_over() {
+    const Clock::time_point now = Clock::now();
+    left_ -= std::min<std::chrono::nanoseconds>(now - std::exchange(last_, now), std::chrono::seconds(1));
+    return left_ <= std::chrono::nanoseconds(0);
+  }
+
+ private:
+  std::chrono::nanoseconds left_;
+  Clock::time_point last_ = Clock::now();
+};
+
 /// A program at work, ended with this.
 class Running {
  public:
@@ -39,10 +56,10 @@ class Running {
 
   /// Reads until it has closed both, or a limit is reached.
   void read(const ProgramLimits& limits, ProgramEnd& end) {
-    const Clock::time_point deadline = Clock::now() + limits.time;
+    Patience patience(limits.time);
     while (out_.end(0) >= 0 || err_.end(0) >= 0) {
       if (limits.stop && limits.stop->load(std::memory_order_relaxed)) return give_up(end, ProgramEnd::Kind::stopped);
-      if (Clock::now() >= deadline) return give_up(end, ProgramEnd::Kind::hung);
+      if (patience.is_over()) return give_up(end, ProgramEnd::Kind::hung);
       constexpr int milliseconds = 50;
       std::array<pollfd, 2> ends = {{{out_.end(0), POLLIN, 0}, {err_.end(0), POLLIN, 0}}};
       if (::poll(ends.data(), ends.size(), milliseconds) <= 0) continue;

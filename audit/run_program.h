@@ -16,7 +16,7 @@
 namespace noli::audit {
 
 struct ProgramLimits {
-  std::chrono::nanoseconds time{std::chrono::seconds(60)};  ///< wall clock; then it hangs, and is ended
+  std::chrono::nanoseconds time{std::chrono::seconds(60)};  ///< wall clock while we look; then it hangs, and is ended
   const std::atomic<bool>* stop = nullptr;                  ///< polled; then it is ended
 };
 

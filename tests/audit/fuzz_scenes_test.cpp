@@ -2,6 +2,8 @@
 #include "noli/audit/fuzz_scenes.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -208,6 +210,23 @@ TEST(RunProgram, TellsHowItEnded) {
   EXPECT_EQ(run("kill -SEGV $$").kind, ProgramEnd::Kind::signalled);
   EXPECT_EQ(run("sleep 60").kind, ProgramEnd::Kind::hung);
   EXPECT_THROW(run_program({"/no/such/program"}, {}), std::runtime_error);
+}
+
+/// A process is stopped (Ctrl-Z) while its program runs. It is one of its own, as a shell that sees its job stopped
+/// would take this test for stopped.
+TEST(RunProgram, DoesNotCountATimeInWhichItWasStoppedItself) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ProgramLimits limits;
+    limits.time = std::chrono::seconds(3);
+    const ProgramEnd end =
+        run_program({"/bin/sh", "-c", "kill -STOP $PPID; sleep 4; kill -CONT $PPID; sleep 0.1; exit 3"}, limits);
+    _exit(end.exited_with(3) ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
 TEST(RunProgram, WritesWordsAsAShellReadsThem) {
