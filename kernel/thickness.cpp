@@ -30,8 +30,8 @@ constexpr double smallest = 0x1p-900;  // above all that underflow can do
 template <int Dim>
 using Direction = std::array<double, Dim>;
 
-/// A lower bound for n . (b - a) over the points of the features at both ends of the step; not a number where that
-/// overflows.
+/// A lower bound for n . (b - a) over the points of the features at both ends of the step; that is -infinity where
+/// anything overflows.
 template <FeaturePair Pair, int Dim>
 double least_gap(const Query<Pair, Dim>& q, const Direction<Dim>& n) {
   double least = std::numeric_limits<double>::infinity();
@@ -44,8 +44,8 @@ double least_gap(const Query<Pair, Dim>& q, const Direction<Dim>& n) {
           sum += term;
           size += std::abs(term);
         }
-        const double bound = sum - (error * size + smallest);
-        if (!(bound >= least)) least = bound;
+        if (!std::isfinite(size)) return -std::numeric_limits<double>::infinity();
+        least = std::min(least, sum - (error * size + smallest));
       }
     }
   }

@@ -100,6 +100,21 @@ TEST(Thickness, WithinZeroIsContact) {
 const VertexFace3 sinking{{{{0, 0, 2}, {-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}},
                           {{{0, 0, 1}, {-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}}};
 
+/// Of two edges that have an end in common, along a line: products of their coordinates overflow to both sides. Once
+/// such a sum, which is not a number, was forgotten at the next one. Found by fuzzing.
+TEST(Thickness, WhatOverflowsSeparatesNothing) {
+  const double a = 0x1.54p+515, b = -0x1.bp+515, c = -0x1.8cp+515;
+  const EdgeEdge3 query{{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {a, 0, 0}}}, {{{0, 0, 0}, {b, 0, 0}, {0, 0, 0}, {c, 0, 0}}}};
+  const auto time = first_within(query, 0);
+  ASSERT_TRUE(time.has_value());
+  EXPECT_EQ(time->lower(), 0);
+  EXPECT_TRUE(within_distance(query, 1));
+  EdgeEdge3 apart = query;
+  for (auto* x : {&apart.x_t0, &apart.x_t1}) (*x)[2][1] = (*x)[3][1] = 2;
+  EXPECT_FALSE(within_distance(apart, 1));
+  EXPECT_TRUE(within_distance(apart, 2));
+}
+
 TEST(Thickness, ClosedAtTheEndOfTheStep) {
   const auto last = first_within(sinking, 1);
   ASSERT_TRUE(last);
