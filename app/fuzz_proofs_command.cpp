@@ -233,11 +233,11 @@ ExitCode run(ProofsArguments& arguments) {
 /// The same difference, of files that are as small as possible.
 audit::ProofFiles smaller(const audit::ProofFiles& files, const std::string& difference,
                           const audit::Checkers& checkers) {
-  const auto kind = [](const std::string& words) { return audit::without_numbers(words); };
+  const std::string kind = audit::without_numbers(difference);
   return audit::minimise(
       files,
       [&](const audit::ProofFiles& candidate) {
-        return !interrupted() && kind(audit::judge_proof(candidate, checkers).difference) == kind(difference);
+        return !interrupted() && audit::without_numbers(audit::judge_proof(candidate, checkers).difference) == kind;
       },
       20'000);
 }

@@ -134,9 +134,14 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
   VerifyProgram subject(1);
+  bool undecided = false;  // the last one, in the time that there was
+  const auto decide = [&](const audit::FrameMotion& one) {
+    audit::MotionAnswer answer = subject(one);
+    undecided = answer.undecided;
+    return answer;
+  };
   const auto what = [&](const audit::FrameMotion& candidate) {
-    return audit::difference(
-        candidate, [&](const auto& one) { return subject(one); }, arguments.needs_witness, &interrupted());
+    return audit::difference(candidate, decide, arguments.needs_witness, &interrupted());
   };
   auto found = what(motion);
   std::optional<fs::path> saved;
@@ -149,7 +154,8 @@ ExitCode again(const TrajectoriesArguments& arguments) {
     make_writable_folder(*saved, "--out");
     audit::write_frames(motion, *saved);
   }
-  const char* const word = interrupted() ? "undecided" : found ? "finding" : "no_finding";
+  const bool unknown = interrupted() || (undecided && !found);
+  const char* const word = unknown ? "undecided" : found ? "finding" : "no_finding";
   std::string text = fmt::format("verdict {} frames {} cells {} vertices {}\n", word, motion.frames.size(),
                                  motion.mesh.cell_count(), motion.mesh.vertex_count);
   if (found) text += on_one_line(*found) + '\n';
@@ -160,7 +166,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
                       {"vertices", motion.mesh.vertex_count},
                       {"difference", found ? Json(*found) : Json()},
                       {"folder", saved ? Json(saved->string()) : Json()}});
-  if (interrupted()) return ExitCode::undecided;
+  if (unknown) return ExitCode::undecided;
   return found ? ExitCode::refuted : ExitCode::holds;
 }
 
