@@ -8,6 +8,9 @@
 // which layers are activated when they are needed is, bit for bit, the run in which they always were (design, "What an
 // event may write").
 //
+// A run ends when a layer above most_layers would act: that too is a property of the motion, as certificates take layers
+// in advance, how many of them depending on when they looked, which is not the same in a run that was resumed.
+//
 // What this does not do: which pairs are near is for certificates/cells.h.
 #pragma once
 
@@ -127,7 +130,7 @@ class Contact {
   template <class Each>
   void for_each_acting(Each&& each) const {
     for (const auto& of_material : layers_) {
-      for (const Layer& layer : of_material) {
+      for (const Layer& layer : std::span(of_material).first(count_of_acting(of_material))) {
         for (const certificates::Stencil& pair : layer.pairs.in_order()) {
           const auto c = closest_now<double, Dim>(particles_, pair);
           const double g = c.distance() - layer.thickness;
@@ -137,11 +140,11 @@ class Contact {
     }
   }
 
-  /// Calls each(pair, material, l) for all active layers.
+  /// Calls each(pair, material, l) for all active layers that may act.
   template <class Each>
   void for_each_active(Each&& each) const {
     for (std::size_t m = 0; m < layers_.size(); ++m) {
-      for (std::size_t l = 1; l <= layers_[m].size(); ++l) {
+      for (std::size_t l = 1; l <= count_of_acting(layers_[m]); ++l) {
         for (const certificates::Stencil& pair : layers_[m][l - 1].pairs.in_order()) {
           each(pair, static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l));
         }
@@ -186,7 +189,7 @@ class Contact {
     const double step = l <= of_material.size() ? of_material[l - 1].clock.step
                                                 : layer_step(settings_.materials[material], settings_.schedule, l);
     // Steps that are too short to be counted at this time (first_after) never come.
-    if (l > settings_.most_layers || !(t < 0x1p52 * step)) throw ContactLimit(pair, t);
+    if (l > most_in_advance * settings_.most_layers || !(t < 0x1p52 * step)) throw ContactLimit(pair, t);
     while (of_material.size() < l) {
       of_material.push_back(make_layer(material, static_cast<std::uint32_t>(of_material.size() + 1)));
     }
@@ -208,6 +211,9 @@ class Contact {
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
   static constexpr double longest_slice = 8;  ///< in windows
+  /// Layers that a pair may have, in most_layers: half of them only for others to see that they would act. What comes
+  /// as deep before any of those fires ends the run at once.
+  static constexpr std::uint64_t most_in_advance = 2;
   static_assert(ContactSettings::excluded == certificates::no_material);
 
   struct Layer {
@@ -231,6 +237,10 @@ class Contact {
     ask([&](auto& certificates) { certificates.drop_if_clear(pair, material, l, distance, t); });
   }
 
+  std::size_t count_of_acting(const std::vector<Layer>& layers) const {
+    return std::min<std::size_t>(layers.size(), settings_.most_layers);
+  }
+
   static std::vector<Vec<double, Dim>> positions(const Particles& particles) {
     std::vector<Vec<double, Dim>> x;
     for (const auto& p : particles) x.push_back(p.x);
@@ -249,6 +259,10 @@ class Contact {
   std::size_t fire(Recorder& record, Account<double, Dim>& account, std::uint16_t material, std::uint32_t l, double t,
                    double h) {
     const Doing busy(*activity_, Phase::layer);
+    if (l > settings_.most_layers) {
+      watch(material, l, t);
+      return 0;
+    }
     const auto firing = layers_[material][l - 1].pairs.in_order();  // as they are now, whatever happens meanwhile
     record.reserve(4 * firing.size());
     const Kicked<double, Dim, Recorder> now{particles_, record, t};
@@ -268,6 +282,17 @@ class Contact {
     }
     account.events += acted;
     return acted;
+  }
+
+  /// Fires a layer that must not act. Throws ContactLimit if it would.
+  void watch(std::uint16_t material, std::uint32_t l, double t) {
+    const auto watched = layers_[material][l - 1].pairs.in_order();
+    const double eta = layers_[material][l - 1].thickness;
+    for (const certificates::Stencil& pair : watched) {
+      const double d = closest_at<double, Dim>(particles_, pair, t).distance();
+      if (!(d >= eta)) throw ContactLimit(pair, t);
+      if (d > eta) drop_if_clear(pair, material, l, d, t);
+    }
   }
 
   /// Of one pair; returns the distance.

@@ -147,4 +147,13 @@ certificates::Closest<Dim, S> closest_now(std::span<const Particle<S, Dim>> part
   return certificates::closest<Dim, S>(pair.kind, std::span<const Vec<S, Dim>>(x.data(), pair.size()));
 }
 
+/// The closest points of a pair at time t, its vertices being where their last events left them.
+template <class S, int Dim>
+certificates::Closest<Dim, S> closest_at(std::span<const Particle<S, Dim>> particles, const certificates::Stencil& pair,
+                                         double t) {
+  std::array<Vec<S, Dim>, 4> x;
+  for (std::size_t i = 0; i < pair.size(); ++i) x[i] = particles[pair.vertices[i]].at(t);
+  return certificates::closest<Dim, S>(pair.kind, std::span<const Vec<S, Dim>>(x.data(), pair.size()));
+}
+
 }  // namespace noli::integrator

@@ -52,7 +52,8 @@ class Input {
     std::string result;
     result.reserve(std::min<std::uint64_t>(bytes, 1 << 26));
     for (std::size_t got = 1; got > 0 && result.size() < bytes;) {
-      const std::size_t have = result.size(), part = std::min<std::uint64_t>(bytes - have, 1 << 20);
+      const std::uint64_t have = result.size(), most = std::clamp<std::uint64_t>(have, 1 << 14, 1 << 20);
+      const std::uint64_t part = std::min(bytes - have, most);
       result.resize(have + part);
       got = std::fread(result.data() + have, 1, part, file_.get());
       result.resize(have + got);

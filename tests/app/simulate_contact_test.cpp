@@ -130,7 +130,7 @@ TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
   EXPECT_EQ(result["too_near"]["pair"], "vertex_edge");
   EXPECT_GT(result["too_near"]["time"], 0.9);
   EXPECT_LT(result["too_near"]["time"], 1);
-  EXPECT_EQ(result["too_near"]["names"], "vertex point[0] and edge floor[0]-floor[1]");
+  EXPECT_EQ(result["too_near"]["names"], "vertex point[0] and edge press[0]-press[1]");
   EXPECT_EQ(result["too_near"]["start"], nullptr);
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
   EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 2 s (too near).\n"), std::string::npos);

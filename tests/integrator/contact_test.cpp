@@ -70,6 +70,52 @@ TEST_P(Colliding, LayersActivatedInTimeEqualLayersThatAlwaysAre) {
   expect_same(lazy.snapshot(), always.snapshot());
 }
 
+/// Of a run over so many windows.
+std::uint32_t deepest_that_acts(Simulation<double, 3>& simulation, int windows) {
+  std::uint32_t deepest = 0;
+  for (int w = 0; w < windows; ++w) {
+    run(simulation, 1);
+    const ContactExtremes extremes = simulation.extremes();
+    if (extremes.deepest) deepest = std::max(deepest, extremes.deepest->layer);
+  }
+  return deepest;
+}
+
+std::optional<ContactLimit> limit_of(const Model<double, 3>& model, int windows) {
+  Simulation<double, 3> simulation(model);
+  try {
+    run(simulation, windows);
+  } catch (const ContactLimit& limit) {
+    return limit;
+  }
+  return std::nullopt;
+}
+
+/// How many are taken in advance depends on when certificates look, which is not the same in a run that was resumed.
+TEST_P(Colliding, WhatEndsARunIsALayerThatActsNotOneThatIsTakenInAdvance) {
+  constexpr int windows = 8;
+  Model<double, 3> model = this->model(3);
+  Simulation<double, 3> unlimited(model);
+  const std::uint32_t acting = deepest_that_acts(unlimited, windows);
+  ASSERT_GE(acting, 2U);
+
+  model.contact->most_layers = acting;
+  model.contact->least_layers = 2 * acting;
+  Simulation<double, 3> eager(model);
+  run(eager, windows);
+  EXPECT_GT(eager.certificates().deepest, acting);
+  expect_same(unlimited.snapshot(), eager.snapshot());
+
+  model.contact->most_layers = acting - 1;
+  model.contact->least_layers = 2 * (acting - 1);
+  const std::optional<ContactLimit> early = limit_of(model, windows);
+  model.contact->least_layers = 0;
+  const std::optional<ContactLimit> late = limit_of(model, windows);
+  ASSERT_TRUE(early && late);
+  EXPECT_EQ(early->time, late->time);
+  EXPECT_EQ(early->pair.key, late->pair.key);
+}
+
 TEST_P(Colliding, GoesOnFromASnapshotAsIfNothingHadHappened) {
   Simulation<double, 3> whole(model(5));
   run(whole, 5);
