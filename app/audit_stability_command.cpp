@@ -71,7 +71,6 @@ Json point_json(const StabilityPoint& point) {
           {"message", point.message},
           {"energy_error", point.energy_error},
           {"momentum_error", point.momentum_error},
-          {"warned", point.warned},
           {"findings", point.findings},
           {"saved", point.saved.empty() ? Json(nullptr) : Json(point.saved.string())}};
 }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::string_view good[] = {"no_contact", "proved",   "no_difference", "no_finding", "nothing_fails",
                                      "agreement",  "accepted", "same",          "holds"};
-constexpr std::string_view bad[] = {"contact", "too_near", "not_finite", "finding",  "disagreement",
-                                    "refuted", "rejected", "differs",    "different"};
+constexpr std::string_view bad[] = {"contact",      "too_near", "not_finite", "unstable", "finding",
+                                    "disagreement", "refuted",  "rejected",   "differs",  "different"};
 constexpr std::string_view neutral[] = {"measured", "decided", "explained", "described", "report"};
 
 bool among(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }
@@ -45,7 +45,7 @@ void take_word(const std::string& word, ReportPage& report) {
 }
 
 std::string word_of_end(std::string_view end, bool going_on) {
-  if (end == "contact" || end == "too_near" || end == "not_finite") return std::string(end);
+  if (end == "contact" || end == "too_near" || end == "not_finite" || end == "unstable") return std::string(end);
   return end == "done" && !going_on ? "no_contact" : "undecided";
 }
 

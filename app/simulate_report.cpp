@@ -17,7 +17,8 @@ const char* verdict(const SimulateOutcome& outcome) {
     case RunEnd::done: return "no_contact";
     case RunEnd::contact:
     case RunEnd::too_near:
-    case RunEnd::not_finite: return name(outcome.end);
+    case RunEnd::not_finite:
+    case RunEnd::unstable: return name(outcome.end);
     case RunEnd::interrupted:
     case RunEnd::out_of_time: return "undecided";
   }
@@ -82,6 +83,17 @@ std::string too_near_text(const SimulateOutcome& outcome) {
       outcome.windows, names, digits17(outcome.limit->time), start ? "; " + begins : "");
 }
 
+/// All windows are there, and nothing touches in them.
+std::string unstable_text(const SimulateOutcome& outcome) {
+  const EnergyAstray& energy = *outcome.energy_astray;
+  return fmt::format(
+      "{} But the energy goes astray: from {:.3g} J to {:.3g} J at {} s, what damping took put back. The motion "
+      "touches "
+      "nothing, and is not that of the scene: its steps are too long, or kick in time (`noli explain`).",
+      nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there,
+      digits17(energy.time));
+}
+
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done:
@@ -106,6 +118,7 @@ std::string end_text(const SimulateOutcome& outcome) {
           "finite. The window is not part of the run.",
           outcome.windows, digits17(found.time), force, found.vertex);
     }
+    case RunEnd::unstable: return unstable_text(outcome);
     case RunEnd::interrupted: return "Interrupted; `--resume` goes on behind the last window.";
     case RunEnd::out_of_time: return "Out of time; `--resume` goes on behind the last window.";
   }
@@ -141,6 +154,7 @@ const char* name(RunEnd end) {
     case RunEnd::contact: return "contact";
     case RunEnd::too_near: return "too_near";
     case RunEnd::not_finite: return "not_finite";
+    case RunEnd::unstable: return "unstable";
     case RunEnd::interrupted: return "interrupted";
     case RunEnd::out_of_time: return "time_limit";
   }
@@ -152,7 +166,8 @@ ExitCode exit_code(const SimulateOutcome& outcome) {
     case RunEnd::done: return ExitCode::holds;
     case RunEnd::contact:
     case RunEnd::too_near:
-    case RunEnd::not_finite: return ExitCode::refuted;
+    case RunEnd::not_finite:
+    case RunEnd::unstable: return ExitCode::refuted;
     case RunEnd::interrupted:
     case RunEnd::out_of_time: return ExitCode::undecided;
   }
@@ -175,6 +190,8 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["contacts"] = counts_json(outcome.contact ? outcome.contact->contacts : ContactCounts{});
   json["not_finite"] = not_finite_json(outcome);
   json["too_near"] = too_near_json(outcome);
+  json["energy"] = {{"watched", outcome.energy_watched},
+                    {"astray", outcome.energy_astray ? energy_json(*outcome.energy_astray) : Json(nullptr)}};
   json["roll_backs"] = outcome.roll_backs;
   json["proof"] = {{"whole", outcome.proved}, {"ends", outcome.no_proof ? Json(*outcome.no_proof) : Json(nullptr)}};
   json["certificate_defects"] = outcome.certificate_defects;

@@ -82,6 +82,7 @@ class Run {
     require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     refuse_contact_at_start();
+    if (wants_watch(scene)) watch_energy();
     open(scene);
     if (request.begun) request.begun(scene);
   }
@@ -107,6 +108,13 @@ class Run {
   }
 
  private:
+  void watch_energy() {
+    const integrator::State<double, Dim> state = Simulation<double, Dim>(built_.model).state();
+    const auto& contact = built_.model.contact;
+    energy_.emplace(state.kinetic, state.potential, loses_by_restitution(contact ? &*contact : nullptr));
+    outcome_.energy_watched = true;
+  }
+
   void require_cells() const {
     if (outcome_.cells > 0) return;
     throw InputError(request_.scene.string(), "/bodies",
@@ -193,7 +201,9 @@ class Run {
     Snapshot<double, Dim> last;
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
-      retries_ = Retries(row_of(*window, folder_.path()).halvings);
+      const SeriesRow row = row_of(*window, folder_.path());
+      retries_ = Retries(row.halvings);
+      if (energy_) energy_->add(row);
       require_whole(*window);
       if (stopped()) throw ReadInterrupted(folder_.path().string());
     }
@@ -352,6 +362,7 @@ class Run {
     writer_->commit();
     outcome_.events += window.row.events_in_all();
     outcome_.breakpoints += window.row.breakpoints;
+    if (energy_) energy_->add(window.row);
     folder_.log(window.index, window.row, window.deepest);
     if (retries_.committed()) ++outcome_.certificate_defects;
   }
@@ -380,6 +391,9 @@ class Run {
       outcome_.not_finite =
           simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] { return stopped(); });
       if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
+    } else if (energy_ && energy_->astray()) {
+      outcome_.energy_astray = energy_->astray();
+      outcome_.end = RunEnd::unstable;
     }
   }
 
@@ -409,7 +423,8 @@ class Run {
     Progress progress("series.h5");
     progress.show(0);
     outcome_.series = write_series_file(folder_.path(), frame_rate_, [before] { return interruptions() > before; });
-    if (outcome_.series == SeriesEnd::stopped && outcome_.end == RunEnd::done) outcome_.end = RunEnd::interrupted;
+    const bool done = outcome_.end == RunEnd::done || outcome_.end == RunEnd::unstable;
+    if (outcome_.series == SeriesEnd::stopped && done) outcome_.end = RunEnd::interrupted;
   }
 
   void log_end() {
@@ -421,6 +436,7 @@ class Run {
       entry["first_time"] = outcome_.contact->first->lower();
     }
     if (outcome_.limit) entry["too_near"] = {{"time", outcome_.limit->time}, {"names", outcome_.first_names}};
+    if (outcome_.energy_astray) entry["energy"] = energy_json(*outcome_.energy_astray);
     if (built_.model.contact) entry["roll_backs"] = outcome_.roll_backs;
     entry["timing"] = {{"verifying_seconds", outcome_.verifying_seconds},
                        {"phases", phases_json(outcome_.phases)},
@@ -445,6 +461,7 @@ class Run {
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
   Recording<double, Dim> recording_;
   std::optional<Candidate<Dim>> candidate_;
+  std::optional<EnergyWatch> energy_;
   Retries retries_;  ///< of the window that is next to be committed
   std::optional<integrator::ContactLimit> limit_;
   bool finite_ = true;  ///< all numbers of the window that is being integrated

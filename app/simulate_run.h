@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/energy_watch.h"
 #include "noli/app/not_compared.h"
 #include "noli/app/phase_clock.h"
 #include "noli/app/run_series_file.h"
@@ -50,6 +51,7 @@ enum class RunEnd {
   contact,      ///< something touches in the next one
   too_near,     ///< in the next one a pair needs more layers of contact than the scene allows
   not_finite,   ///< a number of the next one is none
+  unstable,     ///< all windows are committed, but steps that the program has warned of have led the energy astray
   interrupted,  ///< by the user
   out_of_time
 };
@@ -80,6 +82,8 @@ struct SimulateOutcome {
   std::optional<integrator::ContactLimit> limit;
   std::optional<StartGap> start_gap;  ///< of its pair, if that begins within a layer and ends the first window
   std::optional<integrator::NotFinite> not_finite;
+  bool energy_watched = false;  ///< the scene's steps may be unstable
+  std::optional<EnergyAstray> energy_astray;
   std::uint64_t roll_backs = 0;           ///< of windows that were run again
   bool proved = false;                    ///< proof.blocks has a proof of every window
   std::optional<std::string> no_proof;    ///< why it ends before

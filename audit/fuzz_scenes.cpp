@@ -45,7 +45,8 @@ bool names_place(const std::string& message, const std::string& place) {
 
 bool agree(const std::string& verdict, int code) {
   if (code == 0) return verdict == "no_contact";
-  if (code == 1) return verdict == "contact" || verdict == "too_near" || verdict == "not_finite";
+  if (code == 1)
+    return verdict == "contact" || verdict == "too_near" || verdict == "not_finite" || verdict == "unstable";
   return code == 2 && verdict == "undecided";
 }
 

@@ -14,8 +14,8 @@
 //   resume     a run that was stopped half way and resumed has the same bytes
 //   answer     of two frames: what is known of them
 // What does not go on may do so for any reason that it names, as long as it does not exit with 0: it fails closed. What
-// exits with 0 has to keep all the rest; the energy may go astray where the program has said beforehand, on standard
-// error, that it may (steps above the limit of stability, resonance). Everything else is a *finding*.
+// exits with 0 has to keep all the rest; the energy may go astray where the program says so, with its verdict
+// `unstable` and exit code 1. Everything else is a *finding*.
 //
 // What this does not do: contact found by scenes is not judged a second time (`noli fuzz` does that); energy and
 // momentum are looked at at ends of windows only.
@@ -50,7 +50,6 @@ struct StabilityPoint {
   std::string message;        ///< what the program said of it, one line; empty if all are kept
   double energy_error = 0;    ///< in parts of the energy at the beginning; of runs that got to their end
   double momentum_error = 0;  ///< the larger of both, in parts
-  bool warned = false;        ///< it said beforehand that the energy may go astray
   std::vector<std::string> findings;
   std::filesystem::path saved;  ///< input of the findings; empty if none
   double seconds = 0;           ///< wall clock, all programs together

@@ -189,8 +189,8 @@ Json layer_steps(double stability, bool unstable) {
 }
 
 /// A mass between a stiff spring and a soft one whose step is ten times as long, both held at their other ends:
-/// scenes/resonance.json has the two ends of this row.
-Json resonance(double step) {
+/// scenes/resonance.json has the two ends of this row. With contact a free point bounces off the soft spring on its way.
+Json resonance(bool contact, double step) {
   const Json soft = {{"box", {{0, -0.5}, {1, 0.5}}}, {"stiffness_factor", 0.25}, {"steps", {{"stretch", 10 * step}}}};
   const Json body = {{"name", "mass"},
                      {"mesh", {{"chain", {{"points", {{-1, 0}, {1, 0}}}, {"segments", 2}}}}},
@@ -201,6 +201,14 @@ Json resonance(double step) {
                      {"pin", {"first", "last"}}};
   Json scene = {{"noli_scene", 1}, {"dimension", 2}, {"steps", "own"}, {"allow_unstable", true}};
   scene["bodies"] = {body};
+  if (contact) {
+    const double speed = 1e-6, thickness = 1e-3;
+    scene["bodies"].push_back({{"name", "point"},
+                               {"mesh", {{"points", {{"at", {{0.5, thickness + 80 * step * speed}}}}}}},
+                               {"velocity", {0, -speed}},
+                               {"material", {{"mass_per_vertex", 1}, {"edge_stiffness", 0}}}});
+    scene["contact"] = {{"thickness", thickness}, {"stiffness", 1}};
+  }
   return lasting(std::move(scene), 400 * step, 20);
 }
 
@@ -341,7 +349,7 @@ void add_scenes(Rows& rows) {
              [](double value) { return layer_steps(value, true); });
   rows.scene("steps-not-allowed-contact", "\"stability\" of layers", true, stabilities,
              [](double value) { return layer_steps(value, false); });
-  rows.scene("resonance", "step of the stiff spring [s]", false, {0.02, 0.05, 0.1, 0.2, 0.25, 0.26, 0.27}, resonance);
+  rows.scenes("resonance", "step of the stiff spring [s]", {0.02, 0.05, 0.1, 0.2, 0.25, 0.26, 0.27}, resonance);
 }
 
 void add_frames(Rows& rows) {

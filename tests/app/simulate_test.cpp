@@ -115,11 +115,31 @@ TEST_F(Simulate, ResumingGivesTheBytesOfTheWholeRun) {
   EXPECT_NE(past.err.find("has 25 windows, 18 more than asked for"), std::string::npos) << past.err;
 }
 
-TEST_F(Simulate, WhatGrowsWithoutEndComesToItsEnd) {
+TEST_F(Simulate, EnergyThatGrowsWithoutEndIsSaidAtTheEnd) {
   const std::string file = (fs::path(NOLI_SOURCE_DIR) / "scenes/resonance.json").string();
-  const Json json = json_of({"simulate", file, "-o", run_path("run")}, 0);
-  EXPECT_EQ(json["end"], "done");
+  const Json json = json_of({"simulate", file, "-o", run_path("run")}, 1);
+  EXPECT_EQ(json["verdict"], "unstable");
+  EXPECT_EQ(json["end"], "unstable");
   EXPECT_EQ(json["windows"], json["windows_total"]);
+  EXPECT_EQ(json["energy"]["watched"], true);
+  const Json& astray = json["energy"]["astray"];
+  EXPECT_GT(astray["there"], 100 * astray["begin"].get<double>());
+  // All windows are there, verified, and a run that was stopped half way says the same.
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
+  run_noli({"simulate", file, "-o", run_path("parts"), "--until", "54"});
+  const Process resumed = run_noli({"simulate", file, "-o", run_path("parts"), "--resume"});
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_NE(resumed.out.find("But the energy goes astray: from 1e-12 J to "), std::string::npos) << resumed.out;
+  EXPECT_EQ(json_of({"simulate", file, "-o", run_path("parts"), "--resume"}, 1)["energy"]["astray"], astray);
+}
+
+TEST_F(Simulate, EnergyIsWatchedOnlyWhereStepsMayBeUnstable) {
+  Json json = beam(0.1);
+  EXPECT_EQ(json_of({"simulate", scene(json), "-o", run_path("calm")}, 0)["energy"]["watched"], false);
+  json["allow_unstable"] = true;
+  const Json allowed = json_of({"simulate", scene(json), "-o", run_path("allowed")}, 0);
+  EXPECT_EQ(allowed["energy"]["watched"], true);
+  EXPECT_EQ(allowed["energy"]["astray"], nullptr);
 }
 
 TEST_F(Simulate, KilledRunsGoOn) {
