@@ -7,6 +7,7 @@
 #include "noli/app/interrupt.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/audit/finding_name.h"
 
 namespace noli::app {
 
@@ -48,7 +49,7 @@ void add_again_options(CLI::App& command, AgainArguments& arguments, const std::
 
 std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved) {
   const auto name = std::filesystem::absolute(saved / "").lexically_normal().parent_path().filename();
-  return std::filesystem::path(arguments.out) / (name.string() + "-minimised");
+  return audit::unused(std::filesystem::path(arguments.out) / (name.string() + "-minimised"));
 }
 
 void settle_limits(FuzzArgumentsInCommon& arguments) {

@@ -38,7 +38,7 @@ struct AgainArguments {
 void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
                        std::vector<std::string> excluded);
 
-/// "NAME-minimised" in --out, for a saved folder NAME, so that nothing of what was read is overwritten.
+/// "NAME-minimised" in --out, for a saved folder NAME, so that nothing is overwritten (audit/finding_name.h).
 std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved);
 
 /// Makes limits of what was given: a minute if nothing was. Throws UsageError.

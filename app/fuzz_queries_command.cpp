@@ -19,6 +19,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/progress.h"
+#include "noli/audit/finding_name.h"
 #include "noli/audit/minimise_query.h"
 #include "noli/audit/saved_query.h"
 #include "noli/trajectory/error.h"
@@ -226,7 +227,7 @@ ExitCode minimise(const FuzzArguments& arguments) {
   std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, queries, findings.size());
   Json json = {{"verdict", word}, {"queries", queries}, {"findings", findings.size()}, {"reports", Json::array()}};
   for (const audit::Finding& finding : findings) {
-    const fs::path result = minimised_name(arguments, finding.index + 1);
+    const fs::path result = audit::unused(minimised_name(arguments, finding.index + 1));
     const std::string command = again(arguments, result);
     save(finding, result, file.queries()[finding.index].probe.has_value(), command);
     lines += fmt::format("query {}: {}; {} different numbers; saved as {}\n  again: {}\n", finding.index + 1,

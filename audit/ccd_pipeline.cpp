@@ -259,7 +259,15 @@ class PipelineRun {
     audit.search_seconds = exchange.search_seconds;
     audit.query_seconds = exchange.query_seconds;
     if (ending.kind != Ending::Kind::finished || exchange.search_code < 0) return audit;
-    for (std::size_t i = 0; i < step_.contacts.size(); ++i) mark(arrays.contacts[i], step_.times[i], audit);
+    for (std::size_t i = 0; i < step_.contacts.size(); ++i) {
+      MeshContact contact = step_.contacts[i];  // which it is; of what the library has to do with, what became of it
+      const MeshContact& given = arrays.contacts[i];
+      contact.found = given.found;
+      contact.hit = given.hit;
+      contact.failed = given.failed;
+      contact.time = given.time;
+      mark(contact, step_.times[i], audit);
+    }
     return audit;
   }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "noli/audit/finding_name.h"
 #include "noli/audit/judge.h"
 #include "noli/audit/minimise_query.h"
 #include "noli/audit/query_generators.h"
@@ -250,7 +251,7 @@ class LibraryFuzzing {
       finding.alike = found->alike;
       if (!found->file.empty()) fs::remove(found->file);
     }
-    if (!options_.out.empty()) finding.file = options_.out / file_name(finding);
+    if (!options_.out.empty()) finding.file = unused(options_.out / file_name(finding));
     save(finding);
     if (found != all.end()) {
       *found = std::move(finding);

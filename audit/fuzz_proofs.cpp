@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "noli/audit/finding_name.h"
 #include "noli/audit/minimise_mutant.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/write_file.h"
@@ -130,7 +131,7 @@ class ProofFuzzing {
   }
 
   void save(ProofFinding& finding, const std::string& name) const {
-    finding.folder = options_.out / name;
+    finding.folder = unused(options_.out / name);
     fs::create_directories(finding.folder);
     write_proof_files(finding.files, finding.folder);
     write_file(finding.folder / "README",

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "noli/audit/finding_name.h"
 #include "noli/audit/judge.h"
 #include "noli/audit/minimise_query.h"
 #include "noli/audit/query_generators.h"
@@ -172,7 +173,7 @@ std::string file_name(const FuzzOptions& options, const Finding& finding) {
 }
 
 void save(Finding& finding, const FuzzOptions& options) {
-  finding.file = options.out / file_name(options, finding);
+  finding.file = unused(options.out / file_name(options, finding));
   std::vector<std::string> comments = {"# " + on_one_line(finding.difference)};
   if (options.command) comments.push_back("# " + options.command(finding.file));
   comments.push_back(probe_line(finding.shrunk, finding.probe));

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <utility>
 
+#include "noli/audit/finding_name.h"
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/integrator/scene/json_text.h"
@@ -255,9 +256,10 @@ class SceneFuzzing {
 
   void save(SceneFinding& finding) const {
     const bool known = finding.generator.starts_with("corpus/");
-    const fs::path folder = options_.out / (known ? finding.generator
-                                                  : fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed,
-                                                                finding.block, finding.index, finding.generator));
+    const fs::path folder =
+        unused(options_.out / (known ? finding.generator
+                                     : fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
+                                                   finding.index, finding.generator)));
     fs::create_directories(folder);
     finding.file = folder / scene_file;
     write_file(finding.file, finding.shrunk.dump(2) + '\n');

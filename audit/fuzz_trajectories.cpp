@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "noli/audit/finding_name.h"
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/run_program.h"
@@ -156,8 +157,8 @@ class TrajectoryFuzzing {
   }
 
   void save(TrajectoryFinding& finding) const {
-    finding.folder = options_.out / fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
-                                                finding.index, finding.generator);
+    finding.folder = unused(options_.out / fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
+                                                       finding.index, finding.generator));
     fs::create_directories(finding.folder);
     write_frames(finding.shrunk, finding.folder);
     std::vector<std::string> command = options_.replay_command;

@@ -151,6 +151,11 @@ std::uint64_t HostProcess::resident_bytes() const {
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
+template <std::size_t Size>
+std::string text_of(const std::array<char, Size>& text) {
+  return {text.data(), ::strnlen(text.data(), text.size())};
+}
+
 void require_loaded(const std::optional<fs::path>& library, const HostStatus& status, const Ending& ending) {
   const auto refuse = [&](const std::string& problem) {
     throw InputError(library ? library->string() : "textbook", "", problem);
@@ -165,7 +170,7 @@ void require_loaded(const std::optional<fs::path>& library, const HostStatus& st
   };
   switch (status.loaded) {
     case LoadResult::ok: return;
-    case LoadResult::not_loaded: refuse(fmt::format("cannot be loaded: {}", status.message.data())); break;
+    case LoadResult::not_loaded: refuse(fmt::format("cannot be loaded: {}", text_of(status.message))); break;
     case LoadResult::no_version: lacks("noli_ccd_version"); break;
     case LoadResult::no_query: lacks("noli_ccd_query"); break;
     case LoadResult::no_candidates: lacks("noli_ccd_candidates"); break;

@@ -5,7 +5,8 @@
 // header, then `count` queries, then `count` answers. PipelineExchange, for a step of a whole mesh: a header, then
 // positions, contacts, edges and faces.
 //
-// What this does not do: protect itself. A library that writes all over its memory spoils its own audit.
+// What this does not do: protect itself. A library that writes all over its memory spoils its own answers; who waits for
+// them believes no number here that it has to count or to find its way by.
 #pragma once
 
 #include <array>

@@ -70,12 +70,14 @@ class Host {
   }
 
  private:
-  /// Asks, and leaves word of what is under way.
+  /// Asks, and leaves word of what is under way. What the library gets is a copy: beside the queries are the answers,
+  /// and one that writes a little too far would change them.
   int call(std::uint64_t i, double& time) {
     e_.at.store(i, std::memory_order_relaxed);
     e_.calls.store(++calls_, std::memory_order_relaxed);
     time = std::numeric_limits<double>::quiet_NaN();
-    return ask_(e_.kind, queries_[i].x_t0.data(), queries_[i].x_t1.data(), e_.tolerance, &time);
+    asked_[1] = queries_[i];
+    return ask_(e_.kind, asked_[1].x_t0.data(), asked_[1].x_t1.data(), e_.tolerance, &time);
   }
 
   void answer(std::uint64_t i) {
@@ -146,6 +148,7 @@ class Host {
   Exchange& e_;
   AskedQuery* queries_;
   GivenAnswer* answers_;
+  std::array<AskedQuery, 3> asked_{};  ///< the middle one, with room on either side
   Ask ask_ = nullptr;
   std::uint64_t calls_ = 0;
   double give_up_ = 0, next_look_ = 0;

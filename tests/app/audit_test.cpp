@@ -107,6 +107,22 @@ TEST_F(AuditCcd, GoesOnBehindACrash) {
   }
 }
 
+TEST_F(AuditCcd, IsNotMisledByALibraryThatWritesBehindThePoints) {
+  const Json audit = json(faulty("writes_behind_the_points"), 1)["audits"][0];
+  EXPECT_EQ(audit["answered"], 4);
+  EXPECT_EQ(audit["false_negatives"], 2);
+}
+
+/// Its own answers are lost, and are findings; those of others stay.
+TEST_F(AuditCcd, SurvivesALibraryThatWritesAllOver) {
+  const std::vector<std::string> more = {"--library", plugin("noli"), "--query-limit", "100ms", "--max-hangs", "1000"};
+  const Json audits = json(faulty("writes_all_over"), 1, more)["audits"];
+  EXPECT_GT(audits[0]["crashes"].get<int>() + audits[0]["hangs"].get<int>(), 0);
+  EXPECT_LT(audits[0]["answered"], 4);
+  EXPECT_EQ(audits[1]["crashes"], 0);
+  EXPECT_EQ(audits[1]["answered"], 4);
+}
+
 TEST_F(AuditCcd, GoesOnBehindAHang) {
   for (const char* const name : {"hangs", "sleeps"}) {
     const Json audit = json(faulty(name), 1, {"--query-limit", "100ms"})["audits"][0];

@@ -92,6 +92,7 @@ TEST_F(FuzzLibrary, ShrinksAndSavesWhatItFinds) {
 
 TEST_F(FuzzLibrary, GivesTheSameForAnyNumberOfThreads) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
+    std::filesystem::remove_all(folder.path("out" + seed));  // findings that are there would be given other names
     return without_timing(
         json_of({"fuzz", "queries", "--library", mutant("double_roots_dropped"), "--count", "5000", "--seed", seed,
                  "--threads", threads, "--max-findings", "2", "--out", folder.path("out" + seed)},
@@ -100,6 +101,28 @@ TEST_F(FuzzLibrary, GivesTheSameForAnyNumberOfThreads) {
   const std::string one = bytes("5", "1");
   EXPECT_EQ(one, bytes("5", "3"));
   EXPECT_NE(one, bytes("6", "3"));
+}
+
+TEST_F(FuzzLibrary, LeavesWhatAnEarlierRunHasFound) {
+  const auto run_of = [&](const std::string& library) {
+    return json_of({"fuzz", "queries", "--library", library, "--count", "1000", "--out", folder.path("out")}, 1);
+  };
+  const Json first = run_of(mutant("double_roots_dropped"));
+  std::vector<std::string> texts;
+  for (const Json& report : first["reports"]) texts.push_back(read_text(report["file"]));
+  std::set<std::string> files;
+  for (const Json& run : {run_of(mutant("double_roots_dropped")), run_of(faulty("never_hits"))}) {
+    for (const Json& report : run["reports"]) files.insert(report["file"]);
+  }
+  ASSERT_FALSE(texts.empty());
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const std::string file = first["reports"][i]["file"];
+    EXPECT_EQ(read_text(file), texts[i]);
+    EXPECT_FALSE(files.contains(file)) << file;
+  }
+  EXPECT_TRUE(std::any_of(files.begin(), files.end(), [](const std::string& file) {
+    return std::filesystem::path(file).filename().string().starts_with("2-");
+  }));
 }
 
 TEST_F(FuzzLibrary, TellsFalsePositivesAndEarlyTimesOnlyOfWhatClaimsToBeExact) {

@@ -33,7 +33,9 @@ enum behaviour {
   finds_neighbours,
   crashes_when_searching,
   says_what_it_is,
-  says_too_much
+  says_too_much,
+  writes_behind_the_points, /* and misses contacts */
+  writes_all_over           /* what it shares with the audit, at queries whose first coordinate is above 0 */
 };
 
 #define IS(behaviour) (MISBEHAVIOUR == (behaviour))
@@ -79,6 +81,22 @@ static void leave_a_process(void) {
   fclose(file);
 }
 
+/* A few numbers behind those that it was given to read. */
+static void write_behind(const double* points) {
+  for (int i = 12; i < 16; ++i) ((double*)(uintptr_t)points)[i] = 0;
+}
+
+static void write_all_over(void) {
+  FILE* const maps = fopen("/proc/self/maps", "r");
+  char line[512];
+  while (maps != NULL && fgets(line, sizeof line, maps) != NULL) {
+    unsigned long begin = 0, end = 0;
+    if (strstr(line, "memfd:noli_ccd") == NULL || sscanf(line, "%lx-%lx", &begin, &end) != 2) continue;
+    memset((void*)begin, 0xff, end - begin);
+  }
+  if (maps != NULL) fclose(maps);
+}
+
 static int is_asked_again(void) {
   static int calls = 0;
   return ++calls > 3;
@@ -89,6 +107,11 @@ int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], doubl
   at_some_queries(x_t0[0]);
   if (IS(leaks)) leak(4096);
   if (IS(leaves_a_process)) leave_a_process();
+  if (IS(writes_behind_the_points)) {
+    write_behind(x_t1);
+    return NOLI_CCD_NO_HIT;
+  }
+  if (IS(writes_all_over) && x_t0[0] > 0) write_all_over();
   if (IS(fails)) return NOLI_CCD_FAILED;
   if (IS(answers_two)) return 2;
   if (IS(crashes_when_asked_again) && is_asked_again()) crash();
