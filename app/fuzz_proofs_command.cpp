@@ -45,6 +45,8 @@ constexpr const char* footer =
     "  noli fuzz proofs --replay fuzz-findings/seed1-block3-index2\n"
     "  noli fuzz proofs --minimise fuzz-findings/seed1-block3-index2 --out smaller";
 
+constexpr std::size_t most_candidates = 20'000;  // of --minimise
+
 struct ProofsArguments {
   FuzzArgumentsInCommon common;
   std::vector<fs::path> files;
@@ -230,18 +232,6 @@ ExitCode run(ProofsArguments& arguments) {
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
-/// The same difference, of files that are as small as possible.
-audit::ProofFiles smaller(const audit::ProofFiles& files, const std::string& difference,
-                          const audit::Checkers& checkers) {
-  const std::string kind = audit::without_numbers(difference);
-  return audit::minimise(
-      files,
-      [&](const audit::ProofFiles& candidate) {
-        return !interrupted() && audit::without_numbers(audit::judge_proof(candidate, checkers).difference) == kind;
-      },
-      20'000);
-}
-
 /// Writes them into --out; where.
 fs::path save_minimised(const ProofsArguments& arguments, const audit::ProofFiles& files) {
   fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
@@ -265,7 +255,7 @@ ExitCode again(const ProofsArguments& arguments) {
   const bool finding = !judged.difference.empty();
   std::optional<fs::path> saved;
   if (finding && arguments.again.minimise) {
-    files = smaller(files, judged.difference, checkers);
+    files = audit::minimise_finding(files, judged, checkers, interrupted(), most_candidates);
     saved = save_minimised(arguments, files);
     if (!interrupted()) judged = audit::judge_proof(files, checkers);
   }

@@ -80,6 +80,7 @@ class ProofMinimiser {
   }
 
   bool proof_holds(std::string proof) {
+    if (proof.empty()) return false;          // nobody reads that
     if (proof == files_.proof) return false;  // no progress, though it fails too
     return holds({std::move(proof), files_.extension, files_.files});
   }
@@ -133,6 +134,15 @@ class ProofMinimiser {
 
 ProofFiles minimise(const ProofFiles& files, const std::function<bool(const ProofFiles&)>& fails, std::size_t budget) {
   return ProofMinimiser(files, fails, budget).run();
+}
+
+ProofFiles minimise_finding(const ProofFiles& files, const ProofJudgement& judgement, const Checkers& checkers,
+                            const std::atomic<bool>& stop, std::size_t budget) {
+  const std::string kind = kind_of(judgement);
+  const auto fails = [&](const ProofFiles& candidate) {
+    return !stop && kind_of(judge_proof(candidate, checkers)) == kind;
+  };
+  return minimise(files, fails, budget);
 }
 
 }  // namespace noli::audit

@@ -113,6 +113,13 @@ ProofJudgement judge_proof(const ProofFiles& files, const Checkers& checkers) {
   return judge_mutant(nothing, {"", files.proof, files.files}, checkers, true);
 }
 
+std::string kind_of(const ProofJudgement& judgement) {
+  if (judgement.difference.empty()) return "";
+  const bool rejected = judgement.plain.failure.empty() && judgement.plain.code == 3;
+  const std::string why = rejected ? "; " + without_numbers(judgement.plain.words) : "";
+  return without_numbers(judgement.difference) + why;
+}
+
 std::string shape_of(const ProofJudgement& judgement) {
   if (judgement.plain.code == 3) return without_numbers(judgement.plain.words);
   const char* const claim = judgement.judged  ? "a changed claim"

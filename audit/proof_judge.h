@@ -53,6 +53,10 @@ ProofJudgement judge_proof(const ProofFiles& files, const Checkers& checkers);
 /// "accepted", "refuted", "rejected", or "failed".
 const char* word_of(const ProofAnswer& answer);
 
+/// A difference without what is different each time, and the plain checker's reason where it rejects: a finding that is
+/// made smaller has to stay one of its kind. Empty: there is no difference.
+std::string kind_of(const ProofJudgement& judgement);
+
 /// What a proof reached, on one line: where the plain checker rejects it and why, or that it takes what was changed.
 std::string shape_of(const ProofJudgement& judgement);
 

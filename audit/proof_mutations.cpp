@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/proof_mutations.h"
 
+#include <algorithm>
 #include <exception>
 #include <numeric>
 #include <utility>
@@ -44,7 +45,8 @@ ProofMutant change_plain_bytes(const ProofCase& from, Random& random) {
     return mutant;
   }
   mutating::change_bytes(random, mutant.proof);
-  if (random.one_in(5)) mutant.proof.resize(random.below(mutant.proof.size() + 1));
+  // A proof of no bytes could not be read again when it is saved.
+  if (random.one_in(5)) mutant.proof.resize(std::max<std::size_t>(random.below(mutant.proof.size() + 1), 1));
   return mutant;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/fuzz_proofs.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -241,6 +243,38 @@ TEST(MinimiseProof, TakesBytesThatAreNoBlocks) {
   const ProofFiles smallest = minimise({"\x89NOLI, some hay, a needle, more hay", "ply", {"a", "b"}}, fails, 5000);
   EXPECT_EQ(smallest.proof, "needle");
   EXPECT_EQ(smallest.files.size(), 1u);
+}
+
+/// Rejects all: what is no blocks for that, and the rest for a reason of its own.
+ProofAnswer rejects_all(const ProofFiles& files) {
+  const bool blocks = believes_all(files).code == 0;
+  return {3, "", blocks ? fmt::format("rejected: byte {}: other cells", files.proof.size()) : "rejected: no blocks"};
+}
+
+Checkers checkers_that_differ() {
+  return {std::make_unique<FakeChecker>(rejects_all), std::make_unique<FakeChecker>([](const ProofFiles&) {
+            return ProofAnswer{0, ""};
+          })};
+}
+
+TEST(MinimiseFinding, KeepsTheReasonOfThePlainChecker) {
+  const Checkers checkers = checkers_that_differ();
+  const std::atomic<bool> stop = false;
+  const ProofJudgement judged = judge_proof(example_files(), checkers);
+  const ProofFiles smallest = minimise_finding(example_files(), judged, checkers, stop, 5000);
+  EXPECT_LT(smallest.proof.size(), example_files().proof.size());
+  EXPECT_NE(rejects_all(smallest).words.find("other cells"), std::string::npos) << rejects_all(smallest).words;
+}
+
+TEST(MinimiseFinding, EndsWithAProofThatCanBeReadAgain) {
+  const ProofFiles text{"no blocks at all", "ply", {"a", "b"}};
+  const Checkers checkers = checkers_that_differ();
+  const std::atomic<bool> stop = false;
+  const ProofFiles smallest = minimise_finding(text, judge_proof(text, checkers), checkers, stop, 5000);
+  EXPECT_EQ(smallest.proof.size(), 1u);
+  const test::TemporaryFolder folder;
+  write_proof_files(smallest, folder / "");
+  EXPECT_EQ(read_proof_files(folder / "").proof, smallest.proof);
 }
 
 TEST(MinimiseProof, KeepsToItsBudget) {
