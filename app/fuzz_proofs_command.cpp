@@ -233,10 +233,11 @@ ExitCode run(ProofsArguments& arguments) {
 }
 
 /// Writes them into --out; where.
-fs::path save_minimised(const ProofsArguments& arguments, const audit::ProofFiles& files) {
+fs::path save_minimised(const ProofsArguments& arguments, const audit::ProofFiles& files,
+                        const std::string& difference) {
   fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
   make_writable_folder(folder, "--out");
-  audit::write_proof_files(files, folder);
+  audit::save_finding(files, "made smaller: " + on_one_line(arguments.again.saved()), difference, folder);
   return folder;
 }
 
@@ -256,7 +257,7 @@ ExitCode again(const ProofsArguments& arguments) {
   std::optional<fs::path> saved;
   if (finding && arguments.again.minimise) {
     files = audit::minimise_finding(files, judged, checkers, interrupted(), most_candidates);
-    saved = save_minimised(arguments, files);
+    saved = save_minimised(arguments, files, judged.difference);
     if (!interrupted()) judged = audit::judge_proof(files, checkers);
   }
   const bool stopped = judged.stopped || interrupted();

@@ -132,11 +132,7 @@ class ProofFuzzing {
 
   void save(ProofFinding& finding, const std::string& name) const {
     finding.folder = unused(options_.out / name);
-    fs::create_directories(finding.folder);
-    write_proof_files(finding.files, finding.folder);
-    write_file(finding.folder / "README",
-               fmt::format("{}: {}\n{}\nShown again by\n  {}\n", finding.name, finding.mutations, finding.difference,
-                           shell_words({"noli", "fuzz", "proofs", "--replay", finding.folder})));
+    save_finding(finding.files, finding.name + ": " + finding.mutations, finding.difference, finding.folder);
   }
 
   const ProofFuzzOptions& options_;
@@ -146,6 +142,14 @@ class ProofFuzzing {
 };
 
 }  // namespace
+
+void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
+                  const fs::path& folder) {
+  fs::create_directories(folder);
+  write_proof_files(files, folder);
+  write_file(folder / "README", fmt::format("{}\n{}\nShown again by\n  {}\n", what, difference,
+                                            shell_words({"noli", "fuzz", "proofs", "--replay", folder})));
+}
 
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options) { return ProofFuzzing(options).run(); }
 

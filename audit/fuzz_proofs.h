@@ -71,6 +71,11 @@ struct ProofFuzzReport {
   std::vector<ProofFinding> findings;
 };
 
+/// Writes a finding into a folder, made if it is not there, and a README: what it is, its difference, and the command
+/// that shows it again. Throws std::system_error.
+void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
+                  const std::filesystem::path& folder);
+
 /// Runs until a limit; with a count and without a corpus the report is the same for any number of threads. What
 /// cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
 /// the machine fails.

@@ -158,6 +158,9 @@ TEST(FuzzProofsCommand, MakesAFindingSmall) {
   const std::string smaller = folder.path("out/finding-minimised");
   EXPECT_NE(process.out.find("saved as " + smaller), std::string::npos) << process.out;
   EXPECT_LE(fs::file_size(smaller + "/proof.noli"), fs::file_size(proof));
+  std::ifstream readme(smaller + "/README");
+  const std::string text{std::istreambuf_iterator<char>(readme), {}};
+  EXPECT_NE(text.find("noli fuzz proofs --replay "), std::string::npos) << text;
   EXPECT_EQ(run_noli({"fuzz", "proofs", "--replay", smaller}, faulty).exit_code, 1) << "it still shows it";
   EXPECT_EQ(run_noli({"fuzz", "proofs", "--minimise", finding, "--out", folder.path("none")}).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder.path("none"))) << "nothing was wrong";
