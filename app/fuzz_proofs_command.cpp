@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 #include "noli/app/checker.h"
 #include "noli/app/commands.h"
@@ -232,12 +233,12 @@ ExitCode run(ProofsArguments& arguments) {
   return fuzz_exit_code(report.findings_total, report.extent);
 }
 
-/// Writes them into --out; where.
-fs::path save_minimised(const ProofsArguments& arguments, const audit::ProofFiles& files,
-                        const std::string& difference) {
+/// Writes it into --out; where.
+fs::path save_minimised(const ProofsArguments& arguments, const audit::JudgedProof& smallest) {
   fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
   make_writable_folder(folder, "--out");
-  audit::save_finding(files, "made smaller: " + on_one_line(arguments.again.saved()), difference, folder);
+  const std::string what = "made smaller: " + on_one_line(arguments.again.saved());
+  audit::save_finding(smallest.files, what, smallest.judgement.difference, folder);
   return folder;
 }
 
@@ -248,18 +249,18 @@ ExitCode again(const ProofsArguments& arguments) {
   }
   const Output output(arguments.common.json, {});
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
-  audit::ProofFiles files = audit::read_proof_files(arguments.again.saved());
+  audit::JudgedProof proof{audit::read_proof_files(arguments.again.saved()), {}};
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   CheckersBeside beside(scratch.path());
   const audit::Checkers checkers = beside.make()();
-  audit::ProofJudgement judged = audit::judge_proof(files, checkers);
-  const bool finding = !judged.difference.empty();
+  proof.judgement = audit::judge_proof(proof.files, checkers);
+  const bool finding = !proof.judgement.difference.empty();
   std::optional<fs::path> saved;
   if (finding && arguments.again.minimise) {
-    files = audit::minimise_finding(files, judged, checkers, interrupted(), most_candidates);
-    saved = save_minimised(arguments, files, judged.difference);
-    if (!interrupted()) judged = audit::judge_proof(files, checkers);
+    proof = audit::minimise_finding(std::move(proof), checkers, interrupted(), most_candidates);
+    saved = save_minimised(arguments, proof);
   }
+  const audit::ProofJudgement& judged = proof.judgement;
   const bool stopped = judged.stopped || interrupted();
   const char* const word = stopped ? "undecided" : finding ? "finding" : "no_finding";
   const char* const verified = judged.verified ? word_of(*judged.verified) : "not_asked";
@@ -269,7 +270,7 @@ ExitCode again(const ProofsArguments& arguments) {
   if (!judged.plain.words.empty()) text += on_one_line(judged.plain.words) + '\n';
   if (finding) text += on_one_line(judged.difference) + '\n';
   if (saved)
-    text += fmt::format("saved as {}, a proof of {} bytes\n", on_one_line(saved->string()), files.proof.size());
+    text += fmt::format("saved as {}, a proof of {} bytes\n", on_one_line(saved->string()), proof.files.proof.size());
   output.write(text, {{"verdict", word},
                       {"plain", word_of(judged.plain)},
                       {"words", judged.plain.words},

@@ -136,13 +136,18 @@ ProofFiles minimise(const ProofFiles& files, const std::function<bool(const Proo
   return ProofMinimiser(files, fails, budget).run();
 }
 
-ProofFiles minimise_finding(const ProofFiles& files, const ProofJudgement& judgement, const Checkers& checkers,
-                            const std::atomic<bool>& stop, std::size_t budget) {
-  const std::string kind = kind_of(judgement);
+JudgedProof minimise_finding(JudgedProof finding, const Checkers& checkers, const std::atomic<bool>& stop,
+                             std::size_t budget) {
+  const std::string kind = kind_of(finding.judgement);
   const auto fails = [&](const ProofFiles& candidate) {
-    return !stop && kind_of(judge_proof(candidate, checkers)) == kind;
+    if (stop) return false;
+    ProofJudgement judgement = judge_proof(candidate, checkers);
+    if (kind_of(judgement) != kind) return false;
+    finding = {candidate, std::move(judgement)};
+    return true;
   };
-  return minimise(files, fails, budget);
+  minimise(ProofFiles(finding.files), fails, budget);
+  return finding;
 }
 
 }  // namespace noli::audit

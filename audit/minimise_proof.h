@@ -20,8 +20,13 @@ namespace noli::audit {
 /// Stops early after so many calls of `fails`. Precondition: fails(files).
 ProofFiles minimise(const ProofFiles& files, const std::function<bool(const ProofFiles&)>& fails, std::size_t budget);
 
+struct JudgedProof {
+  ProofFiles files;
+  ProofJudgement judgement;  ///< of these files
+};
+
 /// The same of a finding, for as long as it is one of its kind (audit/proof_judge.h), and until `stop` is set.
-ProofFiles minimise_finding(const ProofFiles& files, const ProofJudgement& judgement, const Checkers& checkers,
-                            const std::atomic<bool>& stop, std::size_t budget);
+JudgedProof minimise_finding(JudgedProof finding, const Checkers& checkers, const std::atomic<bool>& stop,
+                             std::size_t budget);
 
 }  // namespace noli::audit

@@ -257,24 +257,53 @@ Checkers checkers_that_differ() {
           })};
 }
 
+JudgedProof judged(const ProofFiles& files, const Checkers& checkers) { return {files, judge_proof(files, checkers)}; }
+
 TEST(MinimiseFinding, KeepsTheReasonOfThePlainChecker) {
   const Checkers checkers = checkers_that_differ();
   const std::atomic<bool> stop = false;
-  const ProofJudgement judged = judge_proof(example_files(), checkers);
-  const ProofFiles smallest = minimise_finding(example_files(), judged, checkers, stop, 5000);
-  EXPECT_LT(smallest.proof.size(), example_files().proof.size());
-  EXPECT_NE(rejects_all(smallest).words.find("other cells"), std::string::npos) << rejects_all(smallest).words;
+  const JudgedProof smallest = minimise_finding(judged(example_files(), checkers), checkers, stop, 5000);
+  EXPECT_LT(smallest.files.proof.size(), example_files().proof.size());
+  EXPECT_NE(rejects_all(smallest.files).words.find("other cells"), std::string::npos) << smallest.judgement.plain.words;
 }
 
 TEST(MinimiseFinding, EndsWithAProofThatCanBeReadAgain) {
-  const ProofFiles text{"no blocks at all", "ply", {"a", "b"}};
   const Checkers checkers = checkers_that_differ();
   const std::atomic<bool> stop = false;
-  const ProofFiles smallest = minimise_finding(text, judge_proof(text, checkers), checkers, stop, 5000);
+  const ProofFiles text{"no blocks at all", "ply", {"a", "b"}};
+  const ProofFiles smallest = minimise_finding(judged(text, checkers), checkers, stop, 5000).files;
   EXPECT_EQ(smallest.proof.size(), 1u);
   const test::TemporaryFolder folder;
   write_proof_files(smallest, folder / "");
   EXPECT_EQ(read_proof_files(folder / "").proof, smallest.proof);
+}
+
+/// A user who would not wait for more answers than these.
+class StopsAfter : public ProofChecker {
+ public:
+  StopsAfter(int answers, std::atomic<bool>& stop) : left_(answers), stop_(stop) {}
+  ProofAnswer check(const ProofFiles& files) override {
+    stop_ = --left_ <= 0;
+    return rejects_all(files);
+  }
+
+ private:
+  int left_;
+  std::atomic<bool>& stop_;
+};
+
+TEST(MinimiseFinding, SaysWhatIsKeptOfWhatIsKept) {
+  std::set<std::string> said;
+  for (int answers = 1; answers < 8; ++answers) {
+    std::atomic<bool> stop = false;
+    Checkers checkers = checkers_that_differ();
+    checkers.plain = std::make_unique<StopsAfter>(answers, stop);
+    const JudgedProof smallest = minimise_finding(judged(example_files(), checkers), checkers, stop, 5000);
+    EXPECT_TRUE(stop);
+    EXPECT_EQ(smallest.judgement.plain.words, rejects_all(smallest.files).words);
+    said.insert(smallest.judgement.plain.words);
+  }
+  EXPECT_GT(said.size(), 2u) << "of proofs of several sizes";
 }
 
 TEST(MinimiseProof, KeepsToItsBudget) {
