@@ -66,26 +66,30 @@ std::vector<fs::path> write_frames(const FrameMotion& motion, const fs::path& fo
   return files;
 }
 
-namespace {
-
-/// The number of "frame-12.ply" or "frame-12.obj".
-std::optional<std::size_t> frame_number(const fs::path& file) {
+std::optional<std::size_t> frame_number(const fs::path& file, std::string_view prefix) {
   const std::string name = file.filename().string();
+  if (!name.starts_with(prefix) || (file.extension() != ".ply" && file.extension() != ".obj")) return std::nullopt;
   std::size_t number = 0;
-  constexpr std::size_t begin = std::string_view("frame-").size();
-  if (!name.starts_with("frame-") || (file.extension() != ".ply" && file.extension() != ".obj")) return std::nullopt;
   const char* const end = name.data() + name.size() - 4;
-  const auto [last, error] = std::from_chars(name.data() + begin, end, number);
+  const auto [last, error] = std::from_chars(name.data() + prefix.size(), end, number);
   return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
 }
 
-/// Frames that come after the last one that was read: behind a gap, or of the other format.
+namespace {
+
+constexpr std::string_view frame_prefix = "frame-";
+
+/// Frames that come after the last one that was read, behind a gap, or that are of the other format.
 void require_no_more(const fs::path& folder, const fs::path& missing) {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const auto number = frame_number(entry.path());
-    if (!number || *number < frame_number(missing)) continue;
-    throw InputError(folder.string(), "",
-                     fmt::format("has {}, but no {}", entry.path().filename().string(), missing.filename().string()));
+    const auto number = frame_number(entry.path(), frame_prefix);
+    const std::string name = entry.path().filename().string();
+    if (!number) continue;
+    if (*number >= frame_number(missing, frame_prefix))
+      throw InputError(folder.string(), "", fmt::format("has {}, but no {}", name, missing.filename().string()));
+    if (entry.path().extension() == missing.extension()) continue;
+    const std::string read = fs::path(name).replace_extension(missing.extension()).string();
+    throw InputError(folder.string(), "", fmt::format("has {} beside {}; expected one of them", name, read));
   }
 }
 

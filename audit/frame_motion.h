@@ -7,9 +7,12 @@
 //   P, Q      features: vertices of two cells, ascending, none of them in both
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "noli/trajectory/mesh.h"
@@ -41,6 +44,9 @@ std::vector<std::filesystem::path> write_frames(const FrameMotion& motion, const
 
 /// Reads what write_frames wrote. Throws InputError.
 FrameMotion read_frames(const std::filesystem::path& folder);
+
+/// The number of "frame-12.ply" or "frame-12.obj" with the prefix "frame-"; nothing for other names.
+std::optional<std::size_t> frame_number(const std::filesystem::path& file, std::string_view prefix);
 
 /// What is wrong with the bytes of the frames, in words: reading them again has to give the mesh and the same bits.
 /// Nothing if all is well.

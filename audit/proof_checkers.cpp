@@ -14,6 +14,7 @@
 #include <optional>
 #include <utility>
 
+#include "noli/audit/frame_motion.h"
 #include "noli/audit/pipe.h"
 #include "noli/audit/start_process.h"
 #include "noli/trajectory/bytes.h"
@@ -27,12 +28,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::array<const char*, 3> extensions = {"ply", "obj", "blocks"};  // of a trajectory
+
 std::string trajectory_name(const ProofFiles& files, std::size_t i) {
   if (files.extension == "blocks") return "trajectory.blocks";
   return fmt::format("trajectory-{}.{}", i, files.extension);
 }
 
 constexpr const char* proof_name = "proof.noli";
+
+/// Frames behind a gap, or a second trajectory: of the folder, `files` is what was read.
+void require_nothing_else(const fs::path& folder, const ProofFiles& files) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const auto number = name == "trajectory.blocks" ? 0 : frame_number(entry.path(), "trajectory-");
+    if (!number || (*number < files.files.size() && name == trajectory_name(files, *number))) continue;
+    const bool gap = *number >= files.files.size() && files.extension != "blocks";
+    const std::string other = trajectory_name(files, gap ? files.files.size() : *number);
+    throw InputError(folder.string(), "",
+                     gap ? fmt::format("has {}, but no {}", name, other)
+                         : fmt::format("has {} beside {}; expected one of them", name, other));
+  }
+}
+
+/// What was here of a longer trajectory, or of one of another form.
+void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
+  for (const char* const extension : extensions) {
+    const bool same = extension == files.extension;
+    if (same && files.extension == "blocks") continue;
+    for (std::size_t i = same ? files.files.size() : 0; fs::remove(folder / trajectory_name({"", extension, {}}, i));
+         ++i) {
+    }
+  }
+}
 
 ProofAnswer answer_of(int code) {
   if (code == 0 || code == 1 || code == 3) return {code, "", ""};
@@ -187,22 +215,22 @@ std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::pa
     names.push_back(trajectory_name(files, i));
     write_file(folder / names.back(), files.files[i]);
   }
-  const bool one_file = files.extension == "blocks";
-  for (std::size_t i = names.size() - 1; !one_file && fs::remove(folder / trajectory_name(files, i)); ++i) {
-  }  // what was here of a longer trajectory
+  remove_other_frames(files, folder);
   return names;
 }
 
 ProofFiles read_proof_files(const fs::path& folder) {
   ProofFiles files;
   files.proof = read_whole_file(folder / proof_name);
-  for (const char* const extension : {"ply", "obj", "blocks"}) {
+  for (const char* const extension : extensions) {
     files.extension = extension;
     while (fs::exists(folder / trajectory_name(files, files.files.size()))) {
       files.files.push_back(read_whole_file(folder / trajectory_name(files, files.files.size())));
       if (files.extension == "blocks") break;
     }
-    if (!files.files.empty()) return files;
+    if (files.files.empty()) continue;
+    require_nothing_else(folder, files);
+    return files;
   }
   throw InputError(folder.string(), "", "expected trajectory-0.ply, trajectory-0.obj or trajectory.blocks in it");
 }

@@ -50,11 +50,11 @@ std::unique_ptr<ProofChecker> hosted_checker(const std::filesystem::path& host, 
 std::unique_ptr<ProofChecker> program_checker(const std::filesystem::path& program, const std::filesystem::path& folder,
                                               const ProgramLimits& limits);
 
-/// Writes proof.noli and trajectory-0.ply, ... (or trajectory.blocks), and removes frames behind the last; the names in
-/// the order of a command line.
+/// Writes proof.noli and trajectory-0.ply, ... (or trajectory.blocks), and removes frames behind the last and those of
+/// another form; the names in the order of a command line.
 std::vector<std::string> write_proof_files(const ProofFiles& files, const std::filesystem::path& folder);
 
-/// What was written so. Throws InputError.
+/// What was written so, and nothing else of a trajectory. Throws InputError.
 ProofFiles read_proof_files(const std::filesystem::path& folder);
 
 }  // namespace noli::audit

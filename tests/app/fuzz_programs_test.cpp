@@ -132,6 +132,30 @@ TEST(FuzzProofsCommand, KeepsAndReplaysWhatReachedSomethingNew) {
   EXPECT_TRUE(said.count("accepted") == 1 && said.count("rejected") == 1);
 }
 
+TEST(FuzzPrograms, RefuseToReplayFramesWithAGapOrTwice) {
+  const Folder folder;
+  const std::vector<std::pair<const char*, std::string>> names = {{"proofs", "trajectory-"},
+                                                                  {"trajectories", "frame-"}};
+  for (const auto& [command, frame] : names) {
+    const auto refusal = [&] {
+      const Process process = run_noli({"fuzz", command, "--replay", folder.path("")});
+      EXPECT_EQ(process.exit_code, 3) << process.out;
+      return process.err;
+    };
+    folder.write("proof.noli", "no proof");
+    folder.write(frame + "0.ply", two_triangles(1));
+    folder.write(frame + "2.ply", two_triangles(1));
+    const std::string gap = "has " + frame + "2.ply, but no " + frame + "1.ply";
+    EXPECT_NE(refusal().find(gap), std::string::npos) << refusal();
+    folder.write(frame + "1.ply", two_triangles(1));
+    folder.write(frame + "0.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
+    EXPECT_NE(refusal().find("; expected one of them"), std::string::npos) << refusal();
+    for (const char* const name : {"0.ply", "1.ply", "2.ply", "0.obj"}) {
+      std::filesystem::remove(folder.path(frame + name));
+    }
+  }
+}
+
 TEST(FuzzProofsCommand, MakesAFindingSmall) {
   namespace fs = std::filesystem;
   const Folder folder;

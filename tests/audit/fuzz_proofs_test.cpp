@@ -319,6 +319,17 @@ TEST(MinimiseProof, KeepsToItsBudget) {
   EXPECT_EQ(same.files, all.files);
 }
 
+TEST(ProofFiles, LeaveNothingOfAnotherTrajectory) {
+  const test::TemporaryFolder folder;
+  for (const ProofFiles& files : {ProofFiles{"p", "ply", {"a", "b", "c"}}, ProofFiles{"p", "obj", {"a", "b"}},
+                                  ProofFiles{"p", "blocks", {"a"}}, ProofFiles{"p", "ply", {"a"}}}) {
+    write_proof_files(files, folder / "");
+    const ProofFiles again = read_proof_files(folder / "");
+    EXPECT_EQ(again.extension, files.extension);
+    EXPECT_EQ(again.files, files.files);
+  }
+}
+
 TEST_F(FuzzProofs, DependsOnTheSeedAlone) {
   const auto codes = [&](int threads) {
     options.limits.threads = threads;
