@@ -120,7 +120,8 @@ std::vector<audit::ProofCase> made_cases(const fs::path& folder) {
 }
 
 Json tally_json(const audit::CodeTally& tally) {
-  return {{"accepted", tally.accepted}, {"refuted", tally.refuted}, {"rejected", tally.rejected}};
+  return {
+      {"accepted", tally.accepted}, {"refuted", tally.refuted}, {"rejected", tally.rejected}, {"failed", tally.failed}};
 }
 
 Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
@@ -152,10 +153,11 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
 
 std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
                         double seconds) {
-  std::string text = fmt::format(
-      "verdict {} mutants {} findings {} accepted {} refuted {} rejected {} judged {} seed {}\n",
-      fuzz_verdict(report.findings_total, report.extent), report.extent.items, report.findings_total,
-      report.codes.accepted, report.codes.refuted, report.codes.rejected, report.judged, arguments.common.limits.seed);
+  std::string text =
+      fmt::format("verdict {} mutants {} findings {} accepted {} refuted {} rejected {} failed {} judged {} seed {}\n",
+                  fuzz_verdict(report.findings_total, report.extent), report.extent.items, report.findings_total,
+                  report.codes.accepted, report.codes.refuted, report.codes.rejected, report.codes.failed,
+                  report.judged, arguments.common.limits.seed);
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "finding: {}, block {}, mutant {}, {}: {}; {}\n", finding.name, finding.block, finding.index,
@@ -163,8 +165,8 @@ std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzz
                    finding.folder.empty() ? "not saved" : "saved as " + on_one_line(finding.folder.string()));
   }
   for (const auto& [name, tally] : report.mutations) {
-    fmt::format_to(out, "  {:26} accepted {:7} refuted {:7} rejected {:7}\n", name, tally.accepted, tally.refuted,
-                   tally.rejected);
+    fmt::format_to(out, "  {:26} accepted {:7} refuted {:7} rejected {:7} failed {:7}\n", name, tally.accepted,
+                   tally.refuted, tally.rejected, tally.failed);
   }
   if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} proofs.\n", report.corpus_size);
   fmt::format_to(out, "Proofs: {}. The verified checker looked at {} mutants. Not judged: {}. Time: {:.1f} s.\n", cases,

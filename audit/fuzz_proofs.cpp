@@ -38,7 +38,7 @@ class ProofFuzzing {
         options_.limits, mutants_per_block,
         [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
         [this](std::vector<JudgedMutant> block) { take_block(std::move(block)); });
-    report_.extent.items = report_.codes.accepted + report_.codes.refuted + report_.codes.rejected;
+    report_.extent.items = report_.codes.all();
     report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
@@ -78,8 +78,9 @@ class ProofFuzzing {
     }
   }
 
-  static void count(int code, CodeTally& tally) {
-    ++(code == 0 ? tally.accepted : code == 1 ? tally.refuted : tally.rejected);
+  static void count(const ProofAnswer& answer, CodeTally& tally) {
+    const bool failed = !answer.failure.empty();
+    ++(failed ? tally.failed : answer.code == 0 ? tally.accepted : answer.code == 1 ? tally.refuted : tally.rejected);
   }
 
   void take_block(std::vector<JudgedMutant> block) {
@@ -90,10 +91,10 @@ class ProofFuzzing {
   void take(const JudgedMutant& judged, std::size_t index) {
     const ProofJudgement& judgement = judged.judgement;
     const std::string& mutations = judged.mutant.mutations;
-    count(judgement.plain.code, report_.codes);
+    count(judgement.plain, report_.codes);
     for (std::size_t at = 0; at <= mutations.size();) {
       const std::size_t end = std::min(mutations.find('+', at), mutations.size());
-      count(judgement.plain.code, report_.mutations[mutations.substr(at, end - at)]);
+      count(judgement.plain, report_.mutations[mutations.substr(at, end - at)]);
       at = end + 1;
     }
     const bool said = judgement.plain.failure.empty() && judgement.plain.code != 3;

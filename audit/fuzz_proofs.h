@@ -53,9 +53,11 @@ struct ProofFinding {
   std::filesystem::path folder;  ///< where it was saved; empty when it was not
 };
 
-/// What the plain checker said.
+/// What the plain checker said, and how often it failed to say anything.
 struct CodeTally {
-  std::uint64_t accepted = 0, refuted = 0, rejected = 0;
+  std::uint64_t accepted = 0, refuted = 0, rejected = 0, failed = 0;
+
+  std::uint64_t all() const { return accepted + refuted + rejected + failed; }
 };
 
 struct ProofFuzzReport {

@@ -180,6 +180,22 @@ TEST_F(FuzzProofs, KeepsAMutantThatIsNoFindingThoughOneOfItsShapeIs) {
   EXPECT_EQ(read_proof_files(kept).proof.size() % 2, 1u) << "what was kept is what was no finding";
 }
 
+TEST_F(FuzzProofs, CountsNoAnswerAsRejected) {
+  plain = [](const ProofFiles& files) -> ProofAnswer {
+    return files.proof.size() % 2 == 0 ? ProofAnswer{-1, "exit code 0"} : ProofAnswer{3, ""};
+  };
+  verified = nullptr;
+  options.limits.count = 200;
+  const ProofFuzzReport report = fuzz_proofs(options);
+  EXPECT_GT(report.codes.failed, 0u);
+  EXPECT_EQ(report.codes.failed, report.findings_total);
+  EXPECT_EQ(report.codes.failed + report.codes.rejected, 200u);
+  EXPECT_EQ(report.extent.items, 200u);
+  std::uint64_t failed = 0;
+  for (const auto& [name, tally] : report.mutations) failed += tally.failed;
+  EXPECT_GE(failed, report.codes.failed) << "a mutant may be of several mutations";
+}
+
 TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
   // A fault that hangs on one byte: which source the claim names.
   plain = [](const ProofFiles& files) -> ProofAnswer {
