@@ -13,6 +13,7 @@
 #include "noli/app/machine.h"
 #include "noli/app/output.h"
 #include "noli/app/version.h"
+#include "noli/audit/not_saved.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -100,6 +101,8 @@ ExitCode guarded(int argc, char** argv) {
   } catch (const UsageError& error) {
     return complain(ExitCode::bad_input, error.what());
   } catch (const WriteError& error) {
+    return complain(ExitCode::failure, error.what());
+  } catch (const audit::NotSavedError& error) {
     return complain(ExitCode::failure, error.what());
   } catch (const std::system_error& error) {
     return complain(ExitCode::failure, error.what());

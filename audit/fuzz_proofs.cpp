@@ -9,6 +9,7 @@
 
 #include "noli/audit/finding_name.h"
 #include "noli/audit/minimise_mutant.h"
+#include "noli/audit/save_whole.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/write_file.h"
 
@@ -146,10 +147,12 @@ class ProofFuzzing {
 
 void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
                   const fs::path& folder) {
-  fs::create_directories(folder);
-  write_proof_files(files, folder);
-  write_file(folder / "README", fmt::format("{}\n{}\nShown again by\n  {}\n", what, difference,
-                                            shell_words({"noli", "fuzz", "proofs", "--replay", folder})));
+  save_whole(folder, [&](const fs::path& to) {
+    write_proof_files(files, to);
+    write_file(to / "README", fmt::format("{}\n{}\nShown again by\n  {}\n", what, difference,
+                                          shell_words({"noli", "fuzz", "proofs", "--replay", folder})));
+  });
+  remove_other_frames(files, folder);
 }
 
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options) { return ProofFuzzing(options).run(); }

@@ -74,7 +74,7 @@ struct ProofFuzzReport {
 };
 
 /// Writes a finding into a folder, made if it is not there, and a README: what it is, its difference, and the command
-/// that shows it again. Throws std::system_error.
+/// that shows it again; whole or not at all. Throws std::system_error.
 void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
                   const std::filesystem::path& folder);
 

@@ -9,6 +9,7 @@
 
 #include "noli/audit/finding_name.h"
 #include "noli/audit/kind_of_difference.h"
+#include "noli/audit/save_whole.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/integrator/scene/json_text.h"
 #include "noli/trajectory/error.h"
@@ -260,12 +261,13 @@ class SceneFuzzing {
         unused(options_.out / (known ? finding.generator
                                      : fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
                                                    finding.index, finding.generator)));
-    fs::create_directories(folder);
     finding.file = folder / scene_file;
-    write_file(finding.file, finding.shrunk.dump(2) + '\n');
     std::vector<std::string> command = {"noli", "fuzz", "scenes", "--replay", finding.file};
     if (finding.wrong_place) command.insert(command.end(), {"--wrong-place", *finding.wrong_place});
-    write_file(folder / "README", fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
+    save_whole(folder, [&](const fs::path& to) {
+      write_file(to / scene_file, finding.shrunk.dump(2) + '\n');
+      write_file(to / "README", fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
+    });
   }
 
   const SceneFuzzOptions& options_;

@@ -14,6 +14,7 @@
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/run_program.h"
+#include "noli/audit/save_whole.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
@@ -159,13 +160,13 @@ class TrajectoryFuzzing {
   void save(TrajectoryFinding& finding) const {
     finding.folder = unused(options_.out / fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
                                                        finding.index, finding.generator));
-    fs::create_directories(finding.folder);
-    write_frames(finding.shrunk, finding.folder);
     std::vector<std::string> command = options_.replay_command;
     command.push_back(finding.folder.string());
     if (kind_of(finding.difference) == "proof") command.emplace_back("--needs-witness");
-    write_file(finding.folder / "README",
-               fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
+    save_whole(finding.folder, [&](const fs::path& to) {
+      write_frames(finding.shrunk, to);
+      write_file(to / "README", fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
+    });
   }
 
   const TrajectoryOptions& options_;

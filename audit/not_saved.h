@@ -12,6 +12,11 @@
 
 namespace noli::audit {
 
+/// A fault of the machine. what() is one line.
+struct NotSavedError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class NotSaved {
  public:
   /// Calls `save`, which may throw std::system_error. False if it did; the first of these is kept.
@@ -26,9 +31,9 @@ class NotSaved {
     }
   }
 
-  /// Throws std::runtime_error if something was not saved.
+  /// Throws NotSavedError if something was not saved.
   void require_nothing() const {
-    if (why_) throw std::runtime_error("not all that was found is saved: " + *why_);
+    if (why_) throw NotSavedError("not all that was found is saved: " + *why_);
   }
 
  private:

@@ -51,17 +51,6 @@ void require_nothing_else(const fs::path& folder, const ProofFiles& files) {
   }
 }
 
-/// What was here of a longer trajectory, or of one of another form.
-void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
-  for (const char* const extension : extensions) {
-    const bool same = extension == files.extension;
-    if (same && files.extension == "blocks") continue;
-    for (std::size_t i = same ? files.files.size() : 0; fs::remove(folder / trajectory_name({"", extension, {}}, i));
-         ++i) {
-    }
-  }
-}
-
 ProofAnswer answer_of(int code) {
   if (code == 0 || code == 1 || code == 3) return {code, "", ""};
   return {code, fmt::format("exit code {}", code), ""};
@@ -217,6 +206,16 @@ std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::pa
   }
   remove_other_frames(files, folder);
   return names;
+}
+
+void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
+  for (const char* const extension : extensions) {
+    const bool same = extension == files.extension;
+    if (same && files.extension == "blocks") continue;
+    for (std::size_t i = same ? files.files.size() : 0; fs::remove(folder / trajectory_name({"", extension, {}}, i));
+         ++i) {
+    }
+  }
 }
 
 ProofFiles read_proof_files(const fs::path& folder) {

@@ -156,6 +156,38 @@ TEST(FuzzPrograms, RefuseToReplayFramesWithAGapOrTwice) {
   }
 }
 
+/// A noli whose verified checker is this program.
+ProcessOptions with_verified_checker(const Folder& folder, const char* program) {
+  namespace fs = std::filesystem;
+  for (const char* const name : {"noli", "noli_check", "noli_check_host"}) {
+    fs::copy_file(fs::path(NOLI_COMMAND).parent_path() / name, folder.path(name));
+  }
+  fs::permissions(folder.write("noli_check_verified", program), fs::perms::owner_all);
+  ProcessOptions options;
+  options.program = folder.path("noli");
+  return options;
+}
+
+TEST(FuzzProofsCommand, SaysWhatCannotBeSavedAndBlamesNobody) {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  const ProcessOptions faulty = with_verified_checker(folder, "#!/bin/sh\nexit 3\n");
+  const std::string a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(0.5));
+  const std::string proof = folder.path("ab.noli"), out = folder.path("out");
+  ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof}).exit_code, 0);
+  const Arguments words = {"fuzz", "proofs", proof, a, b, "--count", "20", "--verified-every", "1", "--out", out};
+  ASSERT_EQ(run_noli(words, faulty).exit_code, 1);
+  for (const auto& finding : fs::directory_iterator(out)) {
+    fs::remove_all(finding.path());
+    std::ofstream(finding.path()) << "a file where a folder should be";
+    break;
+  }
+  const Process process = run_noli(words, faulty);
+  EXPECT_EQ(process.exit_code, 4);
+  EXPECT_TRUE(process.err.starts_with("noli: not all that was found is saved: ")) << process.err;
+  EXPECT_NE(process.out.find("; not saved"), std::string::npos) << process.out;
+}
+
 TEST(FuzzProofsCommand, MakesAFindingSmall) {
   namespace fs = std::filesystem;
   const Folder folder;
@@ -166,14 +198,7 @@ TEST(FuzzProofsCommand, MakesAFindingSmall) {
   fs::copy_file(proof, finding + "/proof.noli");
   fs::copy_file(a, finding + "/trajectory-0.ply");
   fs::copy_file(b, finding + "/trajectory-1.ply");
-  // A noli whose verified checker takes nothing.
-  ProcessOptions faulty;
-  faulty.program = folder.path("noli");
-  for (const char* const name : {"noli", "noli_check_host"}) {
-    fs::copy_file(fs::path(NOLI_COMMAND).parent_path() / name, folder.path(name));
-  }
-  fs::permissions(folder.write("noli_check_verified", "#!/bin/sh\nexit 3\n"), fs::perms::owner_all);
-
+  const ProcessOptions faulty = with_verified_checker(folder, "#!/bin/sh\nexit 3\n");
   const std::vector<std::string> words = {"fuzz", "proofs", "--minimise", finding, "--out", folder.path("out")};
   const Process process = run_noli(words, faulty);
   EXPECT_EQ(process.exit_code, 1) << process.err;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -178,6 +180,50 @@ TEST_F(FuzzProofs, KeepsAMutantThatIsNoFindingThoughOneOfItsShapeIs) {
   ASSERT_EQ(report.corpus_size, 1u);
   const auto kept = std::filesystem::directory_iterator(*options.corpus)->path();
   EXPECT_EQ(read_proof_files(kept).proof.size() % 2, 1u) << "what was kept is what was no finding";
+}
+
+/// As if the disk were full, for as long as this lives.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_ = {};
+};
+
+TEST_F(FuzzProofs, SavesAFindingWholeOrNotAtAll) {
+  namespace fs = std::filesystem;
+  plain = believes_all;
+  options.verified_every = 1;
+  const auto with_full_disk = [&] {
+    const SmallFiles full(100);
+    return fuzz_proofs(options);
+  };
+  const ProofFuzzReport none = with_full_disk();
+  EXPECT_THROW(none.not_saved.require_nothing(), NotSavedError);
+  ASSERT_EQ(none.findings.size(), 3u);
+  for (const ProofFinding& finding : none.findings) EXPECT_TRUE(finding.folder.empty());
+  EXPECT_TRUE(fs::is_empty(options.out)) << *fs::directory_iterator(options.out);
+
+  const fs::path first = fuzz_proofs(options).findings[0].folder;
+  std::ofstream(first / "notes") << "of the user";
+  with_full_disk();
+  EXPECT_EQ(read_proof_files(first).proof, none.findings[0].files.proof) << "what is there already stays whole";
+  fuzz_proofs(options);
+  EXPECT_TRUE(fs::exists(first / "notes"));
+  const fs::directory_iterator folders(options.out);
+  EXPECT_EQ(std::distance(begin(folders), end(folders)), 3);
 }
 
 TEST_F(FuzzProofs, CountsNoAnswerAsRejected) {
