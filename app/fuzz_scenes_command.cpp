@@ -14,6 +14,7 @@
 #include "noli/audit/fuzz_scenes.h"
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/scratch_folder.h"
+#include "noli/audit/start_process.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
@@ -43,8 +44,10 @@ struct ScenesArguments {
   std::optional<std::string> wrong_place;
 };
 
-/// `noli` itself, as a program of its own.
+/// `noli` itself, as a program of its own. Throws std::system_error when the checker that it starts is not there: each
+/// scene would be a finding.
 audit::RunNoli this_program() {
+  audit::require_startable(beside_this_program("noli_check").string());
   return [noli = this_program_file().string()](const std::vector<std::string>& arguments) {
     std::vector<std::string> words = {noli};
     words.insert(words.end(), arguments.begin(), arguments.end());

@@ -15,9 +15,13 @@ extern char** environ;
 
 namespace noli::audit {
 
+void require_startable(const std::string& program) {
+  if (::access(program.c_str(), X_OK) == 0) return;
+  throw std::system_error(errno, std::generic_category(), program + " cannot be started");
+}
+
 pid_t start_process(std::vector<std::string> words, std::span<const GivenDescriptor> descriptors) {
-  if (::access(words[0].c_str(), X_OK) != 0)
-    throw std::system_error(errno, std::generic_category(), words[0] + " cannot be started");
+  require_startable(words[0]);
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());

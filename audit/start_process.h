@@ -18,6 +18,9 @@ struct GivenDescriptor {
   int theirs, ours;
 };
 
+/// Throws std::system_error, as start_process does, when this is no program that can be started.
+void require_startable(const std::string& program);
+
 /// The program is words[0], the rest its arguments; in a group of processes of its own, so that it does not share the
 /// signals of the terminal. Throws std::system_error when it is not there or cannot be started.
 pid_t start_process(std::vector<std::string> words, std::span<const GivenDescriptor> descriptors);

@@ -80,6 +80,18 @@ TEST(FuzzPrograms, StopWhenInterrupted) {
   }
 }
 
+TEST(FuzzPrograms, SayThatTheirCheckersAreNotThere) {
+  const Folder folder;
+  std::filesystem::copy_file(NOLI_COMMAND, folder.path("noli"));
+  ProcessOptions alone;
+  alone.program = folder.path("noli");
+  for (const char* const what : {"trajectories", "proofs", "scenes"}) {
+    const Process process = run_noli({"fuzz", what, "--count", "2", "--out", folder.path("out")}, alone);
+    EXPECT_EQ(process.exit_code, 4) << what << ": " << process.out << process.err;
+    EXPECT_NE(process.err.find("cannot be started: No such file"), std::string::npos) << process.err;
+  }
+}
+
 TEST(FuzzTrajectoriesCommand, RunsItsCorpusFirst) {
   const Folder folder;
   const Arguments command = {"fuzz",     "trajectories",        "--count", "14",
