@@ -2,6 +2,7 @@
 #include "noli/app/fuzz_options.h"
 
 #include <limits>
+#include <system_error>
 
 #include "noli/app/duration.h"
 #include "noli/app/interrupt.h"
@@ -50,6 +51,13 @@ void add_again_options(CLI::App& command, AgainArguments& arguments, const std::
 std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved) {
   const auto name = std::filesystem::absolute(saved / "").lexically_normal().parent_path().filename();
   return audit::unused(std::filesystem::path(arguments.out) / (name.string() + "-minimised"));
+}
+
+std::vector<std::filesystem::path> saved_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;  // whoever reads the folder says what is wrong with it
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) files.push_back(entry.path());
+  return files;
 }
 
 void settle_limits(FuzzArgumentsInCommon& arguments) {

@@ -41,6 +41,9 @@ void add_again_options(CLI::App& command, AgainArguments& arguments, const std::
 /// "NAME-minimised" in --out, for a saved folder NAME, so that nothing is overwritten (audit/finding_name.h).
 std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved);
 
+/// The files in a saved folder, which --json may not overwrite; none if it is not there.
+std::vector<std::filesystem::path> saved_files(const std::filesystem::path& folder);
+
 /// Makes limits of what was given: a minute if nothing was. Throws UsageError.
 void settle_limits(FuzzArgumentsInCommon& arguments);
 

@@ -249,7 +249,7 @@ ExitCode again(const ProofsArguments& arguments) {
   if (!arguments.files.empty()) {
     throw UsageError("--replay and --minimise take a folder that was saved; expected no other files");
   }
-  const Output output(arguments.common.json, {});
+  const Output output(arguments.common.json, saved_files(arguments.again.saved()));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::JudgedProof proof{audit::read_proof_files(arguments.again.saved()), {}};
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);

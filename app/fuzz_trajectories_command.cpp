@@ -130,7 +130,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   const fs::path folder = arguments.again.saved();
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
-  const Output output(arguments.common.json, {});
+  const Output output(arguments.common.json, saved_files(folder));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
   VerifyProgram subject(1);

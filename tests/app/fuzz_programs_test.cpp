@@ -80,6 +80,25 @@ TEST(FuzzPrograms, StopWhenInterrupted) {
   }
 }
 
+TEST(FuzzPrograms, DoNotOverwriteWhatTheyReplay) {
+  const Folder folder;
+  const std::string frame = folder.write("frame-0.ply", two_triangles(1));
+  folder.write("frame-1.ply", two_triangles(1));
+  const std::string trajectory = folder.write("trajectory-0.ply", two_triangles(1));
+  const std::string proof = folder.write("proof.noli", "no proof");
+  const std::vector<std::pair<const char*, std::string>> lines = {
+      {"trajectories", frame}, {"proofs", proof}, {"proofs", trajectory}};
+  for (const auto& [what, file] : lines) {
+    for (const char* const option : {"--replay", "--minimise"}) {
+      const auto before = std::filesystem::file_size(file);
+      const Process process = run_noli({"fuzz", what, option, folder.path(""), "--json", file});
+      EXPECT_EQ(process.exit_code, 3) << file << process.out;
+      EXPECT_NE(process.err.find("is read too"), std::string::npos) << process.err;
+      EXPECT_EQ(std::filesystem::file_size(file), before);
+    }
+  }
+}
+
 TEST(FuzzPrograms, SayThatTheirCheckersAreNotThere) {
   const Folder folder;
   std::filesystem::copy_file(NOLI_COMMAND, folder.path("noli"));
