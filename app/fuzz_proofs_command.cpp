@@ -107,7 +107,7 @@ std::vector<audit::ProofCase> made_cases(const fs::path& folder) {
   const auto generators = audit::motion_generators();
   audit::Random random(1);
   std::vector<audit::ProofCase> cases;
-  for (std::size_t i = 0; i < motions; ++i) {
+  for (std::size_t i = 0; i < motions && !interrupted(); ++i) {
     const audit::MotionGenerator& generator = generators[i % generators.size()];
     const audit::FrameMotion motion = generator.make(random).motion;
     if (motion.mesh.cell_count() > most_cells) continue;
@@ -174,6 +174,18 @@ std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzz
   return text;
 }
 
+/// The proof that was given, or those that are made. Fewer if the user would not wait: then there are no mutants, and
+/// that is told as undecided.
+std::vector<audit::ProofCase> cases(const ProofsArguments& arguments, const fs::path& folder) {
+  try {
+    if (arguments.files.empty()) return made_cases(folder);
+    return {
+        read_case(arguments.files[0], trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()}))};
+  } catch (const ReadInterrupted&) {
+    return {};
+  }
+}
+
 /// The checkers that lie beside this program, each at a desk of its own in a folder.
 class CheckersBeside {
  public:
@@ -216,13 +228,8 @@ ExitCode run(ProofsArguments& arguments) {
   options.corpus = corpus_folder(arguments.common);
   options.verified_every = arguments.verified_every;
   options.make_checkers = checkers.make();
-  if (arguments.files.empty()) {
-    options.cases = made_cases(scratch.path());
-  } else {
-    const auto trajectory = trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()});
-    options.cases = {read_case(arguments.files[0], trajectory)};
-  }
-  if (options.cases.empty()) throw std::runtime_error("no proof could be made to begin with");
+  options.cases = cases(arguments, scratch.path());
+  if (options.cases.empty() && !interrupted()) throw std::runtime_error("no proof could be made to begin with");
   const Stopwatch watch;
   const audit::ProofFuzzReport report = with_progress("fuzz proofs", [&](const auto& show) {
     options.limits.progress = show;

@@ -111,6 +111,25 @@ TEST(FuzzPrograms, SayThatTheirCheckersAreNotThere) {
   }
 }
 
+TEST(FuzzProofsCommand, IsUndecidedWhenItIsInterruptedBeforeItBegins) {
+  const Folder folder;
+  std::filesystem::copy_file(NOLI_COMMAND, folder.path("noli"));
+  std::filesystem::permissions(folder.write("noli_check", "#!/bin/sh\nsleep 60\n"), std::filesystem::perms::owner_all);
+  ProcessOptions options;
+  options.program = folder.path("noli");
+  options.signal = SIGINT;
+  const std::string a = folder.write("a.ply", two_triangles(1));
+  for (const Arguments& files : {Arguments{}, Arguments{a, a}}) {
+    for (const int milliseconds : {0, 500}) {
+      options.signal_after = std::chrono::milliseconds(milliseconds);
+      const Process process =
+          run_noli(with({"fuzz", "proofs", "--for", "10m", "--out", folder.path("out")}, files), options);
+      EXPECT_EQ(process.exit_code, 2) << process.err;
+      EXPECT_TRUE(process.verdict_line().starts_with("verdict undecided mutants 0 ")) << process.out << process.err;
+    }
+  }
+}
+
 TEST(FuzzTrajectoriesCommand, RunsItsCorpusFirst) {
   const Folder folder;
   const Arguments command = {"fuzz",     "trajectories",        "--count", "14",
