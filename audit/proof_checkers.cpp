@@ -218,13 +218,24 @@ void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
   }
 }
 
+namespace {
+
+/// A device would be read until memory is full.
+std::string read_regular_file(const fs::path& file) {
+  if (fs::exists(file) && !fs::is_regular_file(file))
+    throw InputError(file.string(), "", "is no regular file; expected one that was saved");
+  return read_whole_file(file);
+}
+
+}  // namespace
+
 ProofFiles read_proof_files(const fs::path& folder) {
   ProofFiles files;
-  files.proof = read_whole_file(folder / proof_name);
+  files.proof = read_regular_file(folder / proof_name);
   for (const char* const extension : extensions) {
     files.extension = extension;
     while (fs::exists(folder / trajectory_name(files, files.files.size()))) {
-      files.files.push_back(read_whole_file(folder / trajectory_name(files, files.files.size())));
+      files.files.push_back(read_regular_file(folder / trajectory_name(files, files.files.size())));
       if (files.extension == "blocks") break;
     }
     if (files.files.empty()) continue;

@@ -238,6 +238,25 @@ TEST(FuzzProofsCommand, SaysWhatCannotBeSavedAndBlamesNobody) {
   EXPECT_NE(process.out.find("; not saved"), std::string::npos) << process.out;
 }
 
+TEST(FuzzProofsCommand, ReplaysNoDevices) {
+  const Folder folder;
+  folder.write("trajectory-0.ply", two_triangles(1));
+  const std::string proof = folder.path("proof.noli");
+  ProcessOptions options;
+  options.address_space = std::uint64_t{1} << 30;
+  const auto refuses = [&] {
+    const Process process = run_noli({"fuzz", "proofs", "--replay", folder.path("")}, options);
+    EXPECT_NE(process.err.find("is no regular file"), std::string::npos) << process.err;
+    return process.exit_code == 3;
+  };
+  std::filesystem::create_symlink("/dev/zero", proof);
+  EXPECT_TRUE(refuses());
+  std::filesystem::remove(proof);
+  folder.write("proof.noli", "no proof");
+  std::filesystem::create_symlink("/dev/zero", folder.path("trajectory-1.ply"));
+  EXPECT_TRUE(refuses());
+}
+
 TEST(FuzzProofsCommand, MakesAFindingSmall) {
   namespace fs = std::filesystem;
   const Folder folder;
