@@ -19,12 +19,17 @@ using audit::MethodResult;
 constexpr const char* grey = "#444444";
 constexpr double panel_width = 380, panel_height = 300, gap_x = 110, gap_y = 110, left = 96, top = 84;
 
+constexpr std::size_t columns = 2;  ///< of panels
+
 struct Quantity {
   const char* words;
   double IntegratorErrors::*error;
 };
-constexpr std::array<Quantity, 2> quantities = {{{"error of the trajectory [m]", &IntegratorErrors::trajectory},
-                                                 {"error of energy / largest kinetic", &IntegratorErrors::energy}}};
+constexpr std::array<Quantity, 4> quantities = {
+    {{"error of the trajectory [m]", &IntegratorErrors::trajectory},
+     {"error of energy / largest kinetic", &IntegratorErrors::energy},
+     {"error of momentum / largest", &IntegratorErrors::momentum},
+     {"error of angular momentum / largest", &IntegratorErrors::angular_momentum}}};
 
 const char* colour_of(const std::string& method) {
   if (method == "own") return "#2e8b57";
@@ -89,15 +94,17 @@ void legend(Svg& svg, const IntegratorResults& results) {
 
 std::string integrator_svg(const IntegratorResults& results) {
   const std::string title = "Integration: error against run time";
-  const double rows = static_cast<double>(results.size());
-  Svg svg(left + 2 * panel_width + gap_x + 30, top + rows * (panel_height + gap_y), title);
+  const std::size_t rows = (quantities.size() + columns - 1) / columns;  // of a scene
+  Svg svg(left + static_cast<double>(columns) * (panel_width + gap_x) - gap_x + 30,
+          top + static_cast<double>(rows * results.size()) * (panel_height + gap_y), title);
   svg.text({left, 28}, title);
   if (!results.empty()) legend(svg, results);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const double y = top + static_cast<double>(i) * (panel_height + gap_y);
+    const double y = top + static_cast<double>(rows * i) * (panel_height + gap_y);
     svg.text({left, y - 8}, on_one_line(results[i].title));
     for (std::size_t k = 0; k < quantities.size(); ++k) {
-      panel(svg, results[i], quantities[k], {left + static_cast<double>(k) * (panel_width + gap_x), y});
+      const auto column = static_cast<double>(k % columns), row = static_cast<double>(k / columns);
+      panel(svg, results[i], quantities[k], {left + column * (panel_width + gap_x), y + row * (panel_height + gap_y)});
     }
   }
   return svg.finish();

@@ -20,7 +20,8 @@ std::string integrator_text(const IntegratorResults& results);
 
 Json integrator_json(const IntegratorResults& results);
 
-/// For each scene, errors of trajectory and of energy over time, both logarithmic: a line for each method.
+/// For each scene, errors of trajectory, energy, momentum and angular momentum over run time, all logarithmic: a line
+/// for each method.
 std::string integrator_svg(const IntegratorResults& results);
 
 }  // namespace noli::app

@@ -11,10 +11,12 @@
 namespace noli::app {
 namespace {
 
+using audit::Drift;
 using audit::PrecisionOutcome;
 using Point = Svg::Point;
 
 constexpr double left = 96, right = 700;
+constexpr double first_top = 50, panel_height = 200, panel_stride = 270;
 constexpr std::size_t most_columns = 600;  ///< about one for each pixel
 constexpr const char* grey = "#444444";
 
@@ -76,58 +78,89 @@ std::vector<Point> points_of(const LogField& field, const std::vector<double>& t
   return points;
 }
 
-void draw(Svg& svg, const std::vector<double>& times, const std::vector<Curve>& curves, double bottom, double top,
-          const std::string& words) {
+struct Panel {
+  std::string words;
+  std::vector<Curve> curves;
+};
+
+void draw(Svg& svg, const std::vector<double>& times, const Panel& panel, double top) {
   static constexpr const char* colours[] = {"#1b6ca8", "#c8553d", "#2e8b57", "#8e5ea2", "#c99a1c", "#5f6b73"};
-  const LogField field(times, curves, bottom, top);
-  field.axes(svg, words);
-  for (std::size_t i = 0; i < curves.size(); ++i) {
+  const LogField field(times, panel.curves, top + panel_height, top);
+  field.axes(svg, panel.words);
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const char* const stroke = colours[i % std::size(colours)];
-    svg.polyline(points_of(field, times, curves[i]), stroke, 1.6);
+    const std::vector<Point> points = points_of(field, times, panel.curves[i]);
+    if (!points.empty()) svg.polyline(points, stroke, 1.6);
     const double y = top + 14 + 20 * static_cast<double>(i);
     svg.line({right + 20, y - 4}, {right + 44, y - 4}, stroke);
-    svg.text({right + 52, y}, curves[i].name);
+    svg.text({right + 52, y}, panel.curves[i].name + (points.empty() ? ": 0" : ""));
   }
 }
 
-/// The first run is double itself.
-std::vector<Curve> positions(const PrecisionOutcome& outcome) {
-  std::vector<Curve> curves;
+/// A quantity in which double is apart from the other precisions.
+struct Quantity {
+  const char* words;
+  double Drift::*drift;
+};
+constexpr Quantity quantities[] = {{"position, greatest [m]", &Drift::position},
+                                   {"energy [J]", &Drift::energy},
+                                   {"momentum [N s]", &Drift::momentum},
+                                   {"angular mom. [N m s]", &Drift::angular_momentum}};
+
+/// A curve for each precision but the first, which is double itself.
+Panel drifts(const PrecisionOutcome& outcome, const Quantity& quantity) {
+  Panel panel{quantity.words, {}};
   for (std::size_t i = 1; i < outcome.runs.size(); ++i) {
-    curves.push_back({fmt::format("double - {} bits", outcome.runs[i].arithmetic.bits), {}});
-    for (const audit::Drift& drift : outcome.runs[i].drifts) curves.back().values.push_back(drift.position);
+    const std::vector<Drift>& drifts = outcome.runs[i].drifts;
+    Curve curve{fmt::format("double - {} bits", outcome.runs[i].arithmetic.bits), {}};
+    for (std::size_t k = 0; k < std::min(drifts.size(), outcome.energies.size()); ++k) {
+      curve.values.push_back(std::abs(drifts[k].*quantity.drift));
+    }
+    panel.curves.push_back(std::move(curve));
   }
-  return curves;
+  return panel;
 }
 
-std::vector<Curve> energies(const PrecisionOutcome& outcome) {
+Panel energy_error(const PrecisionOutcome& outcome) {
   Curve truncation{"truncation", {}}, rounding{"rounding", {}};
   for (const audit::EnergyError& error : outcome.energies) {
     truncation.values.push_back(std::abs(error.truncation));
     rounding.values.push_back(std::abs(error.rounding));
   }
-  if (outcome.not_conserved) return {rounding};
-  return {truncation, rounding};
+  if (outcome.not_conserved) return {"energy error [J]", {rounding}};
+  return {"energy error [J]", {truncation, rounding}};
+}
+
+std::vector<Panel> panels_of(const PrecisionOutcome& outcome) {
+  std::vector<Panel> panels;
+  for (const Quantity& quantity : quantities) panels.push_back(drifts(outcome, quantity));
+  panels.push_back(energy_error(outcome));
+  return panels;
 }
 
 }  // namespace
 
 std::string precision_svg(const PrecisionOutcome& outcome, const std::string& title) {
   const std::string words = title + ": double against other precisions";
-  Svg svg(900, 790, words);
+  const std::vector<Panel> panels = panels_of(outcome);
+  Svg svg(900, first_top + static_cast<double>(panels.size()) * panel_stride, words);
   svg.text({left, 30}, words);
   std::vector<double> times;
   for (const audit::EnergyError& error : outcome.energies) times.push_back(error.time);
   if (times.empty()) return svg.finish();
-  std::vector<Curve> drifts = positions(outcome);
-  for (Curve& curve : drifts) curve.values.resize(std::min(curve.values.size(), times.size()));
-  draw(svg, times, drifts, 360, 50, "greatest distance of a vertex [m]");
-  draw(svg, times, energies(outcome), 730, 420, "energy error of double [J]");
-  if (const auto& acts = outcome.runs.back().changes.acts.first) {
-    const double x = Scale{0, times.back(), left, right}(acts->time);
-    for (const double bottom : {360.0, 730.0}) svg.line({x, bottom}, {x, bottom - 310}, grey, "2 4");
-    svg.text({right + 20, 390}, "dotted: the order");
-    svg.text({right + 20, 408}, "of events changes");
+  const auto& acts = outcome.runs.back().changes.acts.first;
+  double top = first_top;
+  for (const Panel& panel : panels) {
+    draw(svg, times, panel, top);
+    if (acts) {
+      const double x = Scale{0, times.back(), left, right}(acts->time);
+      svg.line({x, top + panel_height}, {x, top}, grey, "2 4");
+    }
+    top += panel_stride;
+  }
+  if (acts) {
+    svg.text({right + 20, first_top + panel_height - 22}, "dotted: the order");
+    svg.text({right + 20, first_top + panel_height - 4}, "of events changes");
   }
   return svg.finish();
 }

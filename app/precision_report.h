@@ -20,9 +20,9 @@ std::string precision_text(const audit::PrecisionOutcome& outcome);
 /// Without `timing`.
 Json precision_json(const audit::PrecisionOutcome& outcome);
 
-/// Above, how far double is from the other precisions; below, what of its energy error is truncation and what rounding.
-/// Both over time, on logarithmic
-/// scales, with a line where the order of events changes.
+/// From above: how far double is from the other precisions in position, energy, momentum and angular momentum, and what
+/// of its energy error is truncation and what rounding. All over time, on logarithmic scales, with a line where the
+/// order of events changes.
 std::string precision_svg(const audit::PrecisionOutcome& outcome, const std::string& title);
 
 }  // namespace noli::app

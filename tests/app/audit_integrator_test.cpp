@@ -38,9 +38,14 @@ TEST_F(AuditIntegrator, MeasuresASceneAndDrawsIt) {
   EXPECT_EQ(process.verdict_line(), "verdict measured scenes 1 runs 12");
   EXPECT_NE(process.out.find("stiff in the middle: 7 vertices, 6 forces"), std::string::npos) << process.out;
   const std::string svg = read_text(picture);
-  for (const char* const words : {"<svg ", "stiff in the middle", "Verlet, one step for all", "run time [s]"}) {
+  for (const char* const words :
+       {"<svg ", "stiff in the middle", "Verlet, one step for all", "run time [s]", "error of the trajectory",
+        "error of energy", "error of momentum", "error of angular momentum"}) {
     EXPECT_NE(svg.find(words), std::string::npos) << words;
   }
+  std::size_t lines = 0;
+  for (std::size_t at = svg.find("<polyline "); at != std::string::npos; at = svg.find("<polyline ", at + 1)) ++lines;
+  EXPECT_EQ(lines, 16u) << "four methods, four errors";
 }
 
 TEST_F(AuditIntegrator, IsTheSameButForTiming) {

@@ -23,6 +23,12 @@ std::vector<std::string> command(const std::string& name, const std::vector<std:
   return words;
 }
 
+std::size_t count(const std::string& text, const std::string& words) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++n;
+  return n;
+}
+
 TEST(AuditPrecision, SaysThatFiftyThreeBitsAreDouble) {
   const Json document = json_of(command("bounce", {"--until", "1", "--bits", "256,113"}), 0);
   EXPECT_EQ(document["verdict"], "same");
@@ -59,10 +65,24 @@ TEST(AuditPrecision, DrawsAPicture) {
       run_noli(command("bounce", {"--until", "1", "--bits", "64,128", "--svg", svg, "--json", folder.path("o.json")}));
   EXPECT_EQ(process.exit_code, 0) << process.err;
   const std::string picture = read_text(svg);
-  for (const char* const words : {"<svg ", "double - 64 bits", "double - 128 bits", "truncation", "rounding", "[m]"}) {
-    EXPECT_NE(picture.find(words), std::string::npos) << words;
+  EXPECT_EQ(count(picture, "<svg "), 1u);
+  for (const char* const panel : {"position, greatest [m]", "energy [J]", "momentum [N s]", "angular mom. [N m s]",
+                                  "energy error [J]", ">truncation<", ">rounding<"}) {
+    EXPECT_EQ(count(picture, panel), 1u) << panel;
   }
+  EXPECT_EQ(count(picture, ">double - 64 bits<"), 3u) << "position, energy and momentum drift";
+  EXPECT_EQ(count(picture, ">double - 128 bits<"), 3u);
+  EXPECT_EQ(count(picture, ">double - 128 bits: 0<"), 1u) << "it drops straight: no angular momentum";
+  EXPECT_EQ(count(picture, "<polyline "), 8u) << "a curve for each that is not 0, truncation and rounding";
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"o.json", "out.svg"}));
+}
+
+TEST(AuditPrecision, DrawsAngularMomentumWhereThereIsSome) {
+  const Folder folder;
+  const std::string svg = folder.path("out.svg");
+  const Process process = run_noli(command("hanging_chain", {"--until", "0.06", "--bits", "256", "--svg", svg}));
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(count(read_text(svg), ">double - 256 bits<"), 4u);
 }
 
 TEST(AuditPrecision, SaysWhereTruncationCannotBeTold) {
