@@ -3,8 +3,8 @@
 // Scenes: whatever the text, an InputError of one line, or a scene that can be explained (so its meshes, forces and
 // steps are made), or that is refused by one line then.
 //
-// Input: 'S' for the short form, anything else for the full one; then the text. Scenes of more than a few hundred
-// vertices are read only, and so are those that name files.
+// Input: 'S' or 'F' for the short or full form and then the text, or the text alone, in full form: so a scene's file is
+// an input as it is. Scenes of more than a few hundred vertices are read only, and so are those that name files.
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
@@ -65,10 +65,11 @@ void read_and_explain(std::string_view text, noli::integrator::Form form) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::string_view input(reinterpret_cast<const char*>(data), size);
+  const bool brief = input.starts_with('S'), has_form = brief || input.starts_with('F');
   try {
-    read_and_explain(text, data[0] == 'S' ? noli::integrator::Form::brief : noli::integrator::Form::full);
+    read_and_explain(input.substr(has_form ? 1 : 0),
+                     brief ? noli::integrator::Form::brief : noli::integrator::Form::full);
   } catch (const noli::InputError& error) {
     const std::string_view message = error.what();
     require(message.starts_with("input: ") && message.find('\n') == std::string_view::npos);
