@@ -25,6 +25,10 @@ Arguments with(Arguments words, const Arguments& more) {
   return words;
 }
 
+const char* const ring_scene =
+    R"({"noli_scene": 1, "dimension": 2, "duration": 0.02, "bodies": [{"mesh": {"ring": {"radius": 1, "segments": 5}},
+        "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})";
+
 const std::vector<Arguments> commands = {
     {"fuzz", "trajectories", "--seed", "5", "--count", "28"},
     {"fuzz", "proofs", "--seed", "5", "--count", "1500"},
@@ -130,6 +134,72 @@ TEST(FuzzProofsCommand, IsUndecidedWhenItIsInterruptedBeforeItBegins) {
   }
 }
 
+/// A noli whose verified checker is this program.
+ProcessOptions with_verified_checker(const Folder& folder, const char* program) {
+  namespace fs = std::filesystem;
+  for (const char* const name : {"noli", "noli_check", "noli_check_host"}) {
+    fs::copy_file(fs::path(NOLI_COMMAND).parent_path() / name, folder.path(name));
+  }
+  fs::permissions(folder.write("noli_check_verified", program), fs::perms::owner_all);
+  ProcessOptions options;
+  options.program = folder.path("noli");
+  return options;
+}
+
+const char* const takes_nothing = "#!/bin/sh\nexit 3\n";
+
+/// A fuzzer that goes on for long and has certain findings at its beginning, and is interrupted then: they are said,
+/// and saved with the command that shows them again.
+class FindingsKept : public testing::Test {
+ protected:
+  void expect_kept(const Arguments& words, const std::string& saved) {
+    options.signal = SIGINT;
+    options.signal_after = std::chrono::milliseconds(3000);
+    const Process process = run_noli(with(words, {"--for", "10m", "--threads", "1", "--out", out}), options);
+    EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+    EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
+    EXPECT_EQ(process.verdict_line().find(" findings 0 "), std::string::npos) << process.out;
+    EXPECT_NE(process.out.find("saved as " + out + "/"), std::string::npos) << process.out;
+    EXPECT_EQ(process.out.find("not saved"), std::string::npos) << process.out;
+    std::size_t found = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+      if (entry.path().filename() != saved) continue;
+      ++found;
+      EXPECT_NE(read_text(entry.path().parent_path() / "README").find("--replay"), std::string::npos) << entry.path();
+    }
+    EXPECT_GE(found, 1u) << process.out;
+  }
+
+  const Folder folder;
+  const std::string out = folder.path("out"), corpus = folder.path("corpus");
+  ProcessOptions options;
+};
+
+TEST_F(FindingsKept, OfProofs) {
+  const std::string a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(0.5));
+  const std::string proof = folder.path("ab.noli");
+  ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof}).exit_code, 0);
+  options = with_verified_checker(folder, takes_nothing);
+  expect_kept({"fuzz", "proofs", proof, a, b, "--verified-every", "1"}, "proof.noli");
+}
+
+TEST_F(FindingsKept, OfTrajectories) {
+  namespace fs = std::filesystem;
+  fs::create_directory(corpus);
+  fs::copy(fs::path(NOLI_SOURCE_DIR) / "tests/audit/motions/apart", corpus + "/apart");
+  options = with_verified_checker(folder, takes_nothing);
+  expect_kept({"fuzz", "trajectories", "--corpus", corpus}, "frame-0.ply");
+}
+
+/// The scene is said to be wrong in a place where it is not.
+TEST_F(FindingsKept, OfScenes) {
+  std::filesystem::create_directories(corpus + "/ring");
+  folder.write("corpus/ring/scene.json", ring_scene);
+  folder.write("corpus/ring/wrong_place", "/bodies/0/mesh\n");
+  folder.write("corpus/ring/shape", "ring\n");
+  expect_kept({"fuzz", "scenes", "--corpus", corpus}, "scene.json");
+}
+
 TEST(FuzzTrajectoriesCommand, RunsItsCorpusFirst) {
   const Folder folder;
   const Arguments command = {"fuzz",     "trajectories",        "--count", "14",
@@ -206,32 +276,17 @@ TEST(FuzzPrograms, RefuseToReplayFramesWithAGapOrTwice) {
   }
 }
 
-/// A noli whose verified checker is this program.
-ProcessOptions with_verified_checker(const Folder& folder, const char* program) {
-  namespace fs = std::filesystem;
-  for (const char* const name : {"noli", "noli_check", "noli_check_host"}) {
-    fs::copy_file(fs::path(NOLI_COMMAND).parent_path() / name, folder.path(name));
-  }
-  fs::permissions(folder.write("noli_check_verified", program), fs::perms::owner_all);
-  ProcessOptions options;
-  options.program = folder.path("noli");
-  return options;
-}
-
 TEST(FuzzProofsCommand, SaysWhatCannotBeSavedAndBlamesNobody) {
-  namespace fs = std::filesystem;
   const Folder folder;
-  const ProcessOptions faulty = with_verified_checker(folder, "#!/bin/sh\nexit 3\n");
+  const ProcessOptions faulty = with_verified_checker(folder, takes_nothing);
   const std::string a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(0.5));
-  const std::string proof = folder.path("ab.noli"), out = folder.path("out");
+  const std::string proof = folder.path("ab.noli");
+  std::string out = folder.path("out");
   ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof}).exit_code, 0);
+  // A path that has room for a folder of findings, and for no file in it.
+  while (out.size() < 3900) out += "/" + std::string(100, 'x');
+  out += "/" + std::string(4061 - out.size(), 'x');
   const Arguments words = {"fuzz", "proofs", proof, a, b, "--count", "20", "--verified-every", "1", "--out", out};
-  ASSERT_EQ(run_noli(words, faulty).exit_code, 1);
-  for (const auto& finding : fs::directory_iterator(out)) {
-    fs::remove_all(finding.path());
-    std::ofstream(finding.path()) << "a file where a folder should be";
-    break;
-  }
   const Process process = run_noli(words, faulty);
   EXPECT_EQ(process.exit_code, 4);
   EXPECT_TRUE(process.err.starts_with("noli: not all that was found is saved: ")) << process.err;
@@ -267,7 +322,7 @@ TEST(FuzzProofsCommand, MakesAFindingSmall) {
   fs::copy_file(proof, finding + "/proof.noli");
   fs::copy_file(a, finding + "/trajectory-0.ply");
   fs::copy_file(b, finding + "/trajectory-1.ply");
-  const ProcessOptions faulty = with_verified_checker(folder, "#!/bin/sh\nexit 3\n");
+  const ProcessOptions faulty = with_verified_checker(folder, takes_nothing);
   const std::vector<std::string> words = {"fuzz", "proofs", "--minimise", finding, "--out", folder.path("out")};
   const Process process = run_noli(words, faulty);
   EXPECT_EQ(process.exit_code, 1) << process.err;
@@ -287,10 +342,7 @@ TEST(FuzzProofsCommand, MakesAFindingSmall) {
 
 TEST(FuzzScenesCommand, JudgesASceneAgain) {
   const Folder folder;
-  const std::string scene = folder.write(
-      "scene.json",
-      R"({"noli_scene": 1, "dimension": 2, "duration": 0.02, "bodies": [{"mesh": {"ring": {"radius": 1, "segments": 5}},
-          "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})");
+  const std::string scene = folder.write("scene.json", ring_scene);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", scene}).verdict_line(),
             "verdict no_finding end exit 0 done verified true resumed true");
   const Process wrong = run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "/bodies/0/mesh"});
@@ -300,16 +352,13 @@ TEST(FuzzScenesCommand, JudgesASceneAgain) {
 
 TEST(FuzzScenesCommand, DoesNotOverwriteWhatItMinimises) {
   const Folder folder;
-  const std::string text =
-      R"({"noli_scene": 1, "dimension": 2, "duration": 0.02, "bodies": [{"mesh": {"ring": {"radius": 1, "segments": 5}},
-          "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})";
-  const std::string scene = folder.write("scene.json", text);
+  const std::string scene = folder.write("scene.json", ring_scene);
   const Process process =
       run_noli({"fuzz", "scenes", "--minimise", scene, "--wrong-place", "/bodies/0/mesh", "--out", folder.path("")});
   EXPECT_EQ(process.exit_code, 1) << process.err;
   EXPECT_NE(process.out.find("saved as " + folder.path("scene-minimised.json")), std::string::npos) << process.out;
   std::ifstream file(scene);
-  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), text);
+  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), ring_scene);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--count", "1", "--wrong-place", "/bodies"}).exit_code, 3);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "bodies"}).exit_code, 3);
   EXPECT_EQ(run_noli({"fuzz", "trajectories", "--count", "1", "--needs-witness"}).exit_code, 3);

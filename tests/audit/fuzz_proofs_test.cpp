@@ -217,13 +217,13 @@ TEST_F(FuzzProofs, SavesAFindingWholeOrNotAtAll) {
   EXPECT_TRUE(fs::is_empty(options.out)) << *fs::directory_iterator(options.out);
 
   const fs::path first = fuzz_proofs(options).findings[0].folder;
-  std::ofstream(first / "notes") << "of the user";
+  EXPECT_EQ(read_proof_files(first).proof, none.findings[0].files.proof);
+  std::ofstream(first / "proof.noli") << "of the user";
   with_full_disk();
-  EXPECT_EQ(read_proof_files(first).proof, none.findings[0].files.proof) << "what is there already stays whole";
   fuzz_proofs(options);
-  EXPECT_TRUE(fs::exists(first / "notes"));
+  EXPECT_EQ(fs::file_size(first / "proof.noli"), 11u) << "what is there already stays";
   const fs::directory_iterator folders(options.out);
-  EXPECT_EQ(std::distance(begin(folders), end(folders)), 3);
+  EXPECT_EQ(std::distance(begin(folders), end(folders)), 6);
 }
 
 TEST_F(FuzzProofs, CountsNoAnswerAsRejected) {
