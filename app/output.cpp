@@ -98,6 +98,14 @@ bool can_write(const std::string& path) {
   return exists && must_be_kept(errno);
 }
 
+/// Whether files can be made in a folder. Tried, as permissions do not tell: root has them all, also where no files can
+/// be, as in /proc. The file has no name, so that none is left by a kill; where there are no such files, it has one.
+bool can_make_files(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (descriptor >= 0) return ::close(descriptor) == 0;
+  return TemporaryFile(std::filesystem::path(folder) / "file").is_open();
+}
+
 bool write_all(int descriptor, const std::string& text) {
   std::size_t done = 0;
   while (done < text.size()) {
@@ -194,13 +202,9 @@ void require_writable_folder(const std::string& folder, const std::string& optio
   std::error_code error;
   const bool exists = std::filesystem::exists(path, error);
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
-  // Asked, not tried: what is written to a run's folder and left there by a kill would make it none.
-  const std::string asked = exists ? path.string() : parent.string();
+  const std::string tried = exists ? path.string() : parent.string();
   errno = ENOTDIR;
-  if (std::filesystem::is_directory(asked, error) &&
-      ::faccessat(AT_FDCWD, asked.c_str(), W_OK | X_OK, AT_EACCESS) == 0) {
-    return;
-  }
+  if (std::filesystem::is_directory(tried, error) && can_make_files(tried)) return;
   throw UsageError(option + " " + folder + ": cannot be written: " + reason() +
                    "; expected a folder that may be written to, or a place for one");
 }

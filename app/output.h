@@ -40,8 +40,8 @@ void require_other_file(const std::filesystem::path& file, const std::vector<std
 /// Leaves nothing behind.
 void require_writable_file(const std::filesystem::path& file, const std::string& option);
 
-/// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, the folder
-/// itself.
+/// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, in the one
+/// that it would be in. Leaves nothing behind.
 void require_writable_folder(const std::string& folder, const std::string& option);
 
 /// Throws UsageError, naming `option`, when this is no program that can be started.

@@ -59,17 +59,34 @@ TEST(FuzzPrograms, RefuseWhatCannotBe) {
       {"fuzz", "trajectories", "--count", "1", "--out", file},
       {"fuzz", "trajectories", "--count", "1", "--corpus", file},
       {"fuzz", "proofs", "--count", "1", "--out", file},
+      {"fuzz", "proofs", "--count", "1", "--corpus", file},
       {"fuzz", "proofs", file, "--count", "1"},
       {"fuzz", "proofs", file, folder.path("absent.ply"), "--count", "1"},
       {"fuzz", "scenes", "--seed", "-1"},
       {"fuzz", "scenes", "--replay", file},
       {"fuzz", "scenes", "--replay", file, "--minimise", file},
       {"fuzz", "scenes", "--count", "1", "--out", file},
+      {"fuzz", "scenes", "--count", "1", "--corpus", file},
   };
   for (const Arguments& line : lines) {
     const Process process = run_noli(line);
     EXPECT_EQ(process.exit_code, 3) << line[1] << " " << line.back() << ": " << process.out << process.err;
     EXPECT_EQ(process.err.rfind("noli: ", 0), 0u) << process.err;
+  }
+}
+
+/// No permission says it: root has them all, and yet there is no file to be made in /proc.
+TEST(FuzzPrograms, KnowBeforeTheyBeginWhereNoFileCanBeMade) {
+  for (const char* const what : {"queries", "trajectories", "proofs", "scenes"}) {
+    for (const char* const option : {"--corpus", "--out"}) {
+      for (const char* const folder : {"/proc", "/proc/none"}) {
+        const Process process = run_noli({"fuzz", what, "--count", "1", option, folder});
+        EXPECT_EQ(process.exit_code, 3) << what << option << folder << process.out << process.err;
+        EXPECT_EQ(process.out, "");
+        EXPECT_EQ(process.err.rfind(std::string("noli: ") + option + " " + folder + ": cannot be ", 0), 0u)
+            << process.err;
+      }
+    }
   }
 }
 
