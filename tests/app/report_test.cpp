@@ -87,6 +87,7 @@ TEST_F(Report, OfARun) {
   const std::string run = run_path("run");
   ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run}).exit_code, 0);
   const std::string html = bytes_of(write({run}));
+  EXPECT_LT(html.size(), 1'500'000u) << "the page itself is less than half of that, this run almost nothing";
   const Json json = Json::parse(element(html, "page"));
   EXPECT_EQ(json["title"], "hanging sheet");
   EXPECT_EQ(json["verdict"]["word"], "no_contact");
