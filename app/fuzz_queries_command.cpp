@@ -15,6 +15,7 @@
 #include "noli/app/duration.h"
 #include "noli/app/fuzz_queries_report.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/library_options.h"
 #include "noli/app/machine.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
@@ -54,32 +55,18 @@ constexpr const char* queries_footer =
 
 constexpr const char* default_folder = "fuzz-findings";
 
-constexpr std::uint64_t default_megabytes = 2000;
-
-struct FuzzArguments {
-  audit::FuzzOptions kernel;      ///< what the run against a library does not use is in here
-  audit::LibraryUnderTest asked;  ///< path empty: none
-  std::uint64_t megabytes = default_megabytes;
-  bool first_only = false;
+struct FuzzArguments : LibraryArguments {
+  audit::FuzzOptions kernel;  ///< what the run against a library does not use is in here
   std::string duration = "60s";
-  std::string query_limit = "1s";
   std::string out = default_folder;
   std::optional<std::string> corpus, replay, minimise, json;
   bool for_given = false, out_given = false;
-
-  bool asks_a_library() const { return !asked.path.empty(); }
 };
 
 /// "noli fuzz queries --library ./mine.so --tolerance 1e-06 --replay FILE"
 std::string again(const FuzzArguments& arguments, const fs::path& file) {
   std::string command = "noli fuzz queries";
-  if (arguments.asks_a_library()) {
-    command += " --library " + audit::quoted(arguments.asked.path.string());
-    command += fmt::format(" --tolerance {}", arguments.asked.tolerance);
-    if (arguments.query_limit != "1s") command += " --query-limit " + audit::quoted(arguments.query_limit);
-    if (arguments.megabytes != default_megabytes) command += fmt::format(" --memory-limit {}", arguments.megabytes);
-    if (arguments.asked.exact) command += " --exact";
-  }
+  for (const std::string& word : library_words(arguments)) command += " " + audit::quoted(word);
   return on_one_line(command + " --replay " + audit::quoted(file.string()));
 }
 
@@ -280,17 +267,8 @@ ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }
 
-void prepare_library(FuzzArguments& arguments) {
-  audit::HostOptions& host = arguments.asked.host;
-  host.host = beside_this_program("noli_ccd_host");
-  host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
-  host.most_memory = arguments.megabytes * 1'000'000;
-  host.most_hangs = 4;
-  host.stop = &interrupted();
-}
-
 ExitCode run(FuzzArguments& arguments) {
-  prepare_library(arguments);
+  settle_library(arguments);
   if (arguments.replay) return replay(arguments);
   if (arguments.minimise) return minimise(arguments);
   audit::FuzzOptions& options = arguments.kernel;
@@ -303,33 +281,6 @@ ExitCode run(FuzzArguments& arguments) {
   options.stop = &interrupted();
   options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
   return arguments.asks_a_library() ? run_library(arguments, output) : run_kernel(arguments, output);
-}
-
-/// Options that only a library needs.
-void add_library_options(CLI::App& command, FuzzArguments& arguments) {
-  audit::LibraryUnderTest& library = arguments.asked;
-  CLI::Option* const path =
-      command.add_option("--library", library.path, "Ask this library of collision detection, in place of the kernel")
-          ->type_name("LIB.so");
-  command.add_option("--tolerance", library.tolerance, "What the library is told, a length")
-      ->check(is_not_negative())
-      ->capture_default_str()
-      ->type_name("T")
-      ->needs(path);
-  command.add_flag("--exact", library.exact, "It claims to be exact: false positives and early times are findings too")
-      ->needs(path);
-  command.add_flag("--first-only", arguments.first_only, "Stop at the first finding")->needs(path);
-  command.add_option("--query-limit", arguments.query_limit, "A query that computes for longer hangs: 500ms, 10s")
-      ->capture_default_str()
-      ->type_name("TIME")
-      ->needs(path);
-  command
-      .add_option("--memory-limit", arguments.megabytes,
-                  "End the process in which the library runs when it has more than so many megabytes")
-      ->check(CLI::Range(1, 1'000'000'000))
-      ->capture_default_str()
-      ->type_name("MB")
-      ->needs(path);
 }
 
 void add_run_options(CLI::App& command, FuzzArguments& arguments, std::vector<CLI::Option*>& of_runs) {
@@ -367,7 +318,7 @@ Command add_fuzz_queries(CLI::App& fuzz) {
   CLI::Option* const out = command->add_option("--out", arguments->out, "Folder for findings, made when there is one")
                                ->capture_default_str()
                                ->type_name("DIR");
-  add_library_options(*command, *arguments);
+  add_library_options(*command, *arguments, "the kernel");
   of_runs.push_back(command->get_option("--first-only"));
   CLI::Option* const again =
       command->add_option("--replay", arguments->replay, "Decide the queries of this file again instead")

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "noli/app/commands.h"
+#include "noli/app/fuzz_library_motions_run.h"
 #include "noli/app/fuzz_options.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/json.h"
@@ -25,22 +26,25 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* footer =
-    "Motions of small meshes whose contacts are planted at a known time and place, or missed by one unit: written as "
-    "PLY or OBJ,\n"
-    "read back, given to `noli verify`, and its proof or witness to both checkers. A wrong answer is made smaller and "
-    "saved as\n"
-    "frames, with the command that shows it again. Exit 0: no finding; 1: findings; 2: interrupted. With --count and "
-    "without a\n"
-    "corpus the result depends on the seed alone. audit/FUZZ-TRAJECTORIES.md says more.\n"
+    "Motions of small meshes whose contacts are planted at a known time and place, or missed by one unit:\n"
+    "written as PLY or OBJ, read back, given to `noli verify`, and its proof or witness to both checkers. A\n"
+    "wrong answer is made smaller and saved as frames, with the command that shows it again. With --library\n"
+    "somebody else's library is asked instead (include/noli/ccd_plugin.h), in a process of its own, step by\n"
+    "step, as a whole pipeline: its search for candidates (all pairs, if it has none), then its query for each\n"
+    "of them. Findings are contacts that are no candidates or are missed, times that are late or none,\n"
+    "failures, crashes, hangs, leaks; of a library that claims to be --exact also false positives and early\n"
+    "times. Exit 0: no finding; 1: findings; 2: interrupted; 3: a library or folder is not as it has to be.\n"
+    "With --count and without a corpus the result depends on the seed alone. audit/FUZZ-TRAJECTORIES.md says\n"
+    "more.\n"
     "Examples:\n"
     "  noli fuzz trajectories --for 60s --seed 1\n"
     "  noli fuzz trajectories --count 100000 --threads 2 --corpus corpus --json result.json\n"
     "  noli fuzz trajectories --replay fuzz-findings/seed1-block3-index7-border\n"
-    "  noli fuzz trajectories --minimise fuzz-findings/seed1-block3-index7-border --out smaller";
+    "  noli fuzz trajectories --minimise fuzz-findings/seed1-block3-index7-border --out smaller\n"
+    "  noli fuzz trajectories --library ./mine.so --for 60s --tolerance 1e-6\n"
+    "  noli fuzz trajectories --library ./mine.so --replay fuzz-findings/late-seed1-block3-index7-border";
 
-struct TrajectoriesArguments {
-  FuzzArgumentsInCommon common;
-  AgainArguments again;
+struct TrajectoriesArguments : LibraryMotionArguments {
   bool needs_witness = false;
   std::uint64_t verified_every = 1;
 };
@@ -111,6 +115,7 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   audit::TrajectoryOptions options;
   options.limits = arguments.common.limits;
   options.decide = [&](const audit::FrameMotion& motion) { return subject(motion); };
+  options.max_findings = arguments.max_findings;
   options.out = arguments.common.out;
   options.corpus = corpus_folder(arguments.common);
   options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
@@ -170,24 +175,39 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   return found ? ExitCode::refuted : ExitCode::holds;
 }
 
+ExitCode run(TrajectoriesArguments& arguments) {
+  const bool saved = arguments.again.given();
+  if (arguments.library.asks_a_library()) {
+    return saved ? motion_of_library_again(arguments) : fuzz_motions_of_library(arguments);
+  }
+  return saved ? again(arguments) : fuzz(arguments);
+}
+
 }  // namespace
 
 Command add_fuzz_trajectories(CLI::App& fuzz_app) {
   CLI::App* const command = fuzz_app.add_subcommand(
-      "trajectories", "Motions with planted contacts, through files, verifier, proof and both checkers");
+      "trajectories", "Motions with planted contacts, through files, verifier, proof and both checkers, or a library");
   command->footer(footer);
   const auto arguments = std::make_shared<TrajectoriesArguments>();
   add_fuzz_options(*command, arguments->common, "motions");
-  command
-      ->add_option("--verified-every", arguments->verified_every,
-                   "Ask the verified checker about one motion of so many")
-      ->check(whole_number(1, 1'000'000))
+  command->add_option("--max-findings", arguments->max_findings, "Make smaller and save at most so many")
+      ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str()
       ->type_name("N");
-  add_again_options(*command, arguments->again, "motion", "FOLDER", {});
-  command->add_flag("--needs-witness", arguments->needs_witness,
-                    "With --replay or --minimise: a contact without a witness is a finding");
-  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : fuzz(*arguments); }};
+  CLI::Option* const verified_every = command
+                                          ->add_option("--verified-every", arguments->verified_every,
+                                                       "Ask the verified checker about one motion of so many")
+                                          ->check(whole_number(1, 1'000'000))
+                                          ->capture_default_str()
+                                          ->type_name("N");
+  add_library_options(*command, arguments->library, "noli verify and the checkers");
+  add_again_options(*command, arguments->again, "motion", "FOLDER", {"--first-only", "--max-findings"});
+  CLI::Option* const needs_witness =
+      command->add_flag("--needs-witness", arguments->needs_witness,
+                        "With --replay or --minimise: a contact without a witness is a finding");
+  command->get_option("--library")->excludes(verified_every)->excludes(needs_witness);
+  return {command, [arguments] { return run(*arguments); }};
 }
 
 }  // namespace noli::app

@@ -127,7 +127,8 @@ double first_time(const Step& step, const std::array<VertexId, 4>& vertices) {
   return first_contact(query).value().time.lower();
 }
 
-std::array<VertexId, 4> vertices_of(const Step& step, const MeshContact& contact) {
+template <class Pair>
+std::array<VertexId, 4> vertices_of(const Step& step, const Pair& contact) {
   if (contact.kind == NOLI_CCD_EDGE_EDGE) {
     const Edge &a = step.edges[contact.first], &b = step.edges[contact.second];
     return {a[0], a[1], b[0], b[1]};
@@ -142,8 +143,9 @@ double first_time(const Step& step, const MeshContact& contact) {
                                             : first_time<VertexFace3>(step, vertices);
 }
 
-/// The contact in the frames' own numbers.
-FeatureContact named(const Step& step, const MeshContact& contact) {
+/// The pair in the frames' own numbers.
+template <class Pair>
+FeatureContact named(const Step& step, const Pair& contact) {
   FeatureContact result;
   result.pair = contact.kind == NOLI_CCD_EDGE_EDGE ? FeaturePair::edge_edge : FeaturePair::vertex_face;
   result.vertices = vertices_of(step, contact);
@@ -153,15 +155,18 @@ FeatureContact named(const Step& step, const MeshContact& contact) {
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+/// In either half of the repetitions, by more than an allocator takes at a time.
+bool grew(const Resident& resident) {
+  constexpr std::uint64_t slack = 256 << 10;
+  return resident[0] > 0 && resident[1] >= resident[0] + slack && resident[2] >= resident[1] + slack;
+}
+
 class PipelineRun {
  public:
   explicit PipelineRun(const PipelineRequest& request) : request_(request) {}
 
-  PipelineOutcome run() {
-    for (const fs::path& library : request_.libraries) require_shared_library(library);
-    FrameSequence frames({request_.before, request_.after});
-    frames.next();
-    if (!prepare(frames)) {
+  PipelineOutcome run(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1) {
+    if (!prepare(mesh, x_t0, x_t1)) {
       outcome_.complete = false;
       return std::move(outcome_);
     }
@@ -177,12 +182,11 @@ class PipelineRun {
   bool stopped() const { return request_.host.stop != nullptr && request_.host.stop->load(std::memory_order_relaxed); }
 
   /// Finds all contacts; false if the user would not wait for it.
-  bool prepare(const FrameSequence& frames) {
-    const Mesh& mesh = frames.mesh();
+  bool prepare(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1) {
     const Renumbering renumbered(mesh);
     step_.number = renumbered.kept();
-    step_.x_t0 = chosen(frames.x_t0(), step_.number);
-    step_.x_t1 = chosen(frames.x_t1(), step_.number);
+    step_.x_t0 = chosen(x_t0, step_.number);
+    step_.x_t1 = chosen(x_t1, step_.number);
     Mesh kept{step_.x_t0.size(), {}, {}, {}};
     for (const Face& face : mesh.faces) kept.faces.push_back(renumbered(face));
     for (const Edge& edge : mesh.edges) kept.edges.push_back(renumbered(edge));
@@ -221,6 +225,7 @@ class PipelineRun {
       if (stopped()) return false;
       step_.times.push_back(first_time(step_, contact));
     }
+    if (!step_.times.empty()) outcome_.first_time = std::ranges::min(step_.times);
     return true;
   }
 
@@ -230,6 +235,8 @@ class PipelineRun {
     auto& exchange = *new (memory.begin()) PipelineExchange;
     exchange.sizes = sizes;
     exchange.tolerance = tolerance;
+    exchange.needs_search = request_.needs_search ? 1 : 0;
+    exchange.repeat_seconds = request_.looks_for_leaks ? request_.host.repeat_seconds : 0;
     const MeshArrays arrays(exchange);
     for (std::size_t v = 0; v < sizes.vertices; ++v) {
       std::copy(step_.x_t0[v].begin(), step_.x_t0[v].end(), arrays.x_t0 + 3 * v);
@@ -258,7 +265,12 @@ class PipelineRun {
     audit.ending = ending.words;
     audit.search_seconds = exchange.search_seconds;
     audit.query_seconds = exchange.query_seconds;
+    audit.searched = exchange.search_code >= 0;
+    audit.leaks = grew(exchange.resident);
+    if (exchange.failed.known != 0) audit.failed = named(step_, exchange.failed);
+    if (ending.kind != Ending::Kind::finished && exchange.asked.known != 0) audit.asked = named(step_, exchange.asked);
     if (ending.kind != Ending::Kind::finished || exchange.search_code < 0) return audit;
+    audit.through = outcome_.first_time && exchange.told > *outcome_.first_time;
     for (std::size_t i = 0; i < step_.contacts.size(); ++i) {
       MeshContact contact = step_.contacts[i];  // which it is; of what the library has to do with, what became of it
       const MeshContact& given = arrays.contacts[i];
@@ -268,16 +280,19 @@ class PipelineRun {
       contact.time = given.time;
       mark(contact, step_.times[i], audit);
     }
+    if (request_.exact && exchange.false_positive.known != 0 && audit.reports.size() < request_.max_reports) {
+      audit.reports.push_back({named(step_, exchange.false_positive), "false_positive", "they stay apart", {}});
+    }
     return audit;
   }
 
   void mark(const MeshContact& contact, double exact, PipelineAudit& audit) const {
     const auto report = [&](const char* what) {
-      if (audit.reports.size() == request_.max_reports) return;
+      if (audit.reports.size() >= request_.max_reports) return;
       const std::string truth = fmt::format("exact first time {:.17g}", exact);
       const bool timed = contact.found != 0 && contact.hit != 0 && contact.failed == 0;
       audit.reports.push_back(
-          {named(step_, contact), what, timed ? fmt::format("{:.17g}, {}", contact.time, truth) : truth});
+          {named(step_, contact), what, timed ? fmt::format("{:.17g}, {}", contact.time, truth) : truth, exact});
     };
     if (contact.found == 0) {
       ++audit.not_found;
@@ -288,13 +303,20 @@ class PipelineRun {
       ++audit.false_negatives;
       return report("false_negative");
     }
-    if (std::isnan(contact.time)) return;
+    if (std::isnan(contact.time)) {
+      if (request_.knows_times) report("no_time");
+      return;
+    }
     if (!(contact.time >= 0 && contact.time <= 1)) {
       ++audit.bad_times;
       return report("bad_time");
     }
     const double error = exact - contact.time, relative = exact > 0 ? std::abs(error) / exact : 0;
-    if (error >= 0) return audit.early.add(error, relative);
+    if (error >= 0) {
+      audit.early.add(error, relative);
+      if (request_.exact && error > 0) report("early");
+      return;
+    }
     audit.late.add(-error, relative);
     report("late");
   }
@@ -318,6 +340,16 @@ std::uint64_t PipelineOutcome::findings() const {
   return sum;
 }
 
-PipelineOutcome audit_pipeline(const PipelineRequest& request) { return PipelineRun(request).run(); }
+PipelineOutcome audit_pipeline(const PipelineRequest& request) {
+  for (const fs::path& library : request.libraries) require_shared_library(library);
+  FrameSequence frames({request.before, request.after});
+  frames.next();
+  return PipelineRun(request).run(frames.mesh(), frames.x_t0(), frames.x_t1());
+}
+
+PipelineOutcome audit_pipeline(const PipelineRequest& request, const Mesh& mesh, std::span<const Position> x_t0,
+                               std::span<const Position> x_t1) {
+  return PipelineRun(request).run(mesh, x_t0, x_t1);
+}
 
 }  // namespace noli::audit

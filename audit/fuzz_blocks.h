@@ -17,6 +17,8 @@
 #include <functional>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "noli/kernel/parallel.h"
@@ -41,7 +43,8 @@ struct FuzzExtent {
 };
 
 /// Calls make(block, items), which returns what one block gave, from several threads, and take(that) from the caller's,
-/// in the order of blocks. Throws std::invalid_argument when no limit is given, and what `make` and `take` throw.
+/// in the order of blocks, until a limit is reached or `take`, where it returns a bool, returns false. Throws
+/// std::invalid_argument when no limit is given, and what `make` and `take` throw.
 template <class Make, class Take>
 FuzzExtent fuzz_blocks(const FuzzLimits& limits, std::uint64_t items_per_block, const Make& make, const Take& take) {
   if (!limits.count && !limits.time_limit && !limits.stop) {
@@ -65,7 +68,13 @@ FuzzExtent fuzz_blocks(const FuzzLimits& limits, std::uint64_t items_per_block, 
     });
     extent.items += std::min<std::uint64_t>(left, results.size() * items_per_block);
     block += results.size();
-    for (Result& result : results) take(std::move(result));
+    for (Result& result : results) {
+      if constexpr (std::is_void_v<decltype(take(std::move(result)))>) {
+        take(std::move(result));
+      } else if (!take(std::move(result))) {
+        return extent;
+      }
+    }
   }
 }
 

@@ -130,7 +130,7 @@ void HostProcess::begin_call() {
 
 nanoseconds HostProcess::limit() const {
   const HostPhase phase = status_.phase.load(std::memory_order_relaxed);
-  if (phase == HostPhase::searching) return search_limit * options_.query_limit;
+  if (phase == HostPhase::searching) return options_.search_limit * options_.query_limit;
   if (phase == HostPhase::loading) return std::max<nanoseconds>(options_.query_limit, std::chrono::seconds(3));
   return options_.query_limit;
 }

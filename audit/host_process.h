@@ -26,12 +26,10 @@ struct HostOptions {
   double repeat_seconds = 0.2;             ///< about how long all queries are asked again
   std::uint64_t most_memory = 2'000'000'000;  ///< resident bytes of the process
   std::uint64_t most_hangs = 10;              ///< then the rest is not asked
+  int search_limit = 600;                     ///< a search for candidates may take so many times as long as a query
   const std::atomic<bool>* stop = nullptr;
   Deadline deadline;
 };
-
-/// A search for candidates may take so many times as long as a query.
-constexpr int search_limit = 600;
 
 /// Memory that two processes share, all zero at first. Throws std::system_error when the machine has none left.
 class SharedMemory {

@@ -114,6 +114,12 @@ struct MeshContact {
   std::uint32_t failed = 0;
 };
 
+/// The pair of features that something is about.
+struct MeshPair {
+  std::uint32_t kind = 0, first = 0, second = 0;
+  std::uint32_t known = 0;  ///< else there is none
+};
+
 struct MeshSizes {
   std::uint64_t vertices = 0, contacts = 0, edges = 0, faces = 0;
 };
@@ -121,6 +127,8 @@ struct MeshSizes {
 struct PipelineExchange : HostStatus {
   MeshSizes sizes;
   double tolerance = 0;
+  std::uint32_t needs_search = 1;  ///< else a library without a search is asked about all pairs
+  double repeat_seconds = 0;       ///< about how long to do it all again; 0: not at all
 
   // What the host says; the pairs are [vertex-face, edge-edge].
   std::array<std::uint64_t, 2> candidates{};
@@ -128,7 +136,12 @@ struct PipelineExchange : HostStatus {
   std::uint64_t failures = 0;   ///< of noli_ccd_query
   std::uint64_t bad_pairs = 0;  ///< candidates that are no pair of features without a vertex in common
   std::int32_t search_code = 0;
+  MeshPair asked;           ///< the query under way, or the last one
+  MeshPair failed;          ///< the first one without an answer
+  MeshPair false_positive;  ///< the first one
   double search_seconds = 0, query_seconds = 0;
+  double told = 2;      ///< the first time of impact of all, if there was a hit; a hit without one counts as 0
+  Resident resident{};  ///< while it is all done again; 0 if it is not
 };
 
 /// Where the arrays are.

@@ -22,6 +22,7 @@
 #include "noli/audit/host/exchange.h"
 #include "noli/audit/host/library.h"
 #include "noli/audit/host/pipeline.h"
+#include "noli/audit/host/resident.h"
 #include "noli/audit/plugins/textbook.h"
 
 #if defined(__has_feature)
@@ -39,15 +40,6 @@ extern "C" const char* __asan_default_options() {
 
 namespace noli::audit {
 namespace {
-
-/// In bytes; 0 where it cannot be found out.
-std::uint64_t resident_bytes() {
-  std::FILE* const file = std::fopen("/proc/self/statm", "r");
-  unsigned long long all = 0, resident = 0;
-  const bool read = file != nullptr && std::fscanf(file, "%llu %llu", &all, &resident) == 2;
-  if (file != nullptr) std::fclose(file);
-  return read ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
-}
 
 int ask_textbook(int kind, const double* x_t0, const double* x_t1, double /*tolerance*/, double* time) {
   return plugins::textbook_query(kind, x_t0, x_t1, time);
@@ -174,7 +166,7 @@ void ask_queries(void* memory, const char* library) {
 
 void ask_pipeline(void* memory, const char* path) {
   auto& exchange = *static_cast<PipelineExchange*>(memory);
-  const Library library = load(exchange, path, true);
+  const Library library = load(exchange, path, exchange.needs_search != 0);
   if (library.ask != nullptr) Pipeline(exchange, library).run();
 }
 

@@ -61,7 +61,8 @@ int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], doubl
 
 /*
  * Optional: the search of candidates. `noli audit ccd --frames BEFORE AFTER` needs it: it asks for the candidates of a
- * step, and then noli_ccd_query for each of them.
+ * step, and then noli_ccd_query for each of them. `noli fuzz trajectories --library` does so too, and takes all pairs
+ * where it is not there.
  *
  * x_t0, x_t1       3 * vertices doubles each
  * edges, faces     indices of vertices: two for each edge, three for each face

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/fuzz_library_motions_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "noli/app/interrupt.h"
+#include "noli/app/json.h"
+#include "noli/app/machine.h"
+#include "noli/app/output.h"
+#include "noli/app/progress.h"
+#include "noli/audit/fuzz_library_motions.h"
+#include "noli/audit/run_program.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// "noli fuzz trajectories --library ./mine.so --tolerance 1e-06 --replay", but for the folder.
+Words replay_command(const LibraryArguments& library) {
+  Words words = {"noli", "fuzz", "trajectories"};
+  const Words more = library_words(library);
+  words.insert(words.end(), more.begin(), more.end());
+  words.emplace_back("--replay");
+  return words;
+}
+
+std::string again(const LibraryArguments& library, const fs::path& folder) {
+  Words words = replay_command(library);
+  words.push_back(folder.string());
+  return on_one_line(audit::shell_words(words));
+}
+
+void settle(LibraryMotionArguments& arguments) {
+  settle_library(arguments.library);
+  audit::HostOptions& host = arguments.library.asked.host;
+  host.repeat_seconds = 0.02;  // for one step of a small mesh: thousands of calls
+  host.search_limit = 1;       // the same
+}
+
+// --- a run -----------------------------------------------------------------------------------------------------------
+
+template <class Write>
+void for_each_fault(const audit::MotionFaultCounts& counts, const Write& write) {
+  for (std::size_t i = 0; i < counts.size(); ++i) write(name(static_cast<audit::MotionFault>(i)), counts[i]);
+}
+
+Json faults_json(const audit::MotionFaultCounts& counts) {
+  Json json = Json::object();
+  for_each_fault(counts, [&](std::string_view fault, std::uint64_t count) { json[std::string(fault)] = count; });
+  return json;
+}
+
+Json finding_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionFinding& finding) {
+  const std::string folder = finding.folder.string();
+  return {{"generator", finding.generator},
+          {"block", finding.block},
+          {"index", finding.index},
+          {"finding", name(finding.found.fault)},
+          {"step", finding.found.step + 1},
+          {"through", finding.found.through},
+          {"difference", finding.found.words},
+          {"alike", finding.alike},
+          {"frames", finding.shrunk.frames.size()},
+          {"cells", finding.shrunk.mesh.cell_count()},
+          {"vertices", finding.shrunk.mesh.vertex_count},
+          {"folder", folder},
+          {"command", folder.empty() ? "" : again(arguments.library, folder)}};
+}
+
+Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report, double seconds) {
+  const audit::LibraryUnderTest& library = arguments.library.asked;
+  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
+               {"library", library.path.string()},
+               {"tolerance", library.tolerance},
+               {"exact", library.exact},
+               {"knows_times", report.knows_times},
+               {"seed", arguments.common.limits.seed},
+               {"trajectories", report.extent.items},
+               {"not_asked", report.not_asked},
+               {"contacts", report.contacts},
+               {"candidates", report.candidates},
+               {"false_positives", report.false_positives},
+               {"findings", report.findings_total},
+               {"through", report.through},
+               {"faults", faults_json(report.faults)},
+               {"corpus", report.corpus_size}};
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(arguments, finding));
+  json["generators"] = Json::array();
+  for (const auto& generator : report.generators) {
+    json["generators"].push_back({{"name", generator.name},
+                                  {"motions", generator.motions},
+                                  {"contacts", generator.contacts},
+                                  {"faults", faults_json(generator.faults)}});
+  }
+  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
+  return json;
+}
+
+std::string finding_text(const LibraryMotionArguments& arguments, const audit::LibraryMotionFinding& finding) {
+  std::string text =
+      fmt::format("{}\n  {}, block {}, motion {}; {} such; {} frames, {} cells, {} vertices; ",
+                  on_one_line(finding.found.words), finding.generator, finding.block, finding.index, finding.alike,
+                  finding.shrunk.frames.size(), finding.shrunk.mesh.cell_count(), finding.shrunk.mesh.vertex_count);
+  if (finding.folder.empty()) return text + "not saved\n";
+  return text + fmt::format("saved as {}\n  again: {}\n", on_one_line(finding.folder.string()),
+                            again(arguments.library, finding.folder));
+}
+
+std::string report_text(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
+                        double seconds) {
+  std::string text = fmt::format("verdict {} trajectories {} contacts {} findings {} through {}",
+                                 fuzz_verdict(report.findings_total, report.extent), report.extent.items,
+                                 report.contacts, report.findings_total, report.through);
+  const auto out = std::back_inserter(text);
+  for_each_fault(report.faults,
+                 [&](std::string_view fault, std::uint64_t count) { fmt::format_to(out, " {} {}", fault, count); });
+  fmt::format_to(out, " seed {}\n", arguments.common.limits.seed);
+  for (const auto& finding : report.findings) text += finding_text(arguments, finding);
+  for (const auto& generator : report.generators) {
+    fmt::format_to(out, "  {:12} motions {:6} contacts {:6}", generator.name, generator.motions, generator.contacts);
+    for_each_fault(generator.faults, [&](std::string_view fault, std::uint64_t count) {
+      if (count > 0) fmt::format_to(out, " {} {}", fault, count);
+    });
+    text += '\n';
+  }
+  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} motions.\n", report.corpus_size);
+  if (report.not_asked > 0) fmt::format_to(out, "Not asked, after too many hangs: {}.\n", report.not_asked);
+  fmt::format_to(out, "Candidates: {}. False positives among them: {}. Time: {:.1f} s.\n", report.candidates,
+                 report.false_positives, seconds);
+  return text;
+}
+
+// --- a saved motion --------------------------------------------------------------------------------------------------
+
+/// What is wrong with a motion, and the smaller one, if that was asked for.
+struct Again {
+  audit::FrameMotion motion;
+  std::optional<audit::MotionFaultFound> found;
+  std::optional<fs::path> saved;
+};
+
+Again look_again(const LibraryMotionArguments& arguments) {
+  const audit::LibraryUnderTest& library = arguments.library.asked;
+  const fs::path folder = arguments.again.saved();
+  Again result{audit::read_frames(folder), {}, {}};
+  audit::require_ccd_library(library.path, library.host);
+  const bool knows_times = audit::knows_times(library);
+  result.found = audit::ask_motion(library, result.motion, {}, {knows_times, true}).found;
+  if (!result.found || !arguments.again.minimise) return result;
+  audit::ShrunkMotion shrunk = audit::shrink_for_library(library, result.motion, *result.found, knows_times, 5000);
+  result.motion = std::move(shrunk.motion);
+  result.found = std::move(shrunk.found);
+  result.saved = minimised_folder(arguments.common, folder);
+  make_writable_folder(*result.saved, "--out");
+  audit::write_frames(result.motion, *result.saved);
+  return result;
+}
+
+}  // namespace
+
+ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
+  settle(arguments);
+  settle_limits(arguments.common);
+  const Output output(arguments.common.json, {arguments.library.asked.path});
+  require_writable_folder(arguments.common.out, "--out");
+  audit::LibraryMotionOptions options;
+  options.asked = arguments.library.asked;
+  options.limits = arguments.common.limits;
+  options.first_only = arguments.library.first_only;
+  options.max_findings = arguments.max_findings;
+  options.out = arguments.common.out;
+  options.corpus = corpus_folder(arguments.common);
+  options.replay_command = replay_command(arguments.library);
+  const Stopwatch watch;
+  const audit::LibraryMotionReport report = with_progress("fuzz trajectories", [&](const auto& show) {
+    options.limits.progress = show;
+    return audit::fuzz_library_motions(options);
+  });
+  const double seconds = watch.seconds();
+  output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  report.not_saved.require_nothing();
+  return fuzz_exit_code(report.findings_total, report.extent);
+}
+
+ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
+  settle(arguments);
+  const fs::path folder = arguments.again.saved();
+  if (!fs::is_directory(folder))
+    throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
+  const Output output(arguments.common.json, {arguments.library.asked.path});
+  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  const Again result = look_again(arguments);
+  const audit::FrameMotion& motion = result.motion;
+  const char* const word = interrupted() ? "undecided" : result.found ? "finding" : "no_finding";
+  std::string text = fmt::format("verdict {} frames {} cells {} vertices {}\n", word, motion.frames.size(),
+                                 motion.mesh.cell_count(), motion.mesh.vertex_count);
+  if (result.found) text += on_one_line(result.found->words) + '\n';
+  if (result.saved) {
+    text += fmt::format("saved as {}\n  again: {}\n", on_one_line(result.saved->string()),
+                        again(arguments.library, *result.saved));
+  }
+  output.write(text, {{"verdict", word},
+                      {"library", arguments.library.asked.path.string()},
+                      {"frames", motion.frames.size()},
+                      {"cells", motion.mesh.cell_count()},
+                      {"vertices", motion.mesh.vertex_count},
+                      {"difference", result.found ? Json(result.found->words) : Json()},
+                      {"folder", result.saved ? Json(result.saved->string()) : Json()}});
+  if (interrupted()) return ExitCode::undecided;
+  return result.found ? ExitCode::refuted : ExitCode::holds;
+}
+
+}  // namespace noli::app

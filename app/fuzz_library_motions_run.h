@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli fuzz trajectories --library`: a run, and a saved motion again, against somebody else's library.
+#pragma once
+
+#include "noli/app/exit_code.h"
+#include "noli/app/fuzz_options.h"
+#include "noli/app/library_options.h"
+
+namespace noli::app {
+
+struct LibraryMotionArguments {
+  FuzzArgumentsInCommon common;
+  AgainArguments again;
+  LibraryArguments library;
+  std::size_t max_findings = 20;
+};
+
+/// Throws UsageError, InputError.
+ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments);
+
+/// --replay or --minimise, whichever was given.
+ExitCode motion_of_library_again(LibraryMotionArguments arguments);
+
+}  // namespace noli::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/library_options.h"
+
+#include <fmt/format.h>
+
+#include "noli/app/duration.h"
+#include "noli/app/interrupt.h"
+#include "noli/app/machine.h"
+#include "noli/app/options.h"
+
+namespace noli::app {
+
+void add_library_options(CLI::App& command, LibraryArguments& arguments, const std::string& instead) {
+  audit::LibraryUnderTest& library = arguments.asked;
+  CLI::Option* const path =
+      command.add_option("--library", library.path, "Ask this library of collision detection, in place of " + instead)
+          ->type_name("LIB.so");
+  command.add_option("--tolerance", library.tolerance, "What the library is told, a length")
+      ->check(is_not_negative())
+      ->capture_default_str()
+      ->type_name("T")
+      ->needs(path);
+  command.add_flag("--exact", library.exact, "It claims to be exact: false positives and early times are findings too")
+      ->needs(path);
+  command.add_flag("--first-only", arguments.first_only, "Stop at the first finding")->needs(path);
+  command.add_option("--query-limit", arguments.query_limit, "A query that computes for longer hangs: 500ms, 10s")
+      ->capture_default_str()
+      ->type_name("TIME")
+      ->needs(path);
+  command
+      .add_option("--memory-limit", arguments.megabytes,
+                  "End the process in which the library runs when it has more than so many megabytes")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->capture_default_str()
+      ->type_name("MB")
+      ->needs(path);
+}
+
+void settle_library(LibraryArguments& arguments) {
+  audit::HostOptions& host = arguments.asked.host;
+  host.host = beside_this_program("noli_ccd_host");
+  host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
+  host.most_memory = arguments.megabytes * 1'000'000;
+  host.most_hangs = 4;
+  host.stop = &interrupted();
+}
+
+std::vector<std::string> library_words(const LibraryArguments& arguments) {
+  if (!arguments.asks_a_library()) return {};
+  const LibraryArguments usual;
+  const audit::LibraryUnderTest& library = arguments.asked;
+  std::vector<std::string> words = {"--library", library.path.string(), "--tolerance",
+                                    fmt::format("{}", library.tolerance)};
+  const auto add = [&](const char* option, const std::string& value) {
+    words.emplace_back(option);
+    words.push_back(value);
+  };
+  if (arguments.query_limit != usual.query_limit) add("--query-limit", arguments.query_limit);
+  if (arguments.megabytes != usual.megabytes) add("--memory-limit", fmt::format("{}", arguments.megabytes));
+  if (library.exact) words.emplace_back("--exact");
+  return words;
+}
+
+}  // namespace noli::app

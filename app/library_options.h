@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of the fuzzers that ask somebody else's library of collision detection, in the same words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "noli/audit/library_answers.h"
+
+namespace noli::app {
+
+/// --library, --tolerance, --exact, --query-limit, --memory-limit, --first-only.
+struct LibraryArguments {
+  audit::LibraryUnderTest asked;  ///< path empty: none
+  std::uint64_t megabytes = 2000;
+  std::string query_limit = "1s";
+  bool first_only = false;
+
+  bool asks_a_library() const { return !asked.path.empty(); }
+};
+
+/// `instead`: what is not asked then, "the kernel".
+void add_library_options(CLI::App& command, LibraryArguments& arguments, const std::string& instead);
+
+/// Fills in how the library is run. Throws UsageError.
+void settle_library(LibraryArguments& arguments);
+
+/// The options that ask the same library in the same way; none if there is none.
+std::vector<std::string> library_words(const LibraryArguments& arguments);
+
+}  // namespace noli::app
