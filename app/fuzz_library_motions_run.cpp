@@ -65,6 +65,7 @@ Json finding_json(const LibraryMotionArguments& arguments, const audit::LibraryM
           {"block", finding.block},
           {"index", finding.index},
           {"finding", name(finding.found.fault)},
+          {"contact", name(finding.found.kind)},
           {"step", finding.found.step + 1},
           {"through", finding.found.through},
           {"difference", finding.found.words},

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -94,17 +95,24 @@ std::vector<Edge> edges_of(const Mesh& mesh) {
 
 auto key(const MeshContact& c) { return std::array{c.kind, c.first, c.second}; }
 
+/// The number of an edge. Nothing for one from a vertex to itself, as a face has that lists a vertex twice: libraries are
+/// told edges of two vertices.
+std::optional<std::uint32_t> number_of(const Edge& edge, const std::vector<Edge>& edges) {
+  const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+  if (found == edges.end() || *found != edge) return std::nullopt;
+  return static_cast<std::uint32_t>(found - edges.begin());
+}
+
 /// All numbers of the two features of a contact: a face may be listed more than once.
 void add_contact(const FeatureContact& contact, const std::vector<Edge>& edges,
                  const std::multimap<Face, std::uint32_t>& faces, std::vector<MeshContact>& out) {
   const auto& v = contact.vertices;
   MeshContact found;
   if (contact.pair == FeaturePair::edge_edge) {
-    const auto number = [&](const Edge& edge) {
-      return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
-    };
+    const auto first = number_of({v[0], v[1]}, edges), second = number_of({v[2], v[3]}, edges);
+    if (!first || !second) return;
     found.kind = NOLI_CCD_EDGE_EDGE;
-    std::tie(found.first, found.second) = std::minmax({number({v[0], v[1]}), number({v[2], v[3]})});
+    std::tie(found.first, found.second) = std::minmax({*first, *second});
     out.push_back(found);
   } else if (contact.pair == FeaturePair::vertex_face) {
     found.kind = NOLI_CCD_VERTEX_FACE;

@@ -160,10 +160,10 @@ class LibraryMotionFuzzing {
     keep({*answer.found, generator, block_, index, asked.motion, asked.motion, 1, {}});
   }
 
-  /// The first of each fault and generator, saved as it is: it is shrunk later, and should not be lost until then.
+  /// The first of its like, saved as it is: it is shrunk later, and should not be lost until then.
   void keep(LibraryMotionFinding finding) {
     const auto alike = std::ranges::find_if(report_.findings, [&](const LibraryMotionFinding& other) {
-      return other.found.fault == finding.found.fault && other.generator == finding.generator;
+      return other.found.is_like(finding.found) && other.generator == finding.generator;
     });
     if (alike != report_.findings.end()) {
       ++alike->alike;
@@ -235,12 +235,12 @@ ShrunkMotion shrink_for_library(const LibraryUnderTest& library, const FrameMoti
     if (costly >= most_costly || (stop != nullptr && stop->load())) return false;
     const LibraryMotionAnswer answer = ask_motion(asked, candidate, {}, question);
     costly += is_costly(answer) ? 1 : 0;
-    return !answer.stopped && answer.found && answer.found->fault == found.fault;
+    return !answer.stopped && answer.found && answer.found->is_like(found);
   };
   const FrameMotion shrunk = minimise(motion, fails, budget);
   if (shrunk.mesh == motion.mesh && shrunk.frames == motion.frames) return {motion, found};
   const LibraryMotionAnswer again = ask_motion(library, shrunk, {}, question);
-  if (!again.found || again.found->fault != found.fault) return {motion, found};  // another answer than before
+  if (!again.found || !again.found->is_like(found)) return {motion, found};  // another answer than before
   return {shrunk, *again.found};
 }
 

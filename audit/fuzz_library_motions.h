@@ -8,8 +8,8 @@
 // Notation
 //   block    16 motions, each of another generator; a block depends on the seed and its number alone
 //   finding  a motion on which the library has a fault
-// Of the findings the first of each fault and generator is shrunk against the library and saved, at most `max_findings`
-// of them; all are counted. What is shrunk keeps its fault.
+// Of the findings the first of each fault, kind of contact and generator, through or not, is shrunk against the library
+// and saved, at most `max_findings` of them; all are counted. What is shrunk keeps all of these.
 //
 // What this does not do: look for leaks in more than the first block, as that means to ask again and again; nor in
 // motions of the corpus.
@@ -48,7 +48,7 @@ struct LibraryMotionFinding {
   std::uint64_t block = 0;       ///< of the seed
   std::size_t index = 0;         ///< within the block
   FrameMotion motion, shrunk;    ///< as made; simpler, with the same fault
-  std::uint64_t alike = 0;       ///< how many findings there were with this fault and generator
+  std::uint64_t alike = 0;       ///< how many findings were like it, with this generator
   std::filesystem::path folder;  ///< where `shrunk` was saved; empty when it was not
 };
 

@@ -84,7 +84,8 @@ class StepJudge {
  private:
   MotionFaultFound found(MotionFault fault, const std::string& what) const {
     const char* const through = audit_.through ? "; who trusts it goes through" : "";
-    return {fault, step_, audit_.through, fmt::format("{}: step {}: {}{}", name(fault), step_ + 1, what, through)};
+    return {fault, ContactKind::apart, step_, audit_.through,
+            fmt::format("{}: step {}: {}{}", name(fault), step_ + 1, what, through)};
   }
 
   static std::string where(const std::optional<FeatureContact>& asked) {
@@ -96,7 +97,20 @@ class StepJudge {
     const auto worst = std::ranges::min_element(audit_.reports, {}, rank);
     if (worst == audit_.reports.end()) return std::nullopt;
     require_that_the_oracle_agrees(motion_, step_, *worst);
-    return found(rank(*worst), fmt::format("{}: {}", words(worst->contact), worst->words));
+    const auto exact = exact_contact(query_of(worst->contact));
+    const std::string kind = exact ? fmt::format(" ({})", name(exact->kind)) : "";
+    MotionFaultFound result = found(rank(*worst), words(worst->contact) + ": " + worst->words + kind);
+    if (exact) result.kind = exact->kind;
+    return result;
+  }
+
+  AnyQuery query_of(const FeatureContact& contact) const {
+    AnyQuery query{contact.pair, 3, {}, {}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      query.x_t0[i] = motion_.begin(step_)[contact.vertices[i]];
+      query.x_t1[i] = motion_.end(step_)[contact.vertices[i]];
+    }
+    return query;
   }
 
   const FrameMotion& motion_;

@@ -63,9 +63,15 @@ constexpr std::string_view name(MotionFault fault) {
 /// What is told of a motion.
 struct MotionFaultFound {
   MotionFault fault = MotionFault::crash;
-  std::size_t step = 0;  ///< from 0
-  bool through = false;  ///< who trusts its times goes through a contact in this step
-  std::string words;     ///< "not_found: vertex 3 and face 0-1-2 meet in step 1, exact first time 0.5"
+  ContactKind kind = ContactKind::apart;  ///< of the contact, where the fault is about one
+  std::size_t step = 0;                   ///< from 0
+  bool through = false;                   ///< who trusts its times goes through a contact in this step
+  std::string words;  ///< "late: step 1: vertex 3 and face 0-1-2: 1, exact first time 0.5 (crossing)"
+
+  /// Whether it is the same fault with the same kind of contact and the same end of the step.
+  bool is_like(const MotionFaultFound& other) const {
+    return fault == other.fault && kind == other.kind && through == other.through;
+  }
 };
 
 struct LibraryMotionAnswer {

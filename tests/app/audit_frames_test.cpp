@@ -77,6 +77,16 @@ TEST_F(AuditFrames, NamesVerticesAsTheFramesDo) {
   EXPECT_FALSE(listed("vertex 7 meets face 1-2-3")) << process.out;
 }
 
+/// The edge from a vertex to itself meets others, and is none that a library is told.
+TEST_F(AuditFrames, KnowsFacesThatListAVertexTwice) {
+  const auto frame = [&](const char* name, double height) {
+    return folder.write(name, ply_text({{0, 0, height}, {0, 0, height}, {4, 0, 0}, {0, 4, 0}}, {{3, 1, 2}, {1, 0, 0}}));
+  };
+  const Process process =
+      run_noli({"audit", "ccd", "--library", plugin("noli"), "--frames", frame("a.ply", 0), frame("b.ply", 1)});
+  EXPECT_EQ(process.exit_code, 0) << process.out << process.err;
+}
+
 TEST_F(AuditFrames, SaysWhatIsWrongWithAContact) {
   const auto listed = [&](const std::string& library, const std::string& words) {
     const Process process = run_noli(command(faulty(library)));

