@@ -42,7 +42,7 @@ std::string again(const LibraryArguments& library, const fs::path& folder) {
 void settle(LibraryMotionArguments& arguments) {
   settle_library(arguments.library);
   audit::HostOptions& host = arguments.library.asked.host;
-  host.repeat_seconds = 0.02;  // for one step of a small mesh: thousands of calls
+  host.repeat_seconds = 0.01;  // for one step of a small mesh: thousands of calls
   host.search_limit = 1;       // the same
 }
 

@@ -134,7 +134,7 @@ TEST_F(FuzzLibraryMotions, MakesACrashAndAHangSmallSlow) {
   }
 }
 
-TEST_F(FuzzLibraryMotions, FindsOtherFaults) {
+TEST_F(FuzzLibraryMotions, FindsOtherFaultsSlow) {
   for (const auto& [library, fault] : {std::pair{"fails", "failure"},
                                        {"has_wild_times", "not_found"},
                                        {"finds_neighbours", "not_found"},
@@ -154,7 +154,7 @@ TEST_F(FuzzLibraryMotions, TellsFalsePositivesAndEarlyTimesOnlyOfWhatClaimsToBeE
   EXPECT_GT(early["faults"]["early"].get<int>() + early["faults"]["false_positive"].get<int>(), 5);
 }
 
-TEST_F(FuzzLibraryMotions, GivesTheSameForAnyNumberOfThreads) {
+TEST_F(FuzzLibraryMotions, GivesTheSameForAnyNumberOfThreadsSlow) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
     return without_timing(
         json_of({"fuzz", "trajectories", "--library", plugin("textbook"), "--count", "20", "--seed", seed, "--threads",

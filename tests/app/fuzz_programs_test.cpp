@@ -398,7 +398,7 @@ TEST(FuzzScenesCommand, FindsNothingAnyMoreInScenesThatItFound) {
 
 void expect_example(const std::string& page, std::size_t size,
                     const std::vector<std::pair<std::string, std::string>>& places) {
-  const auto lines = worked_example(page);
+  const auto lines = worked_example(page, "## A worked example");
   ASSERT_EQ(lines.size(), size);
   expect_worked_example(lines, places);
 }
