@@ -75,6 +75,7 @@ class Renumbering {
 
 std::vector<Position> chosen(std::span<const Position> x, const std::vector<VertexId>& vertices) {
   std::vector<Position> result;
+  result.reserve(vertices.size());
   for (const VertexId v : vertices) result.push_back(x[v]);
   return result;
 }

@@ -105,6 +105,7 @@ TEST_F(FuzzLibraryMotions, FindsMissedContactsOfTheTextbookMethodSlow) {
 
 TEST_F(FuzzLibraryMotions, FindsAMutantThatForgetsTheEndOfAStepSlow) {
   const Json document = json(mutant("end_excluded"), 1, {"--count", "48", "--first-only", "--max-findings", "1"});
+  EXPECT_EQ(document["trajectories"], 16) << "the first block";
   EXPECT_EQ(document["reports"][0]["finding"], "false_negative");
   const std::string repeat = document["reports"][0]["command"];
   EXPECT_EQ(again(repeat), 1);
