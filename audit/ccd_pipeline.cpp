@@ -96,8 +96,8 @@ std::vector<Edge> edges_of(const Mesh& mesh) {
 
 auto key(const MeshContact& c) { return std::array{c.kind, c.first, c.second}; }
 
-/// The number of an edge. Nothing for one from a vertex to itself, as a face has that lists a vertex twice: libraries are
-/// told edges of two vertices.
+/// The number of an edge. Nothing for one from a vertex to itself, as a face has that lists a vertex twice: libraries
+/// are told edges of two vertices.
 std::optional<std::uint32_t> number_of(const Edge& edge, const std::vector<Edge>& edges) {
   const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
   if (found == edges.end() || *found != edge) return std::nullopt;

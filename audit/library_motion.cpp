@@ -69,7 +69,9 @@ class StepJudge {
       : motion_(motion), step_(step), audit_(audit) {}
 
   std::optional<MotionFaultFound> operator()() const {
-    if (const auto ended = fault_of_end(audit_.end)) return found(*ended, audit_.ending + where(audit_.asked));
+    if (const auto ended = fault_of_end(audit_.end)) {
+      return found(*ended, audit_.ending + (audit_.asked ? where(audit_.asked) : ", in the search for candidates"));
+    }
     if (!audit_.searched) return found(MotionFault::failure, "the search for candidates failed");
     if (auto of_a_pair = worst_report()) return of_a_pair;
     if (audit_.failures > 0) return found(MotionFault::failure, "the query failed" + where(audit_.failed));

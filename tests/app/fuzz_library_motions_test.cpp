@@ -186,6 +186,19 @@ TEST_F(FuzzLibraryMotions, JudgesASavedMotionAndMakesItSmaller) {
   EXPECT_EQ(right.verdict_line(), "verdict no_finding frames 2 cells 2 vertices 6");
 }
 
+TEST_F(FuzzLibraryMotions, SaysWhereItCrashed) {
+  const std::string falling = falling_triangle();
+  const auto words = [&](const std::string& library) {
+    return json_of({"fuzz", "trajectories", "--library", faulty(library), "--replay", falling}, 1)["difference"]
+        .get<std::string>();
+  };
+  EXPECT_EQ(words("crashes_when_searching"),
+            "crash: step 1: signal 11 (Segmentation fault), in the search for candidates");
+  EXPECT_EQ(words("fails"),
+            "failure: step 1: vertex 3 and face 0-1-2: exact first time 0.5 (crossing); who trusts it goes "
+            "through");
+}
+
 TEST_F(FuzzLibraryMotions, RunsItsCorpusFirst) {
   const Words more = {"--count", "14", "--corpus", folder.path("corpus")};
   const Json first = json(plugin("noli"), 0, more), second = json(plugin("noli"), 0, more);
