@@ -89,18 +89,13 @@ ExitCode run(AuditArguments& arguments) {
   }
   if (!arguments.frames.empty()) return run_pipeline(arguments);
   const Output output(arguments.json, inputs(arguments));
-  if (arguments.svg) {
-    std::vector<fs::path> others = inputs(arguments);
-    if (arguments.json) others.emplace_back(*arguments.json);
-    require_other_file(*arguments.svg, others, "--svg");
-    require_writable_file(*arguments.svg, "--svg");
-  }
+  require_svg_file(arguments.svg, arguments.json, inputs(arguments));
   const audit::AuditOutcome outcome = with_progress("audit ccd", [&](const auto& show) {
     request.progress = show;
     return audit::audit_ccd(request);
   });
-  if (arguments.svg) write_file(*arguments.svg, audit_svg(outcome));
   output.write(audit_text(outcome), audit_json(outcome));
+  if (arguments.svg) write_file(*arguments.svg, audit_svg(outcome));
   return exit_code(outcome.findings() + outcome.wrong_labels(), outcome.complete);
 }
 

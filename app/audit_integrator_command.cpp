@@ -15,6 +15,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/integrator/scene/read_scene.h"
+#include "noli/trajectory/error.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::app {
@@ -68,22 +69,18 @@ ExitCode run(IntegratorArguments& arguments) {
   options.windows = static_cast<int>(arguments.windows);
   options.stop = &interrupted();
   const Output output(arguments.json, arguments.scenes);
-  if (arguments.svg) {
-    std::vector<fs::path> others = arguments.scenes;
-    if (arguments.json) others.emplace_back(*arguments.json);
-    require_other_file(*arguments.svg, others, "--svg");
-    require_writable_file(*arguments.svg, "--svg");
-  }
+  require_svg_file(arguments.svg, arguments.json, arguments.scenes);
   IntegratorResults results;
   for (const integrator::Scene& scene : scenes_of(arguments)) {
     options.begun = [&](const std::string& method, double factor) {
-      std::fputs(fmt::format("noli: {}: {}, steps times {:g}\n", scene.title, method, factor).c_str(), stderr);
+      std::fputs(fmt::format("noli: {}: {}, steps times {:g}\n", on_one_line(scene.title), method, factor).c_str(),
+                 stderr);
     };
     results.push_back(audit::audit_integrator(scene, options));
     if (!results.back().complete) break;
   }
-  if (arguments.svg) write_file(*arguments.svg, integrator_svg(results));
   output.write(integrator_text(results), integrator_json(results));
+  if (arguments.svg) write_file(*arguments.svg, integrator_svg(results));
   return exit_code(results);
 }
 

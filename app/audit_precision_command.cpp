@@ -79,12 +79,7 @@ ExitCode run(const PrecisionArguments& arguments) {
     request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
   }
   const Output output(arguments.json, {arguments.scene});
-  if (arguments.svg) {
-    std::vector<fs::path> others = {arguments.scene};
-    if (arguments.json) others.emplace_back(*arguments.json);
-    require_other_file(*arguments.svg, others, "--svg");
-    require_writable_file(*arguments.svg, "--svg");
-  }
+  require_svg_file(arguments.svg, arguments.json, {arguments.scene});
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
   if (arguments.brief) note_missing_short_form(scene);
@@ -97,10 +92,10 @@ ExitCode run(const PrecisionArguments& arguments) {
     request.progress = show;
     return audit_scene(scene, request);
   });
-  if (arguments.svg) write_file(*arguments.svg, precision_svg(outcome, scene.title));
   Json json = precision_json(outcome);
   json["timing"] = {{"seconds", watch.seconds()}, {"threads", arguments.threads}};
   output.write(precision_text(outcome), json);
+  if (arguments.svg) write_file(*arguments.svg, precision_svg(outcome, scene.title));
   return precision_exit_code(outcome);
 }
 

@@ -198,7 +198,9 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   const fs::path folder = arguments.again.saved();
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
-  const Output output(arguments.common.json, {arguments.library.asked.path});
+  std::vector<fs::path> inputs = saved_files(folder);
+  inputs.push_back(arguments.library.asked.path);
+  const Output output(arguments.common.json, inputs);
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   const Again result = look_again(arguments);
   const audit::FrameMotion& motion = result.motion;

@@ -178,6 +178,16 @@ void require_writable_file(const std::filesystem::path& file, const std::string&
                    "; expected a file in a folder that is there and may be written to");
 }
 
+void require_svg_file(const std::optional<std::string>& svg, const std::optional<std::string>& json,
+                      const std::vector<std::filesystem::path>& inputs) {
+  if (!svg) return;
+  require_other_file(*svg, inputs, "--svg");
+  const bool both =
+      json && *json != "-" && std::filesystem::weakly_canonical(*json) == std::filesystem::weakly_canonical(*svg);
+  if (both) throw UsageError("--svg " + *svg + ": is where --json goes; expected another file");
+  require_writable_file(*svg, "--svg");
+}
+
 void require_program(const std::filesystem::path& program, const std::string& option) {
   std::error_code error;
   const bool file = std::filesystem::is_regular_file(program, error);

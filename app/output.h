@@ -40,6 +40,11 @@ void require_other_file(const std::filesystem::path& file, const std::vector<std
 /// Leaves nothing behind.
 void require_writable_file(const std::filesystem::path& file, const std::string& option);
 
+/// What --svg OUT.svg is asked beforehand: throws UsageError when the file cannot be written, or is one of the inputs or
+/// where the JSON goes. Nothing is asked where no picture is.
+void require_svg_file(const std::optional<std::string>& svg, const std::optional<std::string>& json,
+                      const std::vector<std::filesystem::path>& inputs);
+
 /// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, in the one
 /// that it would be in. Leaves nothing behind.
 void require_writable_folder(const std::string& folder, const std::string& option);

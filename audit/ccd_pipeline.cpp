@@ -162,6 +162,16 @@ FeatureContact named(const Step& step, const Pair& contact) {
   return result;
 }
 
+/// Of a pair that the library had to do with, and so may have written over; nothing if it is none of the step.
+std::optional<FeatureContact> told(const Step& step, const MeshPair& pair) {
+  const std::size_t edges = step.edges.size(), vertices = step.number.size(), faces = step.faces.size();
+  const bool known =
+      pair.known != 0 && (pair.kind == NOLI_CCD_EDGE_EDGE
+                              ? pair.first < edges && pair.second < edges
+                              : pair.kind == NOLI_CCD_VERTEX_FACE && pair.first < vertices && pair.second < faces);
+  return known ? std::optional(named(step, pair)) : std::nullopt;
+}
+
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 /// In either half of the repetitions, by more than an allocator takes at a time.
@@ -276,8 +286,8 @@ class PipelineRun {
     audit.query_seconds = exchange.query_seconds;
     audit.searched = exchange.search_code >= 0;
     audit.leaks = grew(exchange.resident);
-    if (exchange.failed.known != 0) audit.failed = named(step_, exchange.failed);
-    if (ending.kind != Ending::Kind::finished && exchange.asked.known != 0) audit.asked = named(step_, exchange.asked);
+    audit.failed = told(step_, exchange.failed);
+    if (ending.kind != Ending::Kind::finished) audit.asked = told(step_, exchange.asked);
     if (ending.kind != Ending::Kind::finished || exchange.search_code < 0) return audit;
     audit.through = outcome_.first_time && exchange.told > *outcome_.first_time;
     for (std::size_t i = 0; i < step_.contacts.size(); ++i) {
@@ -289,8 +299,9 @@ class PipelineRun {
       contact.time = given.time;
       mark(contact, step_.times[i], audit);
     }
-    if (request_.exact && exchange.false_positive.known != 0 && audit.reports.size() < request_.max_reports) {
-      audit.reports.push_back({named(step_, exchange.false_positive), "false_positive", "they stay apart", {}});
+    const auto false_positive = request_.exact ? told(step_, exchange.false_positive) : std::nullopt;
+    if (false_positive && audit.reports.size() < request_.max_reports) {
+      audit.reports.push_back({*false_positive, "false_positive", "they stay apart", {}});
     }
     return audit;
   }

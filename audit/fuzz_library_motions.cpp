@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "noli/audit/finding_name.h"
 #include "noli/audit/fuzz_trajectories.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/run_program.h"
@@ -170,7 +171,7 @@ class LibraryMotionFuzzing {
       return;
     }
     if (report_.findings.size() >= options_.max_findings) return;
-    if (!options_.out.empty()) finding.folder = options_.out / folder_name(finding);
+    if (!options_.out.empty()) finding.folder = unused(options_.out / folder_name(finding));
     save(finding);
     report_.findings.push_back(std::move(finding));
   }

@@ -238,7 +238,7 @@ constexpr std::array<MotionGenerator, 14> generators = {{
     {"begin_only", "contact at the first time of all and at no other time", true, begin_only},
     {"at_rest", "single frames, touching or a unit apart", true, at_rest},
     {"one_body", "contact, or nearly, of a body with itself", true, one_body},
-    {"crowd", "the search: up to forty cells that nothing meets", true, crowd},
+    {"crowd", "the search: a contact or a near miss beside up to forty cells that nothing meets", true, crowd},
     {"scaled", "subnormal and huge coordinates, a scale of its own for each axis", true, scaled},
     {"offset", "coordinates whose last bit is the unit", true, offset},
     {"pierced", "cells through each other from beginning to end, of which no two features ever meet", true, pierced},

@@ -289,6 +289,18 @@ TEST_F(AuditCcd, DrawsWhatIsMissedApartFromWhatIsFoundInVain) {
   EXPECT_NE(picture.find(">textbook: "), std::string::npos) << picture;
 }
 
+TEST_F(AuditCcd, LosesNeitherResultNorPictureToTheOther) {
+  const std::string both = folder.path("both"), again = folder.path("./both");
+  const Process process = run_noli(command(plugin("noli"), queries(), {"--svg", both, "--json", again}));
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("is where --json goes"), std::string::npos) << process.err;
+  const std::string json_file = folder.path("out.json");
+  const Process full = run_noli(command(plugin("noli"), queries(), {"--svg", "/dev/full", "--json", json_file}));
+  EXPECT_EQ(full.exit_code, 4);
+  EXPECT_EQ(full.verdict_line().rfind("verdict no_finding ", 0), 0u) << full.out;
+  EXPECT_EQ(Json::parse(read_text(json_file))["verdict"], "no_finding");
+}
+
 TEST_F(AuditCcd, TellsWhatALibrarySaysThatItIs) {
   const std::string library = faulty("says_what_it_is"), svg = folder.path("out.svg");
   const Process process = run_noli(command(library, queries(), {"--svg", svg}));

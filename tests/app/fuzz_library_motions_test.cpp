@@ -157,6 +157,7 @@ TEST_F(FuzzLibraryMotions, TellsFalsePositivesAndEarlyTimesOnlyOfWhatClaimsToBeE
 
 TEST_F(FuzzLibraryMotions, GivesTheSameForAnyNumberOfThreadsSlow) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
+    std::filesystem::remove_all(folder.path("out" + seed));  // findings that are there would be given other names
     return without_timing(
         json_of({"fuzz", "trajectories", "--library", plugin("textbook"), "--count", "20", "--seed", seed, "--threads",
                  threads, "--max-findings", "1", "--out", folder.path("out" + seed)},
@@ -233,6 +234,7 @@ TEST_F(FuzzLibraryMotions, RefusesWhatCannotBe) {
   refused({"--library", folder.path("absent.so"), "--count", "1"}, "absent.so");
   refused({"--library", folder.path("absent.so"), "--replay", falling}, "absent.so");
   refused({"--library", plugin("noli"), "--replay", folder.path("absent")}, "absent");
+  refused({"--library", plugin("noli"), "--replay", falling, "--json", falling + "/frame-0.ply"}, "is read too");
   refused({"--library", plugin("noli"), "--replay", falling, "--first-only"}, "--first-only");
   refused({"--library", plugin("noli"), "--count", "1", "--verified-every", "2"}, "--verified-every");
   refused({"--library", plugin("noli"), "--replay", falling, "--needs-witness"}, "--needs-witness");

@@ -303,6 +303,7 @@ TEST(FuzzProofsCommand, SaysWhatCannotBeSavedAndBlamesNobody) {
   // A path that has room for a folder of findings, and for no file in it.
   while (out.size() < 3900) out += "/" + std::string(100, 'x');
   out += "/" + std::string(4061 - out.size(), 'x');
+  std::filesystem::create_directories(out);
   const Arguments words = {"fuzz", "proofs", proof, a, b, "--count", "20", "--verified-every", "1", "--out", out};
   const Process process = run_noli(words, faulty);
   EXPECT_EQ(process.exit_code, 4);

@@ -141,7 +141,7 @@ TEST_F(Report, TheEndOfARunStaysWhateverVerifySays) {
   const Json alone = page({both[1]});
   EXPECT_EQ(alone["verdict"]["word"], "contact");
   EXPECT_TRUE(says(alone, "The run ends at ")) << alone["verdict"];
-  for (const char* const end : {"too_near", "not_finite", "interrupted", "done"}) {
+  for (const char* const end : {"too_near", "not_finite", "unstable", "interrupted", "done"}) {
     change_end(both[0], {{"end", end}});
     const bool stopped = end == std::string("interrupted"), done = end == std::string("done");
     expect_verdict(both, stopped ? "undecided" : done ? "proved" : end, stopped ? "open" : done ? "good" : "bad");
@@ -251,7 +251,8 @@ TEST_F(Report, TheWorstOfAllResultsIsAtTheHead) {
   expect_verdict({result("nobody_knows")}, "nobody_knows", "open");
   expect_verdict({quiet, measured}, "no_finding", "good");
   expect_verdict({quiet, open, measured}, "undecided", "open");
-  for (const char* const word : {"finding", "disagreement", "not_finite", "different", "refuted", "rejected"}) {
+  for (const char* const word :
+       {"finding", "disagreement", "not_finite", "unstable", "different", "refuted", "rejected"}) {
     expect_verdict({quiet, result(word), open}, word, "bad");
   }
   for (const char* const word : {"agreement", "nothing_fails", "no_difference", "accepted", "same", "holds"}) {
