@@ -3,6 +3,7 @@
 // `noli audit ccd --frames`: whole pipelines.
 #include <gtest/gtest.h>
 
+#include "noli/tests/app/libraries.h"
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 
@@ -10,9 +11,6 @@ namespace noli::app_tests {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string faulty(const std::string& name) { return std::string(NOLI_TEST_LIBRARIES) + "/" + name + ".so"; }
-std::string plugin(const std::string& name) { return std::string(NOLI_CCD_PLUGINS) + "/" + name + ".so"; }
 
 /// A triangle falls through another one: its three vertices meet the lower face, and nothing else meets.
 class AuditFrames : public testing::Test {

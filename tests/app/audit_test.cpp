@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "noli/tests/app/libraries.h"
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 #include "noli/tests/app/worked_example.h"
@@ -16,9 +17,6 @@ namespace noli::app_tests {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string faulty(const std::string& name) { return std::string(NOLI_TEST_LIBRARIES) + "/" + name + ".so"; }
-std::string plugin(const std::string& name) { return std::string(NOLI_CCD_PLUGINS) + "/" + name + ".so"; }
 
 std::string row(int x, int y, int z, const std::string& label) {
   const auto cell = [](int value) { return std::to_string(value) + ",1,"; };

@@ -3,10 +3,10 @@
 // `noli fuzz trajectories --library`: pipelines in which nothing is found, and those in which something is.
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <filesystem>
 #include <set>
 
+#include "noli/tests/app/libraries.h"
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 #include "noli/tests/app/worked_example.h"
@@ -15,16 +15,6 @@ namespace noli::app_tests {
 namespace {
 
 using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-std::string mutant(const std::string& name) { return std::string(NOLI_MUTANTS) + "/" + name + ".so"; }
-std::string faulty(const std::string& name) { return std::string(NOLI_TEST_LIBRARIES) + "/" + name + ".so"; }
-std::string plugin(const std::string& name) { return std::string(NOLI_CCD_PLUGINS) + "/" + name + ".so"; }
-
-Words operator+(Words a, const Words& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 class FuzzLibraryMotions : public testing::Test {
  protected:
@@ -212,20 +202,12 @@ TEST_F(FuzzLibraryMotions, RunsItsCorpusFirst) {
 }
 
 TEST_F(FuzzLibraryMotions, KeepsFindingsWhenInterrupted) {
-  ProcessOptions options;
-  options.signal = SIGINT;
-  options.signal_after = std::chrono::milliseconds(1000);
-  const Process process = run_noli(command(faulty("never_hits"), {"--for", "10m"}), options);
-  EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
-  EXPECT_NE(process.out.find("saved as "), std::string::npos) << process.out;
+  expect_findings_kept(command(faulty("never_hits"), {"--for", "10m"}), std::chrono::milliseconds(1000));
 }
 
 TEST_F(FuzzLibraryMotions, RefusesWhatCannotBe) {
-  const auto refused = [&](const Words& words, const std::string& because) {
-    const Process process = run_noli(Words{"fuzz", "trajectories"} + words);
-    EXPECT_EQ(process.exit_code, 3) << because << process.out;
-    EXPECT_NE(process.err.find(because), std::string::npos) << process.err;
+  const auto refused = [](const Words& words, const std::string& because) {
+    expect_refused(Words{"fuzz", "trajectories"} + words, because);
   };
   const std::string falling = falling_triangle();
   refused({"--library", faulty("has_no_query"), "--count", "1"}, "has no function noli_ccd_query");

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <set>
 #include <sstream>
 
+#include "noli/tests/app/libraries.h"
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 #include "noli/tests/app/worked_example.h"
@@ -19,22 +19,12 @@ namespace noli::app_tests {
 namespace {
 
 using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-std::string mutant(const std::string& name) { return std::string(NOLI_MUTANTS) + "/" + name + ".so"; }
-std::string faulty(const std::string& name) { return std::string(NOLI_TEST_LIBRARIES) + "/" + name + ".so"; }
-std::string plugin(const std::string& name) { return std::string(NOLI_CCD_PLUGINS) + "/" + name + ".so"; }
 
 Words mutants() {
   std::istringstream words(NOLI_MUTANT_NAMES);
   Words result;
   for (std::string word; words >> word;) result.push_back(word);
   return result;
-}
-
-Words operator+(Words a, const Words& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
 }
 
 /// A vertex that falls through a face, and one that is beside it.
@@ -190,20 +180,12 @@ TEST_F(FuzzLibrary, KeepsWhatReachesSomethingNew) {
 }
 
 TEST_F(FuzzLibrary, KeepsFindingsWhenInterrupted) {
-  ProcessOptions options;
-  options.signal = SIGINT;
-  options.signal_after = std::chrono::milliseconds(3000);
-  const Process process = run_noli(command(faulty("never_hits"), {"--for", "10m"}), options);
-  EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
-  EXPECT_NE(process.out.find("saved as "), std::string::npos) << process.out;
+  expect_findings_kept(command(faulty("never_hits"), {"--for", "10m"}), std::chrono::milliseconds(3000));
 }
 
 TEST_F(FuzzLibrary, RefusesWhatCannotBe) {
-  const auto refused = [&](const Words& words, const std::string& because) {
-    const Process process = run_noli(Words{"fuzz", "queries"} + words);
-    EXPECT_EQ(process.exit_code, 3) << because << process.out;
-    EXPECT_NE(process.err.find(because), std::string::npos) << process.err;
+  const auto refused = [](const Words& words, const std::string& because) {
+    expect_refused(Words{"fuzz", "queries"} + words, because);
   };
   const std::string file = folder.write("two-vertex-face.csv", two_queries);
   const std::string text = folder.write("text", "x");
