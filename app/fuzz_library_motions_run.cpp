@@ -16,6 +16,7 @@
 #include "noli/app/progress.h"
 #include "noli/audit/fuzz_library_motions.h"
 #include "noli/audit/run_program.h"
+#include "noli/audit/save_motion.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -162,8 +163,7 @@ Again look_again(const LibraryMotionArguments& arguments) {
   result.motion = std::move(shrunk.motion);
   result.found = std::move(shrunk.found);
   result.saved = minimised_folder(arguments.common, folder);
-  make_writable_folder(*result.saved, "--out");
-  audit::write_frames(result.motion, *result.saved);
+  audit::save_motion(result.motion, result.found->words, replay_command(arguments.library), *result.saved);
   return result;
 }
 

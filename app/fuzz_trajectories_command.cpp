@@ -17,6 +17,7 @@
 #include "noli/app/verify_program.h"
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
+#include "noli/audit/save_motion.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/write_file.h"
 
@@ -156,8 +157,9 @@ ExitCode again(const TrajectoriesArguments& arguments) {
         motion, [&](const audit::FrameMotion& candidate) { return audit::is_of_kind(what(candidate), kind); }, 5000);
     if (auto still = what(motion)) found = std::move(still);
     saved = minimised_folder(arguments.common, folder);
-    make_writable_folder(*saved, "--out");
-    audit::write_frames(motion, *saved);
+    std::vector<std::string> command = {"noli", "fuzz", "trajectories", "--replay"};
+    if (arguments.needs_witness) command.insert(command.end() - 1, "--needs-witness");
+    audit::save_motion(motion, *found, command, *saved);
   }
   const bool unknown = interrupted() || (undecided && !found);
   const char* const word = unknown ? "undecided" : found ? "finding" : "no_finding";

@@ -21,6 +21,11 @@ std::string words_of(const Json& end, const BodyNames& names) {
     return fmt::format("{} meets {}, {}, at {} s", feature(features.at(0), names), feature(features.at(1), names),
                        end.at("first").at("kind").get<std::string>(), digits17(end.at("first_time").get<double>()));
   }
+  if (end.at("end") == "unstable") {
+    const Json& energy = end.at("energy");
+    return fmt::format("from {:.3g} J to {:.3g} J at {} s", energy.at("begin").get<double>(),
+                       energy.at("there").get<double>(), digits17(energy.at("time").get<double>()));
+  }
   if (end.at("end") != "too_near") return "";
   const Json& near = end.at("too_near");
   return fmt::format("{}, at {} s", near.at("names").get<std::string>(), digits17(near.at("time").get<double>()));

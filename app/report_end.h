@@ -12,7 +12,7 @@
 namespace noli::app {
 
 /// Of the part that ended last: "edge a[1]-a[2] meets edge b[6]-b[7], crossing, at 0.25 s" or "vertex a[0] and vertex
-/// b[1], at 0.25 s"; or nothing.
+/// b[1], at 0.25 s", of energy "from 1 J to 3 J at 0.25 s"; or nothing.
 std::string what_ended(const LogFacts& log);
 
 }  // namespace noli::app

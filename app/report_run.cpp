@@ -103,7 +103,7 @@ class Run {
     if (log.last_end == "too_near") {
       return in_it + "a pair comes nearer than the scene's layers of contact allow" + named + ".";
     }
-    if (log.last_end == "unstable") return "The energy goes astray: steps are too long for the motion of the scene.";
+    if (log.last_end == "unstable") return "The energy goes astray" + named + ". Steps are too long, or kick in time.";
     if (log.last_end != "not_finite") return "";
     return in_it + "numbers run out: a velocity or position is not finite. It is not in the run.";
   }

@@ -35,8 +35,9 @@ struct LibraryAnswers {
   bool complete = true;        ///< false: stopped, out of time, or given up
 };
 
-/// Asks all of them. Without a library: the textbook method. Throws InputError as above, std::system_error when the
-/// machine has no process or memory left, std::runtime_error when the host is not there.
+/// Asks all of them. Without a library: the textbook method. Precondition: require_ccd_library(library) has not thrown,
+/// so that whatever ends a process is the library's doing. Throws std::system_error when the machine has no process or
+/// memory left, std::runtime_error when the host is not there.
 LibraryAnswers ask_library(const std::optional<std::filesystem::path>& library, int kind,
                            const std::vector<AskedQuery>& queries, double tolerance, const HostOptions& options);
 

@@ -14,7 +14,7 @@
 #include <span>
 #include <utility>
 
-#include "noli/audit/elf_header.h"
+#include "noli/audit/ccd_library.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/proofs/prover/verifier.h"
 #include "noli/trajectory/frames.h"
@@ -265,7 +265,8 @@ class PipelineRun {
     for (std::size_t e = 0; e < sizes.edges; ++e) std::copy_n(step_.edges[e].begin(), 2, arrays.edges + 2 * e);
     for (std::size_t f = 0; f < sizes.faces; ++f) std::copy_n(step_.faces[f].begin(), 3, arrays.faces + 3 * f);
     const Ending ending = HostProcess(library, memory, exchange, request_.host, true).wait();
-    require_loaded(library, exchange, ending);
+    const bool lacks_search = exchange.loaded == LoadResult::no_candidates && request_.needs_search;
+    if (ending.kind == Ending::Kind::finished && lacks_search) require_loaded(library, exchange, ending);
     outcome_.complete = outcome_.complete && ending.kind == Ending::Kind::finished;
     over_ = ending.kind == Ending::Kind::stopped;
     outcome_.audits.push_back(marked(library, exchange, arrays, ending));
@@ -284,6 +285,9 @@ class PipelineRun {
     audit.ending = ending.words;
     audit.search_seconds = exchange.search_seconds;
     audit.query_seconds = exchange.query_seconds;
+    const HostPhase phase = exchange.phase.load();
+    const bool again = phase == HostPhase::repeating && exchange.asked.known == 0;
+    audit.in_search = ending.kind != Ending::Kind::finished && (phase == HostPhase::searching || again);
     audit.searched = exchange.search_code >= 0;
     audit.leaks = grew(exchange.resident);
     audit.failed = told(step_, exchange.failed);
@@ -361,7 +365,7 @@ std::uint64_t PipelineOutcome::findings() const {
 }
 
 PipelineOutcome audit_pipeline(const PipelineRequest& request) {
-  for (const fs::path& library : request.libraries) require_shared_library(library);
+  for (const fs::path& library : request.libraries) require_ccd_library(library, request.host);
   FrameSequence frames({request.before, request.after});
   frames.next();
   return PipelineRun(request).run(frames.mesh(), frames.x_t0(), frames.x_t1());

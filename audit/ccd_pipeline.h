@@ -56,6 +56,7 @@ struct PipelineAudit {
   bool through = false;
   bool leaks = false;
   std::optional<FeatureContact> asked;   ///< the last query, where it was not all done
+  bool in_search = false;                ///< the process ended there
   std::optional<FeatureContact> failed;  ///< the first query without an answer
   std::uint64_t not_found = 0, false_negatives = 0, bad_times = 0;
   std::uint64_t failures = 0;   ///< of the search or of queries

@@ -11,6 +11,7 @@
 #include "noli/audit/fuzz_trajectories.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/run_program.h"
+#include "noli/audit/save_motion.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/kernel/parallel.h"
 #include "noli/trajectory/write_file.h"
@@ -51,15 +52,6 @@ LibraryUnderTest asked_while_shrinking(LibraryUnderTest library, MotionFault fau
   if (fault == MotionFault::hang) host.query_limit = std::min(host.query_limit, std::max(host.query_limit / 50, least));
   host.deadline.reset();
   return library;
-}
-
-/// Those of a motion that was saved here before.
-void remove_frames(const fs::path& folder) {
-  std::vector<fs::path> frames;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename().string().starts_with("frame-")) frames.push_back(entry.path());
-  }
-  for (const fs::path& frame : frames) fs::remove(frame);
 }
 
 class LibraryMotionFuzzing {
@@ -184,19 +176,13 @@ class LibraryMotionFuzzing {
                        generator);
   }
 
+  /// As it is now. Where there is no room for that, what was saved before stays.
   void save(LibraryMotionFinding& finding) {
-    if (finding.folder.empty() || report_.not_saved.attempt([&] { write(finding); })) return;
+    const auto write = [&] {
+      save_motion(finding.shrunk, finding.found.words, options_.replay_command, finding.folder);
+    };
+    if (finding.folder.empty() || report_.not_saved.attempt(write) || fs::exists(finding.folder)) return;
     finding.folder.clear();
-  }
-
-  void write(const LibraryMotionFinding& finding) const {
-    fs::create_directories(finding.folder);
-    remove_frames(finding.folder);  // it may have more than there are now
-    write_frames(finding.shrunk, finding.folder);
-    std::vector<std::string> command = options_.replay_command;
-    command.push_back(finding.folder.string());
-    write_file(finding.folder / "README",
-               fmt::format("{}\nShown again by\n  {}\n", finding.found.words, shell_words(command)));
   }
 
   void shrink_findings() {

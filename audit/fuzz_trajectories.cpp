@@ -14,7 +14,7 @@
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
 #include "noli/audit/run_program.h"
-#include "noli/audit/save_whole.h"
+#include "noli/audit/save_motion.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
@@ -161,12 +161,8 @@ class TrajectoryFuzzing {
     finding.folder = unused(options_.out / fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
                                                        finding.index, finding.generator));
     std::vector<std::string> command = options_.replay_command;
-    command.push_back(finding.folder.string());
-    if (kind_of(finding.difference) == "proof") command.emplace_back("--needs-witness");
-    save_whole(finding.folder, [&](const fs::path& to) {
-      write_frames(finding.shrunk, to);
-      write_file(to / "README", fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
-    });
+    if (kind_of(finding.difference) == "proof") command.insert(command.end() - 1, "--needs-witness");
+    save_motion(finding.shrunk, finding.difference, command, finding.folder);
   }
 
   const TrajectoryOptions& options_;

@@ -70,7 +70,10 @@ class StepJudge {
 
   std::optional<MotionFaultFound> operator()() const {
     if (const auto ended = fault_of_end(audit_.end)) {
-      return found(*ended, audit_.ending + (audit_.asked ? where(audit_.asked) : ", in the search for candidates"));
+      const std::string place = audit_.in_search ? ", in the search for candidates"
+                                : audit_.asked   ? where(audit_.asked)
+                                                 : ", nobody knows where";
+      return found(*ended, audit_.ending + place);
     }
     if (!audit_.searched) return found(MotionFault::failure, "the search for candidates failed");
     if (auto of_a_pair = worst_report()) return of_a_pair;

@@ -4,24 +4,26 @@
 // a finding, and show something else or nothing.
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
+#include <string>
 #include <system_error>
 
 namespace noli::audit {
 
-/// Lets `write` put files into a folder beside this one, and moves them into this one when all are there: what was in
-/// it under other names stays. If something throws, nothing is left of them.
+/// Lets `write` put files into a folder beside this one, which takes its name when all are there. What was saved under
+/// that name before goes then; if something throws, it stays, and nothing is left of the new one.
 template <class Write>
 void save_whole(const std::filesystem::path& folder, const Write& write) {
   namespace fs = std::filesystem;
-  const fs::path part = folder.string() + ".part";
+  const std::string name = "." + folder.filename().string() + "." + std::to_string(::getpid());
+  const fs::path part = folder.parent_path() / name;
   try {
-    fs::remove_all(part);  // of a process that was killed
     fs::create_directories(part);
     write(part);
-    fs::create_directories(folder);
-    for (const auto& entry : fs::directory_iterator(part)) fs::rename(entry.path(), folder / entry.path().filename());
-    fs::remove(part);
+    fs::remove_all(folder);
+    fs::rename(part, folder);
   } catch (...) {
     std::error_code ignored;  // what cannot be removed stays
     fs::remove_all(part, ignored);

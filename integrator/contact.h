@@ -8,8 +8,9 @@
 // which layers are activated when they are needed is, bit for bit, the run in which they always were (design, "What an
 // event may write").
 //
-// A run ends when a layer above most_layers would act: that too is a property of the motion, as certificates take layers
-// in advance, how many of them depending on when they looked, which is not the same in a run that was resumed.
+// A run ends when a layer above most_layers would act: that too is a property of the motion, while how many layers
+// certificates take in advance depends on when they looked, which is not the same in a run that was resumed. Only what
+// comes past a thousand layers more before the first of them fires ends the run when that is seen.
 //
 // What this does not do: which pairs are near is for certificates/cells.h.
 #pragma once
@@ -189,7 +190,7 @@ class Contact {
     const double step = l <= of_material.size() ? of_material[l - 1].clock.step
                                                 : layer_step(settings_.materials[material], settings_.schedule, l);
     // Steps that are too short to be counted at this time (first_after) never come.
-    if (l > most_in_advance * settings_.most_layers || !(t < 0x1p52 * step)) throw ContactLimit(pair, t);
+    if (l > most_in_advance + settings_.most_layers || !(t < 0x1p52 * step)) throw ContactLimit(pair, t);
     while (of_material.size() < l) {
       of_material.push_back(make_layer(material, static_cast<std::uint32_t>(of_material.size() + 1)));
     }
@@ -211,9 +212,8 @@ class Contact {
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
   static constexpr double longest_slice = 8;  ///< in windows
-  /// Layers that a pair may have, in most_layers: half of them only for others to see that they would act. What comes
-  /// as deep before any of those fires ends the run at once.
-  static constexpr std::uint64_t most_in_advance = 2;
+  /// Layers above most_layers that a pair may have, for others to see that they would act.
+  static constexpr std::uint64_t most_in_advance = 1000;
   static_assert(ContactSettings::excluded == certificates::no_material);
 
   struct Layer {

@@ -62,6 +62,7 @@ class Pipeline {
 
   void pass() {
     e_.calls.store(++calls_, std::memory_order_relaxed);
+    e_.asked = {};
     if (library_.search != nullptr) {
       std::vector<Pair> found;
       const MeshSizes& n = e_.sizes;

@@ -121,6 +121,13 @@ TEST_F(AuditCcd, SurvivesALibraryThatWritesAllOver) {
   EXPECT_EQ(audits[1]["answered"], 4);
 }
 
+/// What it has overwritten says that it was never loaded.
+TEST_F(AuditCcd, TellsACrashFromALibraryThatCannotBeLoaded) {
+  const Json audit = json(faulty("writes_zeros_and_crashes"), 1)["audits"][0];
+  EXPECT_GE(audit["crashes"], 2);
+  EXPECT_EQ(audit["files"][0]["complete"], true);
+}
+
 TEST_F(AuditCcd, GoesOnBehindAHang) {
   for (const char* const name : {"hangs", "sleeps"}) {
     const Json audit = json(faulty(name), 1, {"--query-limit", "100ms"})["audits"][0];

@@ -190,6 +190,25 @@ TEST_F(FuzzLibraryMotions, SaysWhereItCrashed) {
             "through");
 }
 
+TEST_F(FuzzLibraryMotions, DoesNotSayWhereWhenNobodyKnows) {
+  const Json document = json(faulty("writes_zeros_and_crashes"), 1, {"--count", "14", "--max-findings", "1"});
+  EXPECT_GT(document["faults"]["crash"], 0);
+  const std::string words = document["reports"][0]["difference"];
+  EXPECT_NE(words.find("nobody knows where"), std::string::npos) << words;
+}
+
+TEST_F(FuzzLibraryMotions, LeavesNoPartOfAFindingWhereThereIsNoRoom) {
+  std::string out = folder.path("out");  // a path that has room for a folder of findings, and for no file in it
+  while (out.size() < 3900) out += "/" + std::string(100, 'x');
+  out += "/" + std::string(4045 - out.size(), 'x');
+  std::filesystem::create_directories(out);
+  const Process process = run_noli({"fuzz", "trajectories", "--library", faulty("never_hits"), "--count", "14",
+                                    "--max-findings", "2", "--out", out});
+  EXPECT_EQ(process.exit_code, 4) << process.err.substr(0, 200);
+  EXPECT_TRUE(std::filesystem::is_empty(out));
+  EXPECT_NE(process.out.find("not saved"), std::string::npos) << process.out;
+}
+
 TEST_F(FuzzLibraryMotions, RunsItsCorpusFirst) {
   const Words more = {"--count", "14", "--corpus", folder.path("corpus")};
   const Json first = json(plugin("noli"), 0, more), second = json(plugin("noli"), 0, more);

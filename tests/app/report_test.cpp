@@ -165,6 +165,12 @@ TEST_F(Report, SaysWhoCameTooNear) {
   EXPECT_TRUE(says(page({both[0]}), "vertex a[1] and face b[2], at 0.5 s"));
 }
 
+TEST_F(Report, SaysHowFarEnergyWentAstray) {
+  const std::vector<std::string> both = run_with_contact();
+  change_end(both[0], {{"end", "unstable"}, {"energy", {{"begin", 0.5}, {"there", 3}, {"time", 0.25}}}});
+  EXPECT_TRUE(says(page({both[0]}), "The energy goes astray: from 0.5 J to 3 J at 0.25 s."));
+}
+
 TEST_F(Report, SaysWhatIsNotCompared) {
   const std::string run = run_path("run");
   ASSERT_EQ(run_noli({"simulate", scene(two_cloths()), "-o", run}).exit_code, 0);

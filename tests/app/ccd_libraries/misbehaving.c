@@ -35,7 +35,8 @@ enum behaviour {
   says_what_it_is,
   says_too_much,
   writes_behind_the_points, /* and misses contacts */
-  writes_all_over           /* what it shares with the audit, at queries whose first coordinate is above 0 */
+  writes_all_over,          /* what it shares with the audit, at queries whose first coordinate is above 0 */
+  writes_zeros_and_crashes  /* the same */
 };
 
 #define IS(behaviour) (MISBEHAVIOUR == (behaviour))
@@ -57,9 +58,21 @@ static void leak(size_t bytes) {
   if (lost != NULL) memset(lost, 1, bytes);
 }
 
+static void write_all_over(int byte) {
+  FILE* const maps = fopen("/proc/self/maps", "r");
+  char line[512];
+  while (maps != NULL && fgets(line, sizeof line, maps) != NULL) {
+    unsigned long begin = 0, end = 0;
+    if (strstr(line, "memfd:noli_ccd") == NULL || sscanf(line, "%lx-%lx", &begin, &end) != 2) continue;
+    memset((void*)begin, byte, end - begin);
+  }
+  if (maps != NULL) fclose(maps);
+}
+
 static void at_some_queries(double first) {
   if (!(first > 0)) return;
-  if (IS(crashes)) crash();
+  if (IS(writes_zeros_and_crashes)) write_all_over(0);
+  if (IS(crashes) || IS(writes_zeros_and_crashes)) crash();
   if (IS(ends_the_program)) exit(0);
   for (volatile int again = 1; again && IS(hangs);) {
   }
@@ -86,17 +99,6 @@ static void write_behind(const double* points) {
   for (int i = 12; i < 16; ++i) ((double*)(uintptr_t)points)[i] = 0;
 }
 
-static void write_all_over(void) {
-  FILE* const maps = fopen("/proc/self/maps", "r");
-  char line[512];
-  while (maps != NULL && fgets(line, sizeof line, maps) != NULL) {
-    unsigned long begin = 0, end = 0;
-    if (strstr(line, "memfd:noli_ccd") == NULL || sscanf(line, "%lx-%lx", &begin, &end) != 2) continue;
-    memset((void*)begin, 0xff, end - begin);
-  }
-  if (maps != NULL) fclose(maps);
-}
-
 static int is_asked_again(void) {
   static int calls = 0;
   return ++calls > 3;
@@ -111,7 +113,7 @@ int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], doubl
     write_behind(x_t1);
     return NOLI_CCD_NO_HIT;
   }
-  if (IS(writes_all_over) && x_t0[0] > 0) write_all_over();
+  if (IS(writes_all_over) && x_t0[0] > 0) write_all_over(0xff);
   if (IS(fails)) return NOLI_CCD_FAILED;
   if (IS(answers_two)) return 2;
   if (IS(crashes_when_asked_again) && is_asked_again()) crash();
