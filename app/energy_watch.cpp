@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "noli/integrator/scene/explain.h"
-
 namespace noli::app {
 namespace {
 
@@ -45,9 +43,9 @@ Json energy_json(const EnergyAstray& energy) {
   return {{"begin", energy.begin}, {"there", energy.there}, {"time", energy.time}};
 }
 
-bool wants_watch(const integrator::Scene& scene) {
+bool wants_watch(const integrator::Scene& scene, const integrator::Explanation& explanation) {
   if (!scene.scripts.empty()) return false;
-  return scene.allow_unstable || !integrator::explain(scene).resonances.empty();
+  return scene.allow_unstable || !explanation.resonances.empty();
 }
 
 bool loses_by_restitution(const integrator::ContactSettings* contact) {

@@ -22,6 +22,7 @@
 
 #include "noli/app/json.h"
 #include "noli/app/run_series.h"
+#include "noli/integrator/scene/explain.h"
 #include "noli/integrator/scene/scene.h"
 
 namespace noli::app {
@@ -62,7 +63,7 @@ class EnergyWatch {
 Json energy_json(const EnergyAstray& energy);
 
 /// Whether a scene has steps that may be unstable, and nothing that hides what they do.
-bool wants_watch(const integrator::Scene& scene);
+bool wants_watch(const integrator::Scene& scene, const integrator::Explanation& explanation);
 
 /// Whether contact takes energy that no book has.
 bool loses_by_restitution(const integrator::ContactSettings* contact);

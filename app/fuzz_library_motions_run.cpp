@@ -41,8 +41,8 @@ std::string again(const LibraryArguments& library, const fs::path& folder) {
 }
 
 void settle(LibraryMotionArguments& arguments) {
-  settle_library(arguments.library);
-  audit::HostOptions& host = arguments.library.asked.host;
+  settle_library(arguments.theirs);
+  audit::HostOptions& host = arguments.theirs.asked.host;
   host.repeat_seconds = 0.01;  // for one step of a small mesh: thousands of calls
   host.search_limit = 1;       // the same
 }
@@ -75,11 +75,11 @@ Json finding_json(const LibraryMotionArguments& arguments, const audit::LibraryM
           {"cells", finding.shrunk.mesh.cell_count()},
           {"vertices", finding.shrunk.mesh.vertex_count},
           {"folder", folder},
-          {"command", folder.empty() ? "" : again(arguments.library, folder)}};
+          {"command", folder.empty() ? "" : again(arguments.theirs, folder)}};
 }
 
 Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report, double seconds) {
-  const audit::LibraryUnderTest& library = arguments.library.asked;
+  const audit::LibraryUnderTest& library = arguments.theirs.asked;
   Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
                {"library", library.path.string()},
                {"tolerance", library.tolerance},
@@ -115,7 +115,7 @@ std::string finding_text(const LibraryMotionArguments& arguments, const audit::L
                   finding.shrunk.frames.size(), finding.shrunk.mesh.cell_count(), finding.shrunk.mesh.vertex_count);
   if (finding.folder.empty()) return text + "not saved\n";
   return text + fmt::format("saved as {}\n  again: {}\n", on_one_line(finding.folder.string()),
-                            again(arguments.library, finding.folder));
+                            again(arguments.theirs, finding.folder));
 }
 
 std::string report_text(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
@@ -152,7 +152,7 @@ struct Again {
 };
 
 Again look_again(const LibraryMotionArguments& arguments) {
-  const audit::LibraryUnderTest& library = arguments.library.asked;
+  const audit::LibraryUnderTest& library = arguments.theirs.asked;
   const fs::path folder = arguments.again.saved();
   Again result{audit::read_frames(folder), {}, {}};
   audit::require_ccd_library(library.path, library.host);
@@ -163,7 +163,7 @@ Again look_again(const LibraryMotionArguments& arguments) {
   result.motion = std::move(shrunk.motion);
   result.found = std::move(shrunk.found);
   result.saved = minimised_folder(arguments.common, folder);
-  audit::save_motion(result.motion, result.found->words, replay_command(arguments.library), *result.saved);
+  audit::save_motion(result.motion, result.found->words, replay_command(arguments.theirs), *result.saved);
   return result;
 }
 
@@ -172,16 +172,16 @@ Again look_again(const LibraryMotionArguments& arguments) {
 ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
   settle(arguments);
   settle_limits(arguments.common);
-  const Output output(arguments.common.json, {arguments.library.asked.path});
+  const Output output(arguments.common.json, {arguments.theirs.asked.path});
   require_writable_folder(arguments.common.out, "--out");
   audit::LibraryMotionOptions options;
-  options.asked = arguments.library.asked;
+  options.asked = arguments.theirs.asked;
   options.limits = arguments.common.limits;
-  options.first_only = arguments.library.first_only;
+  options.first_only = arguments.theirs.first_only;
   options.max_findings = arguments.max_findings;
   options.out = arguments.common.out;
   options.corpus = corpus_folder(arguments.common);
-  options.replay_command = replay_command(arguments.library);
+  options.replay_command = replay_command(arguments.theirs);
   const Stopwatch watch;
   const audit::LibraryMotionReport report = with_progress("fuzz trajectories", [&](const auto& show) {
     options.limits.progress = show;
@@ -199,7 +199,7 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
   std::vector<fs::path> inputs = saved_files(folder);
-  inputs.push_back(arguments.library.asked.path);
+  inputs.push_back(arguments.theirs.asked.path);
   const Output output(arguments.common.json, inputs);
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   const Again result = look_again(arguments);
@@ -210,10 +210,10 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   if (result.found) text += on_one_line(result.found->words) + '\n';
   if (result.saved) {
     text += fmt::format("saved as {}\n  again: {}\n", on_one_line(result.saved->string()),
-                        again(arguments.library, *result.saved));
+                        again(arguments.theirs, *result.saved));
   }
   output.write(text, {{"verdict", word},
-                      {"library", arguments.library.asked.path.string()},
+                      {"library", arguments.theirs.asked.path.string()},
                       {"frames", motion.frames.size()},
                       {"cells", motion.mesh.cell_count()},
                       {"vertices", motion.mesh.vertex_count},

@@ -12,7 +12,7 @@ namespace noli::app {
 struct LibraryMotionArguments {
   FuzzArgumentsInCommon common;
   AgainArguments again;
-  LibraryArguments library;
+  LibraryArguments theirs;
   std::size_t max_findings = 20;
 };
 

@@ -245,7 +245,6 @@ ExitCode run(ProofsArguments& arguments) {
 /// Writes it into --out; where.
 fs::path save_minimised(const ProofsArguments& arguments, const audit::JudgedProof& smallest) {
   fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
-  make_writable_folder(folder, "--out");
   const std::string what = "made smaller: " + on_one_line(arguments.again.saved());
   audit::save_finding(smallest.files, what, smallest.judgement.difference, folder);
   return folder;

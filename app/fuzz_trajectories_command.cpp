@@ -179,7 +179,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
 
 ExitCode run(TrajectoriesArguments& arguments) {
   const bool saved = arguments.again.given();
-  if (arguments.library.asks_a_library()) {
+  if (arguments.theirs.asks_a_library()) {
     return saved ? motion_of_library_again(arguments) : fuzz_motions_of_library(arguments);
   }
   return saved ? again(arguments) : fuzz(arguments);
@@ -203,7 +203,7 @@ Command add_fuzz_trajectories(CLI::App& fuzz_app) {
                                           ->check(whole_number(1, 1'000'000))
                                           ->capture_default_str()
                                           ->type_name("N");
-  add_library_options(*command, arguments->library, "noli verify and the checkers");
+  add_library_options(*command, arguments->theirs, "noli verify and the checkers");
   add_again_options(*command, arguments->again, "motion", "FOLDER", {"--first-only", "--max-findings"});
   CLI::Option* const needs_witness =
       command->add_flag("--needs-witness", arguments->needs_witness,

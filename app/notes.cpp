@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/scene/explain.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -20,8 +19,8 @@ void tell(const std::string& note) { std::fputs(fmt::format("noli: note: {}.\n",
 
 }  // namespace
 
-void tell_notes(const integrator::Scene& scene) {
-  const std::vector<std::string> notes = integrator::notes(integrator::explain(scene));
+void tell_notes(const integrator::Explanation& explanation) {
+  const std::vector<std::string> notes = integrator::notes(explanation);
   for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) tell(notes[i]);
   if (notes.size() > most_notes) tell(fmt::format("there are {} more, which explain tells", notes.size() - most_notes));
 }

@@ -68,9 +68,9 @@ ExitCode run(SimulateArguments& arguments) {
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.json, with_files_of_runs({request.scene, request.run}));
-  request.begun = [&request](const integrator::Scene& scene) {
+  request.begun = [&request](const integrator::Scene& scene, const integrator::Explanation& explanation) {
     if (request.brief) note_missing_short_form(scene);
-    tell_notes(scene);
+    tell_notes(explanation);
   };
   const SimulateOutcome outcome = run_simulate(request);
   output.write(simulate_text(request, outcome), simulate_json(request, outcome));

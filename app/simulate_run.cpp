@@ -82,9 +82,10 @@ class Run {
     require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
     if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     refuse_contact_at_start();
-    if (wants_watch(scene)) watch_energy();
+    const integrator::Explanation explanation = integrator::explain(scene);
+    if (wants_watch(scene, explanation)) watch_energy();
     open(scene);
-    if (request.begun) request.begun(scene);
+    if (request.begun) request.begun(scene, explanation);
   }
 
   SimulateOutcome operator()() {

@@ -26,6 +26,7 @@
 #include "noli/app/phase_clock.h"
 #include "noli/app/run_series_file.h"
 #include "noli/integrator/contact_limit.h"
+#include "noli/integrator/scene/explain.h"
 #include "noli/integrator/scene/scene.h"
 #include "noli/integrator/simulation.h"
 #include "noli/proofs/prover/window_verifier.h"
@@ -43,7 +44,7 @@ struct SimulateRequest {
   int threads = 0;              ///< 0: all there are
   std::optional<std::chrono::nanoseconds> time_limit;
   /// Called once nothing stands against the run any more, before anything is integrated.
-  std::function<void(const integrator::Scene&)> begun;
+  std::function<void(const integrator::Scene&, const integrator::Explanation&)> begun;
 };
 
 enum class RunEnd {

@@ -32,6 +32,7 @@ class Asking {
     e_.tolerance = tolerance;
     e_.count = queries.size();
     answers_ = answers_of(e_);
+    std::uninitialized_copy(queries.begin(), queries.end(), queries_of(e_));
     std::uninitialized_fill_n(answers_, queries.size(), GivenAnswer{});
     result_.endings.resize(queries.size());
   }
@@ -58,7 +59,7 @@ class Asking {
     e_.first = first_;
     e_.repeat_seconds = repeat_seconds_;
     e_.most_growth = std::uint64_t{64} << 20;
-    std::uninitialized_copy(queries_.begin(), queries_.end(), queries_of(e_));
+    std::copy(queries_.begin() + static_cast<std::ptrdiff_t>(first_), queries_.end(), queries_of(e_) + first_);
   }
 
   /// Whether another one is needed.
@@ -152,17 +153,16 @@ class Asking {
     return count > 0 ? sum / count : 0;
   }
 
-  /// What an allocator takes at a time, or a page here and there, is no leak; nor is what was needed but once.
+  /// What was needed but once is no leak.
   void look_for_leaks() {
     if (e_.repeated == 0) return;
-    constexpr std::int64_t slack = 256 << 10;
     const auto growth = [&](std::size_t from, std::size_t to) {
       return static_cast<std::int64_t>(e_.resident[to] - e_.resident[from]);
     };
     result_.repeated = e_.repeated;
     result_.growth = growth(0, 2);
     const bool stopped_early = growth(0, 1) >= static_cast<std::int64_t>(e_.most_growth);
-    result_.leaks = growth(0, 1) >= slack && (growth(1, 2) >= slack || stopped_early);
+    result_.leaks = growth(0, 1) >= leak_slack && (growth(1, 2) >= leak_slack || stopped_early);
   }
 
   const std::optional<fs::path>& library_;

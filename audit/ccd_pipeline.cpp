@@ -176,8 +176,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 /// In either half of the repetitions, by more than an allocator takes at a time.
 bool grew(const Resident& resident) {
-  constexpr std::uint64_t slack = 256 << 10;
-  return resident[0] > 0 && resident[1] >= resident[0] + slack && resident[2] >= resident[1] + slack;
+  return resident[0] > 0 && resident[1] >= resident[0] + leak_slack && resident[2] >= resident[1] + leak_slack;
 }
 
 class PipelineRun {

@@ -4,17 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "noli/audit/finding_name.h"
 #include "noli/audit/fuzz_trajectories.h"
 #include "noli/audit/motion_generators.h"
-#include "noli/audit/run_program.h"
 #include "noli/audit/save_motion.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/kernel/parallel.h"
-#include "noli/trajectory/write_file.h"
 
 namespace noli::audit {
 

@@ -152,7 +152,6 @@ void save_finding(const ProofFiles& files, const std::string& what, const std::s
     write_file(to / "README", fmt::format("{}\n{}\nShown again by\n  {}\n", what, difference,
                                           shell_words({"noli", "fuzz", "proofs", "--replay", folder})));
   });
-  remove_other_frames(files, folder);
 }
 
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options) { return ProofFuzzing(options).run(); }

@@ -73,8 +73,8 @@ struct ProofFuzzReport {
   std::vector<ProofFinding> findings;
 };
 
-/// Writes a finding into a folder, made if it is not there, and a README: what it is, its difference, and the command
-/// that shows it again; whole or not at all. Throws std::system_error.
+/// A finding as a folder, with a README: what it is, its difference, and the command that shows it again. All of it or
+/// nothing (audit/save_whole.h). Throws std::system_error.
 void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
                   const std::filesystem::path& folder);
 

@@ -13,11 +13,9 @@
 #include "noli/audit/finding_name.h"
 #include "noli/audit/kind_of_difference.h"
 #include "noli/audit/motion_generators.h"
-#include "noli/audit/run_program.h"
 #include "noli/audit/save_motion.h"
 #include "noli/audit/shape_corpus.h"
 #include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
 
 namespace noli::audit {
 

@@ -197,6 +197,21 @@ std::unique_ptr<ProofChecker> program_checker(const fs::path& program, const fs:
   return std::make_unique<ProgramChecker>(program, folder, limits);
 }
 
+namespace {
+
+/// Removes from a folder with these files what it has of a longer trajectory, or of one of another form.
+void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
+  for (const char* const extension : extensions) {
+    const bool same = extension == files.extension;
+    if (same && files.extension == "blocks") continue;
+    for (std::size_t i = same ? files.files.size() : 0; fs::remove(folder / trajectory_name({"", extension, {}}, i));
+         ++i) {
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::path& folder) {
   std::vector<std::string> names = {proof_name};
   write_file(folder / proof_name, files.proof);
@@ -206,16 +221,6 @@ std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::pa
   }
   remove_other_frames(files, folder);
   return names;
-}
-
-void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
-  for (const char* const extension : extensions) {
-    const bool same = extension == files.extension;
-    if (same && files.extension == "blocks") continue;
-    for (std::size_t i = same ? files.files.size() : 0; fs::remove(folder / trajectory_name({"", extension, {}}, i));
-         ++i) {
-    }
-  }
 }
 
 namespace {

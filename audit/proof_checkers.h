@@ -54,9 +54,6 @@ std::unique_ptr<ProofChecker> program_checker(const std::filesystem::path& progr
 /// another form; the names in the order of a command line.
 std::vector<std::string> write_proof_files(const ProofFiles& files, const std::filesystem::path& folder);
 
-/// Removes from a folder with these files what it has of a longer trajectory, or of one of another form.
-void remove_other_frames(const ProofFiles& files, const std::filesystem::path& folder);
-
 /// What was written so, and nothing else of a trajectory. Throws InputError.
 ProofFiles read_proof_files(const std::filesystem::path& folder);
 

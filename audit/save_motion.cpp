@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "noli/audit/run_program.h"
 #include "noli/audit/save_whole.h"
 #include "noli/trajectory/write_file.h"

@@ -75,6 +75,8 @@ constexpr std::size_t most_passes = 64;
 
 /// How much memory was resident at the beginning, in the middle and at the end of the repetitions.
 using Resident = std::array<std::uint64_t, 3>;
+/// What an allocator takes at a time, or a page here and there, is no leak.
+constexpr std::int64_t leak_slack = 256 << 10;
 
 struct Exchange : HostStatus {
   // What the host is asked for.
