@@ -48,7 +48,8 @@ struct AuditArguments {
   audit::AuditRequest request;
   std::string query_limit = "1s";
   std::uint64_t megabytes = 2000;
-  std::optional<std::string> time_limit, json, svg;
+  std::optional<std::string> time_limit, svg;
+  OutputOptions results;
   std::vector<fs::path> frames;
 };
 
@@ -67,11 +68,11 @@ std::vector<fs::path> inputs(const AuditArguments& arguments) {
 ExitCode run_pipeline(const AuditArguments& arguments) {
   const audit::AuditRequest& request = arguments.request;
   if (arguments.svg) throw UsageError("--svg: there is no picture of --frames");
-  const Output output(arguments.json, inputs(arguments));
+  const Output output(arguments.results, inputs(arguments));
   const audit::PipelineOutcome outcome =
       audit::audit_pipeline({request.libraries, arguments.frames[0], arguments.frames[1], request.tolerances,
                              request.max_reports, request.host});
-  output.write(pipeline_text(outcome), pipeline_json(outcome));
+  output.write("audit-pipeline", pipeline_answer(outcome), pipeline_json(outcome));
   return exit_code(outcome.findings(), outcome.complete);
 }
 
@@ -88,13 +89,13 @@ ExitCode run(AuditArguments& arguments) {
     throw UsageError("expected files of queries, or --frames, and not both");
   }
   if (!arguments.frames.empty()) return run_pipeline(arguments);
-  const Output output(arguments.json, inputs(arguments));
-  require_svg_file(arguments.svg, arguments.json, inputs(arguments));
+  const Output output(arguments.results, inputs(arguments));
+  require_svg_file(arguments.svg, arguments.results.json, inputs(arguments));
   const audit::AuditOutcome outcome = with_progress("audit ccd", [&](const auto& show) {
     request.progress = show;
     return audit::audit_ccd(request);
   });
-  output.write(audit_text(outcome), audit_json(outcome));
+  output.write("audit-ccd", audit_answer(outcome), audit_json(outcome));
   if (arguments.svg) write_file(*arguments.svg, audit_svg(outcome));
   return exit_code(outcome.findings() + outcome.wrong_labels(), outcome.complete);
 }
@@ -148,7 +149,7 @@ Command add_audit_ccd(CLI::App& audit) {
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--svg", arguments->svg, "Draw wrong answers against time per query")->type_name("OUT.svg");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -40,7 +40,8 @@ struct IntegratorArguments {
   std::vector<fs::path> scenes;
   bool brief = false;
   std::uint64_t halvings = 3, windows = 20;
-  std::optional<std::string> json, svg;
+  std::optional<std::string> svg;
+  OutputOptions results;
 };
 
 std::vector<integrator::Scene> scenes_of(const IntegratorArguments& arguments) {
@@ -68,8 +69,8 @@ ExitCode run(IntegratorArguments& arguments) {
   options.halvings = static_cast<int>(arguments.halvings);
   options.windows = static_cast<int>(arguments.windows);
   options.stop = &interrupted();
-  const Output output(arguments.json, arguments.scenes);
-  require_svg_file(arguments.svg, arguments.json, arguments.scenes);
+  const Output output(arguments.results, arguments.scenes);
+  require_svg_file(arguments.svg, arguments.results.json, arguments.scenes);
   IntegratorResults results;
   for (const integrator::Scene& scene : scenes_of(arguments)) {
     options.begun = [&](const std::string& method, double factor) {
@@ -79,7 +80,7 @@ ExitCode run(IntegratorArguments& arguments) {
     results.push_back(audit::audit_integrator(scene, options));
     if (!results.back().complete) break;
   }
-  output.write(integrator_text(results), integrator_json(results));
+  output.write("audit-integrator", integrator_answer(results), integrator_json(results));
   if (arguments.svg) write_file(*arguments.svg, integrator_svg(results));
   return exit_code(results);
 }
@@ -105,7 +106,7 @@ Command add_audit_integrator(CLI::App& audit) {
   command->add_flag_callback(
       "--no-euler", [arguments] { arguments->options.euler = false; }, "Without the implicit Euler method");
   command->add_option("--svg", arguments->svg, "Draw errors against run time")->type_name("OUT.svg");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

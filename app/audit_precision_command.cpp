@@ -46,7 +46,8 @@ struct PrecisionArguments {
   std::vector<int> bits = {53, 64, 113, 256};
   int threads = 0;
   std::string time_limit;
-  std::optional<std::string> json, svg;
+  std::optional<std::string> svg;
+  OutputOptions results;
 };
 
 constexpr int least_bits = 24;
@@ -78,8 +79,8 @@ ExitCode run(const PrecisionArguments& arguments) {
   if (!arguments.time_limit.empty()) {
     request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
   }
-  const Output output(arguments.json, {arguments.scene});
-  require_svg_file(arguments.svg, arguments.json, {arguments.scene});
+  const Output output(arguments.results, {arguments.scene});
+  require_svg_file(arguments.svg, arguments.results.json, {arguments.scene});
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
   if (arguments.brief) note_missing_short_form(scene);
@@ -94,7 +95,7 @@ ExitCode run(const PrecisionArguments& arguments) {
   });
   Json json = precision_json(outcome);
   json["timing"] = {{"seconds", watch.seconds()}, {"threads", arguments.threads}};
-  output.write(precision_text(outcome), json);
+  output.write("audit-precision", precision_answer(outcome), json);
   if (arguments.svg) write_file(*arguments.svg, precision_svg(outcome, scene.title));
   return precision_exit_code(outcome);
 }
@@ -125,7 +126,7 @@ Command add_audit_precision(CLI::App& audit) {
       ->add_option("--time-limit", arguments->time_limit,
                    "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped")
       ->type_name("TIME");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   add_threads_option(*command, arguments->threads);
   return {command, [arguments] { return run(*arguments); }};
 }

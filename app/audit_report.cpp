@@ -227,19 +227,29 @@ std::string audit_name(const AuditOutcome& outcome, const std::filesystem::path&
   return on_one_line(unique ? library.stem().string() : library.string());
 }
 
-std::string audit_text(const AuditOutcome& outcome) {
+Answer audit_answer(const AuditOutcome& outcome) {
   const AuditCounts sum = sum_of(outcome);
-  std::string text = fmt::format(
-      "verdict {} audits {} queries {} findings {} false_positives {} false_negatives {} late {} bad_times {} changed "
-      "{} failures {} crashes {} hangs {} memory {} leaks {} wrong_labels {} complete {}\n",
-      audit_verdict(outcome), outcome.audits.size(), sum.queries, outcome.findings(), sum.false_positives,
-      sum.false_negatives, sum.late.count(), sum.bad_times, sum.changed, sum.failures, sum.crashes, sum.hangs,
-      sum.memory, sum.leaks, outcome.wrong_labels(), outcome.complete);
+  Answer answer(audit_verdict(outcome), {{"audits", outcome.audits.size()},
+                                         {"queries", sum.queries},
+                                         {"findings", outcome.findings()},
+                                         {"false_positives", sum.false_positives},
+                                         {"false_negatives", sum.false_negatives},
+                                         {"late", sum.late.count()},
+                                         {"bad_times", sum.bad_times},
+                                         {"changed", sum.changed},
+                                         {"failures", sum.failures},
+                                         {"crashes", sum.crashes},
+                                         {"hangs", sum.hangs},
+                                         {"memory", sum.memory},
+                                         {"leaks", sum.leaks},
+                                         {"wrong_labels", outcome.wrong_labels()},
+                                         {"complete", outcome.complete}});
+  std::string& text = answer.text;
   append_descriptions(outcome, text);
   if (outcome.files.size() > 1) text += "All files:\n" + table_of_libraries(outcome);
   for (std::size_t i = 0; i < outcome.files.size(); ++i) append_file(outcome, i, text);
   for (const LibraryAudit& audit : outcome.audits) append_findings(outcome, audit, text);
-  return text;
+  return answer;
 }
 
 Json audit_json(const AuditOutcome& outcome) {

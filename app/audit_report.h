@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/answer.h"
 #include "noli/app/json.h"
 #include "noli/audit/ccd_audit.h"
 
@@ -14,7 +15,7 @@ namespace noli::app {
 /// "finding", "disagreement" (a label in a file is wrong), "undecided", "no_finding".
 const char* audit_verdict(const audit::AuditOutcome& outcome);
 
-std::string audit_text(const audit::AuditOutcome& outcome);
+Answer audit_answer(const audit::AuditOutcome& outcome);
 
 Json audit_json(const audit::AuditOutcome& outcome);
 

@@ -43,7 +43,8 @@ constexpr const char* self_footer =
 struct SelfArguments {
   audit::SelfOptions options;
   std::string fuzz_time = "60s", scene_time = "5s", scenes = "scenes", out = "self-findings";
-  std::optional<std::string> program, data, json;
+  std::optional<std::string> program, data;
+  OutputOptions results;
   bool require_all = false;
 };
 
@@ -99,11 +100,13 @@ std::string figures_text(const SelfPart& part) {
   return text;
 }
 
-std::string self_text(const SelfArguments& arguments, const SelfReport& report, double seconds) {
-  std::string text =
-      fmt::format("verdict {} parts {} held {} failed {} skipped {} complete {}\n",
-                  verdict(exit_code(report, arguments.require_all)), report.parts.size(), report.count(PartState::held),
-                  report.count(PartState::failed), report.count(PartState::skipped), report.complete);
+Answer self_answer(const SelfArguments& arguments, const SelfReport& report, double seconds) {
+  Answer answer(verdict(exit_code(report, arguments.require_all)), {{"parts", report.parts.size()},
+                                                                    {"held", report.count(PartState::held)},
+                                                                    {"failed", report.count(PartState::failed)},
+                                                                    {"skipped", report.count(PartState::skipped)},
+                                                                    {"complete", report.complete}});
+  std::string& text = answer.text;
   std::vector<TableRow> rows = {{"part", "", "result", "figures", "seconds"}};
   for (const SelfPart& part : report.parts) {
     rows.push_back({part.group, part.name, name(part.state), figures_text(part), fmt::format("{:.1f}", part.seconds)});
@@ -115,7 +118,7 @@ std::string self_text(const SelfArguments& arguments, const SelfReport& report, 
     fmt::format_to(out, "{}: {} {}: {}\n", name(part.state), part.group, on_one_line(part.name), part.words);
   }
   fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
-  return text;
+  return answer;
 }
 
 /// What NOLI_DATA names, unless the command line does.
@@ -136,13 +139,13 @@ ExitCode run(SelfArguments& arguments) {
   options.scenes = arguments.scenes;
   options.out = arguments.out;
   options.stop = &interrupted();
-  const Output output(arguments.json, {options.program});
+  const Output output(arguments.results, {options.program});
   require_writable_folder(arguments.out, "--out");
   options.begun = [](const std::string& part) { std::fputs(fmt::format("noli: {}\n", part).c_str(), stderr); };
   const Stopwatch watch;
   const SelfReport report = audit::audit_self(options);
   const double seconds = watch.seconds();
-  output.write(self_text(arguments, report, seconds), self_json(arguments, report, seconds));
+  output.write("audit-self", self_answer(arguments, report, seconds), self_json(arguments, report, seconds));
   return exit_code(report, arguments.require_all);
 }
 
@@ -184,7 +187,7 @@ Command add_audit_self(CLI::App& audit) {
       ->type_name("DIR");
   command->add_flag("--require-all", arguments->require_all, "Exit 2 when something was skipped");
   add_threads_option(*command, options.threads);
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

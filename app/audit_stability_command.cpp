@@ -48,7 +48,8 @@ struct StabilityArguments {
   std::uint64_t points = 100;
   std::string point_limit = "20s";
   std::string out = "stability-findings";
-  std::optional<std::string> program, json;
+  std::optional<std::string> program;
+  OutputOptions results;
 };
 
 const char* verdict(const StabilityReport& report) {
@@ -128,10 +129,13 @@ std::string table(const StabilityReport& report) {
   return table_text(rows, 2);
 }
 
-std::string stability_text(const StabilityReport& report, double seconds) {
-  std::string text =
-      fmt::format("verdict {} rows {} points {} held {} findings {} complete {}\n", verdict(report), report.rows.size(),
-                  report.points(), report.held(), report.findings(), report.complete);
+Answer stability_answer(const StabilityReport& report, double seconds) {
+  Answer answer(verdict(report), {{"rows", report.rows.size()},
+                                  {"points", report.points()},
+                                  {"held", report.held()},
+                                  {"findings", report.findings()},
+                                  {"complete", report.complete}});
+  std::string& text = answer.text;
   text += table(report);
   const auto out = std::back_inserter(text);
   for (const StabilityResult& row : report.rows) {
@@ -147,7 +151,7 @@ std::string stability_text(const StabilityReport& report, double seconds) {
     }
   }
   fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
-  return text;
+  return answer;
 }
 
 // --- command ---------------------------------------------------------------------------------------------------------
@@ -175,7 +179,7 @@ ExitCode run(StabilityArguments& arguments) {
   options.point_limit = parse_duration(arguments.point_limit, "--point-limit");
   if (arguments.program) require_program(*arguments.program, "--program");
   options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : this_program_file();
-  const Output output(arguments.json, {options.program});
+  const Output output(arguments.results, {options.program});
   require_writable_folder(arguments.out, "--out");
   options.out = arguments.out;
   options.stop = &interrupted();
@@ -188,7 +192,7 @@ ExitCode run(StabilityArguments& arguments) {
   const Stopwatch watch;
   const StabilityReport report = audit::audit_stability(rows, options);
   const double seconds = watch.seconds();
-  output.write(stability_text(report, seconds), stability_json(report, seconds));
+  output.write("audit-stability", stability_answer(report, seconds), stability_json(report, seconds));
   return exit_code(report);
 }
 
@@ -213,7 +217,7 @@ Command add_audit_stability(CLI::App& audit) {
   command->add_option("--out", arguments->out, "Folder for the input of findings, made when there is one")
       ->capture_default_str()
       ->type_name("DIR");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

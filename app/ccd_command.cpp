@@ -32,7 +32,7 @@ const std::map<std::string, FeaturePair> kinds = {{"vertex-face", FeaturePair::v
 struct CcdArguments {
   CcdRequest request;
   std::string kind;
-  std::optional<std::string> json;
+  OutputOptions results;
 };
 
 const char* verdict(const CcdOutcome& outcome) {
@@ -107,21 +107,26 @@ void append_file(const CcdFile& file, std::string& text) {
   }
 }
 
-std::string ccd_text(const CcdOutcome& outcome) {
-  std::string text =
-      fmt::format("verdict {} {} complete {}\n", verdict(outcome), counts_text(outcome.total), outcome.complete);
-  for (const CcdFile& file : outcome.files) append_file(file, text);
-  text += "Stages:";
-  for (const Stage stage : all_stages) text += fmt::format(" {} {}", name(stage), outcome.total.stages[stage]);
-  return text + fmt::format("\nTime: {:.1f} ns a query.\n", outcome.total.ns_per_query);
+Answer ccd_answer(const CcdOutcome& outcome) {
+  const CcdCounts& total = outcome.total;
+  Answer answer(verdict(outcome), {{"queries", total.queries},
+                                   {"contacts", total.contacts},
+                                   {"labelled", total.labelled},
+                                   {"disagreements", total.disagreements},
+                                   {"complete", outcome.complete}});
+  for (const CcdFile& file : outcome.files) append_file(file, answer.text);
+  answer.details = "Stages:";
+  for (const Stage stage : all_stages) answer.details += fmt::format(" {} {}", name(stage), total.stages[stage]);
+  answer.details += fmt::format("\nTime: {:.1f} ns a query.\n", total.ns_per_query);
+  return answer;
 }
 
 ExitCode run(CcdArguments& arguments) {
   CcdRequest& request = arguments.request;
   if (!arguments.kind.empty()) request.pair = kinds.at(arguments.kind);
-  const Output output(arguments.json, request.files);
+  const Output output(arguments.results, request.files);
   const CcdOutcome outcome = run_ccd(request);
-  output.write(ccd_text(outcome), ccd_json(request, outcome));
+  output.write("ccd", ccd_answer(outcome), ccd_json(request, outcome));
   return exit_code(outcome);
 }
 
@@ -146,7 +151,7 @@ Command add_ccd(CLI::App& app) {
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -24,7 +24,7 @@ constexpr const char* footer =
 struct CheckArguments {
   std::vector<fs::path> files;
   bool verified = false;
-  std::optional<std::string> json;
+  OutputOptions results;
 };
 
 ExitCode run(const CheckArguments& arguments) {
@@ -40,14 +40,16 @@ ExitCode run(const CheckArguments& arguments) {
     throw InputError(proof.string(), "", std::string("is not there; expected a proof") + why);
   }
   if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
-  const Output output(arguments.json, arguments.files);
+  const Output output(arguments.results, arguments.files);
   CheckerProcess checker(arguments.verified ? Checker::verified : Checker::plain, proof,
                          trajectory_for_checker(trajectory), std::nullopt);
   const auto said = checker.finish();
   if (!said) throw ReadInterrupted(proof.string());
   const CheckerVerdict& verdict = *said;
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
-  output.write(std::string("verdict ") + word + "\n" + verdict.words,
+  Answer answer(word);
+  answer.text = verdict.words;
+  output.write("check", answer,
                {{"verdict", word},
                 {"checker", arguments.verified ? "verified" : "plain"},
                 {"proof", proof.string()},
@@ -65,7 +67,7 @@ Command add_check(CLI::App& app) {
       ->required()
       ->type_name("PROOF TRAJECTORY | RUN");
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

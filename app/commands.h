@@ -24,6 +24,7 @@ Command add_explain(CLI::App& app);
 Command add_export(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_report(CLI::App& app);
+Command add_schema(CLI::App& app);
 
 /// `noli fuzz` and `noli audit`, which are nothing but their subcommands.
 CLI::App& add_fuzz(CLI::App& app);

@@ -72,4 +72,10 @@ std::string contact_text(const FeatureContact& contact) {
   return fmt::format("{} meets {}", feature_text(first), feature_text(second));
 }
 
+std::string pair_in_short(const FeatureContact& contact, std::optional<std::uint32_t> face) {
+  const auto [first, second] = features(contact);
+  const bool numbered = face && contact.pair == FeaturePair::vertex_face;
+  return fmt::format("{} × {}", feature_text(first), numbered ? fmt::format("face {}", *face) : feature_text(second));
+}
+
 }  // namespace noli::app

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "noli/app/json.h"
@@ -30,5 +31,8 @@ Json counts_json(const ContactCounts& counts);
 
 /// "edge 1-2 meets edge 7-9"
 std::string contact_text(const FeatureContact& contact);
+
+/// "edge 1-2 × edge 7-9"; a face by its number, if it is known.
+std::string pair_in_short(const FeatureContact& contact, std::optional<std::uint32_t> face = std::nullopt);
 
 }  // namespace noli::app

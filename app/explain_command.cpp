@@ -31,25 +31,27 @@ constexpr const char* footer =
 struct ExplainArguments {
   std::filesystem::path scene;
   bool brief = false;
-  std::optional<std::string> json;
+  OutputOptions results;
 };
 
 ExitCode explain_folder(const ExplainArguments& arguments) {
   if (arguments.brief) throw UsageError("--short: is for scenes; expected none with a run");
-  const Output output(arguments.json, with_files_of_runs({arguments.scene}));
+  const Output output(arguments.results, with_files_of_runs({arguments.scene}));
   const RunExplanation explanation = explain_run(arguments.scene);
-  output.write(to_text(explanation), to_json(explanation));
+  output.write("explain-run", answer_of(explanation), to_json(explanation));
   return ExitCode::holds;
 }
 
 ExitCode run(const ExplainArguments& arguments) {
   if (std::filesystem::is_directory(arguments.scene)) return explain_folder(arguments);
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
-  const Output output(arguments.json, {arguments.scene});
+  const Output output(arguments.results, {arguments.scene});
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
   const integrator::Explanation explanation = integrator::explain(scene);
   if (arguments.brief) note_missing_short_form(scene);
-  output.write(integrator::to_text(explanation), integrator::to_json(explanation));
+  Answer answer("explained", {{"title", explanation.title}, {"dimension", explanation.dimension}});
+  answer.text = integrator::to_text(explanation);
+  output.write("explain-scene", answer, integrator::to_json(explanation));
   return ExitCode::holds;
 }
 
@@ -64,7 +66,7 @@ Command add_explain(CLI::App& app) {
       ->required()
       ->type_name("SCENE.json|RUN");
   command->add_flag("--short", arguments->brief, "The scene's short form");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

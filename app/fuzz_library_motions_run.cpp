@@ -118,15 +118,16 @@ std::string finding_text(const LibraryMotionArguments& arguments, const audit::L
                             again(arguments.theirs, finding.folder));
 }
 
-std::string report_text(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
-                        double seconds) {
-  std::string text = fmt::format("verdict {} trajectories {} contacts {} findings {} through {}",
-                                 fuzz_verdict(report.findings_total, report.extent), report.extent.items,
-                                 report.contacts, report.findings_total, report.through);
+Answer report_answer(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
+                     double seconds) {
+  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
+                                                                     {"contacts", report.contacts},
+                                                                     {"findings", report.findings_total},
+                                                                     {"through", report.through}});
+  for_each_fault(report.faults, [&](std::string_view fault, std::uint64_t count) { answer.add({fault, count}); });
+  answer.add({"seed", arguments.common.limits.seed});
+  std::string& text = answer.text;
   const auto out = std::back_inserter(text);
-  for_each_fault(report.faults,
-                 [&](std::string_view fault, std::uint64_t count) { fmt::format_to(out, " {} {}", fault, count); });
-  fmt::format_to(out, " seed {}\n", arguments.common.limits.seed);
   for (const auto& finding : report.findings) text += finding_text(arguments, finding);
   for (const auto& generator : report.generators) {
     fmt::format_to(out, "  {:12} motions {:6} contacts {:6}", generator.name, generator.motions, generator.contacts);
@@ -139,7 +140,7 @@ std::string report_text(const LibraryMotionArguments& arguments, const audit::Li
   if (report.not_asked > 0) fmt::format_to(out, "Not asked, after too many hangs: {}.\n", report.not_asked);
   fmt::format_to(out, "Candidates: {}. False positives among them: {}. Time: {:.1f} s.\n", report.candidates,
                  report.false_positives, seconds);
-  return text;
+  return answer;
 }
 
 // --- a saved motion --------------------------------------------------------------------------------------------------
@@ -172,7 +173,7 @@ Again look_again(const LibraryMotionArguments& arguments) {
 ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
   settle(arguments);
   settle_limits(arguments.common);
-  const Output output(arguments.common.json, {arguments.theirs.asked.path});
+  const Output output(arguments.common.results, {arguments.theirs.asked.path});
   require_writable_folder(arguments.common.out, "--out");
   audit::LibraryMotionOptions options;
   options.asked = arguments.theirs.asked;
@@ -188,7 +189,7 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
     return audit::fuzz_library_motions(options);
   });
   const double seconds = watch.seconds();
-  output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  output.write("fuzz-library-trajectories", report_answer(arguments, report, seconds), report_json(arguments, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
@@ -200,19 +201,22 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
     throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
   std::vector<fs::path> inputs = saved_files(folder);
   inputs.push_back(arguments.theirs.asked.path);
-  const Output output(arguments.common.json, inputs);
+  const Output output(arguments.common.results, inputs);
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   const Again result = look_again(arguments);
   const audit::FrameMotion& motion = result.motion;
   const char* const word = interrupted() ? "undecided" : result.found ? "finding" : "no_finding";
-  std::string text = fmt::format("verdict {} frames {} cells {} vertices {}\n", word, motion.frames.size(),
-                                 motion.mesh.cell_count(), motion.mesh.vertex_count);
+  Answer answer(word, {{"frames", motion.frames.size()},
+                       {"cells", motion.mesh.cell_count()},
+                       {"vertices", motion.mesh.vertex_count}});
+  std::string& text = answer.text;
   if (result.found) text += on_one_line(result.found->words) + '\n';
   if (result.saved) {
     text += fmt::format("saved as {}\n  again: {}\n", on_one_line(result.saved->string()),
                         again(arguments.theirs, *result.saved));
   }
-  output.write(text, {{"verdict", word},
+  output.write("fuzz-replay", answer,
+               {{"verdict", word},
                       {"library", arguments.theirs.asked.path.string()},
                       {"frames", motion.frames.size()},
                       {"cells", motion.mesh.cell_count()},

@@ -30,7 +30,7 @@ void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const
   command.add_option("--out", arguments.out, "Folder for findings, made when there is one")
       ->capture_default_str()
       ->type_name("DIR");
-  add_json_option(command, arguments.json);
+  add_output_options(command, arguments.results);
 }
 
 void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,

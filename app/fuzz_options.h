@@ -10,16 +10,17 @@
 #include <vector>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/output.h"
 #include "noli/audit/fuzz_blocks.h"
 
 namespace noli::app {
 
-/// --seed, --count, --for, --threads, --corpus, --out, --json.
+/// --seed, --count, --for, --threads, --corpus, --out, and where results go.
 struct FuzzArgumentsInCommon {
   audit::FuzzLimits limits;
   std::optional<std::string> duration, corpus;
   std::string out = "fuzz-findings";
-  std::optional<std::string> json;
+  OutputOptions results;
 };
 
 /// `what` are the items: "motions".

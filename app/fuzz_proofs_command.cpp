@@ -151,13 +151,17 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
   return json;
 }
 
-std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
-                        double seconds) {
-  std::string text =
-      fmt::format("verdict {} mutants {} findings {} accepted {} refuted {} rejected {} failed {} judged {} seed {}\n",
-                  fuzz_verdict(report.findings_total, report.extent), report.extent.items, report.findings_total,
-                  report.codes.accepted, report.codes.refuted, report.codes.rejected, report.codes.failed,
-                  report.judged, arguments.common.limits.seed);
+Answer report_answer(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
+                     double seconds) {
+  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"mutants", report.extent.items},
+                                                                     {"findings", report.findings_total},
+                                                                     {"accepted", report.codes.accepted},
+                                                                     {"refuted", report.codes.refuted},
+                                                                     {"rejected", report.codes.rejected},
+                                                                     {"failed", report.codes.failed},
+                                                                     {"judged", report.judged},
+                                                                     {"seed", arguments.common.limits.seed}});
+  std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "finding: {}, block {}, mutant {}, {}: {}; {}\n", finding.name, finding.block, finding.index,
@@ -171,7 +175,7 @@ std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzz
   if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} proofs.\n", report.corpus_size);
   fmt::format_to(out, "Proofs: {}. The verified checker looked at {} mutants. Not judged: {}. Time: {:.1f} s.\n", cases,
                  report.checked_verified, report.not_judged, seconds);
-  return text;
+  return answer;
 }
 
 /// The proof that was given, or those that are made. Fewer if the user would not wait: then there are no mutants, and
@@ -218,7 +222,7 @@ class CheckersBeside {
 ExitCode run(ProofsArguments& arguments) {
   settle_limits(arguments.common);
   if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
-  const Output output(arguments.common.json, arguments.files);
+  const Output output(arguments.common.results, arguments.files);
   require_writable_folder(arguments.common.out, "--out");
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   CheckersBeside checkers(scratch.path());
@@ -236,7 +240,7 @@ ExitCode run(ProofsArguments& arguments) {
     return audit::fuzz_proofs(options);
   });
   const double seconds = watch.seconds();
-  output.write(report_text(arguments, report, options.cases.size(), seconds),
+  output.write("fuzz-proofs", report_answer(arguments, report, options.cases.size(), seconds),
                report_json(arguments, report, options.cases.size(), seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
@@ -255,7 +259,7 @@ ExitCode again(const ProofsArguments& arguments) {
   if (!arguments.files.empty()) {
     throw UsageError("--replay and --minimise take a folder that was saved; expected no other files");
   }
-  const Output output(arguments.common.json, saved_files(arguments.again.saved()));
+  const Output output(arguments.common.results, saved_files(arguments.again.saved()));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::JudgedProof proof{audit::read_proof_files(arguments.again.saved()), {}};
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
@@ -273,13 +277,14 @@ ExitCode again(const ProofsArguments& arguments) {
   const char* const word = stopped ? "undecided" : finding ? "finding" : "no_finding";
   const char* const verified = judged.verified ? word_of(*judged.verified) : "not_asked";
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
-  std::string text =
-      fmt::format("verdict {} plain {} verified {} claim {}\n", word, word_of(judged.plain), verified, claim);
+  Answer answer(word, {{"plain", word_of(judged.plain)}, {"verified", verified}, {"claim", claim}});
+  std::string& text = answer.text;
   if (!judged.plain.words.empty()) text += on_one_line(judged.plain.words) + '\n';
   if (finding) text += on_one_line(judged.difference) + '\n';
   if (saved)
     text += fmt::format("saved as {}, a proof of {} bytes\n", on_one_line(saved->string()), proof.files.proof.size());
-  output.write(text, {{"verdict", word},
+  output.write("fuzz-replay", answer,
+               {{"verdict", word},
                       {"plain", word_of(judged.plain)},
                       {"words", judged.plain.words},
                       {"verified", verified},

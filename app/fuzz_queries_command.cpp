@@ -59,7 +59,8 @@ struct FuzzArguments : LibraryArguments {
   audit::FuzzOptions kernel;  ///< what the run against a library does not use is in here
   std::string duration = "60s";
   std::string out = default_folder;
-  std::optional<std::string> corpus, replay, minimise, json;
+  std::optional<std::string> corpus, replay, minimise;
+  OutputOptions results;
   bool for_given = false, out_given = false;
 };
 
@@ -168,7 +169,7 @@ std::string not_asked_text(const OneFile& file) {
 
 /// Decides the queries of a file again. Throws InputError.
 ExitCode replay(const FuzzArguments& arguments) {
-  const Output output(arguments.json, inputs(arguments));
+  const Output output(arguments.results, inputs(arguments));
   const OneFile file(arguments, *arguments.replay);
   const std::vector<std::string> differences = file.differences();
   const std::size_t queries = file.asked();
@@ -177,10 +178,11 @@ ExitCode replay(const FuzzArguments& arguments) {
                            : !differences.empty()       ? "finding"
                            : arguments.asks_a_library() ? "no_finding"
                                                         : "no_difference";
-  std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, queries, differences.size());
-  for (const std::string& difference : differences) lines += difference + '\n';
-  lines += not_asked_text(file);
-  output.write(lines, {{"verdict", word},
+  Answer answer(word, {{"queries", queries}, {"findings", differences.size()}});
+  for (const std::string& difference : differences) answer.text += difference + '\n';
+  answer.text += not_asked_text(file);
+  output.write("fuzz-replay", answer,
+               {{"verdict", word},
                        {"queries", queries},
                        {"not_asked", file.queries().size() - queries},
                        {"findings", differences.size()},
@@ -203,7 +205,7 @@ void save(const audit::Finding& finding, const fs::path& file, bool with_probe, 
 }
 
 ExitCode minimise(const FuzzArguments& arguments) {
-  const Output output(arguments.json, inputs(arguments));
+  const Output output(arguments.results, inputs(arguments));
   const OneFile file(arguments, *arguments.minimise);
   if (arguments.out_given) make_writable_folder(arguments.out, "--out");
   require_writable_file(minimised_name(arguments, 1), arguments.out_given ? "--out" : "--minimise");
@@ -211,13 +213,13 @@ ExitCode minimise(const FuzzArguments& arguments) {
   const std::size_t queries = file.queries().size();
   const ExitCode code = fuzz_exit_code(findings.size(), queries, interrupted());
   const char* const word = code == ExitCode::undecided ? "undecided" : findings.empty() ? "nothing_fails" : "finding";
-  std::string lines = fmt::format("verdict {} queries {} findings {}\n", word, queries, findings.size());
+  Answer answer(word, {{"queries", queries}, {"findings", findings.size()}});
   Json json = {{"verdict", word}, {"queries", queries}, {"findings", findings.size()}, {"reports", Json::array()}};
   for (const audit::Finding& finding : findings) {
     const fs::path result = audit::unused(minimised_name(arguments, finding.index + 1));
     const std::string command = again(arguments, result);
     save(finding, result, file.queries()[finding.index].probe.has_value(), command);
-    lines += fmt::format("query {}: {}; {} different numbers; saved as {}\n  again: {}\n", finding.index + 1,
+    answer.text += fmt::format("query {}: {}; {} different numbers; saved as {}\n  again: {}\n", finding.index + 1,
                          finding.difference, audit::distinct_coordinates(finding.shrunk), on_one_line(result.string()),
                          command);
     json["reports"].push_back({{"query", finding.index + 1},
@@ -226,7 +228,7 @@ ExitCode minimise(const FuzzArguments& arguments) {
                                {"file", result.string()},
                                {"command", command}});
   }
-  output.write(lines, json);
+  output.write("fuzz-replay", answer, json);
   return code;
 }
 
@@ -240,7 +242,7 @@ ExitCode run_kernel(const FuzzArguments& arguments, const Output& output) {
     return audit::fuzz_queries(options);
   });
   const double seconds = watch.seconds();
-  output.write(fuzz_text(options, report, seconds), fuzz_json(options, report, seconds));
+  output.write("fuzz-queries", fuzz_answer(options, report, seconds), fuzz_json(options, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }
@@ -262,7 +264,7 @@ ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
     return audit::fuzz_library(options);
   });
   const double seconds = watch.seconds();
-  output.write(library_fuzz_text(options, report, seconds), library_fuzz_json(options, report, seconds));
+  output.write("fuzz-library-queries", library_fuzz_answer(options, report, seconds), library_fuzz_json(options, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }
@@ -273,7 +275,7 @@ ExitCode run(FuzzArguments& arguments) {
   if (arguments.minimise) return minimise(arguments);
   audit::FuzzOptions& options = arguments.kernel;
   if (arguments.for_given || !options.count) options.time_limit = parse_duration(arguments.duration, "--for");
-  const Output output(arguments.json, inputs(arguments));
+  const Output output(arguments.results, inputs(arguments));
   require_writable_folder(arguments.out, "--out");
   if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
   options.out = arguments.out;
@@ -330,7 +332,7 @@ Command add_fuzz_queries(CLI::App& fuzz) {
                                    ->type_name("FILE");
   again->excludes(smaller)->excludes(out);
   for (CLI::Option* const option : of_runs) again->excludes(option), smaller->excludes(option);
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments, command, out] {
             arguments->for_given = command->get_option("--for")->count() > 0;
             arguments->out_given = out->count() > 0;

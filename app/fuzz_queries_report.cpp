@@ -177,10 +177,11 @@ Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& repor
   return json;
 }
 
-std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
-  std::string text =
-      fmt::format("verdict {} queries {} findings {} seed {}\n", verdict(exit_code(report), "no_difference"),
-                  report.queries, report.findings_total, options.seed);
+Answer fuzz_answer(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
+  Answer answer(
+      verdict(exit_code(report), "no_difference"),
+      {{"queries", report.queries}, {"findings", report.findings_total}, {"seed", options.seed}});
+  std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
@@ -195,7 +196,7 @@ std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport
   text += "Stages:";
   for (const Stage stage : all_stages) fmt::format_to(out, " {} {}", name(stage), report.stages[stage]);
   fmt::format_to(out, "\nTime: {:.1f} s.\n", seconds);
-  return text;
+  return answer;
 }
 
 Json library_fuzz_json(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
@@ -227,11 +228,14 @@ Json library_fuzz_json(const audit::LibraryFuzzOptions& options, const audit::Li
   return json;
 }
 
-std::string library_fuzz_text(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
-                              double seconds) {
-  std::string text =
-      fmt::format("verdict {} queries {} contacts {} findings {}{} seed {}\n", verdict(exit_code(report), "no_finding"),
-                  report.queries, report.contacts, report.findings_total, faults_text(report.faults), options.seed);
+Answer library_fuzz_answer(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
+                           double seconds) {
+  Answer answer(verdict(exit_code(report), "no_finding"), {{"queries", report.queries},
+                                                           {"contacts", report.contacts},
+                                                           {"findings", report.findings_total}});
+  for_each_fault(report.faults, [&](std::string_view fault, std::uint64_t count) { answer.add({fault, count}); });
+  answer.add({"seed", options.seed});
+  std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
@@ -241,7 +245,7 @@ std::string library_fuzz_text(const audit::LibraryFuzzOptions& options, const au
   if (!options.corpus.empty()) text += corpus_text(report.corpus);
   text += "Generators (what each attacks):\n" + generators_text(options, report);
   fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
-  return text;
+  return answer;
 }
 
 }  // namespace noli::app

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "noli/app/answer.h"
 #include "noli/app/exit_code.h"
 #include "noli/app/json.h"
 #include "noli/audit/fuzz_library.h"
@@ -15,10 +16,10 @@ namespace noli::app {
 /// An interrupted run is undecided, whatever it has found: the findings are kept and listed.
 ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t queries, bool interrupted);
 
-std::string fuzz_text(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds);
+Answer fuzz_answer(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds);
 Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds);
 
-std::string library_fuzz_text(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
+Answer library_fuzz_answer(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
                               double seconds);
 Json library_fuzz_json(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
                        double seconds);

@@ -81,10 +81,13 @@ Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport&
   return json;
 }
 
-std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
-  std::string text = fmt::format("verdict {} scenes {} findings {} verified {} resumed {} seed {}\n",
-                                 fuzz_verdict(report.findings_total, report.extent), report.extent.items,
-                                 report.findings_total, report.verified, report.resumed, arguments.common.limits.seed);
+Answer report_answer(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
+  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"scenes", report.extent.items},
+                                                                     {"findings", report.findings_total},
+                                                                     {"verified", report.verified},
+                                                                     {"resumed", report.resumed},
+                                                                     {"seed", arguments.common.limits.seed}});
+  std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "finding: {}, block {}, scene {}: {}; {}\n", finding.generator, finding.block, finding.index,
@@ -98,13 +101,13 @@ std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzz
   }
   if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} scenes.\n", report.corpus_size);
   fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
-  return text;
+  return answer;
 }
 
 ExitCode fuzz(ScenesArguments& arguments) {
   if (arguments.wrong_place) throw UsageError("--wrong-place goes with --replay or --minimise");
   settle_limits(arguments.common);
-  const Output output(arguments.common.json, {});
+  const Output output(arguments.common.results, {});
   require_writable_folder(arguments.common.out, "--out");
   const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
   audit::SceneFuzzOptions options;
@@ -119,7 +122,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
     return audit::fuzz_scenes(options);
   });
   const double seconds = watch.seconds();
-  output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  output.write("fuzz-scenes", report_answer(arguments, report, seconds), report_json(arguments, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
@@ -127,7 +130,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
 /// A saved scene again, as it is or made smaller.
 ExitCode again(const ScenesArguments& arguments) {
   const fs::path file = arguments.again.saved();
-  const Output output(arguments.common.json, {file});
+  const Output output(arguments.common.results, {file});
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   if (arguments.wrong_place && !arguments.wrong_place->starts_with('/'))
     throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
@@ -157,11 +160,14 @@ ExitCode again(const ScenesArguments& arguments) {
   }
   judgement.stopped |= interrupted();
   const char* const word = judgement.stopped ? "undecided" : judgement.difference ? "finding" : "no_finding";
-  std::string text = fmt::format("verdict {} end {} verified {} resumed {}\n", word,
-                                 judgement.end.empty() ? "none" : judgement.end, judgement.verified, judgement.resumed);
+  Answer answer(word, {{"end", judgement.end.empty() ? "none" : judgement.end},
+                       {"verified", judgement.verified},
+                       {"resumed", judgement.resumed}});
+  std::string& text = answer.text;
   if (judgement.difference) text += *judgement.difference + '\n';
   if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
-  output.write(text, {{"verdict", word},
+  output.write("fuzz-replay", answer,
+               {{"verdict", word},
                       {"end", judgement.end},
                       {"verified", judgement.verified},
                       {"resumed", judgement.resumed},

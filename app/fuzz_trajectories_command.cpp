@@ -85,10 +85,12 @@ Json report_json(const TrajectoriesArguments& arguments, const audit::Trajectory
   return json;
 }
 
-std::string report_text(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
-  std::string text = fmt::format("verdict {} trajectories {} findings {} checked {} seed {}\n",
-                                 fuzz_verdict(report.findings_total, report.extent), report.extent.items,
-                                 report.findings_total, report.checked_plain, arguments.common.limits.seed);
+Answer report_answer(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
+  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
+                                                                     {"findings", report.findings_total},
+                                                                     {"checked", report.checked_plain},
+                                                                     {"seed", arguments.common.limits.seed}});
+  std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "finding: {}, block {}, motion {}: {}; {}\n", finding.generator, finding.block, finding.index,
@@ -103,13 +105,13 @@ std::string report_text(const TrajectoriesArguments& arguments, const audit::Tra
   fmt::format_to(
       out, "The verified checker looked at {} proofs. Not decided in their time: {}. Shapes: {}. Time: {:.1f} s.\n",
       report.checked_verified, undecided(report), report.shapes, seconds);
-  return text;
+  return answer;
 }
 
 ExitCode fuzz(TrajectoriesArguments& arguments) {
   if (arguments.needs_witness) throw UsageError("--needs-witness goes with --replay or --minimise");
   settle_limits(arguments.common);
-  const Output output(arguments.common.json, {});
+  const Output output(arguments.common.results, {});
   require_writable_folder(arguments.common.out, "--out");
   VerifyProgram subject(arguments.verified_every);
   if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
@@ -126,7 +128,7 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
     return audit::fuzz_trajectories(options);
   });
   const double seconds = watch.seconds();
-  output.write(report_text(arguments, report, seconds), report_json(arguments, report, seconds));
+  output.write("fuzz-trajectories", report_answer(arguments, report, seconds), report_json(arguments, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
@@ -136,7 +138,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   const fs::path folder = arguments.again.saved();
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
-  const Output output(arguments.common.json, saved_files(folder));
+  const Output output(arguments.common.results, saved_files(folder));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
   VerifyProgram subject(1);
@@ -163,11 +165,14 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   }
   const bool unknown = interrupted() || (undecided && !found);
   const char* const word = unknown ? "undecided" : found ? "finding" : "no_finding";
-  std::string text = fmt::format("verdict {} frames {} cells {} vertices {}\n", word, motion.frames.size(),
-                                 motion.mesh.cell_count(), motion.mesh.vertex_count);
+  Answer answer(word, {{"frames", motion.frames.size()},
+                       {"cells", motion.mesh.cell_count()},
+                       {"vertices", motion.mesh.vertex_count}});
+  std::string& text = answer.text;
   if (found) text += on_one_line(*found) + '\n';
   if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
-  output.write(text, {{"verdict", word},
+  output.write("fuzz-replay", answer,
+               {{"verdict", word},
                       {"frames", motion.frames.size()},
                       {"cells", motion.mesh.cell_count()},
                       {"vertices", motion.mesh.vertex_count},

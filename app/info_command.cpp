@@ -33,7 +33,7 @@ constexpr const char* footer =
 
 struct InfoArguments {
   std::vector<std::filesystem::path> files;
-  std::optional<std::string> json;
+  OutputOptions results;
 };
 
 bool is_csv(const std::filesystem::path& path) {
@@ -97,22 +97,23 @@ std::string as_text(const Json& value) {
   return text;
 }
 
-std::string info_text(const Json& files) {
-  std::string text = fmt::format("verdict described files {}\n", files.size());
+Answer info_answer(const Json& files) {
+  Answer answer("described", {{"files", files.size()}});
+  std::string& text = answer.text;
   for (const Json& file : files) {
     text += on_one_line(as_text(file["file"])) + '\n';
     for (const auto& [key, value] : file.items()) {
       if (key != "file") text += fmt::format("  {} {}\n", key, as_text(value));
     }
   }
-  return text;
+  return answer;
 }
 
 ExitCode run(const InfoArguments& arguments) {
-  const Output output(arguments.json, with_files_of_runs(arguments.files));
+  const Output output(arguments.results, with_files_of_runs(arguments.files));
   Json files = Json::array();
   for (const auto& path : arguments.files) files.push_back(info_of(path));
-  output.write(info_text(files), {{"verdict", "described"}, {"files", files}});
+  output.write("info", info_answer(files), {{"verdict", "described"}, {"files", files}});
   return ExitCode::holds;
 }
 
@@ -125,7 +126,7 @@ Command add_info(CLI::App& app) {
   command->add_option("files", arguments->files, "PLY, OBJ or CSV files, proofs, or folders of runs")
       ->required()
       ->type_name("FILE");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -118,14 +118,14 @@ const char* integrator_verdict(const IntegratorResults& results) {
   return std::all_of(results.begin(), results.end(), complete) && !results.empty() ? "measured" : "undecided";
 }
 
-std::string integrator_text(const IntegratorResults& results) {
+Answer integrator_answer(const IntegratorResults& results) {
   std::size_t runs = 0;
   for (const IntegratorResult& result : results) {
     for (const MethodResult& method : result.methods) runs += method.points.size();
   }
-  std::string text = fmt::format("verdict {} scenes {} runs {}\n", integrator_verdict(results), results.size(), runs);
-  for (const IntegratorResult& result : results) append_result(result, text);
-  return text;
+  Answer answer(integrator_verdict(results), {{"scenes", results.size()}, {"runs", runs}});
+  for (const IntegratorResult& result : results) append_result(result, answer.text);
+  return answer;
 }
 
 Json integrator_json(const IntegratorResults& results) {

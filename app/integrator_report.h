@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/answer.h"
 #include "noli/app/json.h"
 #include "noli/audit/integrator_audit.h"
 
@@ -16,7 +17,7 @@ using IntegratorResults = std::vector<audit::IntegratorResult>;
 /// "measured", "finding" (a run left the numbers), "undecided".
 const char* integrator_verdict(const IntegratorResults& results);
 
-std::string integrator_text(const IntegratorResults& results);
+Answer integrator_answer(const IntegratorResults& results);
 
 Json integrator_json(const IntegratorResults& results);
 

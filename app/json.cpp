@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace noli::app {
 namespace {
@@ -57,6 +58,13 @@ void write(const Json& value, std::size_t depth, std::string& out) {
 }
 
 }  // namespace
+
+std::string digits4(double number) {
+  constexpr std::size_t mantissa = 5;  // "2.631" of "2.6318040000000001e-01"
+  const std::string digits = fmt::format("{:.16e}", number);
+  const std::string cut = digits.substr(0, mantissa) + digits.substr(digits.find('e'));
+  return fmt::format("{:g}", std::strtod(cut.c_str(), nullptr));
+}
 
 std::string digits17(double number) {
   std::string text = fmt::format("{:.17g}", number);

@@ -32,6 +32,7 @@ constexpr const char* footer =
     "  noli simulate scene.json -o run        run a scene, certified window by window\n"
     "  noli info frame.obj                    what is in a file\n"
     "  noli report run -o report.html         a page about it, for a browser\n"
+    "  noli schema verify                     the JSON Schema of a result\n"
     "  noli fuzz queries --for 60s --seed 1   adversarial queries, kernel against oracle\n"
     "  noli audit ccd --library lib.so edge-edge-queries.csv   somebody else's library against the truth\n"
     "  noli audit self                        all that noli has to look at itself with\n"
@@ -64,6 +65,7 @@ ExitCode parse_and_run(int argc, char** argv) {
       add_explain(app),
       add_export(app),
       add_report(app),
+      add_schema(app),
       add_fuzz_queries(fuzz),
       add_fuzz_trajectories(fuzz),
       add_fuzz_proofs(fuzz),

@@ -66,12 +66,25 @@ std::string pair_text(const std::array<std::string, 2>& pair) {
   return pair[0] == pair[1] ? a : a + " and " + on_one_line(pair[1]);
 }
 
-std::string nothing_touches(const NotCompared& left_out, const std::string& where) {
-  if (!left_out.any()) return fmt::format("Nothing touches {}.", where);
+namespace {
+
+std::string what_is_not_compared(const NotCompared& left_out) {
   std::string what;
   if (left_out.any_held) what = held_text(left_out);
   if (!left_out.excluded.empty()) what += (what.empty() ? "" : "; ") + excluded_text(left_out);
-  return fmt::format("Nothing that is compared touches {}. Not compared: {}.", where, what);
+  return what;
+}
+
+}  // namespace
+
+std::string nothing_touches(const NotCompared& left_out, const std::string& where) {
+  if (!left_out.any()) return fmt::format("Nothing touches {}.", where);
+  return fmt::format("Nothing that is compared touches {}. Not compared: {}.", where, what_is_not_compared(left_out));
+}
+
+std::string nothing_touches_in_short(const NotCompared& left_out) {
+  if (!left_out.any()) return "nothing touches";
+  return fmt::format("nothing that is compared touches; not compared: {}", what_is_not_compared(left_out));
 }
 
 }  // namespace noli::app

@@ -42,4 +42,7 @@ std::string held_text(const NotCompared& left_out);
 /// name, but not more than a few.
 std::string nothing_touches(const NotCompared& left_out, const std::string& where);
 
+/// "nothing touches", or "nothing that is compared touches; not compared: ...", for the line of the verdict.
+std::string nothing_touches_in_short(const NotCompared& left_out);
+
 }  // namespace noli::app

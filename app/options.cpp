@@ -9,11 +9,17 @@
 
 namespace noli::app {
 
-void add_json_option(CLI::App& command, std::optional<std::string>& path) {
+void add_output_options(CLI::App& command, OutputOptions& options) {
   command
-      .add_option("--json", path,
+      .add_option("--json", options.json,
                   "Write everything as JSON to this file; '-': to standard output, in place of the text")
       ->type_name("OUT");
+  auto* const porcelain =
+      command.add_flag("--porcelain", options.porcelain, "Print one line of key=value pairs, for programs");
+  auto* const quiet = command.add_flag("-q,--quiet", options.quiet, "Print no result: the exit code says it");
+  auto* const verbose = command.add_flag("-v,--verbose", options.verbose, "Print all that was looked at and done");
+  quiet->excludes(porcelain)->excludes(verbose);
+  verbose->excludes(porcelain);
 }
 
 void add_threads_option(CLI::App& command, int& threads) {

@@ -5,13 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <optional>
 #include <string>
+
+#include "noli/app/output.h"
 
 namespace noli::app {
 
-/// --json OUT: where Output writes the document.
-void add_json_option(CLI::App& command, std::optional<std::string>& path);
+/// --json OUT, --porcelain, -q, -v: what Output writes where.
+void add_output_options(CLI::App& command, OutputOptions& options);
 
 /// --threads N: 0 for all there are.
 void add_threads_option(CLI::App& command, int& threads);

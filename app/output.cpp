@@ -10,11 +10,16 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/version.h"
 
 namespace noli::app {
 namespace {
+
+/// Of all schemas of results; one more when a member is removed, or means something else.
+constexpr int result_version = 1;
 
 std::string reason() { return std::strerror(errno); }
 
@@ -139,21 +144,31 @@ bool write_file(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-Output::Output(std::optional<std::string> json_path, const std::vector<std::filesystem::path>& inputs)
-    : json_path_(std::move(json_path)) {
-  if (!json_path_ || *json_path_ == "-") return;
-  require_other_file(*json_path_, inputs, "--json");
-  if (is_standard_output(*json_path_)) {
-    throw UsageError("--json " + *json_path_ + ": standard output goes there; expected another file, or '-'");
+Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs) : options_(std::move(options)) {
+  const std::optional<std::string>& path = options_.json;
+  if (!path || *path == "-") return;
+  require_other_file(*path, inputs, "--json");
+  if (is_standard_output(*path)) {
+    throw UsageError("--json " + *path + ": standard output goes there; expected another file, or '-'");
   }
-  require_writable_file(*json_path_, "--json");
+  require_writable_file(*path, "--json");
 }
 
-void Output::write(const std::string& text, const Json& json) const {
-  if (!json_path_) return write_standard_output(text);
-  if (*json_path_ == "-") return write_standard_output(to_text(json));
-  if (!write_file(*json_path_, to_text(json))) throw WriteError(*json_path_ + ": cannot be written: " + reason());
-  write_standard_output(text);
+std::string Output::words(const Answer& answer) const {
+  if (options_.quiet) return "";
+  return options_.porcelain ? answer.porcelain() : answer.words(options_.verbose);
+}
+
+void Output::write(std::string_view schema, const Answer& answer, const Json& json) const {
+  const std::optional<std::string>& path = options_.json;
+  if (!path) return write_standard_output(words(answer));
+  Json document = {{"schema", fmt::format("noli-{}", schema)},
+                   {"version", result_version},
+                   {"noli", {{"version", version_number()}, {"commit", version_commit()}}}};
+  for (const auto& [key, value] : json.items()) document[key] = value;
+  if (*path == "-") return write_standard_output(to_text(document));
+  if (!write_file(*path, to_text(document))) throw WriteError(*path + ": cannot be written: " + reason());
+  write_standard_output(words(answer));
 }
 
 void require_other_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,

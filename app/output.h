@@ -1,35 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where results go: text to standard output, and all of it as JSON to a file when asked for.
+// Where results go: words to standard output, and all of it as JSON to a file when asked for.
 //
-// The text's first line is the verdict, `verdict WORD key value key value ...`, for machines. With `--json -` standard
-// output carries the JSON document and nothing else.
+// Standard output carries one of: the words, with the verdict in the last line; with `--porcelain` one line
+// `verdict=WORD key=value ...`; with `-q` nothing; with `--json -` the JSON document. Each JSON document begins with the
+// name and version of its schema (`noli schema NAME` prints it) and with the program that wrote it.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "noli/app/answer.h"
 #include "noli/app/json.h"
 
 namespace noli::app {
 
+struct OutputOptions {
+  std::optional<std::string> json;  ///< where the JSON goes, "-" for standard output, nothing for nowhere
+  bool porcelain = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
 class Output {
  public:
-  /// `json_path`: where the JSON goes, "-" for standard output, nothing for nowhere.
   /// `inputs`: files that the command reads; none of them may be the JSON, nor may the file that standard output goes
   /// to. Throws UsageError when a file cannot be written there; leaves nothing behind.
-  Output(std::optional<std::string> json_path, const std::vector<std::filesystem::path>& inputs);
+  Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs);
 
-  /// Writes the results. A file is written under another name first and then renamed: it is complete or absent, and has
+  /// Writes the results. `schema` names that of the JSON, `noli schema NAME`: "verify". A file is written under another name first and then renamed: it is complete or absent, and has
   /// the owner and permissions of the one that it replaces. A file that may be written but not replaced (in a folder
   /// without write permission, say) is written in place. It comes before the text, so that no verdict is printed by a
   /// run that fails. Throws WriteError.
-  void write(const std::string& text, const Json& json) const;
+  void write(std::string_view schema, const Answer& answer, const Json& json) const;
 
  private:
-  std::optional<std::string> json_path_;
+  std::string words(const Answer& answer) const;
+
+  OutputOptions options_;
 };
 
 /// Throws UsageError, naming `option`, when the file is one of the inputs, or a folder.

@@ -87,10 +87,13 @@ void append_findings(const PipelineAudit& audit, std::string& text) {
 
 }  // namespace
 
-std::string pipeline_text(const PipelineOutcome& outcome) {
-  std::string text = fmt::format(
-      "verdict {} audits {} contacts.vertex_face {} contacts.edge_edge {} findings {} complete {}\n", verdict(outcome),
-      outcome.audits.size(), outcome.contacts[0], outcome.contacts[1], outcome.findings(), outcome.complete);
+Answer pipeline_answer(const PipelineOutcome& outcome) {
+  Answer answer(verdict(outcome), {{"audits", outcome.audits.size()},
+                                   {"contacts.vertex_face", outcome.contacts[0]},
+                                   {"contacts.edge_edge", outcome.contacts[1]},
+                                   {"findings", outcome.findings()},
+                                   {"complete", outcome.complete}});
+  std::string& text = answer.text;
   text += fmt::format("{} vertices, {} edges, {} faces. Noli finds all contacts in {:.3g} s, on one thread.\n",
                       outcome.vertices, outcome.edges, outcome.faces, outcome.noli_seconds);
   std::vector<TableRow> rows = {{"library", "tolerance", "vertex-face", "edge-edge", "not-found", "false+", "false-",
@@ -99,7 +102,7 @@ std::string pipeline_text(const PipelineOutcome& outcome) {
   for (const PipelineAudit& audit : outcome.audits) rows.push_back(row_of(audit));
   text += table_text(rows, 1);
   for (const PipelineAudit& audit : outcome.audits) append_findings(audit, text);
-  return text;
+  return answer;
 }
 
 Json pipeline_json(const PipelineOutcome& outcome) {

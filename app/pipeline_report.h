@@ -5,12 +5,13 @@
 
 #include <string>
 
+#include "noli/app/answer.h"
 #include "noli/app/json.h"
 #include "noli/audit/ccd_pipeline.h"
 
 namespace noli::app {
 
-std::string pipeline_text(const audit::PipelineOutcome& outcome);
+Answer pipeline_answer(const audit::PipelineOutcome& outcome);
 
 Json pipeline_json(const audit::PipelineOutcome& outcome);
 

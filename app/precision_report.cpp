@@ -167,18 +167,23 @@ ExitCode precision_exit_code(const PrecisionOutcome& outcome) {
   return outcome.complete && outcome.windows > 0 ? ExitCode::holds : ExitCode::undecided;
 }
 
-std::string precision_text(const PrecisionOutcome& outcome) {
+Answer precision_answer(const PrecisionOutcome& outcome) {
   const auto changes = outcome.order_changes();
   const bool compared = !outcome.energies.empty();
   const double time = compared ? outcome.energies.back().time : 0;
   const auto if_compared = [&](const std::string& text) { return compared ? text : std::string("unknown"); };
-  std::string text = fmt::format(
-      "verdict {} windows {} time {} vertices {} events {} examined {} impulses {} bits {} position {} "
-      "order_changes {} complete {}\n",
-      precision_verdict(outcome), outcome.windows, number(time), outcome.vertices, outcome.events, outcome.examined,
-      outcome.impulses, outcome.runs.back().arithmetic.bits,
-      if_compared(number(greatest_position(outcome.runs.back(), outcome.windows_in_order()))),
-      changes ? number(*changes) : if_compared("none"), outcome.complete);
+  const std::string position = number(greatest_position(outcome.runs.back(), outcome.windows_in_order()));
+  Answer answer(precision_verdict(outcome), {{"windows", outcome.windows},
+                                             {"time", number(time)},
+                                             {"vertices", outcome.vertices},
+                                             {"events", outcome.events},
+                                             {"examined", outcome.examined},
+                                             {"impulses", outcome.impulses},
+                                             {"bits", outcome.runs.back().arithmetic.bits},
+                                             {"position", if_compared(position)},
+                                             {"order_changes", changes ? number(*changes) : if_compared("none")},
+                                             {"complete", outcome.complete}});
+  std::string& text = answer.text;
   if (outcome.difference) {
     text += fmt::format("53 bits differ from double: first the {}, at {} s.\n", outcome.difference->what,
                         digits17(outcome.difference->time));
@@ -193,7 +198,7 @@ std::string precision_text(const PrecisionOutcome& outcome) {
     if (!run.ended) continue;
     text += fmt::format("{} bits ended after window {}: {}.\n", run.arithmetic.bits, run.drifts.size(), *run.ended);
   }
-  return text;
+  return answer;
 }
 
 Json precision_json(const PrecisionOutcome& outcome) {

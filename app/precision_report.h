@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "noli/app/answer.h"
 #include "noli/app/exit_code.h"
 #include "noli/app/json.h"
 #include "noli/audit/precision.h"
@@ -15,7 +16,7 @@ namespace noli::app {
 const char* precision_verdict(const audit::PrecisionOutcome& outcome);
 ExitCode precision_exit_code(const audit::PrecisionOutcome& outcome);
 
-std::string precision_text(const audit::PrecisionOutcome& outcome);
+Answer precision_answer(const audit::PrecisionOutcome& outcome);
 
 /// Without `timing`.
 Json precision_json(const audit::PrecisionOutcome& outcome);

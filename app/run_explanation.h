@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/answer.h"
 #include "noli/app/exact_gap.h"
 #include "noli/app/phase_clock.h"
 #include "noli/app/run_log_facts.h"
@@ -64,7 +65,7 @@ struct RunExplanation {
 /// Throws InputError (no run, a damaged one, of an earlier version).
 RunExplanation explain_run(const std::filesystem::path& run);
 
-std::string to_text(const RunExplanation& explanation);
+Answer answer_of(const RunExplanation& explanation);
 Json to_json(const RunExplanation& explanation);
 
 }  // namespace noli::app

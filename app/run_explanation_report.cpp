@@ -198,16 +198,19 @@ Json to_json(const RunExplanation& e) {
   return json;
 }
 
-std::string to_text(const RunExplanation& e) {
-  std::string text = fmt::format("verdict explained windows {} time {} deepest {} end {}\n", e.windows,
-                                 digits17(e.time), e.deepest ? e.deepest->action.layer : 0,
-                                 e.log.last_end.empty() ? "unknown" : on_one_line(e.log.last_end));
+Answer answer_of(const RunExplanation& e) {
+  Answer answer("explained", {{"windows", e.windows},
+                              {"time", digits17(e.time)},
+                              {"deepest", e.deepest ? e.deepest->action.layer : 0},
+                              {"end", e.log.last_end.empty() ? "unknown" : e.log.last_end}});
+  std::string& text = answer.text;
   text += fmt::format("{}: {} windows, {} s.\n", on_one_line(e.title), e.windows, e.time);
   if (e.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
   text += contact_text(e) + bound_text(e) + cap_text(e) + roll_backs_text(e);
   text += events_text(e);
   if (e.smallest_step > 0) text += fmt::format("Smallest step of a free vertex: {} s.\n", digits17(e.smallest_step));
-  return text + energy_text(e) + certificates_text(e) + time_text(e);
+  text += energy_text(e) + certificates_text(e) + time_text(e);
+  return answer;
 }
 
 }  // namespace noli::app

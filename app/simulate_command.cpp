@@ -38,23 +38,25 @@ struct SimulateArguments {
   std::optional<std::string> reproduce;
   std::uint64_t window = 0;
   std::string time_limit;
-  std::optional<std::string> json;
+  OutputOptions results;
 };
 
 /// The words of --reproduce.
 ExitCode reproduce(const SimulateArguments& arguments) {
   const SimulateRequest& request = arguments.request;
   const auto inputs = with_files_of_runs({request.scene, *arguments.reproduce});
-  const Output output(arguments.json, inputs);
+  const Output output(arguments.results, inputs);
   require_other_file(request.run, inputs, "-o");
   require_writable_file(request.run, "-o");
   const ReproduceOutcome outcome =
       run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
   const char* const verdict = outcome.same ? "same" : "different";
+  Answer answer(verdict, {{"window", arguments.window}, {"breakpoints", outcome.breakpoints}});
+  answer.text = fmt::format("{}, SHA-256 {}, is in {}.\n",
+                            outcome.same ? "The window of the run" : "Another window than the run has",
+                            hex(outcome.found), on_one_line(request.run.string()));
   output.write(
-      fmt::format("verdict {} window {} breakpoints {}\n{}, SHA-256 {}, is in {}.\n", verdict, arguments.window,
-                  outcome.breakpoints, outcome.same ? "The window of the run" : "Another window than the run has",
-                  hex(outcome.found), request.run.string()),
+      "reproduce", answer,
       {{"verdict", verdict},
        {"window", arguments.window},
        {"breakpoints", outcome.breakpoints},
@@ -67,13 +69,13 @@ ExitCode run(SimulateArguments& arguments) {
   SimulateRequest& request = arguments.request;
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
-  const Output output(arguments.json, with_files_of_runs({request.scene, request.run}));
+  const Output output(arguments.results, with_files_of_runs({request.scene, request.run}));
   request.begun = [&request](const integrator::Scene& scene, const integrator::Explanation& explanation) {
     if (request.brief) note_missing_short_form(scene);
     tell_notes(explanation);
   };
   const SimulateOutcome outcome = run_simulate(request);
-  output.write(simulate_text(request, outcome), simulate_json(request, outcome));
+  output.write("simulate", simulate_answer(request, outcome), simulate_json(request, outcome));
   return exit_code(outcome);
 }
 
@@ -84,7 +86,7 @@ Command add_simulate(CLI::App& app) {
   command->footer(footer);
   const auto arguments = std::make_shared<SimulateArguments>();
   SimulateRequest& request = arguments->request;
-  command->add_option("scene", request.scene, "A scene (scenes/schema.json says what can be in it)")
+  command->add_option("scene", request.scene, "A scene (`noli schema scene` says what can be in it)")
       ->required()
       ->type_name("SCENE.json");
   command->add_option("-o,--output", request.run, "The folder of the run (with --reproduce, a file)")
@@ -120,7 +122,7 @@ Command add_simulate(CLI::App& app) {
           "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped. To write series.h5 "
           "comes on top, and Ctrl-C ends that too")
       ->type_name("TIME");
-  add_json_option(*command, arguments->json);
+  add_output_options(*command, arguments->results);
   add_threads_option(*command, request.threads);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -146,6 +146,44 @@ std::string committed_text(const SimulateRequest& request, const SimulateOutcome
 
 double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
 
+/// What stands behind the verdict.
+std::string place(const SimulateOutcome& outcome) {
+  const std::string committed =
+      fmt::format("{} of {} windows, {} s", outcome.windows, outcome.windows_total, outcome.time);
+  const std::string at = fmt::format("window {}", outcome.windows + 1);
+  switch (outcome.end) {
+    case RunEnd::done: return fmt::format("{}: {}", committed, nothing_touches_in_short(outcome.not_compared));
+    case RunEnd::contact: {
+      const FirstInWindow& first = *outcome.contact->first;
+      return fmt::format("{}  t = {} s  {}", at, digits4(first.lower()), pair_in_short(first.contact));
+    }
+    case RunEnd::too_near:
+      return fmt::format("{}  t = {} s  {}", at, digits4(outcome.limit->time), outcome.first_names);
+    case RunEnd::not_finite:
+      return fmt::format("{}  t = {} s  vertex {}", at, digits4(outcome.not_finite->time), outcome.not_finite->vertex);
+    case RunEnd::unstable: return committed + ": nothing touches, but the energy goes astray";
+    case RunEnd::interrupted: return committed + " (interrupted)";
+    case RunEnd::out_of_time: return committed + " (time limit)";
+  }
+  return "";
+}
+
+/// What a user does now.
+std::string next_step(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  const std::string scene = on_one_line(request.scene.string()), run = on_one_line(request.run.string());
+  switch (outcome.end) {
+    case RunEnd::contact: return fmt::format("noli report {0} -o {0}.html shows the motion up to there.", run);
+    case RunEnd::unstable:
+    case RunEnd::not_finite: return fmt::format("noli explain {} tells which steps are too long.", scene);
+    case RunEnd::too_near: return fmt::format("noli explain {} tells how deep the layers went.", run);
+    case RunEnd::interrupted:
+    case RunEnd::out_of_time:
+      return fmt::format("noli simulate {}{} -o {} --resume", scene, request.brief ? " --short" : "", run);
+    case RunEnd::done: return "";
+  }
+  return "";
+}
+
 }  // namespace
 
 const char* name(RunEnd end) {
@@ -212,11 +250,16 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   return json;
 }
 
-std::string simulate_text(const SimulateRequest& request, const SimulateOutcome& outcome) {
-  std::string text =
-      fmt::format("verdict {} end {} windows {} windows_total {} time {} first_time {}\n", verdict(outcome),
-                  name(outcome.end), outcome.windows, outcome.windows_total, digits17(outcome.time),
-                  outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none"));
+Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  Answer answer(verdict(outcome),
+                {{"end", name(outcome.end)},
+                 {"windows", outcome.windows},
+                 {"windows_total", outcome.windows_total},
+                 {"time", digits17(outcome.time)},
+                 {"first_time", outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none")}});
+  answer.place = place(outcome);
+  answer.next = next_step(request, outcome);
+  std::string& text = answer.text;
   text += end_text(outcome) + "\n";
   if (!outcome.title.empty()) text += on_one_line(outcome.title) + ": ";
   text += committed_text(request, outcome) + "\n";
@@ -226,13 +269,13 @@ std::string simulate_text(const SimulateRequest& request, const SimulateOutcome&
   if (outcome.series == SeriesEnd::stopped) {
     text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
   }
-  text += fmt::format(
+  answer.details += fmt::format(
       "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
       "beside it; {:.0f} MB.\n",
       outcome.seconds, outcome.simulating_seconds, per(static_cast<double>(outcome.events), outcome.simulating_seconds),
       outcome.breakpoints, outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
-  text += fmt::format("Busy with: {}.\n", phases_text(outcome.phases));
-  return text;
+  answer.details += fmt::format("Busy with: {}.\n", phases_text(outcome.phases));
+  return answer;
 }
 
 }  // namespace noli::app

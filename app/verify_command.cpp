@@ -22,17 +22,14 @@ namespace noli::app {
 namespace {
 
 constexpr const char* footer =
-    "Every step from one frame to the next is decided exactly. The first step that has a contact is counted to its "
-    "end, then the run\n"
-    "stops. A proof of it goes to a checker, a program of its own that trusts nothing of this one. Standard output\n"
-    "begins with the verdict line; verdicts: proved (the checker has accepted the proof), no_contact (decided "
-    "exactly,\n"
-    "but checked by nobody else: --no-check; both exit 0), contact, too_near (both 1), undecided (2).\n"
-    "Steps are counted from 1 (for a run they are its windows): `steps` were looked at, `steps_total` there are; times "
-    "are in [0, 1] of their step (for a run, in "
-    "seconds). `first_time` is of the first pair of features that "
-    "meets: null when\n"
-    "none does, also where cells intersect from the beginning to the end without any.\n"
+    "Decides every step from one frame to the next exactly, and stops after the first step that has a contact.\n"
+    "A separate checker, which trusts nothing of this program, checks the proof. The last line is the verdict:\n"
+    "  proved      the checker accepted the proof: nothing touches           exit 0\n"
+    "  no_contact  decided exactly, but not checked (--no-check)             exit 0\n"
+    "  contact     something touches; the line names step, time, features    exit 1\n"
+    "  too_near    with --min-distance: something comes nearer than that     exit 1\n"
+    "  undecided   a limit was reached, or the run was interrupted           exit 2\n"
+    "Steps count from 1 (for a run, they are its windows). Times are in [0, 1] of their step (for a run, in seconds).\n"
     "Examples:\n"
     "  noli verify before.ply after.ply\n"
     "  noli verify frames/*.obj --keep-going --json result.json\n"
@@ -46,7 +43,7 @@ constexpr const char* footer =
 struct VerifyArguments {
   VerifyRequest request;
   std::string time_limit;
-  std::optional<std::string> json;
+  OutputOptions results;
 };
 
 ExitCode exit_code(Verdict verdict) {
@@ -70,7 +67,7 @@ void require_place_of_proof(const VerifyArguments& arguments) {
   const auto same = [&](const std::filesystem::path& other) {
     return std::filesystem::weakly_canonical(proof, error) == std::filesystem::weakly_canonical(other, error);
   };
-  if (arguments.json && *arguments.json != "-" && same(*arguments.json)) {
+  if (const auto& json = arguments.results.json; json && *json != "-" && same(*json)) {
     throw UsageError("--proof " + proof.string() + ": --json goes there too; expected another file");
   }
   if (proof == "-") throw UsageError("--proof -: a proof is no text for standard output; expected the name of a file");
@@ -190,7 +187,7 @@ ExitCode run(VerifyArguments& arguments) {
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   auto inputs = with_files_of_runs(request.frames);
   if (request.ignore) inputs.push_back(*request.ignore);
-  const Output output(arguments.json, inputs);
+  const Output output(arguments.results, inputs);
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
@@ -199,7 +196,7 @@ ExitCode run(VerifyArguments& arguments) {
   ProofRoute route(request);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
   route.check(outcome);
-  output.write(verify_text(request, outcome), verify_json(request, outcome));
+  output.write("verify", verify_answer(request, outcome), verify_json(request, outcome));
   return exit_code(outcome.verdict);
 }
 
@@ -208,7 +205,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   command.add_option("frames", request.frames, "PLY or OBJ files, in the order of time; or the folder of one run")
       ->required()
       ->type_name("FRAMES | RUN");
-  add_json_option(command, arguments.json);
+  add_output_options(command, arguments.results);
   add_threads_option(command, request.threads);
   command.add_option("--max-reports", request.max_reports, "List at most so many contacts; counts are always exact")
       ->check(CLI::Range(0, 1'000'000'000))

@@ -180,7 +180,9 @@ class MotionRun {
       if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
     }
     if (result.first && !outcome_.first) {
-      outcome_.first = First{result.first->contact, step, result.first->kind, result.first->lower()};
+      const FeatureContact& contact = result.first->contact;
+      outcome_.first =
+          First{contact, step, result.first->kind, result.first->lower(), face_of(reader_.mesh(), contact)};
     }
   }
 

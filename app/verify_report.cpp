@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
+#include <utility>
 
 #include "noli/app/contact_report.h"
 #include "noli/app/machine.h"
@@ -70,6 +70,7 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
 Json first_json(const VerifyOutcome& outcome) {
   if (!outcome.first) return nullptr;
   Json json = contact_json(outcome.first->contact);
+  if (outcome.first->face) json["face"] = *outcome.first->face;
   json["kind"] = name(outcome.first->kind);
   json["step"] = outcome.first->step;
   json["time"] = outcome.first->time;
@@ -153,102 +154,117 @@ const char* why_incomplete(const VerifyOutcome& outcome) {
   return outcome.out_of_time ? "time limit" : "first contact only";
 }
 
-class Text {
+/// What stands behind the verdict, in the last line.
+class Place {
  public:
-  Text(const VerifyRequest& request, const VerifyOutcome& outcome) : request_(request), outcome_(outcome) {}
+  Place(const VerifyRequest& request, const VerifyOutcome& outcome) : request_(request), outcome_(outcome) {}
 
-  std::string operator()() && {
-    verdict_line();
-    answer();
+  std::string operator()() const {
+    switch (outcome_.verdict) {
+      case Verdict::proved: return fmt::format("{}: {} ({})", looked_at(), untouched(), by_checker());
+      case Verdict::no_contact: return fmt::format("{}: {} (decided exactly, not checked)", looked_at(), untouched());
+      case Verdict::contact: return contact();
+      case Verdict::too_near: return near();
+      case Verdict::undecided:
+        return fmt::format("{} of {} {}: nothing found so far ({})", outcome_.steps.size(), outcome_.steps_total,
+                           steps_word(outcome_.steps_total), why_incomplete(outcome_));
+    }
+    return "";
+  }
+
+ private:
+  const char* steps_word(std::size_t count) const {
+    if (request_.run) return count == 1 ? "window" : "windows";
+    if (request_.constant_motion) return count == 1 ? "frame at rest" : "frames at rest";
+    return count == 1 ? "step" : "steps";
+  }
+
+  std::string looked_at() const {
+    const std::string steps = fmt::format("{} {}", outcome_.steps_total, steps_word(outcome_.steps_total));
+    if (request_.constant_motion) return steps;
+    if (!request_.run) return fmt::format("{} frames, {}", request_.frames.size(), steps);
+    const RunEnding& ending = *outcome_.ending;
+    const std::string of = ending.duration && !ending.whole() ? fmt::format(" of {} s", *ending.duration) : " s";
+    return fmt::format("{}, {}{}", steps, ending.time, of);
+  }
+
+  std::string untouched() const {
+    std::string text = nothing_touches_in_short(outcome_.not_compared);
+    if (request_.min_distance > 0) {
+      const std::string ring = request_.ring > 1 ? fmt::format(", {} edges or more apart", request_.ring) : "";
+      text += fmt::format(", and all{} is more than {} apart", ring, digits17(request_.min_distance));
+    }
+    if (outcome_.merged_vertices > 0) text += fmt::format("; {} vertices are merged", outcome_.merged_vertices);
+    return text;
+  }
+
+  std::string by_checker() const { return "accepted by noli_check"; }
+
+  /// "step 3 (c.ply → d.ply)", "frame 3 (c.ply)", "window 3".
+  std::string step(std::size_t number) const {
+    if (request_.run) return fmt::format("window {}", number);
+    const auto name = [&](std::size_t frame) { return on_one_line(request_.frames[frame].filename().string()); };
+    if (request_.constant_motion) return fmt::format("frame {} ({})", number, name(number - 1));
+    return fmt::format("step {} ({} → {})", number, name(number - 1), name(number));
+  }
+
+  std::string contact() const {
+    if (outcome_.first) {
+      const First& first = *outcome_.first;
+      return fmt::format("{}  t = {}{}  {}", step(first.step), digits4(first.time), request_.run ? " s" : "",
+                         pair_in_short(first.contact, first.face));
+    }
+    if (outcome_.initial_reports.empty()) return "from the beginning";
+    const auto& [number, pair] = outcome_.initial_reports.front();
+    return fmt::format("{}  from its beginning  cell {} × cell {}", step(number), pair.first_cell, pair.second_cell);
+  }
+
+  std::string near() const {
+    const TooNear& pair = outcome_.near->pair;
+    return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart", step(outcome_.near->step),
+                       digits4(pair.time), pair.first_cell, pair.second_cell, digits17(request_.min_distance));
+  }
+
+  const VerifyRequest& request_;
+  const VerifyOutcome& outcome_;
+};
+
+class Words {
+ public:
+  Words(const VerifyRequest& request, const VerifyOutcome& outcome, Answer& answer)
+      : request_(request), outcome_(outcome), answer_(answer) {}
+
+  void operator()() {
     contacts();
     initial_intersections();
+    remarks();
+    proof();
     statement();
     work();
-    return std::move(text_);
+    answer_.place = Place(request_, outcome_)();
+    answer_.next = next();
   }
 
  private:
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-    text_ += '\n';
+    answer_.text += fmt::format(format, std::forward<Args>(args)...) + '\n';
+  }
+  template <class... Args>
+  void detail(fmt::format_string<Args...> format, Args&&... args) {
+    answer_.details += fmt::format(format, std::forward<Args>(args)...) + '\n';
   }
 
-  void verdict_line() {
-    text_ += fmt::format("verdict {}", name(outcome_.verdict));
-    for (const FeaturePair pair : all_feature_pairs) {
-      text_ += fmt::format(" contacts.{} {}", name(pair), outcome_.contacts[static_cast<std::size_t>(pair)]);
-    }
-    const std::string time = outcome_.first ? digits17(outcome_.first->time) : "none";
-    line(" initial_intersections {} first_time {} steps {} steps_total {} faces {} complete {}",
-         outcome_.initial_intersections, time, outcome_.steps.size(), outcome_.steps_total, outcome_.faces,
-         outcome_.complete);
-  }
-
-  void answer() {
-    switch (outcome_.verdict) {
-      case Verdict::no_contact:
-      case Verdict::proved:
-        line("{}",
-             nothing_touches(outcome_.not_compared, fmt::format("in {} {}(s){}", outcome_.steps_total,
-                                                                request_.run ? "window" : "step", distance_text())));
-        break;
-      case Verdict::contact:
-        line("There is contact, in {} of {} step(s) looked at.", touching_steps(), outcome_.steps.size());
-        break;
-      case Verdict::too_near:
-        line("Nothing touches, but something is not more than {} apart: cells {} and {}, in step {}, after {} of it.",
-             digits17(request_.min_distance), outcome_.near->pair.first_cell, outcome_.near->pair.second_cell,
-             outcome_.near->step, digits17(outcome_.near->pair.time));
-        break;
-      case Verdict::undecided: line("Undecided ({}): nothing found so far.", why_incomplete(outcome_)); break;
-    }
-    if (outcome_.largest_distance) {
-      line("The first frame allows {}, and not {}{}.", digits17(outcome_.largest_distance->allowed),
-           digits17(outcome_.largest_distance->limit),
-           request_.ring == 1 ? " (neighbours by the mesh are near; see --min-distance-from-ring)" : "");
-    }
-    proof();
-    ending();
-    if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
-    if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
-      line("What is said is of what was settled so far ({}): there may be more contacts, and earlier ones.",
-           why_incomplete(outcome_));
-    }
-  }
-
-  std::string distance_text() const {
-    if (request_.min_distance == 0) return "";
-    const std::string which =
-        request_.ring > 1 ? fmt::format(", but for what fewer than {} edges join", request_.ring) : "";
-    return fmt::format(", and it is all more than {} apart{}", digits17(request_.min_distance), which);
-  }
-
-  void ending() {
-    if (!outcome_.ending || outcome_.ending->whole()) return;
-    const RunEnding& ending = *outcome_.ending;
-    const std::string of = ending.duration ? fmt::format(" of {} s", *ending.duration) : "";
-    line("The run ends at {} s{} ({}).", ending.time, of, why_ended(ending));
-  }
-
-  void proof() {
-    const bool touches = outcome_.verdict == Verdict::contact;
-    if (!request_.proof) {
-      if (outcome_.checked) line("The checker says of the proof: {}.", *outcome_.checked);
-      if (outcome_.not_checked) line("It was not checked: {}.", *outcome_.not_checked);
-      if (touches && request_.open_proof && outcome_.witnesses == 0 && outcome_.complete)
-        line("No witness was found of which a checker could be convinced.");
-      return;
-    }
-    const std::string file = request_.proof->string();
-    if (outcome_.checked) line("The checker says of {}: {}.", file, *outcome_.checked);
-    if (outcome_.not_checked) line("{} was not checked: {}.", file, *outcome_.not_checked);
-    if (touches && outcome_.witnesses == 0 && outcome_.proof_begun)
-      line("No witness was found for {}: it proves nothing.", file);
-    if (outcome_.verdict == Verdict::no_contact && !request_.check) line("The proof in {} was not checked.", file);
-    if (!outcome_.proof_begun) line("No proof was written to {}.", file);
-    if (outcome_.verdict == Verdict::undecided && outcome_.proof_begun)
-      line("{} is not complete, and proves nothing.", file);
+  void contacts() {
+    if (!outcome_.first) return;
+    const First& first = *outcome_.first;
+    line("First: {}, {}, in step {} at time {}.", contact_text(first.contact), name(first.kind), first.step,
+         digits17(first.time));
+    line("Contacts ({} pairs of features, in {} of {} step(s) looked at):", outcome_.contact_count(), touching_steps(),
+         outcome_.steps.size());
+    for (const auto& [step, contact] : outcome_.reports) line("  step {}: {}", step, contact_text(contact));
+    const auto left_out = outcome_.contact_count() - outcome_.reports.size();
+    if (left_out > 0) line("  ... and {} more (--max-reports)", left_out);
   }
 
   std::size_t touching_steps() const {
@@ -257,17 +273,6 @@ class Text {
       count += step.contacts != ContactCounts{} || step.initial_intersections > 0;
     }
     return count;
-  }
-
-  void contacts() {
-    if (!outcome_.first) return;
-    const First& first = *outcome_.first;
-    line("First: {}, {}, in step {} at time {}.", contact_text(first.contact), name(first.kind), first.step,
-         digits17(first.time));
-    line("Contacts ({} pairs of features):", outcome_.contact_count());
-    for (const auto& [step, contact] : outcome_.reports) line("  step {}: {}", step, contact_text(contact));
-    const auto left_out = outcome_.contact_count() - outcome_.reports.size();
-    if (left_out > 0) line("  ... and {} more (--max-reports)", left_out);
   }
 
   void initial_intersections() {
@@ -281,32 +286,101 @@ class Text {
     if (left_out > 0) line("  ... and {} more (--max-reports)", left_out);
   }
 
+  void remarks() {
+    if (outcome_.largest_distance) {
+      line("The first frame allows {}, and not {}{}.", digits17(outcome_.largest_distance->allowed),
+           digits17(outcome_.largest_distance->limit),
+           request_.ring == 1 ? " (neighbours by the mesh are near; see --min-distance-from-ring)" : "");
+    }
+    ending();
+    if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
+    if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
+      line("Only a part was settled ({}): there may be more contacts, and earlier ones.", why_incomplete(outcome_));
+    }
+  }
+
+  void ending() {
+    if (!outcome_.ending || outcome_.ending->whole()) return;
+    const RunEnding& ending = *outcome_.ending;
+    const std::string of = ending.duration ? fmt::format(" of {} s", *ending.duration) : "";
+    line("The run ends at {} s{} ({}).", ending.time, of, why_ended(ending));
+  }
+
+  void proof() {
+    const bool touches = outcome_.verdict == Verdict::contact;
+    if (!request_.proof) {
+      if (outcome_.checked) detail("The checker says of the proof: {}.", *outcome_.checked);
+      if (outcome_.not_checked) line("The proof was not checked: {}.", *outcome_.not_checked);
+      if (touches && request_.open_proof && outcome_.witnesses == 0 && outcome_.complete)
+        line("No witness was found of which a checker could be convinced.");
+      return;
+    }
+    const std::string file = on_one_line(request_.proof->string());
+    if (outcome_.checked) line("The checker says of {}: {}.", file, *outcome_.checked);
+    if (outcome_.not_checked) line("{} was not checked: {}.", file, *outcome_.not_checked);
+    if (touches && outcome_.witnesses == 0 && outcome_.proof_begun)
+      line("No witness was found for {}: it proves nothing.", file);
+    if (outcome_.verdict == Verdict::no_contact && !request_.check) line("The proof in {} was not checked.", file);
+    if (!outcome_.proof_begun) line("No proof was written to {}.", file);
+    if (outcome_.verdict == Verdict::undecided && outcome_.proof_begun)
+      line("{} is not complete, and proves nothing.", file);
+  }
+
+  /// What a user does now.
+  std::string next() const {
+    switch (outcome_.verdict) {
+      case Verdict::contact:
+        if (!request_.keep_going && outcome_.steps.size() < outcome_.steps_total) {
+          return "--keep-going counts the contacts of all steps; --json OUT.json, then noli report, shows them.";
+        }
+        return "--json OUT.json, then noli report OUT.json with the same frames or run, shows where.";
+      case Verdict::undecided: return outcome_.out_of_time ? "give it more time (--time-limit)." : "";
+      case Verdict::too_near:
+      case Verdict::no_contact:
+      case Verdict::proved: return "";
+    }
+    return "";
+  }
+
   void statement() {
-    line("Statement:");
+    detail("Statement:");
     const Json statement = statement_json(request_, outcome_);  // items() only refers to it
     for (const auto& [key, value] : statement.items()) {
-      line("  {}: {}", key, value.is_string() ? value.get<std::string>() : value.dump());
+      detail("  {}: {}", key, value.is_string() ? value.get<std::string>() : value.dump());
     }
   }
 
   void work() {
-    line("Mesh: {} vertices, {} faces, {} loose edges, {} loose points.", outcome_.vertices, outcome_.faces,
-         outcome_.edges, outcome_.points);
-    text_ += "Stages:";
+    detail("Mesh: {} vertices, {} faces, {} loose edges, {} loose points.", outcome_.vertices, outcome_.faces,
+           outcome_.edges, outcome_.points);
+    answer_.details += "Stages:";
     const Json stages = work_json(outcome_);
-    for (const auto& [key, value] : stages.items()) text_ += fmt::format(" {} {}", key, value.dump());
-    line("");
-    line("Time: {:.3f} s, and {:.3f} s of reading; {} thread(s); {:.0f} MB.", outcome_.seconds, outcome_.read_seconds,
-         threads_used(request_), static_cast<double>(peak_memory_bytes()) / 1e6);
-    if (request_.open_proof)
-      line("Of it, {:.3f} s of making the proof; then {:.3f} s of waiting for the checker.", outcome_.proof_seconds,
+    for (const auto& [key, value] : stages.items()) answer_.details += fmt::format(" {} {}", key, value.dump());
+    detail("");
+    detail("Time: {:.3f} s, and {:.3f} s of reading; {} thread(s); {:.0f} MB.", outcome_.seconds, outcome_.read_seconds,
+           threads_used(request_), static_cast<double>(peak_memory_bytes()) / 1e6);
+    if (!request_.open_proof) return;
+    detail("Of it, {:.3f} s of making the proof; then {:.3f} s of waiting for the checker.", outcome_.proof_seconds,
            outcome_.check_seconds);
   }
 
   const VerifyRequest& request_;
   const VerifyOutcome& outcome_;
-  std::string text_;
+  Answer& answer_;
 };
+
+/// For machines.
+void add_pairs(const VerifyOutcome& outcome, Answer& answer) {
+  for (const FeaturePair pair : all_feature_pairs) {
+    answer.add({fmt::format("contacts.{}", name(pair)), outcome.contacts[static_cast<std::size_t>(pair)]});
+  }
+  answer.add({"initial_intersections", outcome.initial_intersections});
+  answer.add({"first_time", outcome.first ? digits17(outcome.first->time) : "none"});
+  answer.add({"steps", outcome.steps.size()});
+  answer.add({"steps_total", outcome.steps_total});
+  answer.add({"faces", outcome.faces});
+  answer.add({"complete", outcome.complete});
+}
 
 }  // namespace
 
@@ -343,6 +417,11 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return json;
 }
 
-std::string verify_text(const VerifyRequest& request, const VerifyOutcome& outcome) { return Text(request, outcome)(); }
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome) {
+  Answer answer(name(outcome.verdict));
+  add_pairs(outcome, answer);
+  Words(request, outcome, answer)();
+  return answer;
+}
 
 }  // namespace noli::app

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The words of `noli verify`: its JSON, and its text for people with a first line for machines.
+// The words of `noli verify`: its JSON, and its answer for people and machines.
 #pragma once
 
 #include <string>
 
+#include "noli/app/answer.h"
 #include "noli/app/json.h"
 #include "noli/app/verify_run.h"
 
@@ -14,7 +15,8 @@ namespace noli::app {
 /// the options that `statement` repeats alone.
 Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome);
 
-/// The verdict line, then the same for people.
-std::string verify_text(const VerifyRequest& request, const VerifyOutcome& outcome);
+/// Contacts and notes; with --verbose also the statement, the files, and the work. The place of the verdict is a step, a
+/// time and two features.
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome);
 
 }  // namespace noli::app

@@ -284,7 +284,7 @@ class Run {
   First exactly(const FeatureContact& contact) const {
     const auto found = audit::visit(query_of(contact), [](const auto& typed) { return first_contact(typed); });
     if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
-    return {contact, sequence_.step() + 1, found->kind, found->time.lower()};
+    return {contact, sequence_.step() + 1, found->kind, found->time.lower(), face_of(mesh_, contact)};
   }
 
   void conclude() {
@@ -310,6 +310,18 @@ class Run {
 };
 
 }  // namespace
+
+std::optional<std::uint32_t> face_of(const Mesh& mesh, const FeatureContact& contact) {
+  if (contact.pair != FeaturePair::vertex_face) return std::nullopt;
+  std::array<VertexId, 3> wanted = {contact.vertices[1], contact.vertices[2], contact.vertices[3]};
+  std::ranges::sort(wanted);
+  const auto found = std::ranges::find_if(mesh.faces, [&](std::array<VertexId, 3> face) {
+    std::ranges::sort(face);
+    return face == wanted;
+  });
+  if (found == mesh.faces.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - mesh.faces.begin());
+}
 
 bool VerifyOutcome::stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline) {
   interrupted |= app::interrupted().load(std::memory_order_relaxed);

@@ -74,7 +74,11 @@ struct First {
   std::size_t step = 0;  ///< from 1
   ContactKind kind = ContactKind::touching;
   double time = 0;  ///< the largest double not above the exact time; in [0, 1] of its step, in seconds for a run
+  std::optional<std::uint32_t> face;  ///< of vertex_face: its number in the mesh
 };
+
+/// The number of the face of a contact between a vertex and a face, the first if several have its vertices.
+std::optional<std::uint32_t> face_of(const Mesh& mesh, const FeatureContact& contact);
 
 /// Listed contacts of one step.
 struct Listed {

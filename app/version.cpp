@@ -22,4 +22,6 @@ std::string version_text() {
 
 std::string version_number() { return NOLI_VERSION; }
 
+std::string version_commit() { return NOLI_COMMIT; }
+
 }  // namespace noli::app

@@ -11,4 +11,7 @@ std::string version_text();
 /// The version alone: "0.1.0".
 std::string version_number();
 
+/// The commit alone, as git names it in short; "unknown" outside of a checkout.
+std::string version_commit();
+
 }  // namespace noli::app

@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t scenes_per_block = 4;
 constexpr const char *scene_file = "scene.json", *wrong_place_file = "wrong_place";  // of a corpus
 
-/// The word behind a key in a verdict line: "verdict no_contact end done windows 5".
+/// The word behind a key in what --porcelain prints: "verdict=no_contact end=done windows=5".
 std::string word_behind(const std::string& line, const std::string& key) {
-  const std::size_t at = line.find(key + ' ');
+  const std::size_t at = line.find(key + '=');
   if (at == std::string::npos) return "";
   const std::size_t begin = at + key.size() + 1;
   return line.substr(begin, line.find(' ', begin) - begin);
@@ -96,7 +96,8 @@ class SceneJudge {
   }
 
   ProgramEnd simulate(const char* name, const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"simulate", file(), "-o", folder_ / name, "--threads", "1", "--time-limit", "4s"};
+    std::vector<std::string> words = {"simulate", file(), "-o", folder_ / name, "--threads", "1", "--time-limit", "4s",
+                                      "--porcelain"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }

@@ -229,12 +229,12 @@ class SelfAudit {
   /// Whether each checker says so: 0 accepted, 1 refuted.
   bool check(const std::vector<std::string>& files, int code, SelfPart& p) const {
     for (const CheckerProgram& checker : present_) {
-      std::vector<std::string> words = {"check"};
+      std::vector<std::string> words = {"check", "--porcelain"};
       words.insert(words.end(), files.begin(), files.end());
       if (*checker.option != '\0') words.emplace_back(checker.option);
       const CommandRun run = noli(words);
-      const char* const expected = code == 0 ? "verdict accepted" : "verdict refuted";
-      if (run.exited(code) && run.verdict_line() == expected) continue;
+      const char* const expected = code == 0 ? "verdict=accepted" : "verdict=refuted";
+      if (run.exited(code) && run.verdict_line().starts_with(expected)) continue;
       fail(p, fmt::format("{}: {}", checker.name, told(run)));
       return false;
     }
@@ -262,8 +262,8 @@ class SelfAudit {
       write_file(frames.back(), two.frames[i]);
     }
     const std::string proof = (scratch.path() / "proof.noli").string();
-    const CommandRun run = noli({"verify", frames[0], frames[1], "--proof", proof});
-    const char* const expected = two.touch ? "verdict contact " : "verdict proved ";
+    const CommandRun run = noli({"verify", "--porcelain", frames[0], frames[1], "--proof", proof});
+    const char* const expected = two.touch ? "verdict=contact " : "verdict=proved ";
     if (!run.exited(two.touch ? 1 : 0) || !run.out.starts_with(expected)) return fail(p, told(run));
     if (check({proof, frames[0], frames[1]}, two.touch ? 1 : 0, p)) checked(1, p);
   }
@@ -287,8 +287,7 @@ class SelfAudit {
   }
 
   void shipped_scenes() {
-    std::vector<fs::path> files = files_of(options_.scenes, ".json");
-    std::erase_if(files, [](const fs::path& file) { return file.filename() == "schema.json"; });
+    const std::vector<fs::path> files = files_of(options_.scenes, ".json");
     if (files.empty()) {
       part("proofs", "scenes", [&](SelfPart& p) {
         skip(p, "there are no scenes in " + on_one_line(options_.scenes.string()) + " (--scenes)");

@@ -97,7 +97,7 @@ class Asking {
   }
 
   StabilityPoint frames(const FramesCase& what) {
-    std::vector<std::string> words = {"verify"};
+    std::vector<std::string> words = {"verify", "--porcelain"};
     for (std::size_t i = 0; i < 2; ++i) {
       const fs::path file = folder_ / fmt::format("{}.ply", i);
       write_file(file, what.frames[i]);
@@ -107,7 +107,7 @@ class Asking {
     const CommandRun run = noli(words);
     point_.exit_code = run.end == CommandRun::End::exited ? run.code : -1;
     if (!ended_well(run)) return point_;
-    const std::string expected = what.touch ? "verdict contact " : "verdict proved ";
+    const std::string expected = what.touch ? "verdict=contact " : "verdict=proved ";
     if (run.code == (what.touch ? 1 : 0) && run.out.starts_with(expected)) return point_;
     gives("answer", line_of(run.code <= 2 ? run.out : run.err));
     // What is no answer is none that is wrong.
@@ -212,10 +212,10 @@ class Asking {
 
   /// Whatever a run ends with, what it has committed never touches.
   void verify_again(std::uint64_t windows) {
-    const CommandRun run = noli({"verify", path("run"), "--threads", "1"});
+    const CommandRun run = noli({"verify", "--porcelain", path("run"), "--threads", "1"});
     if (!ended_well(run)) return;
-    const std::string steps = fmt::format(" steps {} steps_total {} ", windows, windows);
-    const bool good = run.out.starts_with("verdict proved ") || run.out.starts_with("verdict no_contact ");
+    const std::string steps = fmt::format(" steps={} steps_total={} ", windows, windows);
+    const bool good = run.out.starts_with("verdict=proved ") || run.out.starts_with("verdict=no_contact ");
     if (run.code == 0 && good && run.verdict_line().find(steps) != std::string::npos) return;
     gives("verified", run.verdict_line());
     finding(fmt::format("of a run with {} windows `noli verify` says, with exit {}: {}", windows, run.code,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes made by rule: those of scenes/schema.json, with the sets of vertices that it names. Positions are made by
+// Meshes made by rule: those of schemas/scene.json, with the sets of vertices that it names. Positions are made by
 // + - * / sqrt alone (circles: turn.h), so their bits are the same everywhere; what is symmetric on paper about an axis
 // or a diagonal is so bit for bit, unless said otherwise.
 //

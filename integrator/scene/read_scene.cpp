@@ -92,7 +92,7 @@ void read_run(Scene& scene, const Field& f) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form form) {
-  static const Json schema = parse_json(scene_schema_text(), "scenes/schema.json");
+  static const Json schema = parse_json(scene_schema_text(), "schemas/scene.json");
   Json document = parse_json(text, path.string());
   if (form == Form::brief) apply_short(document, path.string());
   Validated validated = validate(schema, document, path.string());

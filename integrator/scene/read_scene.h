@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a scene file to a Scene. The schema (scenes/schema.json) says which fields there are; what it cannot say is
+// From a scene file to a Scene. The schema (schemas/scene.json) says which fields there are; what it cannot say is
 // checked here: lengths of vectors against the dimension, references to bodies, times that ascend.
 //
 // Errors are InputError: "FILE: /bodies/0/material/density: expected a number greater than 0 [kg/m^3], found -1". Text

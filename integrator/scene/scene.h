@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene as plain data: what scenes/schema.json describes, with every default filled in. SI units. Vectors of plane
+// A scene as plain data: what schemas/scene.json describes, with every default filled in. SI units. Vectors of plane
 // scenes have a third coordinate, which is zero.
 //
 // What this does not do: it has no meshes yet (integrator/scene/build_model.h makes them).

@@ -15,7 +15,7 @@
 namespace noli::integrator {
 namespace {
 
-constexpr std::array<std::string_view, 24> keywords = {"$ref",
+constexpr std::array<std::string_view, 25> keywords = {"$ref",
                                                        "type",
                                                        "const",
                                                        "enum",
@@ -35,6 +35,7 @@ constexpr std::array<std::string_view, 24> keywords = {"$ref",
                                                        "default",
                                                        "oneOf",
                                                        "$schema",
+                                                       "$id",
                                                        "$defs",
                                                        "title",
                                                        "description",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The JSON Schema of scenes (scenes/schema.json), which is part of the program, and documents against it: known fields,
+// The JSON Schema of scenes (schemas/scene.json), which is part of the program, and documents against it: known fields,
 // types, ranges and defaults are said there and nowhere else.
 //
 // The subset of JSON Schema 2020-12 that it is written in
@@ -23,7 +23,7 @@
 
 namespace noli::integrator {
 
-/// scenes/schema.json, as it was when the program was built.
+/// schemas/scene.json, as it was when the program was built.
 std::string_view scene_schema_text();
 
 /// A field that a document leaves to its default.

@@ -36,7 +36,7 @@ TEST_F(AuditFrames, FindsNothingInWhatIsRight) {
   const Process process = run_noli(command(plugin("noli")));
   EXPECT_EQ(process.exit_code, 0) << process.err;
   EXPECT_EQ(process.verdict_line(),
-            "verdict no_finding audits 1 contacts.vertex_face 3 contacts.edge_edge 0 findings 0 complete true");
+            "NO FINDING  audits 1, contacts.vertex_face 3, contacts.edge_edge 0, findings 0, complete true");
   const Json document = json_of(command(plugin("noli"), {"--tolerance", "0"}), 0);
   EXPECT_EQ(document["faces"], 2);
   EXPECT_EQ(document["edges"], 6);

@@ -35,7 +35,7 @@ TEST_F(AuditIntegrator, MeasuresASceneAndDrawsIt) {
   const std::string picture = folder.path("picture.svg");
   const Process process = run_noli({"audit", "integrator", chain(), "--svg", picture, "--halvings", "2"});
   EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_EQ(process.verdict_line(), "verdict measured scenes 1 runs 12");
+  EXPECT_EQ(process.verdict_line(), "MEASURED  scenes 1, runs 12");
   EXPECT_NE(process.out.find("stiff in the middle: 7 vertices, 6 forces"), std::string::npos) << process.out;
   const std::string svg = read_text(picture);
   for (const char* const words :
@@ -79,7 +79,7 @@ TEST_F(AuditIntegrator, ACtrlCEndsIt) {
   options.signal_after = std::chrono::milliseconds(300);
   const Process process = run_noli({"audit", "integrator", "--halvings", "6"}, options);
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_TRUE(process.verdict_line().starts_with("verdict undecided ")) << process.out;
+  EXPECT_TRUE(process.verdict_line().starts_with("UNDECIDED ")) << process.out;
 }
 
 TEST_F(AuditIntegrator, BadInputIsRefused) {

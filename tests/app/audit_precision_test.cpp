@@ -109,7 +109,7 @@ TEST(AuditPrecision, RefusesWhatItCannotDo) {
 TEST(AuditPrecision, StopsWhenItsTimeIsOver) {
   const Process process = run_noli({"audit", "precision", scene("swinging_cloth"), "--time-limit", "1s"});
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("UNDECIDED ", 0), 0u) << process.out;
 }
 
 TEST(AuditPrecision, KeepsWhatItHasWhenInterrupted) {
@@ -118,7 +118,7 @@ TEST(AuditPrecision, KeepsWhatItHasWhenInterrupted) {
   options.signal_after = std::chrono::milliseconds(500);
   const Process process = run_noli({"audit", "precision", scene("bounce"), "--threads", "1"}, options);
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict undecided windows ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("UNDECIDED  windows ", 0), 0u) << process.out;
   EXPECT_NE(process.verdict_line().find("complete false"), std::string::npos) << process.out;
 }
 

@@ -127,8 +127,8 @@ TEST_F(AuditStability, FindsACrashAndAFailure) {
 }
 
 TEST_F(AuditStability, FindsWrongAnswersAboutFrames) {
-  found("frames-offset-contact", "echo verdict proved contacts 0; exit 0", "verdict proved contacts 0, but they touch");
-  found("frames-offset", "echo verdict contact; exit 1", "but they stay apart");
+  found("frames-offset-contact", "echo verdict=proved contacts=0; exit 0", "verdict=proved contacts=0, but they touch");
+  found("frames-offset", "echo verdict=contact; exit 1", "but they stay apart");
 }
 
 TEST_F(AuditStability, FindsAHangSlow) {
@@ -144,7 +144,7 @@ TEST_F(AuditStability, ACtrlCEndsIt) {
   options.signal_after = std::chrono::milliseconds(300);
   const Process process = run_noli({"audit", "stability", "--out", folder.path("findings")}, options);
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_TRUE(process.verdict_line().starts_with("verdict undecided ")) << process.out;
+  EXPECT_TRUE(process.verdict_line().starts_with("UNDECIDED ")) << process.out;
 }
 
 TEST_F(AuditStability, BadInputIsRefused) {

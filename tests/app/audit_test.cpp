@@ -63,8 +63,8 @@ TEST_F(AuditCcd, FindsNothingInWhatIsRight) {
   const Process process = run_noli(command(plugin("noli"), queries()));
   EXPECT_EQ(process.exit_code, 0) << process.err;
   EXPECT_EQ(process.verdict_line(),
-            "verdict no_finding audits 1 queries 4 findings 0 false_positives 0 false_negatives 0 late 0 bad_times 0 "
-            "changed 0 failures 0 crashes 0 hangs 0 memory 0 leaks 0 wrong_labels 0 complete true");
+            "NO FINDING  audits 1, queries 4, findings 0, false_positives 0, false_negatives 0, "
+            "late 0, bad_times 0, changed 0, failures 0, crashes 0, hangs 0, memory 0, leaks 0, wrong_labels 0, complete true");
   const Json document = json(plugin("noli"), 0, {"--tolerance", "0"});
   EXPECT_EQ(document["audits"][0]["early"]["count"], 2);
   EXPECT_EQ(document["audits"][0]["early"]["worst"], 0);
@@ -89,7 +89,7 @@ TEST_F(AuditCcd, FindsMissedContacts) {
   EXPECT_EQ(audit["files"][0]["reports"][1]["finding"], "false_negative");
   const Process process = run_noli(command(faulty("never_hits"), queries(), {"--max-reports", "0"}));
   EXPECT_EQ(process.exit_code, 1);
-  EXPECT_EQ(process.verdict_line().rfind("verdict finding audits 1 queries 4 findings 2 ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("FINDING  audits 1, queries 4, findings 2, ", 0), 0u) << process.out;
   EXPECT_EQ(process.out.find(": query "), std::string::npos) << process.out;
 }
 
@@ -266,7 +266,7 @@ TEST_F(AuditCcd, SaysWhichLabelsAreWrong) {
   const std::string file = folder.write("wrong-vertex-face.csv", vertex_face(-1, -1, "1") + vertex_face(-1, -1, "0"));
   const Process process = run_noli(command(plugin("noli"), file));
   EXPECT_EQ(process.exit_code, 1);
-  EXPECT_EQ(process.verdict_line().rfind("verdict disagreement ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("DISAGREEMENT ", 0), 0u) << process.out;
   EXPECT_EQ(json_of(command(plugin("noli"), file), 1)["files"][0]["wrong_labels"], Json::parse("[2]"));
 }
 
@@ -302,7 +302,7 @@ TEST_F(AuditCcd, LosesNeitherResultNorPictureToTheOther) {
   const std::string json_file = folder.path("out.json");
   const Process full = run_noli(command(plugin("noli"), queries(), {"--svg", "/dev/full", "--json", json_file}));
   EXPECT_EQ(full.exit_code, 4);
-  EXPECT_EQ(full.verdict_line().rfind("verdict no_finding ", 0), 0u) << full.out;
+  EXPECT_EQ(full.verdict_line().rfind("NO FINDING ", 0), 0u) << full.out;
   EXPECT_EQ(Json::parse(read_text(json_file))["verdict"], "no_finding");
 }
 
@@ -324,7 +324,7 @@ TEST_F(AuditCcd, StopsWhenItsTimeIsOver) {
   const Process process =
       run_noli(command(faulty("hangs"), queries(), {"--query-limit", "60s", "--time-limit", "500ms"}));
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("UNDECIDED ", 0), 0u) << process.out;
 }
 
 TEST_F(AuditCcd, StopsWhenInterrupted) {

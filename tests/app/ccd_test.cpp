@@ -30,7 +30,7 @@ TEST_F(Ccd, AgreesWithRightLabels) {
   const auto path = folder.write("a-vertex-edge.csv", vertex_edge(-3, "1") + vertex_edge(1, "0") + vertex_edge(0, "1"));
   const Process process = run_noli({"ccd", path});
   EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_EQ(process.verdict_line(), "verdict agreement queries 3 contacts 2 labelled 3 disagreements 0 complete true");
+  EXPECT_EQ(process.verdict_line(), "AGREEMENT  queries 3, contacts 2, labelled 3, disagreements 0, complete true");
   const Json json = json_of({"ccd", path}, 0);
   EXPECT_EQ(json["queries"], 3);
   EXPECT_EQ(json["contacts"], 2);
@@ -47,7 +47,7 @@ TEST_F(Ccd, NoticesAFlippedLabel) {
   const Process process = run_noli({"ccd", path});
   EXPECT_EQ(process.exit_code, 1);
   EXPECT_EQ(process.verdict_line(),
-            "verdict disagreement queries 3 contacts 2 labelled 3 disagreements 2 complete true");
+            "DISAGREEMENT  queries 3, contacts 2, labelled 3, disagreements 2, complete true");
   EXPECT_NE(process.out.find("query 2: labelled 1, but apart"), std::string::npos) << process.out;
   EXPECT_NE(process.out.find("query 3: labelled 0, but in contact"), std::string::npos) << process.out;
   const Json json = json_of({"ccd", path, "--max-reports", "1"}, 1);

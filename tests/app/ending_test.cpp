@@ -39,7 +39,7 @@ TEST_P(EndedBySignal, VerifyLeavesValidJson) {
   const Folder folder;
   const Process process = run_noli(endless_verify(folder), sends(GetParam()));
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("UNDECIDED ", 0), 0u) << process.out;
   const Json json = Json::parse(read_text(folder.path("result.json")));
   EXPECT_EQ(json["verdict"], "undecided");
   EXPECT_EQ(json["complete"], false);
@@ -84,7 +84,7 @@ TEST_P(EndedBySignal, WhileTheRestOfAPipeIsWaitedFor) {
   const Process process = run_noli({"verify", pipe, folder.write("good.ply", two_triangles(1))}, sends(GetParam()));
   ::close(writer);
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_NE(process.out.find("Undecided (interrupted)"), std::string::npos) << process.out;
+  EXPECT_NE(process.out.find("nothing found so far (interrupted)"), std::string::npos) << process.out;
 }
 
 TEST_P(EndedBySignal, AMomentBeforeAPipeIsWaitedFor) {
@@ -106,7 +106,7 @@ TEST(Ending, ATimeLimitGivesWhatWasSettledSoFar) {
   arguments.insert(arguments.end(), {"--time-limit", "700ms"});
   const Process process = run_noli(arguments);
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_NE(process.out.find("Undecided (time limit)"), std::string::npos) << process.out;
+  EXPECT_NE(process.out.find("nothing found so far (time limit)"), std::string::npos) << process.out;
   const Json json = Json::parse(read_text(folder.path("result.json")));
   EXPECT_EQ(json["verdict"], "undecided");
   EXPECT_EQ(json["per_step"].size(), json["steps"].get<std::size_t>());

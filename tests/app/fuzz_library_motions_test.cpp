@@ -174,7 +174,7 @@ TEST_F(FuzzLibraryMotions, JudgesASavedMotionAndMakesItSmaller) {
   EXPECT_EQ(run_noli(words + Words{"--replay", smaller["folder"]}).exit_code, 1);
   const Process right = run_noli({"fuzz", "trajectories", "--library", plugin("noli"), "--replay", falling});
   EXPECT_EQ(right.exit_code, 0) << right.err;
-  EXPECT_EQ(right.verdict_line(), "verdict no_finding frames 2 cells 2 vertices 6");
+  EXPECT_EQ(right.verdict_line(), "NO FINDING  frames 2, cells 2, vertices 6");
 }
 
 TEST_F(FuzzLibraryMotions, SaysWhereItCrashed) {

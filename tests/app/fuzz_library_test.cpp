@@ -161,7 +161,7 @@ TEST_F(FuzzLibrary, MakesAFileSimpler) {
             folder.path("elsewhere/two-vertex-face-query1-minimised.csv"));
   const Process right = run_noli({"fuzz", "queries", "--minimise", file});
   EXPECT_EQ(right.exit_code, 0) << right.err;
-  EXPECT_EQ(right.verdict_line(), "verdict nothing_fails queries 2 findings 0");
+  EXPECT_EQ(right.verdict_line(), "NOTHING FAILS  queries 2, findings 0");
 }
 
 TEST_F(FuzzLibrary, KeepsWhatReachesSomethingNew) {

@@ -146,7 +146,7 @@ TEST(FuzzProofsCommand, IsUndecidedWhenItIsInterruptedBeforeItBegins) {
       const Process process =
           run_noli(with({"fuzz", "proofs", "--for", "10m", "--out", folder.path("out")}, files), options);
       EXPECT_EQ(process.exit_code, 2) << process.err;
-      EXPECT_TRUE(process.verdict_line().starts_with("verdict undecided mutants 0 ")) << process.out << process.err;
+      EXPECT_TRUE(process.verdict_line().starts_with("UNDECIDED  mutants 0, ")) << process.out << process.err;
     }
   }
 }
@@ -174,8 +174,8 @@ class FindingsKept : public testing::Test {
     options.signal_after = std::chrono::milliseconds(3000);
     const Process process = run_noli(with(words, {"--for", "10m", "--threads", "1", "--out", out}), options);
     EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
-    EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
-    EXPECT_EQ(process.verdict_line().find(" findings 0 "), std::string::npos) << process.out;
+    EXPECT_EQ(process.verdict_line().rfind("UNDECIDED ", 0), 0u) << process.out;
+    EXPECT_EQ(process.verdict_line().find(" findings 0,"), std::string::npos) << process.out;
     EXPECT_NE(process.out.find("saved as " + out + "/"), std::string::npos) << process.out;
     EXPECT_EQ(process.out.find("not saved"), std::string::npos) << process.out;
     std::size_t found = 0;
@@ -232,7 +232,7 @@ TEST(FuzzTrajectoriesCommand, JudgesASavedMotionAgain) {
   folder.write("frame-1.ply", two_triangles(-1));
   const Process process = run_noli({"fuzz", "trajectories", "--replay", folder.path("")});
   EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_EQ(process.verdict_line(), "verdict no_finding frames 2 cells 2 vertices 6");
+  EXPECT_EQ(process.verdict_line(), "NO FINDING  frames 2, cells 2, vertices 6");
 }
 
 TEST(FuzzProofsCommand, TakesAProofOfYourOwn) {
@@ -362,7 +362,7 @@ TEST(FuzzScenesCommand, JudgesASceneAgain) {
   const Folder folder;
   const std::string scene = folder.write("scene.json", ring_scene);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", scene}).verdict_line(),
-            "verdict no_finding end exit 0 done verified true resumed true");
+            "NO FINDING  end exit 0 done, verified true, resumed true");
   const Process wrong = run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "/bodies/0/mesh"});
   EXPECT_EQ(wrong.exit_code, 1) << "said to be wrong, and yet it runs";
   EXPECT_NE(wrong.out.find("accepted: /bodies/0/mesh"), std::string::npos) << wrong.out;

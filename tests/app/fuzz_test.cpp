@@ -60,7 +60,7 @@ TEST(FuzzQueries, StopsWhenItsTimeIsOver) {
   const Folder folder;
   const Process process = run_noli({"fuzz", "queries", "--for", "300ms", "--out", folder.path("out")});
   EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict no_difference queries ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("NO DIFFERENCE  queries ", 0), 0u) << process.out;
 }
 
 const char* const falling_point = "0,1,0,1,1,1\n0,1,0,1,0,1\n0,1,0,1,-1,1\n0,1,0,1,0,1\n";
@@ -72,7 +72,7 @@ TEST(FuzzQueries, ReplaysAFile) {
       std::string(falling_point) + "# noli-fuzz dimension 3 eta 0.5 normal 0 0 1 gap 0.5 from 0 points 0 1 rays 0 1\n");
   const Process process = run_noli({"fuzz", "queries", "--replay", folder.path("vertex-vertex.csv")});
   EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_EQ(process.verdict_line(), "verdict no_difference queries 1 findings 0");
+  EXPECT_EQ(process.verdict_line(), "NO DIFFERENCE  queries 1, findings 0");
   EXPECT_EQ(run_noli({"ccd", folder.path("vertex-vertex.csv")}).exit_code, 0) << "the line is a comment";
 }
 

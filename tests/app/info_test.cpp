@@ -87,7 +87,7 @@ TEST(Info, SaysTheSameInText) {
   const Process process =
       run_noli({"info", folder.write("a.ply", two_triangles(2)), folder.write("b.obj", "v 0 0\nv 1 1\nl 1 2\n")});
   EXPECT_EQ(process.exit_code, 0);
-  EXPECT_EQ(process.verdict_line(), "verdict described files 2");
+  EXPECT_EQ(process.verdict_line(), "DESCRIBED  files 2");
   EXPECT_NE(process.out.find("loose_edges 1"), std::string::npos) << process.out;
 }
 

@@ -34,7 +34,7 @@ inline void expect_findings_kept(const Words& words, std::chrono::milliseconds a
   options.signal_after = after;
   const Process process = run_noli(words, options);
   EXPECT_EQ(process.exit_code, 2) << process.err;
-  EXPECT_EQ(process.verdict_line().rfind("verdict undecided ", 0), 0u) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("UNDECIDED ", 0), 0u) << process.out;
   EXPECT_NE(process.out.find("saved as "), std::string::npos) << process.out;
 }
 

@@ -48,7 +48,7 @@ class JsonOutput : public testing::Test {
 TEST_F(JsonOutput, GoesToAFileBesideTheText) {
   const Process process = run(folder.path("out.json"));
   EXPECT_EQ(process.exit_code, 0);
-  EXPECT_EQ(process.verdict_line(), "verdict described files 1");
+  EXPECT_EQ(process.verdict_line(), "DESCRIBED  files 1");
   EXPECT_EQ(nlohmann::json::parse(read_text(folder.path("out.json")))["verdict"], "described");
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply", "out.json"}));
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace noli::app_tests {
@@ -30,8 +31,11 @@ struct Process {
   std::string out, err;
   std::uint64_t peak_bytes = 0;
 
-  /// The first line of standard output, without its end.
-  std::string verdict_line() const { return out.substr(0, out.find('\n')); }
+  /// The last line of standard output, without its end: the verdict in capitals, and its place.
+  std::string verdict_line() const {
+    const std::string_view all = std::string_view(out).substr(0, out.find_last_not_of('\n') + 1);
+    return std::string(all.substr(all.find_last_of('\n') + 1));
+  }
 };
 
 /// Runs `noli` with these arguments and waits for it.

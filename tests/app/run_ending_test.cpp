@@ -75,7 +75,7 @@ TEST_F(Simulate, OfNoWindowNothingIsClaimed) {
       << process.out;
   const Process verified = run_noli({"verify", run_path("run")});
   EXPECT_EQ(verified.exit_code, 2);
-  EXPECT_NE(verified.out.find("\nUndecided (no window was committed): nothing found so far.\n"), std::string::npos)
+  EXPECT_NE(verified.out.find("\nUNDECIDED  0 of 0 windows: nothing found so far (no window was committed)\n"), std::string::npos)
       << verified.out;
   EXPECT_TRUE(says(run_path("run"), "The run ends at 0 s of 1000000000 s (time limit)."));
   EXPECT_EQ(json_of({"simulate", file, "-o", run_path("json"), "--time-limit", "200ms"}, 2)["statement"],

@@ -114,7 +114,7 @@ TEST_F(RunWitness, WhatComesTooNearHasOneToo) {
     WildRun(seed, seed % 4 == 3 ? 2 : 3).write(run, 1);
     const Process process = verify(run, {"--min-distance", "0.25"});
     ASSERT_LE(process.exit_code, 1) << seed << process.out << process.err;
-    if (process.verdict_line().starts_with("verdict contact")) continue;
+    if (process.verdict_line().starts_with("CONTACT")) continue;
     EXPECT_EQ(check(run), process.exit_code) << seed;
     (process.exit_code == 0 ? proved : near) += 1;
   }
@@ -139,8 +139,8 @@ TEST_F(RunWitness, TheMeshMayAllowLess) {
   const auto at = [&](double distance) {
     return verify(run_path("run"), {"--min-distance", fmt::format("{:.17g}", distance)}).verdict_line();
   };
-  EXPECT_TRUE(at(limit).starts_with("verdict too_near ")) << limit;
-  EXPECT_TRUE(at(allowed * 0.99).starts_with("verdict proved "));  // it moves a little
+  EXPECT_TRUE(at(limit).starts_with("TOO NEAR ")) << limit;
+  EXPECT_TRUE(at(allowed * 0.99).starts_with("PROVED "));  // it moves a little
 }
 
 }  // namespace

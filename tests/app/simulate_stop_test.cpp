@@ -17,7 +17,7 @@ TEST_F(SimulateStop, EndsWithinAWindow) {
     const std::string file = scene(json);
     const auto expect = [&](const Process& process, const std::string& run, const std::string& end) {
       EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
-      EXPECT_EQ(process.out.rfind("verdict undecided end " + end + " windows 0 ", 0), 0) << process.out;
+      EXPECT_EQ(process.verdict_line().rfind("UNDECIDED  0 of ", 0), 0) << process.out;
       EXPECT_EQ(last_entry(run)["end"], end);
     };
     const std::string one = run_path(steps + std::string("1")), other = run_path(steps + std::string("2"));
@@ -52,7 +52,7 @@ TEST_F(SimulateStop, WritingTheSeriesCanBeInterrupted) {
 #if !defined(__SANITIZE_ADDRESS__)  // which has 250 MB before anything runs
   EXPECT_LT(process.peak_bytes, 200'000'000u);
 #endif
-  EXPECT_EQ(process.out.rfind("verdict undecided end interrupted windows 1 ", 0), 0) << process.out;
+  EXPECT_EQ(process.verdict_line().rfind("UNDECIDED  1 of ", 0), 0) << process.out;
   EXPECT_NE(process.out.find("`--resume` writes it"), std::string::npos) << process.out;
   EXPECT_FALSE(fs::exists(run_path("run/series.h5")));
   EXPECT_EQ(last_entry(run_path("run"))["series"], "stopped");

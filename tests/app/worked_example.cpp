@@ -19,19 +19,27 @@ std::size_t depth(const std::string& line) {
 /// All of a text, if `end` is not in it.
 std::string up_to(const std::string& text, const std::string& end) { return text.substr(0, text.find(end)); }
 
+std::string last_line(const std::string& text) {
+  const std::string whole = text.substr(0, text.find_last_not_of('\n') + 1);
+  return whole.substr(whole.find_last_of('\n') + 1);
+}
+
 }  // namespace
 
 std::vector<ExampleCommand> worked_example(const std::string& page, const std::string& heading) {
   std::ifstream document(std::string(NOLI_SOURCE_DIR) + "/" + page);
   std::vector<ExampleCommand> commands;
-  bool inside = heading.empty();
+  bool inside = heading.empty(), printing = false;
   for (std::string line; std::getline(document, line);) {
     if (!heading.empty() && depth(line) > 0 && depth(line) <= depth(heading)) inside = line == heading;
     if (!inside) continue;
     if (line.starts_with("    $ ")) {
       commands.push_back({line.substr(6), ""});
-    } else if (line.starts_with("    ") && !commands.empty() && commands.back().said.empty()) {
+      printing = true;
+    } else if (line.starts_with("    ") && printing) {
       commands.back().said = line.substr(4);
+    } else {
+      printing = false;
     }
   }
   return commands;
@@ -65,7 +73,7 @@ void expect_worked_example(const std::vector<ExampleCommand>& commands,
       said = replaced(said, from, to);
     }
     const auto [out, code] = shell("cd '" + std::string(NOLI_SOURCE_DIR) + "' && " + line);
-    EXPECT_EQ(up_to(up_to(out, "\n"), end), up_to(said, end)) << line;
+    EXPECT_EQ(up_to(last_line(out), end), up_to(said, end)) << line;
     last_code = std::to_string(code);
   }
 }

@@ -12,7 +12,7 @@ namespace noli::app_tests {
 
 struct ExampleCommand {
   std::string line;  ///< without "$ "
-  std::string said;  ///< the first line that it prints; "" where nothing is said to follow
+  std::string said;  ///< the last line that it prints; "" where nothing is said to follow
 };
 
 /// Those of the part of a page that begins with the line `heading` and ends where a heading of the same depth begins;

@@ -30,12 +30,12 @@ bool has(const std::vector<std::string>& arguments, const std::string& word) {
 
 /// A program that does all that it has to, and finds no fault in any scene.
 ProgramEnd does_well(const std::vector<std::string>& arguments) {
-  if (arguments[0] != "simulate") return ended(0, "verdict proved\n");
+  if (arguments[0] != "simulate") return ended(0, "verdict=proved\n");
   const std::filesystem::path run = arguments[3];
   std::filesystem::create_directories(run);
   write_file(run / "trajectory.blocks", scene_of(arguments).dump());
   write_file(run / "proof.blocks", "proof");
-  return ended(0, "verdict no_contact end done windows 2 windows_total 2\n");
+  return ended(0, "verdict=no_contact end=done windows=2 windows_total=2\n");
 }
 
 class FuzzScenes : public testing::Test {
@@ -154,15 +154,15 @@ TEST_F(FuzzScenes, FindsEveryKindOfWrongEnd) {
   const std::vector<Fault> faults = {
       {"verdict",
        [](const std::vector<std::string>& a) {
-         return a[0] == "simulate" ? ended(0, "verdict contact end contact windows 2\n") : does_well(a);
+         return a[0] == "simulate" ? ended(0, "verdict=contact end=contact windows=2\n") : does_well(a);
        }},
       {"verify",
        [](const std::vector<std::string>& a) {
-         return a[0] == "verify" ? ended(1, "verdict contact\n") : does_well(a);
+         return a[0] == "verify" ? ended(1, "verdict=contact\n") : does_well(a);
        }},
       {"check",
        [](const std::vector<std::string>& a) {
-         return a[0] == "check" ? ended(3, "verdict rejected\n") : does_well(a);
+         return a[0] == "check" ? ended(3, "verdict=rejected\n") : does_well(a);
        }},
       {"resume",
        [](const std::vector<std::string>& a) {

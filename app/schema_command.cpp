@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "noli/app/commands.h"
+#include "noli/app/output.h"
+#include "noli/app/schema_texts.h"
+#include "noli/trajectory/error.h"
+
+namespace noli::app {
+namespace {
+
+constexpr const char* footer =
+    "Each result that --json writes names its schema and version: \"schema\": \"noli-verify\", \"version\": 1.\n"
+    "Examples:\n"
+    "  noli schema                         the names\n"
+    "  noli schema verify > verify.json    what `noli verify --json` writes\n"
+    "  noli schema scene                   what `noli simulate` reads";
+
+std::string names() {
+  std::string lines;
+  for (const SchemaText& schema : schema_texts()) lines += std::string(schema.name) + '\n';
+  return lines;
+}
+
+ExitCode run(const std::optional<std::string>& name) {
+  if (!name) {
+    write_standard_output(names());
+    return ExitCode::holds;
+  }
+  const auto found = std::ranges::find(schema_texts(), std::string_view(*name), &SchemaText::name);
+  if (found == schema_texts().end()) {
+    throw UsageError(fmt::format("there is no schema {}; `noli schema` lists the names", on_one_line(*name)));
+  }
+  write_standard_output(std::string(found->text));
+  return ExitCode::holds;
+}
+
+}  // namespace
+
+Command add_schema(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("schema", "Print the JSON Schema of a result or an input");
+  command->footer(footer);
+  const auto name = std::make_shared<std::optional<std::string>>();
+  command->add_option("name", *name, "Which one; without it, the names are listed")->type_name("NAME");
+  return {command, [name] { return run(*name); }};
+}
+
+}  // namespace noli::app
