@@ -5,6 +5,7 @@
 
 #include "noli/app/audit_report.h"
 #include "noli/app/contact_report.h"
+#include "noli/app/input_report.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -99,7 +100,7 @@ std::string pipeline_text(const PipelineOutcome& outcome) {
   for (const PipelineAudit& audit : outcome.audits) rows.push_back(row_of(audit));
   text += table_text(rows, 1);
   for (const PipelineAudit& audit : outcome.audits) append_findings(audit, text);
-  return text;
+  return text + notes_text(outcome.notes);
 }
 
 Json pipeline_json(const PipelineOutcome& outcome) {
@@ -109,7 +110,9 @@ Json pipeline_json(const PipelineOutcome& outcome) {
                {"vertices", outcome.vertices},
                {"edges", outcome.edges},
                {"faces", outcome.faces},
-               {"contacts", pair_json(outcome.contacts)}};
+               {"contacts", pair_json(outcome.contacts)},
+               {"inputs", inputs_json(outcome.inputs)},
+               {"notes", outcome.notes}};
   json["audits"] = Json::array();
   Json timing = {{"noli_seconds", outcome.noli_seconds}, {"audits", Json::array()}};
   for (const PipelineAudit& audit : outcome.audits) {

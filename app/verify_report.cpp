@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "noli/app/contact_report.h"
+#include "noli/app/input_report.h"
 #include "noli/app/machine.h"
 #include "noli/kernel/parallel.h"
 #include "noli/trajectory/error.h"
@@ -40,7 +41,7 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 }
 
 Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
-  return {
+  Json json = {
       {"claim", claim(request)},
       {request.run ? "windows" : "frames", request.run ? outcome.steps_total : request.frames.size()},
       {"motion", motion(request)},
@@ -65,6 +66,12 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
       {"merged_vertices", outcome.merged_vertices},
       {"unreferenced_vertices_left_out", outcome.unreferenced_vertices},
   };
+  if (!request.run) {
+    json["order"] = request.ordered;
+    json["polygons"] = polygons_text(request.polygons);
+  }
+  json["notes"] = outcome.notes;
+  return json;
 }
 
 Json first_json(const VerifyOutcome& outcome) {
@@ -162,6 +169,7 @@ class Text {
     answer();
     contacts();
     initial_intersections();
+    text_ += notes_text(outcome_.notes);
     statement();
     work();
     return std::move(text_);
@@ -313,6 +321,8 @@ class Text {
 Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json json = {{"verdict", name(outcome.verdict)}, {"complete", outcome.complete}};
   json["statement"] = statement_json(request, outcome);
+  json["inputs"] = inputs_json(outcome.inputs);
+  json["notes"] = outcome.notes;
   json["contacts"] = counts_json(outcome.contacts);
   json["initial_intersections"] = outcome.initial_intersections;
   json["first_time"] = outcome.first ? Json(outcome.first->time) : Json(nullptr);
