@@ -11,6 +11,7 @@
 #include "noli/app/audit_report.h"
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/frame_options.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
 #include "noli/app/options.h"
@@ -51,6 +52,8 @@ struct AuditArguments {
   std::optional<std::string> time_limit, svg;
   OutputOptions results;
   std::vector<fs::path> frames;
+  FrameOrder order = FrameOrder::checked;
+  PolygonRule polygons = PolygonRule::fan;
 };
 
 ExitCode exit_code(std::uint64_t findings, bool complete) {
@@ -69,9 +72,11 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
   const audit::AuditRequest& request = arguments.request;
   if (arguments.svg) throw UsageError("--svg: there is no picture of --frames");
   const Output output(arguments.results, inputs(arguments));
-  const audit::PipelineOutcome outcome =
-      audit::audit_pipeline({request.libraries, arguments.frames[0], arguments.frames[1], request.tolerances,
-                             request.max_reports, request.host});
+  const OrderedFrames ordered = order_frames(arguments.frames, arguments.order);
+  audit::PipelineOutcome outcome =
+      audit::audit_pipeline({request.libraries, ordered.frames[0], ordered.frames[1], request.tolerances,
+                             request.max_reports, request.host, arguments.polygons});
+  outcome.notes.insert(outcome.notes.begin(), ordered.notes.begin(), ordered.notes.end());
   output.write("audit-pipeline", pipeline_answer(outcome), pipeline_json(outcome));
   return exit_code(outcome.findings(), outcome.complete);
 }
@@ -89,6 +94,9 @@ ExitCode run(AuditArguments& arguments) {
     throw UsageError("expected files of queries, or --frames, and not both");
   }
   if (!arguments.frames.empty()) return run_pipeline(arguments);
+  if (arguments.order != FrameOrder::checked || arguments.polygons != PolygonRule::fan) {
+    throw UsageError("--order, --polygons: are for --frames; expected none of them with queries");
+  }
   const Output output(arguments.results, inputs(arguments));
   require_svg_file(arguments.svg, arguments.results.json, inputs(arguments));
   const audit::AuditOutcome outcome = with_progress("audit ccd", [&](const auto& show) {
@@ -118,6 +126,8 @@ Command add_audit_ccd(CLI::App& audit) {
       ->add_option("--frames", arguments->frames, "In place of queries: two frames, and a whole pipeline between them")
       ->expected(2)
       ->type_name("BEFORE AFTER");
+  add_order_option(*command, arguments->order);
+  add_polygons_option(*command, arguments->polygons);
   command
       ->add_option("--tolerance", request.tolerances,
                    "What the libraries are told, a length; several with commas between them [1e-6]")

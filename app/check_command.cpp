@@ -3,6 +3,8 @@
 
 #include "noli/app/checker.h"
 #include "noli/app/commands.h"
+#include "noli/app/frame_options.h"
+#include "noli/app/input_report.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/trajectory/error.h"
@@ -24,6 +26,7 @@ constexpr const char* footer =
 struct CheckArguments {
   std::vector<fs::path> files;
   bool verified = false;
+  FrameOrder order = FrameOrder::checked;
   OutputOptions results;
 };
 
@@ -33,8 +36,10 @@ ExitCode run(const CheckArguments& arguments) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
   }
   const fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
-  const std::vector<fs::path> trajectory =
-      folder ? arguments.files : std::vector<fs::path>(arguments.files.begin() + 1, arguments.files.end());
+  const OrderedFrames ordered = order_frames(
+      folder ? arguments.files : std::vector<fs::path>(arguments.files.begin() + 1, arguments.files.end()),
+      arguments.order);
+  const std::vector<fs::path>& trajectory = ordered.frames;
   if (!fs::exists(proof)) {
     const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
     throw InputError(proof.string(), "", std::string("is not there; expected a proof") + why);
@@ -48,12 +53,13 @@ ExitCode run(const CheckArguments& arguments) {
   const CheckerVerdict& verdict = *said;
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
   Answer answer(word);
-  answer.text = verdict.words;
+  answer.text = verdict.words + notes_text(ordered.notes);
   output.write("check", answer,
                {{"verdict", word},
                 {"checker", arguments.verified ? "verified" : "plain"},
                 {"proof", proof.string()},
-                {"words", verdict.words}});
+                {"words", verdict.words},
+                {"notes", ordered.notes}});
   return static_cast<ExitCode>(verdict.code);
 }
 
@@ -67,6 +73,7 @@ Command add_check(CLI::App& app) {
       ->required()
       ->type_name("PROOF TRAJECTORY | RUN");
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
+  add_order_option(*command, arguments->order);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -5,6 +5,7 @@
 
 #include "noli/app/audit_report.h"
 #include "noli/app/contact_report.h"
+#include "noli/app/input_report.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -102,6 +103,7 @@ Answer pipeline_answer(const PipelineOutcome& outcome) {
   for (const PipelineAudit& audit : outcome.audits) rows.push_back(row_of(audit));
   text += table_text(rows, 1);
   for (const PipelineAudit& audit : outcome.audits) append_findings(audit, text);
+  text += notes_text(outcome.notes);
   return answer;
 }
 
@@ -112,7 +114,9 @@ Json pipeline_json(const PipelineOutcome& outcome) {
                {"vertices", outcome.vertices},
                {"edges", outcome.edges},
                {"faces", outcome.faces},
-               {"contacts", pair_json(outcome.contacts)}};
+               {"contacts", pair_json(outcome.contacts)},
+               {"inputs", inputs_json(outcome.inputs)},
+               {"notes", outcome.notes}};
   json["audits"] = Json::array();
   Json timing = {{"noli_seconds", outcome.noli_seconds}, {"audits", Json::array()}};
   for (const PipelineAudit& audit : outcome.audits) {

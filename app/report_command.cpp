@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "noli/app/commands.h"
+#include "noli/app/frame_options.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/report_assets.h"
+#include "noli/app/report_inputs.h"
 #include "noli/app/report_page.h"
 #include "noli/app/report_results.h"
 #include "noli/app/report_run.h"
@@ -20,6 +22,8 @@
 #include "noli/app/version.h"
 #include "noli/trajectory/base64.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/frame_formats.h"
+#include "noli/trajectory/frame_inputs.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
 
@@ -47,6 +51,7 @@ struct ReportArguments {
   fs::path output;
   ReportLimits limits;
   bool force = false;
+  FrameOrder order = FrameOrder::checked;
   std::optional<std::string> title;
 };
 
@@ -77,7 +82,9 @@ Inputs sorted(const std::vector<fs::path>& paths) {
     } else if (end == ".ply" || end == ".obj") {
       inputs.frames.push_back(path);
     } else {
-      throw UsageError(path.string() + ": expected the folder of a run, or a file .json, .svg, .ply or .obj");
+      const std::string advice = conversion_advice(path);
+      throw UsageError(path.string() + ": expected the folder of a run, or a file .json, .svg, .ply or .obj" +
+                       (advice.empty() ? "" : "; " + advice));
     }
   }
   if (inputs.run && !inputs.frames.empty()) throw UsageError("expected a run or frames, and not both");
@@ -93,6 +100,7 @@ struct VerifyResult {
 class Report {
  public:
   explicit Report(const ReportArguments& arguments) : arguments_(arguments), inputs_(sorted(arguments.inputs)) {
+    inputs_.frames = order_frames(std::move(inputs_.frames), arguments.order).frames;
     report_.page = {
         {"title", ""},
         {"made", fmt::format("Made by noli {}. Nothing on this page is fetched from elsewhere.", version_number())},
@@ -169,7 +177,18 @@ class Report {
                        fmt::format("is about {} {}, but {} frames were given", steps.count,
                                    steps.run ? "windows of a run" : "frames", inputs_.frames.size()));
     }
-    report_frames(inputs_.frames, {steps.at_rest, steps.flat}, arguments_.limits, report_);
+    const ResultInputs about(verified_->json, verified_->path);
+    FrameInputs frames(inputs_.frames);
+    for (std::size_t k = 0; k < inputs_.frames.size(); ++k) {
+      frames.look_at(k);
+      if (frames.facts()[k].looked_at) about.require_frame(k, frames.facts()[k]);
+    }
+    const ReadFrame read = [&](const fs::path&, std::size_t k) {
+      Frame frame = frames.read(k);
+      about.require_frame(k, frames.facts()[k]);
+      return frame;
+    };
+    report_frames(inputs_.frames, {steps.at_rest, steps.flat, read}, arguments_.limits, report_);
   }
 
   void put_verdict_of_verify() {
@@ -182,6 +201,7 @@ class Report {
                          fmt::format("is about {} {}, but the run has {} windows", steps.count,
                                      steps.run ? "windows" : "frames", windows));
       }
+      ResultInputs(json, path).require_run(*inputs_.run);
     }
     put_verdict(json, path, report_);
     if (!has_title()) report_.page["title"] = path.stem().string();
@@ -239,6 +259,7 @@ Command add_report(CLI::App& app) {
       ->type_name("RUN | RESULT.json");
   command->add_option("-o,--output", arguments->output, "The page")->required()->type_name("OUT.html");
   command->add_option("--title", arguments->title, "What stands at its head")->type_name("TEXT");
+  add_order_option(*command, arguments->order);
   command->add_option("--fps", arguments->limits.fps, "Frames a second of simulated time, at most")
       ->check(is_positive())
       ->check(is_rate())

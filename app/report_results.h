@@ -2,8 +2,7 @@
 //
 // Results that noli wrote with --json, as a report shows them.
 //
-// What this does not do: a result names no hash of what it is about. What it counts is compared with what is shown;
-// whether it is about that very motion is not known, and the page says so.
+// What this does not do: whether a result is about the very files that are shown is asked before (report_inputs.h).
 #pragma once
 
 #include <cstdint>

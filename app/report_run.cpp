@@ -187,14 +187,14 @@ void report_run(const std::filesystem::path& run, const ReportLimits& limits, Re
 void report_frames(const std::vector<std::filesystem::path>& frames, const ReportedFrames& how,
                    const ReportLimits& limits, ReportPage& report) {
   const bool at_rest = how.at_rest;
-  Frame first = read_frame(frames.front());
+  Frame first = how.read(frames.front(), 0);
   MotionPacker packer(first.mesh.vertex_count, limits.most_bytes);
   if (!packer.skip()) packer.add(0, first.positions);
   std::vector<double> ends;
   if (at_rest) ends.push_back(0.5);
   for (std::size_t k = 1; k < frames.size(); ++k) {
     stop_if_interrupted(frames[k]);
-    const Frame frame = read_frame(frames[k]);
+    const Frame frame = how.read(frames[k], k);
     require_same_mesh(first.mesh, frames.front(), frame.mesh, frames[k]);
     if (!packer.skip()) packer.add(static_cast<double>(k), frame.positions);
     ends.push_back(static_cast<double>(k) + (at_rest ? 0.5 : 0));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "noli/app/report_page.h"
+#include "noli/trajectory/frames.h"
 
 namespace noli::app {
 
@@ -26,6 +27,7 @@ void report_run(const std::filesystem::path& run, const ReportLimits& limits, Re
 struct ReportedFrames {
   bool at_rest = false;  ///< each by itself, or moving from one to the next
   bool flat = false;     ///< in two dimensions
+  ReadFrame read;        ///< how each is read
 };
 
 /// The same of frames; fills scene alone. Throws InputError.

@@ -7,6 +7,7 @@
 #include "noli/app/checker.h"
 #include "noli/app/commands.h"
 #include "noli/app/duration.h"
+#include "noli/app/frame_options.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
 #include "noli/app/options.h"
@@ -33,6 +34,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  noli verify before.ply after.ply\n"
     "  noli verify frames/*.obj --keep-going --json result.json\n"
+    "  noli verify cloth_*.obj --order natural       cloth_2 before cloth_10, which a shell puts first\n"
     "  noli verify rest.ply --static --strict        does this mesh intersect itself?\n"
     "  noli verify a.ply b.ply --json - | jq .first\n"
     "  noli verify a.ply b.ply --proof ab.noli       and a proof that anybody can check: noli check ab.noli a.ply "
@@ -185,6 +187,11 @@ ExitCode run(VerifyArguments& arguments) {
   }
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
+  if (!request.run) {
+    request.put_in_order();
+  } else if (request.order != FrameOrder::checked || request.polygons != PolygonRule::fan) {
+    throw UsageError("--order, --polygons: are for frames; expected none of them with a run");
+  }
   auto inputs = with_files_of_runs(request.frames);
   if (request.ignore) inputs.push_back(*request.ignore);
   const Output output(arguments.results, inputs);
@@ -205,6 +212,8 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   command.add_option("frames", request.frames, "PLY or OBJ files, in the order of time; or the folder of one run")
       ->required()
       ->type_name("FRAMES | RUN");
+  add_order_option(command, request.order);
+  add_polygons_option(command, request.polygons);
   add_output_options(command, arguments.results);
   add_threads_option(command, request.threads);
   command.add_option("--max-reports", request.max_reports, "List at most so many contacts; counts are always exact")

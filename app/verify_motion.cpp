@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/input_report.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/largest_distance.h"
 #include "noli/app/machine.h"
@@ -54,6 +55,7 @@ class MotionRun {
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
+    look_at_files();
     while (!stopped() && outcome_.complete) {
       const auto window = read_next();
       if (!window) break;
@@ -67,6 +69,15 @@ class MotionRun {
 
  private:
   bool stopped() { return outcome_.stop_at(request_.deadline); }
+
+  void look_at_files() {
+    const Stopwatch watch;
+    try {
+      outcome_.inputs = run_facts(request_.frames[0], [this] { return stopped(); });
+    } catch (const ReadInterrupted&) {  // outcome_ knows why
+    }
+    outcome_.read_seconds += watch.seconds();
+  }
 
   std::optional<RunWindow> read_next() {
     const Stopwatch watch;

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "noli/app/contact_report.h"
+#include "noli/app/input_report.h"
 #include "noli/app/machine.h"
+#include "noli/app/version.h"
 #include "noli/kernel/parallel.h"
 #include "noli/trajectory/error.h"
 
@@ -40,7 +42,7 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 }
 
 Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
-  return {
+  Json json = {
       {"claim", claim(request)},
       {request.run ? "windows" : "frames", request.run ? outcome.steps_total : request.frames.size()},
       {"motion", motion(request)},
@@ -65,6 +67,12 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
       {"merged_vertices", outcome.merged_vertices},
       {"unreferenced_vertices_left_out", outcome.unreferenced_vertices},
   };
+  if (!request.run) {
+    json["order"] = request.ordered;
+    json["polygons"] = polygons_text(request.polygons);
+  }
+  json["notes"] = outcome.notes;
+  return json;
 }
 
 Json first_json(const VerifyOutcome& outcome) {
@@ -239,6 +247,8 @@ class Words {
     initial_intersections();
     remarks();
     proof();
+    looked_at();
+    answer_.text += notes_text(outcome_.notes);
     statement();
     work();
     answer_.place = Place(request_, outcome_)();
@@ -297,6 +307,28 @@ class Words {
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
       line("Only a part was settled ({}): there may be more contacts, and earlier ones.", why_incomplete(outcome_));
     }
+  }
+
+  /// What was verified, by whom; each file with --verbose.
+  void looked_at() {
+    std::uint64_t bytes = 0;
+    for (const FrameFacts& facts : outcome_.inputs) bytes += facts.bytes;
+    const std::string numbers = outcome_.inputs.empty() ? "" : outcome_.inputs.front().numbers;
+    line("Looked at: {}, {} bytes{}; {} vertices, {} cells. noli {} ({}).", files(), bytes,
+         numbers.empty() ? "" : ", " + numbers, outcome_.vertices,
+         outcome_.faces + outcome_.edges + outcome_.points, version_number(), version_commit());
+    for (const FrameFacts& facts : outcome_.inputs) {
+      if (!facts.looked_at) continue;
+      detail("  {}: {} bytes, {}SHA-256 {}", on_one_line(facts.file.string()), facts.bytes,
+             facts.numbers.empty() ? "" : facts.numbers + ", ", hex(facts.sha256));
+    }
+  }
+
+  std::string files() const {
+    const std::string first = on_one_line(request_.frames.front().string());
+    if (request_.frames.size() == 1) return first;
+    return fmt::format("{} frames, {} to {}", request_.frames.size(), first,
+                       on_one_line(request_.frames.back().string()));
   }
 
   void ending() {
@@ -387,6 +419,8 @@ void add_pairs(const VerifyOutcome& outcome, Answer& answer) {
 Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json json = {{"verdict", name(outcome.verdict)}, {"complete", outcome.complete}};
   json["statement"] = statement_json(request, outcome);
+  json["inputs"] = inputs_json(outcome.inputs);
+  json["notes"] = outcome.notes;
   json["contacts"] = counts_json(outcome.contacts);
   json["initial_intersections"] = outcome.initial_intersections;
   json["first_time"] = outcome.first ? Json(outcome.first->time) : Json(nullptr);

@@ -20,6 +20,7 @@
 #include "noli/proofs/prover/window_verifier.h"
 #include "noli/trajectory/cells.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/frame_inputs.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/merge.h"
 
@@ -41,17 +42,22 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
 
 class Run {
  public:
-  explicit Run(const VerifyRequest& request) : request_(request), sequence_(request.frames, motion_of(request)) {
+  explicit Run(const VerifyRequest& request)
+      : request_(request),
+        inputs_(request.frames, request.polygons),
+        sequence_(request.frames, motion_of(request), inputs_.reader()) {
     require_readable(request.frames);
     outcome_.steps_total = sequence_.step_count();
   }
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
+    look_at_all();
     if (request_.merge_identical) find_classes();
     while (!stopped() && outcome_.complete && read_next(sequence_)) {
       if (sequence_.step() == 0) begin();
       require_plane();
+      note_rest();
       verify();
       if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
     }
@@ -62,6 +68,21 @@ class Run {
 
  private:
   bool stopped() { return outcome_.stop_at(request_.deadline); }
+
+  /// A frame of another mesh is noticed before the first step is decided.
+  void look_at_all() {
+    const Stopwatch watch;
+    Progress progress("look");
+    try {
+      for (std::size_t k = 0; k < request_.frames.size() && !stopped(); ++k) {
+        inputs_.look_at(k);
+        progress.show(static_cast<double>(k + 1) / static_cast<double>(request_.frames.size()));
+      }
+    } catch (const ReadInterrupted&) {
+      outcome_.interrupted = true;
+    }
+    outcome_.read_seconds += watch.seconds();
+  }
 
   /// Whether there was another step. Not when the user would not wait for it.
   bool read_next(FrameSequence& sequence) {
@@ -78,7 +99,7 @@ class Run {
 
   /// The first pass of --merge-identical.
   void find_classes() {
-    FrameSequence frames(request_.frames, Motion::constant);
+    FrameSequence frames(request_.frames, Motion::constant, inputs_.reader());
     while (!stopped() && read_next(frames)) {
       if (!classes_) classes_.emplace(frames.mesh().vertex_count);
       classes_->refine(frames.x_t0());
@@ -167,6 +188,13 @@ class Run {
     if (request_.dimension || outcome_.dimension == 3 || in_plane()) return;
     throw InputError(sequence_.path_t1().string(), "",
                      "leaves the plane of the frames before; expected the same z everywhere (see --dimension)");
+  }
+
+  /// Two equal frames in a row are usually a mistake of whoever wrote them.
+  void note_rest() {
+    if (request_.constant_motion || !std::ranges::equal(sequence_.x_t0(), sequence_.x_t1())) return;
+    at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", sequence_.path_t0().string(),
+                                   sequence_.path_t1().string(), sequence_.step() + 1));
   }
 
   VerifyOptions options(Progress& progress) const {
@@ -295,10 +323,23 @@ class Run {
     const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
     const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
     outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
+    outcome_.inputs = inputs_.facts();
+    put_notes();
+  }
+
+  void put_notes() {
+    outcome_.notes = request_.order_notes;
+    append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");
+    for (const std::string& note : inputs_.notes()) outcome_.notes.push_back(note);
+    if (outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1) {
+      outcome_.notes.emplace_back(
+          "the first contact is between two frames: straight lines are assumed there; finer frames tell more");
+    }
   }
 
   const VerifyRequest& request_;
-  FrameSequence sequence_;
+  FrameInputs inputs_;
+  FrameSequence sequence_;  ///< reads by inputs_
   std::optional<IdenticalVertices> classes_;
   Mesh mesh_;
   std::optional<Groups> groups_;            ///< with --ignore
@@ -306,6 +347,7 @@ class Run {
   std::optional<FrameProof> proof_;
   /// Whether some pair of features met in the step before: only then can one meet where the next step begins.
   bool meeting_at_end_ = false;
+  std::vector<std::string> at_rest_;  ///< notes on steps in which nothing moves
   VerifyOutcome outcome_;
 };
 
@@ -321,6 +363,13 @@ std::optional<std::uint32_t> face_of(const Mesh& mesh, const FeatureContact& con
   });
   if (found == mesh.faces.end()) return std::nullopt;
   return static_cast<std::uint32_t>(found - mesh.faces.begin());
+}
+
+void VerifyRequest::put_in_order() {
+  OrderedFrames in_order = order_frames(std::move(frames), order);
+  frames = std::move(in_order.frames);
+  ordered = std::move(in_order.how);
+  order_notes = std::move(in_order.notes);
 }
 
 bool VerifyOutcome::stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline) {

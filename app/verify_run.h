@@ -24,11 +24,18 @@
 #include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/verifier.h"
 #include "noli/trajectory/block_sink.h"
+#include "noli/trajectory/frame_look.h"
+#include "noli/trajectory/frame_order.h"
+#include "noli/trajectory/polygons.h"
 
 namespace noli::app {
 
 struct VerifyRequest {
-  std::vector<std::filesystem::path> frames;  ///< files, or the folder of one run
+  std::vector<std::filesystem::path> frames;  ///< files in the order of time, or the folder of one run
+  FrameOrder order = FrameOrder::checked;     ///< how they came to be in it; put_in_order() does it
+  std::string ordered;                        ///< the same in words
+  std::vector<std::string> order_notes;
+  PolygonRule polygons = PolygonRule::fan;
   bool run = false;                           ///< it is a run: steps are its windows, times are seconds
   std::optional<int> dimension;               ///< nothing: 2 if all z of the first two frames are equal, else 3
   int threads = 0;                            ///< 0: all there are
@@ -50,6 +57,9 @@ struct VerifyRequest {
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
+
+  /// Puts frames in the order that is asked for. Throws InputError when they are given against their numbers.
+  void put_in_order();
 };
 
 /// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the
@@ -146,6 +156,8 @@ struct VerifyOutcome {
   std::optional<std::string> not_checked;           ///< why it was not asked, though the user did not say so
   double proof_seconds = 0;                         ///< wall clock of making the proof
   double check_seconds = 0;                         ///< wall clock of waiting for the checker
+  std::vector<FrameFacts> inputs;                   ///< what was looked at: frames in the order of time
+  std::vector<std::string> notes;                   ///< what to know of it, a line each
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }

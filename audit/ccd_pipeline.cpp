@@ -17,6 +17,7 @@
 #include "noli/audit/ccd_library.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/proofs/prover/verifier.h"
+#include "noli/trajectory/frame_inputs.h"
 #include "noli/trajectory/frames.h"
 
 namespace noli::audit {
@@ -365,9 +366,14 @@ std::uint64_t PipelineOutcome::findings() const {
 
 PipelineOutcome audit_pipeline(const PipelineRequest& request) {
   for (const fs::path& library : request.libraries) require_ccd_library(library, request.host);
-  FrameSequence frames({request.before, request.after});
+  FrameInputs inputs({request.before, request.after}, request.polygons);
+  for (std::size_t k = 0; k < 2; ++k) inputs.look_at(k);
+  FrameSequence frames({request.before, request.after}, Motion::linear, inputs.reader());
   frames.next();
-  return PipelineRun(request).run(frames.mesh(), frames.x_t0(), frames.x_t1());
+  PipelineOutcome outcome = PipelineRun(request).run(frames.mesh(), frames.x_t0(), frames.x_t1());
+  outcome.inputs = inputs.facts();
+  outcome.notes = inputs.notes();
+  return outcome;
 }
 
 PipelineOutcome audit_pipeline(const PipelineRequest& request, const Mesh& mesh, std::span<const Position> x_t0,

@@ -24,6 +24,8 @@
 
 #include "noli/audit/ccd_audit.h"
 #include "noli/proofs/prover/verifier.h"
+#include "noli/trajectory/frame_look.h"
+#include "noli/trajectory/polygons.h"
 
 namespace noli::audit {
 
@@ -33,6 +35,7 @@ struct PipelineRequest {
   std::vector<double> tolerances;
   std::size_t max_reports = 5;  ///< for each library and tolerance
   HostOptions host;
+  PolygonRule polygons = PolygonRule::fan;
   bool needs_search = true;      ///< else a library without a search is asked about all pairs
   bool exact = false;            ///< early times and a false positive are reported too
   bool knows_times = false;      ///< contacts that are hit without a time are reported
@@ -77,6 +80,8 @@ struct PipelineOutcome {
   double noli_seconds = 0;           ///< what the verifier takes to find them all, on one thread
   std::vector<PipelineAudit> audits;
   bool complete = true;
+  std::vector<FrameFacts> inputs;  ///< the two frames, where they are files
+  std::vector<std::string> notes;  ///< what to know of them, a line each
 
   std::uint64_t findings() const;
 };

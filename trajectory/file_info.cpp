@@ -22,19 +22,6 @@ std::string format_name(PlyFormat format) {
   return "";
 }
 
-/// The types of x, y and z, each once, in that order.
-std::string number_type(const PlyElement& vertex) {
-  std::vector<std::string_view> seen;
-  std::string result;
-  for (const std::string_view axis : {"x", "y", "z"}) {
-    const PlyProperty* property = vertex.find(axis);
-    if (property == nullptr || std::find(seen.begin(), seen.end(), name(property->type)) != seen.end()) continue;
-    seen.push_back(name(property->type));
-    result += (result.empty() ? "" : "/") + std::string(seen.back());
-  }
-  return result;
-}
-
 std::size_t count_mesh_edges(const Mesh& mesh) {
   std::vector<std::array<VertexId, 2>> edges;
   edges.reserve(3 * mesh.faces.size());

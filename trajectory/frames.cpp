@@ -8,27 +8,13 @@
 #include <utility>
 
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/frame_formats.h"
 #include "noli/trajectory/obj.h"
 #include "noli/trajectory/ply.h"
 #include "noli/trajectory/text.h"
 
 namespace noli {
 namespace {
-
-/// In lower case.
-std::string extension_of(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
-void require_known_extension(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".ply" || extension == ".obj") return;
-  throw InputError(path.string(), "",
-                   fmt::format("expected a file that ends in .ply or .obj, found {}", in_quotes(extension)));
-}
 
 /// Throws when two lists of cells differ, naming the first that does.
 template <class Cell>
@@ -49,13 +35,13 @@ void require_same_cells(std::string_view what, const std::vector<Cell>& expected
 }  // namespace
 
 Frame read_frame(const std::filesystem::path& path) {
-  require_known_extension(path);
+  mesh_format(path);  // before the file is opened
   return parse_frame(read_whole_file(path), path);
 }
 
-Frame parse_frame(std::string_view bytes, const std::filesystem::path& path) {
-  require_known_extension(path);
-  return extension_of(path) == ".ply" ? parse_ply(bytes, path.string()) : parse_obj(bytes, path.string());
+Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Polygons* polygons) {
+  const bool ply = mesh_format(path) == MeshFormat::ply;
+  return ply ? parse_ply(bytes, path.string(), polygons) : parse_obj(bytes, path.string(), polygons);
 }
 
 void require_same_mesh(const Mesh& expected, const std::filesystem::path& expected_path, const Mesh& found,
@@ -75,8 +61,8 @@ bool all_z_equal(std::span<const Position> positions) {
   return std::all_of(positions.begin(), positions.end(), [&](const Position& x) { return x[2] == positions[0][2]; });
 }
 
-FrameSequence::FrameSequence(std::vector<std::filesystem::path> paths, Motion motion)
-    : paths_(std::move(paths)), motion_(motion) {
+FrameSequence::FrameSequence(std::vector<std::filesystem::path> paths, Motion motion, ReadFrame read)
+    : paths_(std::move(paths)), motion_(motion), read_(std::move(read)) {
   if (paths_.empty()) throw InputError("frames", "", "there are none");
   if (motion_ == Motion::linear && paths_.size() == 1) {
     throw InputError(paths_[0].string(), "", "is a single frame, expected at least two to have a motion");
@@ -94,7 +80,7 @@ void FrameSequence::read_next_frame() {
   x_t0_ = std::exchange(x_t1_, {});
   if (motion_ == Motion::constant) x_t0_ = {};
   const std::filesystem::path& path = paths_[frames_read_];
-  Frame frame = read_frame(path);
+  Frame frame = read_ ? read_(path, frames_read_) : read_frame(path);
   if (frames_read_ == 0) {
     mesh_ = std::move(frame.mesh);
   } else {

@@ -13,19 +13,22 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "noli/trajectory/mesh.h"
+#include "noli/trajectory/polygons.h"
 
 namespace noli {
 
-/// Reads a frame; the extension (.ply or .obj, in any case) says how. Throws InputError, also for other extensions.
+/// Reads a frame; the extension says how (frame_formats.h). Throws InputError, also for other extensions.
 Frame read_frame(const std::filesystem::path& path);
 
 /// The same for the bytes of a file; `path` says how to read them and is what errors call them.
-Frame parse_frame(std::string_view bytes, const std::filesystem::path& path);
+/// `polygons`: what to do with those, and where they are noted.
+Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Polygons* polygons = nullptr);
 
 /// Throws InputError when the meshes differ in vertex count or in any cell; the message names both files and the first
 /// difference.
@@ -41,6 +44,9 @@ enum class Motion {
   constant  ///< each frame is a moment of its own
 };
 
+/// How a sequence reads frame k; read_frame() for example.
+using ReadFrame = std::function<Frame(const std::filesystem::path& path, std::size_t k)>;
+
 /// The steps of a sequence, in order:
 ///   FrameSequence sequence(paths);
 ///   while (sequence.next()) use(sequence.mesh(), sequence.x_t0(), sequence.x_t1());
@@ -48,7 +54,7 @@ class FrameSequence {
  public:
   /// Throws InputError when there are fewer frames than a step needs (two, or one with Motion::constant). Reads nothing
   /// yet.
-  explicit FrameSequence(std::vector<std::filesystem::path> paths, Motion motion = Motion::linear);
+  explicit FrameSequence(std::vector<std::filesystem::path> paths, Motion motion = Motion::linear, ReadFrame read = {});
 
   std::size_t frame_count() const { return paths_.size(); }
   std::size_t step_count() const { return motion_ == Motion::linear ? paths_.size() - 1 : paths_.size(); }
@@ -70,6 +76,7 @@ class FrameSequence {
 
   std::vector<std::filesystem::path> paths_;
   Motion motion_;
+  ReadFrame read_;
   std::size_t frames_read_ = 0;
   Mesh mesh_;
   std::vector<Position> x_t0_, x_t1_;

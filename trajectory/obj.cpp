@@ -20,7 +20,8 @@ constexpr std::array<std::string_view, 17> ignored_statements = {
 
 class ObjParser {
  public:
-  ObjParser(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
+  ObjParser(std::string_view text, const std::string& file, Polygons* polygons)
+      : lines_(text), file_(file), polygons_(polygons) {}
 
   Frame parse() {
     std::string_view statement;
@@ -84,7 +85,14 @@ class ObjParser {
   void parse_face() {
     if (words_.size() < 4) fail(fmt::format("a face has at least 3 corners, found {}", words_.size() - 1));
     parse_corners();
+    if (corners_.size() > 3) note_polygon();
     add_polygon(frame_.mesh, corners_);
+  }
+
+  void note_polygon() {
+    if (polygons_ == nullptr) return;
+    if (polygons_->rule == PolygonRule::refuse) fail(refused_polygon(corners_.size()));
+    polygons_->fans.push_back({frame_.mesh.faces.size(), corners_.size() - 2});
   }
 
   void parse_line() {
@@ -139,6 +147,7 @@ class ObjParser {
 
   Lines lines_;
   const std::string& file_;
+  Polygons* polygons_;
   std::size_t line_ = 0;                 ///< first line of the statement
   std::string joined_;                   ///< the statement, where it goes over several lines
   std::vector<std::string_view> words_;  ///< of the statement, without comment
@@ -150,9 +159,9 @@ class ObjParser {
 
 }  // namespace
 
-Frame parse_obj(std::string_view text, const std::string& file) {
+Frame parse_obj(std::string_view text, const std::string& file, Polygons* polygons) {
   if (text.empty()) throw InputError(file, "", "is empty");
-  return ObjParser(text, file).parse();
+  return ObjParser(text, file, polygons).parse();
 }
 
 Frame read_obj(const std::filesystem::path& path) { return parse_obj(read_whole_file(path), path.string()); }

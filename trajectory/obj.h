@@ -20,13 +20,15 @@
 #include <string_view>
 
 #include "noli/trajectory/mesh.h"
+#include "noli/trajectory/polygons.h"
 
 namespace noli {
 
 /// Reads an OBJ file. Throws InputError with the line for anything that is not as above.
 Frame read_obj(const std::filesystem::path& path);
 
-/// The same for a text in memory; `file` is what errors call it.
-Frame parse_obj(std::string_view text, const std::string& file);
+/// The same for a text in memory; `file` is what errors call it. `polygons`: what to do with those, and where they are
+/// noted.
+Frame parse_obj(std::string_view text, const std::string& file, Polygons* polygons = nullptr);
 
 }  // namespace noli

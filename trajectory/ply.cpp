@@ -53,8 +53,8 @@ const PlyProperty& require_corners(const std::string& file, const PlyElement& fa
 template <class Source>
 class BodyReader {
  public:
-  BodyReader(std::string_view bytes, const PlyHeader& header, const std::string& file)
-      : source_(bytes, header, file), header_(header), file_(file) {}
+  BodyReader(std::string_view bytes, const PlyHeader& header, const std::string& file, Polygons* polygons)
+      : source_(bytes, header, file), header_(header), file_(file), polygons_(polygons) {}
 
   Frame read() {
     const PlyElement* vertices = header_.find("vertex");
@@ -141,7 +141,14 @@ class BodyReader {
     if (size == 0) source_.fail("a face without vertices");
     polygon_.clear();
     for (std::uint64_t i = 0; i < size; ++i) polygon_.push_back(read_vertex_id(corners.type));
+    if (size > 3) note_polygon();
     add_polygon(frame_.mesh, polygon_);
+  }
+
+  void note_polygon() {
+    if (polygons_ == nullptr) return;
+    if (polygons_->rule == PolygonRule::refuse) source_.fail(refused_polygon(polygon_.size()));
+    polygons_->fans.push_back({frame_.mesh.faces.size(), polygon_.size() - 2});
   }
 
   void read_edges(const PlyElement& element) {
@@ -173,23 +180,25 @@ class BodyReader {
   Source source_;
   const PlyHeader& header_;
   const std::string& file_;
+  Polygons* polygons_;
   Frame frame_;
   std::vector<VertexId> polygon_;  ///< corners of the face that is being read
 };
 
 }  // namespace
 
-Frame parse_ply(std::string_view bytes, const std::string& file) {
+Frame parse_ply(std::string_view bytes, const std::string& file, Polygons* polygons) {
   if (bytes.empty()) throw InputError(file, "", "is empty");
   const PlyHeader header = parse_ply_header(bytes, file);
   using ply::BinarySource;
   switch (header.format) {
     case PlyFormat::binary_little_endian:
-      return BodyReader<BinarySource<std::endian::little>>(bytes, header, file).read();
-    case PlyFormat::binary_big_endian: return BodyReader<BinarySource<std::endian::big>>(bytes, header, file).read();
+      return BodyReader<BinarySource<std::endian::little>>(bytes, header, file, polygons).read();
+    case PlyFormat::binary_big_endian:
+      return BodyReader<BinarySource<std::endian::big>>(bytes, header, file, polygons).read();
     case PlyFormat::ascii: break;
   }
-  return BodyReader<ply::AsciiSource>(bytes, header, file).read();
+  return BodyReader<ply::AsciiSource>(bytes, header, file, polygons).read();
 }
 
 Frame read_ply(const std::filesystem::path& path) { return parse_ply(read_whole_file(path), path.string()); }

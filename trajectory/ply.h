@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "noli/trajectory/mesh.h"
+#include "noli/trajectory/polygons.h"
 
 namespace noli {
 
@@ -28,7 +29,8 @@ namespace noli {
 /// malformed headers. Counts are compared with the bytes that remain before anything is allocated for them.
 Frame read_ply(const std::filesystem::path& path);
 
-/// The same for bytes in memory; `file` is what errors call them.
-Frame parse_ply(std::string_view bytes, const std::string& file);
+/// The same for bytes in memory; `file` is what errors call them. `polygons`: what to do with those, and where they are
+/// noted.
+Frame parse_ply(std::string_view bytes, const std::string& file, Polygons* polygons = nullptr);
 
 }  // namespace noli

@@ -190,6 +190,18 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return found == elements.end() ? nullptr : &*found;
 }
 
+std::string number_type(const PlyElement& vertex) {
+  std::vector<std::string_view> seen;
+  std::string result;
+  for (const std::string_view axis : {"x", "y", "z"}) {
+    const PlyProperty* property = vertex.find(axis);
+    if (property == nullptr || std::find(seen.begin(), seen.end(), name(property->type)) != seen.end()) continue;
+    seen.push_back(name(property->type));
+    result += (result.empty() ? "" : "/") + std::string(seen.back());
+  }
+  return result;
+}
+
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {
   return HeaderParser(bytes, file).parse();
 }

@@ -54,6 +54,9 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
+/// The types of x, y and z of element vertex, each once, in that order: "float32", "float32/float64".
+std::string number_type(const PlyElement& vertex);
+
 /// Parses the header at the beginning of `bytes`; `file` is what errors call it. Allocates in proportion to the
 /// header's own length, whatever it promises. Throws InputError with the line: no PLY file, no end_header, an unknown
 /// format, keyword or type, a count that is no number, a name declared twice, an element that has entries but no

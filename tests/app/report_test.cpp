@@ -137,7 +137,7 @@ TEST_F(Report, TheEndOfARunStaysWhateverVerifySays) {
   EXPECT_EQ(json["verdict"]["tone"], "bad");
   EXPECT_TRUE(says(json, "noli verify says proved (run.json)"));
   EXPECT_TRUE(says(json, "at 0.3125 s"));
-  EXPECT_TRUE(says(json, "was not checked"));
+  EXPECT_TRUE(says(json, "run.json is about this run: the SHA-256 of each file is the same"));
   const Json alone = page({both[1]});
   EXPECT_EQ(alone["verdict"]["word"], "contact");
   EXPECT_TRUE(says(alone, "The run ends at ")) << alone["verdict"];
@@ -190,9 +190,30 @@ TEST_F(Report, OfAVerdictWithItsFrames) {
   EXPECT_EQ(json["contacts"]["counts"]["vertex_face"], 1);
   EXPECT_EQ(json["contacts"]["listed"][0]["features"], Json::parse("[[3], [0, 1, 2]]"));
   EXPECT_EQ(json["scene"]["frames"], 2);
-  EXPECT_TRUE(says(json, "That verdict.json is about these frames was not checked"));
+  EXPECT_TRUE(says(json, "verdict.json is about these frames: the SHA-256 of each file is the same"));
   EXPECT_NE(json["facts"].dump().find("0.obj to 1.obj"), std::string::npos);
   EXPECT_EQ(json.dump().find(folder.path("")), std::string::npos) << "where files are is nobody's matter";
+}
+
+TEST_F(Report, RefusesAResultAboutOtherFiles) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
+  const std::string result = verdict(frames, 1);
+  write({result, frame("2.obj", 0.5), frame("3.obj", -1)}, 3, "is about other frames: frame 1 was ");
+  write({result, frames[0], frame("3.obj", -1.5)}, 3, "is about other frames: frame 2 was ");
+  write({result, frames[0], frame("3.obj", -1)});  // the same bytes
+  write({result, frames[1], frames[0]}, 3, "pass --order natural");
+  write({result, frames[1], frames[0], "--order", "given"}, 3, "frame 1 was ");
+  write({result, frames[1], frames[0], "--order", "natural"});
+  Json older = Json::parse(bytes_of(result));
+  older.erase("inputs");
+  write({folder.write("older.json", older.dump()), frames[0], frames[1]}, 3, "does not say what it is about");
+  write({folder.write("older.json", older.dump())});
+  const std::vector<std::string> both = run_with_contact();
+  older = Json::parse(bytes_of(both[1]));
+  older["inputs"][0]["sha256"] = std::string(64, '0');
+  write({both[0], folder.write("older.json", older.dump())}, 3, "its trajectory.blocks had SHA-256 000000000000..., but");
+  older.erase("inputs");
+  write({both[0], folder.write("older.json", older.dump())}, 3, "does not say what it is about");
 }
 
 TEST_F(Report, HasEveryConditionOfTheStatement) {

@@ -22,7 +22,7 @@ look curtains '{"word": "no contact", "tone": "good", "listed": 0, "plots": 6}'
 verify "$out/sheets" --json "$out/sheets.json"
 "$noli" report "$out/sheets" "$out/sheets.json" -o "$out/sheets.html"
 look sheets '{"word": "contact", "tone": "bad", "listed": 0,
-  "says": ["noli verify says proved (sheets.json)", "meets edge driven", "Not compared: two cells of driven", "was not checked",
+  "says": ["noli verify says proved (sheets.json)", "meets edge driven", "Not compared: two cells of driven", "is about this run",
            "always in one place are merged", "stops at any contact", "the run sheets"]}'
 
 # A verdict with many contacts, and its frames.
