@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs: right ones, and each thing that a run must not be. Frames: PLY and OBJ (proofs/FORMAT.md, section 8).
+// Runs: right ones, and each thing that a run must not be. Frames: PLY and OBJ (proofs/FORMAT.md, section 9).
 #include "support.h"
 
 namespace noli::checker::test {
