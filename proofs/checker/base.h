@@ -61,6 +61,8 @@ class Input {
     checker::require(std::ferror(file_.get()) == 0, name_, "cannot be read");
     return result;
   }
+  /// Whether a byte is left. It is not read.
+  bool more() { return std::ungetc(std::fgetc(file_.get()), file_.get()) != EOF; }
 
  private:
   std::string name_;

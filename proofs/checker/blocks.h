@@ -201,6 +201,8 @@ class BlockFile {
   Reader expect(const std::string& kind) { return as(kind, next()); }
   void expect_commit() { require(!next(), block_at_, "expected a commit"); }
   bool ended() const { return ended_; }
+  /// Whether something follows, which is not looked at.
+  bool more() { return input_.more(); }
   /// Of the last group that was committed.
   const Sha256::Digest& group_hash() const { return last_; }
 

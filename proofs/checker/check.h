@@ -10,7 +10,8 @@ namespace noli::checker {
 
 class Check {
  public:
-  Check(const std::string& proof, const std::vector<std::string>& paths) : proof_(proof, "PROF") {
+  Check(const std::string& proof, const std::vector<std::string>& paths, Asked asked = {})
+      : asked_(std::move(asked)), proof_(proof, "PROF") {
     Reader c = proof_.expect("CLAM");
     claim_.source = c.u8();
     claim_.dimension = c.u8();
@@ -25,7 +26,7 @@ class Check {
     claim_.eta = c.f64();
     c.require(!std::signbit(claim_.eta), "the least distance is negative");
     c.require(claim_.ring >= 1 && (claim_.eta > 0 || claim_.ring == 1), "an impossible ring");
-    const auto hash = c.raw<Sha256::Digest>();
+    claim_.hash = c.raw<Sha256::Digest>();
     c.require(!run() || paths.size() == 1, "the proof is of a run: expected its trajectory.blocks, one file");
     if (run()) trajectory_ = std::make_unique<Run>(paths[0]);
     if (!run()) trajectory_ = std::make_unique<Frames>(paths, claim_.source == 1);
@@ -39,23 +40,42 @@ class Check {
     make_cells(scene);
     c.require(!claim_.cells.empty(), "a claim about no cells");
     if (auto block = proof_.next()) read_labels(proof_.as("LABL", std::move(block)));
-    c.require(cells_hash() == hash, "the claim is about other cells than those of the trajectory");
+    c.require(cells_hash() == claim_.hash, "the claim is about other cells than those of the trajectory");
   }
 
-  /// Step after step. What the first witness says, if there is one.
+  /// Step after step. What the first witness says that refutes the claim that is asked; if there is none, the claim of
+  /// the file holds, and is at least as strong as the one that is asked.
   std::optional<std::string> go() {
     for (std::uint64_t read = 0;; ++read) {
       auto block = proof_.next();
       if (proof_.ended()) break;
       step(proof_.as("STEP", std::move(block)), read);
     }
-    const std::string place = "the proof, after " + std::to_string(steps_) + " steps";
     require(steps_ > 0, "the proof", "a claim about no steps");
-    require(refuted_ || !trajectory_->next(motion_), place, "it ends, but the trajectory goes on");
-    return refuted_;
+    if (refuted_) return refuted_;
+    if (in_vain_ && !asked_.enough_steps(claim_, proved_)) throw Rejected(*in_vain_);
+    asked_.require_claimed(claim_, flat_);
+    const bool all = in_vain_ || asked_.enough_steps(claim_, proved_) || !trajectory_->next(motion_);
+    asked_.require_steps(claim_, proved_, !all);
+    first_steps_ = in_vain_ || trajectory_->more();
+    steps_ = proved_;
+    times_[1] = proved_until_;
+    return std::nullopt;
   }
 
   const Claim& claim() const { return claim_; }
+  /// What makes the accepted claim weaker than the one that is asked by default, for the line of the verdict.
+  std::string weaker() const {
+    std::string text;
+    if (claim_.source == 1) text += "; frames at rest";
+    if (claim_.merged > 0) text += "; " + std::to_string(claim_.merged) + " merged vertices";
+    const std::size_t pairs = run() ? 0 : claim_.excluded.size();
+    const std::string list = pairs > 8 ? std::to_string(pairs) + " pairs" : text_of(claim_.excluded);
+    if (pairs > 0) text += "; not compared: " + list;
+    if (!compares_any(claim_)) text += "; the claim is empty";
+    if (first_steps_) text += "; the first " + std::to_string(steps_) + " steps";
+    return text;
+  }
   std::uint64_t steps() const { return steps_; }
   /// The first T0 and the last T1 that a proof or witness is about.
   std::array<double, 2> times() const { return times_; }
@@ -89,16 +109,19 @@ class Check {
 
   void make_cells(Scene& scene) {
     claim_.cells = std::move(scene.cells);
+    claim_.listed = claim_.cells.size();
     if (run()) return;
     std::vector<bool> used(scene.vertices, !claim_.points);
-    for (const Cell& cell : claim_.cells) {
-      for (const std::uint32_t v : cell) used[v] = true;
-    }
-    for (std::uint32_t v = 0; v < used.size(); ++v) {
-      if (!used[v]) claim_.cells.push_back({{v}, 1});
-    }
     for (Cell& cell : claim_.cells) {
-      for (std::size_t i = 0; i < cell.size; ++i) cell.v[i] = claim_.same[cell.v[i]];
+      for (std::size_t i = 0; i < cell.size; ++i) {
+        used[cell.v[i]] = true;
+        cell.v[i] = claim_.same[cell.v[i]];
+      }
+    }
+    tidy(claim_.cells, scene.vertices);
+    claim_.listed = claim_.cells.size();
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) claim_.cells.push_back({{claim_.same[v]}, 1});
     }
     tidy(claim_.cells, scene.vertices);
   }
@@ -116,7 +139,7 @@ class Check {
 
   void step(Reader c, std::uint64_t read) {
     const std::uint64_t number = c.u64();
-    c.require(number >= steps_ && (refuted_ || number == read), "a step has the wrong number");
+    c.require(number >= steps_ && (witnessed() || number == read), "a step has the wrong number");
     for (; steps_ <= number; ++steps_) {
       c.require(trajectory_->next(motion_), "the trajectory has no such step");
     }
@@ -129,6 +152,7 @@ class Check {
     c.require(kind <= 1, "expected a proof or a witness");
     const auto hash = c.raw<Sha256::Digest>();
     c.end();
+    const bool flat = is_flat();
     for (auto& x : motion_.x) x[2] = claim_.dimension == 2 ? 0 : x[2];
     c.require(motion_.hash() == hash, "the step is about another motion than that of the trajectory");
     // Merged vertices are at the same place at all times; they have the breakpoints of frames.
@@ -139,7 +163,22 @@ class Check {
       c.require(!merged || together, "a merged vertex is not where the one is that stands for it");
     }
     const Integers motion(motion_, p, q, claim_.eta, c);
-    kind == 0 ? prove(motion, c) : refute(motion, number);
+    if (kind == 1) return refute(motion, number, flat);
+    prove(motion, c);
+    if (witnessed()) return;
+    flat_ = flat_ && flat;
+    proved_ = steps_;
+    proved_until_ = t1;
+  }
+
+  bool witnessed() const { return refuted_ || in_vain_; }
+  /// All vertices have one z where the step begins, and one where it ends.
+  bool is_flat() const {
+    if (run()) return claim_.dimension == 2;
+    for (std::size_t i = 0; i < motion_.x.size(); ++i) {
+      if (motion_.x[i][2] != motion_.x[i % 2][2]) return false;
+    }
+    return true;
   }
 
   void prove(const Integers& motion, const Reader& c) {
@@ -158,20 +197,34 @@ class Check {
     c.require(obligations.done(), "the proof of this step is not complete");
   }
 
-  void refute(const Integers& motion, std::uint64_t number) {
+  void refute(const Integers& motion, std::uint64_t number, bool flat) {
     const Witness witness(proof_.expect("WITN"), claim_, motion);
     proof_.expect_commit();
-    if (!refuted_) refuted_ = "in step " + std::to_string(number + 1) + ", " + witness.words();
+    if (refuted_) return;
+    Shown shown = witness.shown();
+    shown.step = number;
+    shown.flat = flat;
+    try {
+      asked_.require_refuted(claim_, shown);
+      refuted_ = "in step " + std::to_string(number + 1) + ", " + witness.words() + shown.rests_on(claim_);
+    } catch (const Rejected& less) {
+      if (!in_vain_) in_vain_ = less;
+    }
   }
 
+  Asked asked_;
   BlockFile proof_;
   std::unique_ptr<Trajectory> trajectory_;
   Claim claim_;
   std::optional<Tree> tree_;
   Motion motion_;
-  std::uint64_t steps_ = 0;
+  std::uint64_t steps_ = 0, proved_ = 0;  ///< seen, and proved before the first witness
   std::array<double, 2> times_{};
+  double proved_until_ = 0;
+  bool flat_ = true;          ///< the steps that are proved
+  bool first_steps_ = false;  ///< the trajectory goes on behind them
   std::optional<std::string> refuted_;
+  std::optional<Rejected> in_vain_;  ///< why the first witness does not count that refutes another claim alone
 };
 
 }  // namespace noli::checker

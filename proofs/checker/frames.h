@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames: PLY and OBJ, as proofs/FORMAT.md, section 8, says.
+// Frames: PLY and OBJ, as proofs/FORMAT.md, section 9, says.
 #pragma once
 
 #include "base.h"

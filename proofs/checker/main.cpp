@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// noli_check PROOF FRAME... | noli_check PROOF TRAJECTORY
+// noli_check [--require FIELD[=VALUE]]... PROOF FRAME...
+// noli_check [--require FIELD[=VALUE]]... PROOF TRAJECTORY
+// noli_check --version
 //
-// Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What it says and its exit codes are
-// in section 6 there. A proof, or the block file of a run, that is named - is read from the standard input.
+// Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What may be asked, what it says, and
+// its exit codes are in sections 6 and 7 there. A proof, or the block file of a run, that is named - is read from the standard
+// input.
 #include <exception>
 #include <map>
 
@@ -11,6 +14,19 @@
 
 namespace noli::checker {
 
+extern const char* const version;  // version.cpp
+
+/// For programs.
+static void print_fields(const Claim& claim, std::uint64_t steps, const std::array<double, 2>& times) {
+  std::printf("claim motion=%s dimension=%u steps=%llu strict=%d points=%d distance=%s ring=%u merged=%u",
+              motions[claim.source], claim.dimension, static_cast<unsigned long long>(steps), claim.strict ? 1 : 0,
+              claim.points ? 1 : 0, text_of(claim.eta).c_str(), claim.ring, claim.merged);
+  std::printf(" excluded=%s cells=%s empty=%d from=%s to=%s\n", text_of(claim.excluded).c_str(),
+              text_of(claim.hash).c_str(), compares_any(claim) ? 0 : 1, text_of(times[0]).c_str(),
+              text_of(times[1]).c_str());
+}
+
+/// For people.
 static void print_claim(const Claim& claim, std::uint64_t steps, const std::array<double, 2>& times) {
   constexpr std::array sources = {"frames, straight lines between them", "frames at rest", "a run"};
   std::printf("%llu steps of %s; from %.17g to %.17g; dimension %u; %zu cells of %zu vertices.\n",
@@ -30,12 +46,20 @@ static void print_claim(const Claim& claim, std::uint64_t steps, const std::arra
   std::printf(" no others.\n");
 }
 
-static int run(const std::vector<std::string>& arguments) {
-  require(arguments.size() >= 2, "the command line", "expected a proof, and frames or a trajectory.blocks");
-  Check check(arguments[0], {arguments.begin() + 1, arguments.end()});
+static int run(std::vector<std::string> words) {
+  if (words == std::vector<std::string>{"--version"}) {
+    std::printf("noli_check %s\n", version);
+    return 0;
+  }
+  std::vector<std::string> fields;
+  for (; words.size() >= 2 && words[0] == "--require"; words.erase(words.begin(), words.begin() + 2))
+    fields.push_back(words[1]);
+  require(words.size() >= 2, "the command line", "expected a proof, and frames or a trajectory.blocks");
+  Check check(words[0], {words.begin() + 1, words.end()}, Asked(fields));
   const auto refuted = check.go();
   const char* what = check.claim().excluded.empty() ? "nothing touches" : "nothing that is compared touches";
-  std::printf("%s%s\n", refuted ? "refuted: " : "accepted: ", refuted.value_or(what).c_str());
+  std::printf("%s\n", refuted ? ("refuted: " + *refuted).c_str() : ("accepted: " + (what + check.weaker())).c_str());
+  print_fields(check.claim(), check.steps(), check.times());
   print_claim(check.claim(), check.steps(), check.times());
   require(std::fflush(stdout) == 0 && std::ferror(stdout) == 0, "standard output", "cannot be written");
   return refuted ? 1 : 0;

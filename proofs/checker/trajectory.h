@@ -45,6 +45,8 @@ struct Claim {
   double eta = 0;
   std::vector<std::uint32_t> same;  ///< by vertex: the one that stands for it
   std::vector<Cell> cells;
+  std::size_t listed = 0;  ///< of the cells: those that a file lists; vertices without a cell follow
+  Sha256::Digest hash{};   ///< of the cells
   std::set<LabelPair> excluded;
 
   bool is_excluded(std::uint32_t a, std::uint32_t b) const {
@@ -87,6 +89,8 @@ class Trajectory {
   virtual ~Trajectory() = default;
   /// The next step, if there is one.
   virtual bool next(Motion& motion) = 0;
+  /// Whether something follows. It is not looked at.
+  virtual bool more() = 0;
 
   Scene scene;
 };
@@ -122,6 +126,7 @@ class Frames : public Trajectory {
     ++step_;
     return true;
   }
+  bool more() override { return step_ + (rest_ ? 0 : 1) < paths_.size(); }
 
  private:
   std::vector<std::string> paths_;
@@ -175,6 +180,7 @@ class Run : public Trajectory {
     motion.group_hash = file_.group_hash();
     return true;
   }
+  bool more() override { return file_.more(); }
 
  private:
   template <class T>

@@ -7,6 +7,7 @@
 //   l, u, e   the root of g is in [l / 2^e, u / 2^e]
 #pragma once
 
+#include "asked.h"
 #include "separation.h"
 
 namespace noli::checker {
@@ -75,11 +76,17 @@ class Witness {
     require(g_.back() != 0, "the last coefficient of g is 0");
     const Poly signs = bernstein(g_, l_, u_, e_);
     require(sgn(signs.front()) * sgn(signs.back()) <= 0, "g has no change of sign");
+    const std::uint32_t a = claim.cells[i].label, b = claim.cells[j].label;
+    shown_.one_cell = i == j;
+    shown_.of_points = std::max(i, j) >= claim.listed;
+    shown_.labels = {std::min(a, b), std::max(a, b)};
     const bool same = meet(centre(p_), centre(q_));
+    shown_.near = !same;
     words_ = "vertices" + names(p_, i) + " and" + names(q_, j) + (same ? " meet" : " are too near");
   }
 
   const std::string& words() const { return words_; }
+  const Shown& shown() const { return shown_; }
 
  private:
   struct Corner {
@@ -197,6 +204,7 @@ class Witness {
   Poly g_;
   std::uint64_t e_ = 0;
   mpz_class l_, u_;
+  Shown shown_;
   std::string words_;
 };
 

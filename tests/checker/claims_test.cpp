@@ -314,7 +314,7 @@ TEST(Files, ThroughAPipe) {
         EXPECT_GT(write(ends[1], file.data() + i, std::min<std::size_t>(7, size - i)), 0);
       close(ends[1]);
     });
-    const Verdict found = verdict("/dev/fd/" + std::to_string(ends[0]), paths);
+    const Verdict found = verdict("/dev/fd/" + std::to_string(ends[0]), paths, Fields{});  // it is read once
     writer.join();
     close(ends[0]);
     EXPECT_EQ(found.code, size == file.size() ? 0 : 3) << found.words;

@@ -94,11 +94,46 @@ struct Verdict {
   std::string words;
 };
 
-inline Verdict verdict(const std::string& proof, const std::vector<std::string>& paths) {
+/// As they follow --require.
+using Fields = std::vector<std::string>;
+
+/// What asks for just the claim of a proof; nothing if it has none.
+inline Fields own_claim(const std::string& proof) {
   try {
-    Check check(proof, paths);
+    BlockFile file(proof, "PROF");
+    Reader c = file.expect("CLAM");
+    const int source = c.u8(), dimension = c.u8(), flags = c.u8();
+    c.u8();
+    const std::uint32_t ring = c.u32();
+    const double eta = c.f64();
+    const auto cells = c.raw<Sha256::Digest>();
+    const std::uint32_t merged = c.u32();
+    for (std::uint32_t i = 0; i < merged; ++i) c.u64();
+    const auto excluded = read_pairs<std::uint32_t>(c, c.u32(), "");
+    if (eta == 0 && ring > 1) return {};
+    Fields fields = {"empty", "distance=" + text_of(eta), "ring=" + std::to_string(ring),
+                     "merged=" + std::to_string(merged), "strict=" + std::to_string(flags & 1),
+                     "points=" + std::to_string(flags >> 1 & 1)};
+    if (source < 2) {
+      fields.push_back(std::string("motion=") + motions[static_cast<std::size_t>(source)]);
+      if (dimension == 2) fields.emplace_back("dimension=2");
+      fields.push_back("excluded=" + text_of(excluded));
+      fields.push_back("cells=" + text_of(cells));
+    }
+    Asked{fields};
+    return fields;
+  } catch (const Rejected&) {
+    return {};
+  }
+}
+
+/// Of a proof of which these fields are asked, or just what it claims.
+inline Verdict verdict(const std::string& proof, const std::vector<std::string>& paths,
+                       const std::optional<Fields>& fields = std::nullopt) {
+  try {
+    Check check(proof, paths, Asked(fields ? *fields : own_claim(proof)));
     const auto refuted = check.go();
-    return {refuted ? 1 : 0, refuted.value_or("")};
+    return {refuted ? 1 : 0, refuted ? *refuted : check.weaker()};
   } catch (const Rejected& r) {
     return {3, r.where + ": " + r.why};
   }
@@ -176,6 +211,7 @@ struct Proof {
   std::vector<std::string> witness{};  ///< by step; empty where it has none
   ClaimFields claim{};
   std::vector<std::uint32_t> labels{};  ///< block LABL, if there are any
+  std::optional<Fields> fields{};  ///< that are asked; none: just what it claims
   StepFields step{};  ///< of all; number, times, hash and kind are set where `keep` does not say otherwise
   bool keep = false;
 
@@ -232,7 +268,13 @@ struct Proof {
     std::vector<std::string> paths;
     for (std::size_t i = 0; i < frames.size(); ++i)
       paths.push_back(folder.write("f" + std::to_string(i) + ".obj", obj(frames[i], cells)));
-    return verdict(folder.write("proof", file), paths);
+    return verdict(folder.write("proof", file), paths, fields);
+  }
+  /// When these fields are asked.
+  Verdict asked(const Fields& of_it) const {
+    Proof other = *this;
+    other.fields = of_it;
+    return other.check();
   }
   /// The same proof with other tokens.
   Verdict with(const std::string& all) const {

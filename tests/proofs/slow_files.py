@@ -162,7 +162,7 @@ def groups(data, content):
     need(begin == at and number > 0, f"an open group; {number} were committed")
 
 
-# ---- Frames: proofs/FORMAT.md, section 8 -------------------------------------------------------------------------------------------
+# ---- Frames: proofs/FORMAT.md, section 9 -------------------------------------------------------------------------------------------
 
 INTEGERS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "int8": "b", "uint8": "B",
             "int16": "h", "uint16": "H", "int32": "i", "uint32": "I", "int64": "q", "uint64": "Q"}

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Frames: PLY and OBJ, as proofs/FORMAT.md, section 8, says. *)
+(* Frames: PLY and OBJ, as proofs/FORMAT.md, section 9, says. *)
 open Blocks
 
 (* Cells are arrays of vertex ids: faces, edges, points, each in the order of the file. *)

@@ -1,6 +1,9 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* noli_check_verified PROOF FRAME... | noli_check_verified PROOF TRAJECTORY
-   Checks a proof that nothing touches, or that something does (proofs/FORMAT.md); for its exit codes see section 6.
+(* noli_check_verified [--require FIELD[=VALUE]]... PROOF FRAME...
+   noli_check_verified [--require FIELD[=VALUE]]... PROOF TRAJECTORY
+   noli_check_verified --version
+   Checks a proof that nothing touches, or that something does (proofs/FORMAT.md); for what may be asked and for its
+   exit codes see sections 6 and 7.
 
    What this does: it reads the files, compares hashes, and turns numbers into integers. Whether a token may be used
    and a witness holds, the functions decide that are extracted from Coq: Reading.start_read, Checker.step,
@@ -8,10 +11,7 @@
    What it does not do: it finds nothing by itself, and shares nothing with the other checker but the document. *)
 open Blocks
 open Trajectory
-
-(* same has for each vertex the one that stands for it; cells are those before merging. *)
-type claim = { source : int; points : bool; strict : bool; ring : int; eta : float; excluded : (int * int) list;
-               same : int array; cells : int array array; motion : trajectory }
+open Asked
 
 let read_merged c vertices =
   let same = Array.init vertices Fun.id and n = u32 c and before = ref (-1) in need c n 8;
@@ -22,12 +22,14 @@ let read_merged c vertices =
   done;
   same
 
-(* The cells of frames without those that are redundant after merging; vertices without a cell may be points. *)
+(* The cells of frames without those that are redundant after merging, and how many of them are listed; vertices
+   without a cell may be points. *)
 let cells_of (mesh : Frames.mesh) same points =
   let used = Array.make mesh.vertices (not points) in
   Array.iter (Array.iter (fun v -> used.(v) <- true)) mesh.cells;
   let unused = List.filter (fun c -> not used.(c.(0))) (List.init mesh.vertices (fun v -> [| v |])) in
-  Frames.irredundant (fun v -> same.(v)) (Array.append mesh.cells (Array.of_list unused))
+  let irredundant = Frames.irredundant (fun v -> same.(v)) in
+  (irredundant (Array.append mesh.cells (Array.of_list unused)), Array.length (irredundant mesh.cells))
 
 let cells_hash same cells labels =
   let h = hash () and vertex v = text 4 same.(v) in
@@ -59,14 +61,15 @@ let read_claim file paths =
   let motion = if is_run then of_run (List.hd paths) else of_frames paths dimension (source = 1) in
   let same = read_merged c motion.mesh.vertices in let excluded = pairs u32 c in
   finish c;
-  let cells = if is_run then motion.mesh.cells else cells_of motion.mesh same (flags >= 2) in
+  let all = motion.mesh.cells in
+  let cells, listed = if is_run then (all, Array.length all) else cells_of motion.mesh same (flags >= 2) in
   check c (not is_run || (dimension = motion.dimension && same = Array.init (Array.length same) Fun.id))
     "the run has another dimension, or merged vertices, which a run has not";
   check c (motion.fits excluded) "other pairs are excluded than those of the run";
   let labels = read_labels file is_run cells (if is_run then motion.labels else Array.map (fun _ -> 0) cells) in
   check c (cells <> [||] && cells_hash same cells labels = hash) "the claim is about other cells, or about none";
   let motion = { motion with labels } in
-  { source; points = flags >= 2; strict = flags land 1 = 1; ring; eta; excluded; same; cells; motion }
+  { source; points = flags >= 2; strict = flags land 1 = 1; ring; eta; excluded; same; cells; listed; hash; motion }
 
 (* The trajectory of a vertex in integers, all of which are multiples. *)
 let read m p q v : Reading.reading =
@@ -132,8 +135,8 @@ let prove file claim known read scene =
   | None -> fail c "there is no tree, it has not each cell once, or the step makes no sense"
   | Some stack -> tokens stack (if has_tree then next file else (kind, c)); tree
 
-(* The witness in words, if it holds. *)
-let refute file claim scene =
+(* The witness in words, and what it shows, if it holds. *)
+let refute file claim number flat scene =
   let c = expect file "WITN" in
   let below n c = let i = u32 c in check c (i < n) "a cell or vertex that is not there is named"; Z.of_int i in
   let list most part c =
@@ -147,24 +150,40 @@ let refute file claim scene =
   let wl, wu = both sint c in finish c;
   let w = { Hit.wi; wj; wp; wq; wg; wl; wu; wd = Z.shift_left Z.one e } in
   check c (Hit.check_hit claim.strict scene w) "the witness does not hold"; ignore (expect file "CMIT");
-  let how = if Hit.check_hit claim.strict { scene with eta = Z.zero } w then "meet" else "are too near" in
+  let near = not (Hit.check_hit claim.strict { scene with eta = Z.zero } w) in
   let names side = String.concat " " (List.map (fun (v, _) -> Z.to_string v) side) in
-  Printf.sprintf "vertices {%s} of cell %d and {%s} of cell %d %s" (names wp) (Z.to_int wi) (names wq) (Z.to_int wj) how
+  let i = Z.to_int wi and j = Z.to_int wj in let a = claim.motion.labels.(i) and b = claim.motion.labels.(j) in
+  (Printf.sprintf "in step %d, vertices {%s} of cell %d and {%s} of cell %d %s" (number + 1) (names wp) i (names wq) j
+     (if near then "are too near" else "meet"),
+   { step = number; one_cell = i = j; of_points = max i j >= claim.listed; near; labels = (min a b, max a b); flat })
 
-(* T0 of the first step of the proof, T1 of its last. *)
-let span = [| 0.0; 0.0 |]
+(* What the proof has said up to a step: how many it knows of, T0 of the first and T1 of the last; how many are proved
+   before the first witness, until when, and whether they are flat. Then the first witness in words that refutes what is
+   asked, and why the first does not count that refutes another claim alone. *)
+type said = { steps : int; from : float; until : float; proved : int; proved_until : float; all_flat : bool;
+              refuted : string option; in_vain : string option }
 
-(* How many steps the proof knows of, and the first witness if there is one. seen is how many of the trajectory's
-   steps have been read, tree that of the last proof step. *)
-let rec check_steps file claim seen tree words =
+let witnessed said = said.refuted <> None || said.in_vain <> None
+
+(* At the end: whether the claim that is asked is accepted, or refuted, and whether of the first steps alone. *)
+let conclude asked claim said =
+  if said.refuted <> None then (said, false)
+  else begin
+    let enough = enough_steps asked claim said.proved in
+    Option.iter (fun why -> if not enough then raise (Rejected why)) said.in_vain;
+    require_claimed asked claim said.all_flat;
+    require_steps asked claim said.proved (not (said.in_vain <> None || enough) && claim.motion.next () <> None);
+    ({ said with steps = said.proved; until = said.proved_until }, said.in_vain <> None || claim.motion.more ())
+  end
+
+(* The steps that follow; tree is that of the last proof step. *)
+let rec check_steps file asked claim tree said =
+  let seen = said.steps in
   match next file with
-  | "", c ->
-    check c (seen > 0) "a claim about no steps";
-    check c (words <> None || claim.motion.next () = None) "the proof ends, but the trajectory goes on";
-    (seen, words)
+  | "", c -> check c (seen > 0) "a claim about no steps"; conclude asked claim said
   | kind, c ->
     let number = if kind = "STEP" then u64 c else fail c "expected a block STEP" in
-    check c (number >= seen && (words <> None || number = seen)) "a step has the wrong number";
+    check c (number >= seen && (witnessed said || number = seen)) "a step has the wrong number";
     let rec go_on k = match claim.motion.next () with
       | Some m -> if k < number then go_on (k + 1) else m
       | None -> fail c "the trajectory has no such step" in
@@ -173,7 +192,6 @@ let rec check_steps file claim seen tree words =
     let m = go_on seen and t0, t1 = both f64 c in let p, q = both i32 c in
     let is_witness = u8 c in
     check c (t0 = m.t0 && t1 = m.t1 && t0 < t1) "the trajectory's step has another time";
-    if seen = 0 then span.(0) <- t0 +. 0.0; span.(1) <- t1 +. 0.0;
     check c (abs p <= 1200 && abs q <= 1200 && is_witness <= 1) "a field of the step has an impossible value";
     check c (take c 32 = Lazy.force m.hash && left c = 0) "the step is about another motion than the trajectory's";
     let at_one_place v s = check c (v = s || together m v s) "merged vertices are not at one place" in
@@ -181,24 +199,44 @@ let rec check_steps file claim seen tree words =
     (* A witness names vertices after merging. Paths are searched: no shortest one has as many edges as vertices. *)
     let ring = if is_witness = 0 then claim.ring else min claim.ring (Array.length claim.same) in
     let scene = scene_of c claim m p q ring (if is_witness = 0 then Fun.id else Array.map (fun v -> claim.same.(v))) in
-    if is_witness = 0 then check_steps file claim (number + 1) (prove file claim tree (read m p q) scene) words
+    let said = { said with steps = number + 1; from = (if seen = 0 then t0 else said.from); until = t1 } in
+    if is_witness = 0 then
+      let tree = prove file claim tree (read m p q) scene in
+      let proved said = { said with proved = said.steps; proved_until = t1; all_flat = said.all_flat && m.flat } in
+      check_steps file asked claim tree (if witnessed said then said else proved said)
     else
-      let found = Printf.sprintf "refuted: in step %d, %s" (number + 1) (refute file claim scene) in
-      check_steps file claim (number + 1) tree (if words = None then Some found else words)
+      let words, shown = refute file claim number m.flat scene in
+      let now =
+        if said.refuted <> None then said
+        else
+          try require_refuted asked claim shown; { said with refuted = Some (words ^ rests_on claim shown) }
+          with Rejected why -> if said.in_vain = None then { said with in_vain = Some why } else said in
+      check_steps file asked claim tree now
 
-let run proof paths =
+(* For programs. *)
+let print_fields claim said =
+  let bit b = if b then 1 else 0 in
+  Printf.printf "claim motion=%s dimension=%d steps=%d strict=%d points=%d distance=%s ring=%d merged=%d"
+    motions.(claim.source) claim.motion.dimension said.steps (bit claim.strict) (bit claim.points)
+    (number_text claim.eta) claim.ring (merged claim);
+  Printf.printf " excluded=%s cells=%s empty=%d from=%s to=%s\n" (pairs_text claim.excluded) (hex claim.hash)
+    (bit (not (compares_any claim))) (number_text said.from) (number_text said.until)
+
+let run asked proof paths =
   let file = open_file proof "PROF" in let claim = read_claim file paths in
-  let steps, words = check_steps file claim 0 None None in
+  let begin_ = { steps = 0; from = 0.0; until = 0.0; proved = 0; proved_until = 0.0; all_flat = true; refuted = None;
+                 in_vain = None } in
+  let said, first_steps = check_steps file asked claim None begin_ in
   let what = if claim.excluded = [] then "nothing touches" else "nothing that is compared touches" in
-  print_endline (Option.value words ~default:("accepted: " ^ what));
-  Printf.printf "%d steps of %s; from %.17g to %.17g; dimension %d; %d cells of %d vertices.\n" steps
-    [| "frames, straight lines between them"; "frames at rest"; "a run" |].(claim.source) span.(0) span.(1)
-    claim.motion.dimension
-    (Array.length claim.cells) (Array.length claim.same);
+  print_endline (match said.refuted with
+    | Some words -> "refuted: " ^ words | None -> "accepted: " ^ what ^ weaker claim said.steps first_steps);
+  print_fields claim said;
+  Printf.printf "%d steps of %s; from %s to %s; dimension %d; %d cells of %d vertices.\n" said.steps
+    [| "frames, straight lines between them"; "frames at rest"; "a run" |].(claim.source) (number_text said.from)
+    (number_text said.until) claim.motion.dimension (Array.length claim.cells) (Array.length claim.same);
   Printf.printf "Compared: features of two different cells%s.\n" (if claim.strict then ", and of one" else "");
   if claim.points then print_endline "Vertices without a cell are points.";
-  let merged = ref 0 in Array.iteri (fun v s -> if v <> s then incr merged) claim.same;
-  if !merged > 0 then Printf.printf "Merged: %d vertices, each always where another is.\n" !merged;
+  if merged claim > 0 then Printf.printf "Merged: %d vertices, each always where another is.\n" (merged claim);
   if claim.eta > 0.0 then Printf.printf "Least distance %.17g, ring %d.\n" claim.eta claim.ring;
   let pairs = List.map (fun (a, b) -> Printf.sprintf " %d-%d" a b) claim.excluded in
   if pairs <> [] then begin
@@ -209,13 +247,17 @@ let run proof paths =
     let text (label, n) = Printf.sprintf " %d with %d;" n label in
     print_endline ("Cells with a label:" ^ String.concat "" (List.map text used) ^ " no others.")
   end;
-  flush stdout; if words = None then 0 else 1
+  flush stdout; if said.refuted = None then 0 else 1
 
 let () =
   let reject why = (try Printf.printf "rejected: %s\n%!" why with _ -> ()); 3 in
   Gc.set { (Gc.get ()) with minor_heap_size = 1 lsl 18; space_overhead = 200 };
+  let rec check fields = function
+    | "--require" :: field :: words -> check (field :: fields) words
+    | proof :: (_ :: _ as paths) -> run (of_words (List.rev fields)) proof paths
+    | _ -> raise (Rejected "the command line: expected a proof, and frames or a trajectory.blocks") in
   exit
-    (match Array.to_list Sys.argv with
-     | _ :: proof :: (_ :: _ as paths) -> (
-       try run proof paths with Rejected why -> reject why | e -> reject ("the checker: " ^ Printexc.to_string e))
-     | _ -> reject "the command line: expected a proof, and frames or a trajectory.blocks")
+    (match List.tl (Array.to_list Sys.argv) with
+     | ["--version"] -> Printf.printf "noli_check_verified %s\n%!" Version.text; 0
+     | words -> (
+       try check [] words with Rejected why -> reject why | e -> reject ("the checker: " ^ Printexc.to_string e)))

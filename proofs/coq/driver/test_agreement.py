@@ -53,14 +53,34 @@ def run(*command):
     return result.returncode, result.stdout.decode(errors="replace")
 
 
-def agree(name, proof, files, expected=None):
-    one, other = (run(bin_dir / c, proof, *files) for c in ("noli_check", "noli_check_verified"))
+def own_claim(proof):
+    """The words that ask for what a proof claims; none where it has no claim."""
+    try:
+        kind, c = blocks_of(proof.read_bytes())[0]
+        source, dimension, flags, _, ring, eta = struct.unpack_from("<4BId", c)
+        merged, = struct.unpack_from("<I", c, 48)
+        pairs = struct.iter_unpack("<II", c[56 + 8 * merged:])
+    except (OSError, IndexError, ValueError, struct.error):
+        return []
+    words = [f"dimension={dimension}", f"strict={flags & 1}", f"points={flags >> 1 & 1}", f"distance={eta!r}",
+             f"ring={ring}", f"merged={merged}", "empty"]
+    if source < 2: words.append("motion=" + ("linear", "rest")[source])
+    excluded = ",".join(f"{a}-{b}" for a, b in pairs)
+    if excluded and source < 2: words += ["excluded=" + excluded, "cells=" + c[16:48].hex()]
+    return words
+
+
+def agree(name, proof, files, expected=None, asked=None):
+    """Both checkers, asked for what the proof claims, or for something else."""
+    words = [w for field in (own_claim(proof) if asked is None else asked) for w in ("--require", field)]
+    one, other = (run(bin_dir / c, *words, proof, *files) for c in ("noli_check", "noli_check_verified"))
     seen[one[0]] = seen.get(one[0], 0) + 1
     same = one[0] == other[0] and one[1].split(":")[0] == other[1].split(":")[0]
-    if one[0] != 3: same = same and one[1] == other[1]
+    about_what_was_asked = one[1].startswith(("rejected: the claim: ", "rejected: the command line, --require"))
+    if one[0] != 3 or about_what_was_asked: same = same and one[1] == other[1]
     if not same or one[0] not in (0, 1, 3) or (expected is not None and one[0] != expected):
         failures.append(name)
-        print(f"{name}: expected {expected}\n  {one}\n  {other}")
+        print(f"{name}: {asked}: expected {expected}\n  {one}\n  {other}")
 
 
 def noli(*arguments):
@@ -181,6 +201,32 @@ def by_hand():
 
 by_hand()
 for name, proof, files, code in good: agree(name, proof, files, code)
+
+# What is asked: by default, one field after another, some at once; and such that nobody can ask
+
+FIELDS = ["motion=linear", "motion=rest", "motion=run", "dimension=2", "dimension=3", "steps=1", "steps=2", "steps=3",
+          "steps=4", "strict", "strict=0", "points", "points=1", "distance=0", "distance=1e-9", "distance=0.5",
+          "distance=1.2", "distance=1.25", "ring=1", "ring=2", "ring=3", "merged=0", "merged=1", "merged=4", "merged=9",
+          "excluded=", "excluded=0-0", "excluded=0-1,1-1", "cells=" + "0" * 64, "empty", "empty=0"]
+IMPOSSIBLE = ["", "=", "motion", "motion=", "motion=Rest", "dimension", "dimension=1", "dimension=4", "dimension=+2",
+              "steps=0", "steps=-1", "steps=1.0", "steps=99999999999", "strict=", "strict=2", "strict=yes", "points=2",
+              "distance", "distance=-1", "distance=-0", "distance=nan", "distance=inf", "distance=1e999", "distance=.5",
+              "distance=1e-999", "distance=0x1", "distance=1 ", "ring=0", "ring=4294967296", "merged=", "merged=-1",
+              "excluded", "excluded=1", "excluded=1-", "excluded=-1", "excluded=2-1", "excluded=1-2,", "excluded=,1-2",
+              "excluded=1-2,1-2", "excluded=1-2,0-1", "excluded=1-2-3", "excluded=1-2", "cells=", "cells=" + "A" * 64,
+              "cells=" + "0" * 63, "empty=", "from=0", "all"]
+asking = random.Random(8)
+for name, proof, files, code in good:
+    agree(f"{name}, by default", proof, files, None, [])
+    for field in FIELDS:
+        other = [o for o in own_claim(proof) if o.split("=")[0] != field.split("=")[0]]
+        if not field.startswith(("ring", "excluded=0")): agree(f"{name}, asked", proof, files, None, [field])
+        agree(f"{name}, asked", proof, files, None, other + [field])
+    for _ in range(10):
+        some = {field.split("=")[0]: field for field in asking.sample(FIELDS, 4)}
+        agree(f"{name}, asked", proof, files, None, list(some.values()))
+for field in IMPOSSIBLE: agree("impossible", good[0][1], good[0][2], 3, [field])
+agree("twice", good[0][1], good[0][2], 3, ["strict=0", "strict=0"])
 
 # Broken ones
 

@@ -4,9 +4,10 @@ open Blocks
 
 (* As in block LINE: bytes has the times of all breakpoints, from a place on, and from another their positions.
    Breakpoint first.(v) is the first of vertex v; behind them all is the number of all. A vertex becomes a list when it
-   is asked for: in lists, a run takes ten times the memory. *)
+   is asked for: in lists, a run takes ten times the memory. flat: all vertices have one z where the step begins, and
+   one where it ends. *)
 type motion = { t0 : float; t1 : float; dimension : int; first : int array; bytes : string; times : int;
-                positions : int; hash : string Lazy.t }
+                positions : int; flat : bool; hash : string Lazy.t }
 
 (* The bits of its numbers; a third coordinate that is not there is 0. *)
 let time m i = String.get_int64_le m.bytes (m.times + (8 * i))
@@ -29,9 +30,10 @@ let check_multiples c p q m =
   let n = m.first.(Array.length m.first - 1) in
   check_from m.times (m.times + (8 * n)) q; check_from m.positions (m.positions + (8 * m.dimension * n)) p
 
-(* Labels are one a cell; of a run, fits tells whether a list of their pairs is that of those which it excludes. *)
+(* Labels are one a cell; of a run, fits tells whether a list of their pairs is that of those which it excludes. more
+   tells whether something follows, and does not look at it. *)
 type trajectory = { dimension : int; mesh : Frames.mesh; labels : int array; fits : (int * int) list -> bool;
-                    next : unit -> motion option }
+                    next : unit -> motion option; more : unit -> bool }
 
 let hash_of m =
   let h = hash () in
@@ -52,7 +54,8 @@ let between t0 t1 dimension before after =
   let place x = for k = 0 to dimension - 1 do put x.(k) done in
   Array.iter2 (fun x y -> place x; place y) before after;
   let first = Array.init (n + 1) (fun v -> 2 * v) and bytes = Buffer.contents b in
-  let rec m = { t0; t1; dimension; first; bytes; times = 0; positions = 16 * n; hash = lazy (hash_of m) } in m
+  let is_level x = Array.for_all (fun p -> p.(2) = x.(0).(2)) x in let flat = is_level before && is_level after in
+  let rec m = { t0; t1; dimension; first; bytes; times = 0; positions = 16 * n; flat; hash = lazy (hash_of m) } in m
 
 let of_frames paths dimension at_rest =
   let mesh, x = Frames.read_frame (List.hd paths) in
@@ -64,8 +67,8 @@ let of_frames paths dimension at_rest =
     let t0 = if at_rest then 0.0 else !step in
     let m = between t0 (t0 +. 1.0) dimension (if at_rest then x else !now) x in
     rest := List.tl !rest; now := x; step := !step +. 1.0; m in
-  let next () = Option.map read (List.nth_opt !rest 0) in
-  { dimension; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next }
+  let next () = Option.map read (List.nth_opt !rest 0) and more () = !rest <> [] in
+  { dimension; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next; more }
 
 let read_mesh c =
   let vertices = u64 c and faces, edges = both u64 c in
@@ -114,7 +117,7 @@ let read_lines c dimension vertices t0 t1 hash =
   let count v = first.(v + 1) - first.(v) and each part = for v = 0 to vertices - 1 do part v done in
   each (fun v -> check c (count v >= 2) "too few breakpoints");
   let times = c.at in each (fun v -> need c (count v) 8; finite_numbers c (count v));
-  let m = { t0; t1; dimension; first; bytes = c.bytes; times; positions = c.at; hash } in
+  let m = { t0; t1; dimension; first; bytes = c.bytes; times; positions = c.at; flat = dimension = 2; hash } in
   let seconds i = Int64.float_of_bits (time m i) in
   let line v =
     let last = first.(v + 1) - 1 in
@@ -147,4 +150,4 @@ let of_run path =
       List.iter (fun kind -> ignore (expect file kind)) ["VELO"; "STAT"; "CMIT"];
       ignore (Lazy.force m.hash);  (* the last commit is that of this window now *)
       Some m in
-  { dimension; mesh; labels; fits; next }
+  { dimension; mesh; labels; fits; next; more = (fun () -> file.read < file.size) }
