@@ -94,14 +94,6 @@ constexpr std::array<audit::LibraryFault, audit::library_fault_count> faults = {
     audit::LibraryFault::hang,           audit::LibraryFault::memory,  audit::LibraryFault::false_positive,
     audit::LibraryFault::early};
 
-std::string faults_text(const audit::FaultCounts& counts) {
-  std::string text;
-  for (const audit::LibraryFault fault : faults) {
-    text += fmt::format(" {} {}", name(fault), counts[static_cast<std::size_t>(fault)]);
-  }
-  return text;
-}
-
 Json faults_json(const audit::FaultCounts& counts) {
   Json json = Json::object();
   for (const audit::LibraryFault fault : faults) {
@@ -233,7 +225,9 @@ Answer library_fuzz_answer(const audit::LibraryFuzzOptions& options, const audit
   Answer answer(verdict(exit_code(report), "no_finding"), {{"queries", report.queries},
                                                            {"contacts", report.contacts},
                                                            {"findings", report.findings_total}});
-  for_each_fault(report.faults, [&](std::string_view fault, std::uint64_t count) { answer.add({fault, count}); });
+  for (const audit::LibraryFault fault : faults) {
+    answer.add({name(fault), report.faults[static_cast<std::size_t>(fault)]});
+  }
   answer.add({"seed", options.seed});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);

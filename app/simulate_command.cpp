@@ -13,6 +13,7 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/simulate_report.h"
 #include "noli/app/simulate_run.h"
+#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
