@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "noli/app/report_statement.h"
 #include "noli/app/report_verdict.h"
@@ -15,7 +16,7 @@
 namespace noli::app {
 namespace {
 
-constexpr std::size_t most_listed = 1000;
+constexpr std::size_t most_listed = 1000, most_inputs = 200;
 constexpr std::uint64_t most_digits = 1'000'000'000'000'000;  ///< from here a page writes exponents
 
 /// Calls f, which takes members as they should be.
@@ -55,6 +56,7 @@ class Verified {
     if (!scene_) take_end_of_run();
     for (const std::string& line : lines()) report_.page["verdict"]["lines"].push_back(line);
     report_.page["statement"] = statement_in_words(result_.at("statement"));
+    put_inputs();
   }
 
  private:
@@ -141,6 +143,33 @@ class Verified {
     const Json& end = run.at("end");
     take_word(word_of_end(end.is_string() ? end.get<std::string>() : "", false), report_);
     end_ = end_text(run);
+  }
+
+  /// What was looked at, and by whom, below the statement.
+  void put_inputs() const {
+    Json& rows = report_.page["statement"];
+    const Json& noli = result_.at("noli");
+    rows.push_back({"decided by", fmt::format("noli {} ({})", noli.at("version").get<std::string>(),
+                                              noli.at("commit").get<std::string>())});
+    const Json checker = result_.value("proof", Json::object()).value("checker", Json());
+    if (checker.is_string()) rows.push_back({"checked by", checker.get<std::string>()});
+    const Json& inputs = result_.at("inputs");
+    for (std::size_t i = 0; i < inputs.size() && i < most_inputs; ++i) {
+      rows.push_back({fmt::format("input {}", i + 1), input_in_words(inputs.at(i))});
+    }
+    if (inputs.size() > most_inputs) rows.push_back({"more inputs", fmt::format("{}", inputs.size() - most_inputs)});
+  }
+
+  static std::string input_in_words(const Json& input) {
+    std::string words = input.at("file").get<std::string>();
+    for (const auto& [key, unit] : {std::pair("bytes", " bytes"), {"vertices", " vertices"}, {"cells", " cells"}}) {
+      if (const Json number = input.value(key, Json()); number.is_number()) words += ", " + number.dump() + unit;
+    }
+    if (const Json numbers = input.value("numbers", Json()); numbers.is_string()) {
+      words += ", " + numbers.get<std::string>();
+    }
+    if (const Json hash = input.at("sha256"); hash.is_string()) words += ", SHA-256 " + hash.get<std::string>();
+    return words;
   }
 
   std::vector<std::string> lines() const {
