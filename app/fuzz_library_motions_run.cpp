@@ -178,6 +178,7 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
   audit::LibraryMotionOptions options;
   options.asked = arguments.theirs.asked;
   options.limits = arguments.common.limits;
+  options.families = arguments.families;
   options.first_only = arguments.theirs.first_only;
   options.max_findings = arguments.max_findings;
   options.out = arguments.common.out;

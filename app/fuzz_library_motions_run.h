@@ -14,6 +14,7 @@ struct LibraryMotionArguments {
   AgainArguments again;
   LibraryArguments theirs;
   std::size_t max_findings = 20;
+  std::vector<std::string> families;  ///< names of generators; none: all of them
 };
 
 /// Throws UsageError, InputError.

@@ -40,13 +40,13 @@ constexpr const char* footer =
     "Examples:\n"
     "  noli fuzz trajectories --for 60s --seed 1\n"
     "  noli fuzz trajectories --count 100000 --threads 2 --corpus corpus --json result.json\n"
+    "  noli fuzz trajectories --family last_ulp --family landing --count 10000\n"
     "  noli fuzz trajectories --replay fuzz-findings/seed1-block3-index7-border\n"
     "  noli fuzz trajectories --minimise fuzz-findings/seed1-block3-index7-border --out smaller\n"
     "  noli fuzz trajectories --library ./mine.so --for 60s --tolerance 1e-6\n"
     "  noli fuzz trajectories --library ./mine.so --replay fuzz-findings/late-seed1-block3-index7-border";
 
 struct TrajectoriesArguments : LibraryMotionArguments {
-  bool needs_witness = false;
   std::uint64_t verified_every = 1;
 };
 
@@ -109,7 +109,6 @@ Answer report_answer(const TrajectoriesArguments& arguments, const audit::Trajec
 }
 
 ExitCode fuzz(TrajectoriesArguments& arguments) {
-  if (arguments.needs_witness) throw UsageError("--needs-witness goes with --replay or --minimise");
   settle_limits(arguments.common);
   const Output output(arguments.common.results, {});
   require_writable_folder(arguments.common.out, "--out");
@@ -117,6 +116,7 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
   audit::TrajectoryOptions options;
   options.limits = arguments.common.limits;
+  options.families = arguments.families;
   options.decide = [&](const audit::FrameMotion& motion) { return subject(motion); };
   options.max_findings = arguments.max_findings;
   options.out = arguments.common.out;
@@ -149,7 +149,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
     return answer;
   };
   const auto what = [&](const audit::FrameMotion& candidate) {
-    return audit::difference(candidate, decide, arguments.needs_witness, &interrupted());
+    return audit::difference(candidate, decide, &interrupted());
   };
   auto found = what(motion);
   std::optional<fs::path> saved;
@@ -159,8 +159,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
         motion, [&](const audit::FrameMotion& candidate) { return audit::is_of_kind(what(candidate), kind); }, 5000);
     if (auto still = what(motion)) found = std::move(still);
     saved = minimised_folder(arguments.common, folder);
-    std::vector<std::string> command = {"noli", "fuzz", "trajectories", "--replay"};
-    if (arguments.needs_witness) command.insert(command.end() - 1, "--needs-witness");
+    const std::vector<std::string> command = {"noli", "fuzz", "trajectories", "--replay"};
     audit::save_motion(motion, *found, command, *saved);
   }
   const bool unknown = interrupted() || (undecided && !found);
@@ -209,11 +208,14 @@ Command add_fuzz_trajectories(CLI::App& fuzz_app) {
                                           ->capture_default_str()
                                           ->type_name("N");
   add_library_options(*command, arguments->theirs, "noli verify and the checkers");
-  add_again_options(*command, arguments->again, "motion", "FOLDER", {"--first-only", "--max-findings"});
-  CLI::Option* const needs_witness =
-      command->add_flag("--needs-witness", arguments->needs_witness,
-                        "With --replay or --minimise: a contact without a witness is a finding");
-  command->get_option("--library")->excludes(verified_every)->excludes(needs_witness);
+  std::vector<std::string> names;
+  for (const audit::MotionGenerator& generator : audit::motion_generators()) names.emplace_back(generator.name);
+  command->add_option("--family", arguments->families, "Make motions of this family; can be given several times")
+      ->check(CLI::IsMember(names))
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  add_again_options(*command, arguments->again, "motion", "FOLDER", {"--first-only", "--max-findings", "--family"});
+  command->get_option("--library")->excludes(verified_every);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -102,14 +102,14 @@ void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines&
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const VerifyResult& result) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_};
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &prover_};
   return write_witness(step, lines, witness_of(what, result.first, result.initial_reports, result.reports));
 }
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const TooNear& near) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_};
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &prover_};
   return write_witness(step, lines, witness_of(what, near, MeshPaths(prover_.tree(), mesh_.vertex_count, ring_)));
 }
 

@@ -33,11 +33,6 @@ struct AskedBlock {
   std::uint64_t not_asked = 0;
 };
 
-const MotionGenerator& generator_of(std::uint64_t block, std::size_t index) {
-  const auto all = motion_generators();
-  return all[(block * motions_per_block + index) % all.size()];
-}
-
 bool is_costly(const LibraryMotionAnswer& answer) {
   return answer.found && (answer.found->fault == MotionFault::hang || answer.found->fault == MotionFault::memory);
 }
@@ -53,8 +48,9 @@ LibraryUnderTest asked_while_shrinking(LibraryUnderTest library, MotionFault fau
 
 class LibraryMotionFuzzing {
  public:
-  explicit LibraryMotionFuzzing(const LibraryMotionOptions& options) : options_(options), asked_(options.asked) {
-    for (const MotionGenerator& generator : motion_generators()) {
+  explicit LibraryMotionFuzzing(const LibraryMotionOptions& options)
+      : options_(options), asked_(options.asked), generators_(motion_generators(options.families)) {
+    for (const MotionGenerator& generator : generators_) {
       report_.generators.push_back({std::string(generator.name), std::string(generator.attacks), 0, 0, {}});
     }
     if (options.corpus) corpus_.emplace(*options.corpus);
@@ -88,6 +84,10 @@ class LibraryMotionFuzzing {
  private:
   bool stopped() const { return options_.limits.stop != nullptr && options_.limits.stop->load(); }
   bool enough() const { return options_.first_only && report_.findings_total > 0; }
+
+  const MotionGenerator& generator_of(std::uint64_t block, std::size_t index) const {
+    return generators_[(block * motions_per_block + index) % generators_.size()];
+  }
 
   AskedBlock ask_block(std::uint64_t block, std::uint64_t count) const {
     Random random(options_.limits.seed, block);
@@ -197,6 +197,7 @@ class LibraryMotionFuzzing {
 
   const LibraryMotionOptions& options_;
   LibraryUnderTest asked_;  ///< to be asked until the time of the run is over
+  std::vector<MotionGenerator> generators_;
   std::optional<ShapeCorpus> corpus_;
   std::uint64_t block_ = 0;
   LibraryMotionReport report_;

@@ -32,6 +32,7 @@ namespace noli::audit {
 struct LibraryMotionOptions {
   LibraryUnderTest asked;
   FuzzLimits limits;
+  std::vector<std::string> families;            ///< names of generators; none: all of them
   bool first_only = false;                      ///< stop behind the first block that has a finding
   std::size_t max_findings = 20;                ///< shrink and save at most that many
   std::size_t shrink_budget = 1000;             ///< motions that the library is asked for each of them

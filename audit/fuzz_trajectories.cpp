@@ -28,15 +28,14 @@ constexpr std::uint64_t motions_per_block = 16;
 /// A motion that was judged.
 struct Judged {
   FrameMotion motion;
-  bool contact = false, needs_witness = false;
+  bool contact = false;
   MotionAnswer answer;
   std::optional<std::string> difference;
 };
 
-Judged judge(GeneratedMotion made, bool needs_witness, const TrajectoryOptions& options) {
+Judged judge(GeneratedMotion made, const TrajectoryOptions& options) {
   Judged judged;
   judged.motion = std::move(made.motion);
-  judged.needs_witness = needs_witness;
   try {
     const MotionTruth truth = truth_of(judged.motion, options.limits.stop);
     judged.contact = truth.contact;
@@ -45,7 +44,7 @@ Judged judge(GeneratedMotion made, bool needs_witness, const TrajectoryOptions& 
       return judged;
     }
     judged.answer = options.decide(judged.motion);
-    judged.difference = difference(judged.motion, truth, judged.answer, needs_witness);
+    judged.difference = difference(judged.motion, truth, judged.answer);
     if (const auto broken = broken_promise(judged.motion, made.planted, truth)) judged.difference = broken;
     if (std::string fault = text_fault(judged.motion); !fault.empty()) judged.difference = "files: " + fault;
   } catch (const std::system_error&) {
@@ -60,8 +59,9 @@ Judged judge(GeneratedMotion made, bool needs_witness, const TrajectoryOptions& 
 
 class TrajectoryFuzzing {
  public:
-  explicit TrajectoryFuzzing(const TrajectoryOptions& options) : options_(options) {
-    for (const MotionGenerator& generator : motion_generators())
+  explicit TrajectoryFuzzing(const TrajectoryOptions& options)
+      : options_(options), generators_(motion_generators(options.families)) {
+    for (const MotionGenerator& generator : generators_)
       report_.generators.push_back({std::string(generator.name), 0, 0, 0});
     if (options.corpus) corpus_.emplace(*options.corpus);
   }
@@ -81,9 +81,8 @@ class TrajectoryFuzzing {
 
  private:
   /// Each motion of a block is of another generator.
-  static const MotionGenerator& generator(std::uint64_t block, std::size_t index) {
-    const auto all = motion_generators();
-    return all[(block * motions_per_block + index) % all.size()];
+  const MotionGenerator& generator(std::uint64_t block, std::size_t index) const {
+    return generators_[(block * motions_per_block + index) % generators_.size()];
   }
 
   std::vector<Judged> make_block(std::uint64_t block, std::uint64_t count) const {
@@ -91,7 +90,7 @@ class TrajectoryFuzzing {
     std::vector<Judged> judged;
     for (std::size_t index = 0; index < count; ++index) {
       const MotionGenerator& by = generator(block, index);
-      judged.push_back(judge(by.make(random), by.witnesses, options_));
+      judged.push_back(judge(by.make(random), options_));
       if (options_.limits.stop && options_.limits.stop->load()) break;
     }
     return judged;
@@ -100,7 +99,7 @@ class TrajectoryFuzzing {
   void run_corpus() {
     for (const std::string& name : corpus_->names()) {
       if (options_.limits.stop && options_.limits.stop->load()) return;
-      Judged judged = judge({read_frames(corpus_->folder(name)), {}}, false, options_);
+      Judged judged = judge({read_frames(corpus_->folder(name)), {}}, options_);
       if (judged.answer.failure == "stopped") return;
       if (!judged.answer.undecided) shapes_.insert(judged.answer.shape);
       if (judged.difference) keep(std::move(judged), name, 0, 0);
@@ -114,11 +113,10 @@ class TrajectoryFuzzing {
 
   void take(Judged judged, std::size_t index) {
     if (judged.answer.failure == "stopped") return;  // by the user
-    const auto all = motion_generators();
-    TrajectoryTally& tally = report_.generators[(block_ * motions_per_block + index) % all.size()];
+    TrajectoryTally& tally = report_.generators[(block_ * motions_per_block + index) % generators_.size()];
     ++(judged.contact ? tally.contact : tally.apart);
     tally.undecided += judged.answer.undecided ? 1 : 0;
-    if (judged.answer.contact && !judged.answer.has_proof && !judged.difference) ++tally.without_witness;
+    if (judged.answer.contact && !judged.answer.has_proof) ++tally.without_witness;
     if (judged.answer.plain != CheckerWord::not_asked) ++report_.checked_plain;
     if (judged.answer.verified != CheckerWord::not_asked) ++report_.checked_verified;
     const bool is_new = !judged.answer.undecided && shapes_.insert(judged.answer.shape).second;
@@ -134,17 +132,17 @@ class TrajectoryFuzzing {
     ++report_.findings_total;
     if (report_.findings.size() >= options_.max_findings) return;
     TrajectoryFinding finding{generator, block, index, *judged.difference, judged.motion, judged.motion, {}};
-    shrink(finding, judged.needs_witness);
+    shrink(finding);
     if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.folder.clear();
     report_.findings.push_back(std::move(finding));
   }
 
   /// What was planted holds for the motion as it was made: that cannot be shrunk.
-  void shrink(TrajectoryFinding& finding, bool needs_witness) const {
+  void shrink(TrajectoryFinding& finding) const {
     const std::string kind(kind_of(finding.difference));
     const auto now = [&](const FrameMotion& motion) -> std::optional<std::string> {
       try {
-        return difference(motion, options_.decide, needs_witness, options_.limits.stop);
+        return difference(motion, options_.decide, options_.limits.stop);
       } catch (const std::exception& error) {
         return fmt::format("threw: {}", error.what());
       }
@@ -158,12 +156,11 @@ class TrajectoryFuzzing {
   void save(TrajectoryFinding& finding) const {
     finding.folder = unused(options_.out / fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
                                                        finding.index, finding.generator));
-    std::vector<std::string> command = options_.replay_command;
-    if (kind_of(finding.difference) == "proof") command.insert(command.end() - 1, "--needs-witness");
-    save_motion(finding.shrunk, finding.difference, command, finding.folder);
+    save_motion(finding.shrunk, finding.difference, options_.replay_command, finding.folder);
   }
 
   const TrajectoryOptions& options_;
+  std::vector<MotionGenerator> generators_;
   std::optional<ShapeCorpus> corpus_;
   std::set<std::string> shapes_;
   std::uint64_t block_ = 0;

@@ -7,8 +7,8 @@
 //   subject  the code under test, from files to the checkers' words
 //   planted  what a generator says of its motion; the oracle (audit/motion_oracle.h) has to agree
 //   finding  a motion that cannot be read back to the same bits, or on which the subject is wrong: contact or none, its
-//            step, the exact first time rounded down, features that do not meet then, the kind; no proof or no witness
-//            where there has to be one; a checker that rejects or says otherwise; a crash, a hang. Not one that its time was
+//            step, the exact first time rounded down, features that do not meet then, the kind; no proof or no
+//            witness; a checker that rejects or says otherwise; a crash, a hang. Not one that its time was
 //            up, if it says so
 //   shape    what the subject went through, as a word: which stages, how large a proof. What has a new one is kept in
 //            the corpus
@@ -63,6 +63,7 @@ using DecideMotion = std::function<MotionAnswer(const FrameMotion&)>;
 struct TrajectoryOptions {
   FuzzLimits limits;
   DecideMotion decide;
+  std::vector<std::string> families;            ///< names of generators; none: all of them
   std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
   std::optional<std::filesystem::path> corpus;  ///< folder that is there, of motions with different shapes
   std::size_t max_findings = 20;                ///< shrink and save at most that many; all are counted
@@ -83,7 +84,7 @@ struct TrajectoryFinding {
 struct TrajectoryTally {
   std::string name;
   std::uint64_t apart = 0, contact = 0;  ///< by the oracle
-  std::uint64_t without_witness = 0;     ///< contacts, where none is promised
+  std::uint64_t without_witness = 0;     ///< contacts, each of which is a finding
   std::uint64_t undecided = 0;           ///< in the time that there was
 };
 
@@ -98,19 +99,18 @@ struct TrajectoryReport {
   std::uint64_t corpus_size = 0;  ///< motions in the corpus, of before and new
 };
 
-/// Runs until a limit. With a count and without a corpus the report is the same for any number of threads. What
+/// Runs until a limit. Throws std::invalid_argument for a family that is not there. With a count and without a corpus the report is the same for any number of threads. What
 /// cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
 /// the machine fails.
 TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options);
 
 /// What is wrong with the subject's answer, or the files of the motion, in words; nothing if all is well, or if it was
 /// stopped, or its time was up, before that was known.
-std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness,
+std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide,
                                       const std::atomic<bool>* stop = nullptr);
 
 /// What is wrong with an answer.
-std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer,
-                                      bool needs_witness);
+std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer);
 
 /// Where the oracle contradicts what was planted.
 std::optional<std::string> broken_promise(const FrameMotion& motion, const PlantedTruth& planted,

@@ -57,8 +57,7 @@ std::optional<std::string> checker_difference(const MotionAnswer& answer) {
 
 }  // namespace
 
-std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer,
-                                      bool needs_witness) {
+std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer) {
   if (!answer.failure.empty()) return "failure: " + answer.failure;
   if (answer.undecided) return std::nullopt;
   if (answer.contact != truth.contact || (truth.contact && answer.step != truth.step)) {
@@ -76,20 +75,20 @@ std::optional<std::string> difference(const FrameMotion& motion, const MotionTru
   if (answer.first) {
     if (auto what = first_difference(motion, truth, *answer.first)) return what;
   }
-  if (!answer.has_proof && (needs_witness || !answer.contact)) {
+  if (!answer.has_proof) {
     return fmt::format("proof: no {} was found", answer.contact ? "witness" : "proof");
   }
   return checker_difference(answer);
 }
 
-std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide, bool needs_witness,
+std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide,
                                       const std::atomic<bool>* stop) {
   if (std::string fault = text_fault(motion); !fault.empty()) return "files: " + fault;
   const MotionTruth truth = truth_of(motion, stop);
   if (truth.stopped) return std::nullopt;
   const MotionAnswer answer = decide(motion);
   if (answer.failure == "stopped") return std::nullopt;
-  return difference(motion, truth, answer, needs_witness);
+  return difference(motion, truth, answer);
 }
 
 std::optional<std::string> broken_promise(const FrameMotion& motion, const PlantedTruth& planted,

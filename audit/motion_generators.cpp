@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/audit/motion_generators.h"
 
+#include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <utility>
 
+#include "noli/audit/delicate_motions.h"
 #include "noli/audit/floor_motion.h"
 #include "noli/audit/query_generators.h"
 #include "noli/trajectory/cells.h"
@@ -230,25 +233,39 @@ GeneratedMotion soup(Random& random) {
   return finish(std::move(motion), {}, Numbers::small, random);
 }
 
-constexpr std::array<MotionGenerator, 14> generators = {{
-    {"planted", "one contact at a known time, place and kind, in any of several steps", true, planted},
-    {"near_miss", "features that pass each other, or stop, one unit from contact, and turn back", true, near_miss},
-    {"tunnel", "bodies that are through each other within a step: an even number of crossings", true, tunnel},
-    {"border", "contact at the border between two steps and at no other time", true, border},
-    {"begin_only", "contact at the first time of all and at no other time", true, begin_only},
-    {"at_rest", "single frames, touching or a unit apart", true, at_rest},
-    {"one_body", "contact, or nearly, of a body with itself", true, one_body},
-    {"crowd", "the search: a contact or a near miss beside up to forty cells that nothing meets", true, crowd},
-    {"scaled", "subnormal and huge coordinates, a scale of its own for each axis", true, scaled},
-    {"offset", "coordinates whose last bit is the unit", true, offset},
-    {"pierced", "cells through each other from beginning to end, of which no two features ever meet", true, pierced},
-    {"hinge", "neighbours that share an edge or a vertex and fold onto each other", false, hinge},
-    {"query", "the generators of `noli fuzz queries`, as loose cells", false, query},
-    {"soup", "anything on a small grid: shared, repeated, degenerate, several contacts at once", false, soup},
+constexpr std::array<MotionGenerator, 17> generators = {{
+    {"planted", "one contact at a known time, place and kind, in any of several steps", planted},
+    {"near_miss", "features that pass each other, or stop, one unit from contact, and turn back", near_miss},
+    {"tunnel", "bodies that are through each other within a step: an even number of crossings", tunnel},
+    {"border", "contact at the border between two steps and at no other time", border},
+    {"begin_only", "contact at the first time of all and at no other time", begin_only},
+    {"at_rest", "single frames, touching or a unit apart", at_rest},
+    {"one_body", "contact, or nearly, of a body with itself", one_body},
+    {"crowd", "the search: a contact or a near miss beside up to forty cells that nothing meets", crowd},
+    {"scaled", "subnormal and huge coordinates, a scale of its own for each axis", scaled},
+    {"offset", "coordinates whose last bit is the unit", offset},
+    {"pierced", "cells through each other from beginning to end, of which no two features ever meet", pierced},
+    {"hinge", "neighbours that share an edge or a vertex and fold onto each other", hinge},
+    {"query", "the generators of `noli fuzz queries`, as loose cells", query},
+    {"soup", "anything on a small grid: shared, repeated, degenerate, several contacts at once", soup},
+    {"last_ulp", "contact in the last instants of a step, or the first, with a root at its end, or beginning", last_ulp},
+    {"huge", "coordinates up to the greatest double, alone or beside tiny ones", huge},
+    {"landing", "coming to rest on something, a few units in the last place off, frame after frame", landing},
 }};
 
 }  // namespace
 
 std::span<const MotionGenerator> motion_generators() { return generators; }
+
+std::vector<MotionGenerator> motion_generators(std::span<const std::string> names) {
+  if (names.empty()) return {generators.begin(), generators.end()};
+  std::vector<MotionGenerator> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(generators, name, &MotionGenerator::name);
+    if (found == generators.end()) throw std::invalid_argument("no generator of motions has the name " + name);
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
 
 }  // namespace noli::audit

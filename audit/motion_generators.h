@@ -7,7 +7,9 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "noli/audit/whole_motion.h"
 
@@ -16,13 +18,13 @@ namespace noli::audit {
 struct MotionGenerator {
   std::string_view name;
   std::string_view attacks;  ///< one line
-  /// Whether a witness is promised for its contacts: none is for contacts of degenerate features that last for a moment
-  /// (proofs/prover/witness.h).
-  bool witnesses;
   GeneratedMotion (*make)(Random& random);
 };
 
 /// All generators; the order never depends on anything.
 std::span<const MotionGenerator> motion_generators();
+
+/// Those with these names, in that order; all if there are none. Throws std::invalid_argument for other names.
+std::vector<MotionGenerator> motion_generators(std::span<const std::string> names);
 
 }  // namespace noli::audit

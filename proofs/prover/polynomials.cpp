@@ -104,20 +104,24 @@ int sign_at(const Poly& f, const mpz_class& at, unsigned long e) {
   return sgn(sum);
 }
 
-int least_sign(const Poly& f, const mpz_class& l, const mpz_class& u, unsigned long e) {
-  if (f.empty()) return 0;
+std::vector<mpz_class> bernstein(const Poly& f, const mpz_class& l, const mpz_class& u, unsigned long e) {
   // The coefficients of f((l + u z) / (2^e (1 + z))) (1 + z)^n, which are those of Bernstein times binomials.
-  Poly all, power = {1};
+  std::vector<mpz_class> all(f.size(), 0);
+  Poly power = {1};
   for (std::size_t k = 0; k < f.size(); ++k) {
     Poly term = power;
     for (mpz_class& c : term) c *= f[k] << (e * (f.size() - 1 - k));
     for (std::size_t i = k + 1; i < f.size(); ++i) term = product(term, {1, 1});
-    all.resize(f.size(), 0);
     for (std::size_t i = 0; i < term.size(); ++i) all[i] += term[i];
     power = product(power, {l, u});
   }
+  return all;
+}
+
+int least_sign(const Poly& f, const mpz_class& l, const mpz_class& u, unsigned long e) {
+  if (f.empty()) return 0;
   int least = 1;
-  for (const mpz_class& c : all) least = std::min(least, sgn(c));
+  for (const mpz_class& c : bernstein(f, l, u, e)) least = std::min(least, sgn(c));
   return least;
 }
 

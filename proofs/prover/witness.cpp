@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <set>
 #include <span>
+#include <tuple>
 
-#include "noli/kernel/scaled_integers.h"
-#include "noli/proofs/prover/feature_sides.h"
+#include "noli/proofs/prover/dependency.h"
 #include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/integer_motion.h"
-#include "noli/proofs/prover/polynomials.h"
+#include "noli/proofs/prover/roots.h"
 #include "noli/proofs/prover/tokens.h"
+#include "noli/proofs/prover/witness_judge.h"
 #include "noli/trajectory/bytes.h"
 
 namespace noli {
@@ -87,57 +86,115 @@ Sides sides_of(const FeatureContact& contact) {
   return {};
 }
 
+/// 1: f is positive at the root of g, and all of its Bernstein coefficients are, on the enclosure that is left of it;
+/// 0: f vanishes there; -1: f is negative; nothing if that is not seen.
+std::optional<int> sign_at_root(const Poly& f, const Poly& g, Root& root) {
+  if (f.empty()) return 0;
+  const Poly negative = difference({}, f);
+  std::optional<Poly> both;
+  for (;;) {
+    if (least_sign(f, root.l, root.u, root.e) > 0) return 1;
+    if (least_sign(negative, root.l, root.u, root.e) > 0) return -1;
+    if (!both) both = greatest_common_divisor(f, g);
+    if (both->size() > 1 && changes_sign(*both, root)) return 0;
+    if (!refine(g, root)) return std::nullopt;
+  }
+}
+
+/// Without factors that all weights of a side have; a single one is 1.
+void reduce(Weights& side) {
+  if (side.size() == 1) side[0].second = {1};
+  mpz_class content = 0;
+  for (const auto& [v, weight] : side) {
+    for (const mpz_class& c : weight) content = gcd(content, c);
+  }
+  for (auto& [v, weight] : side) {
+    for (mpz_class& c : weight) c /= content;
+  }
+}
+
 class Search {
  public:
-  explicit Search(const WitnessStep& step) : step_(step), motion_(step.lines, step.shift, step.dimension, step.eta) {}
+  explicit Search(const WitnessStep& step) : step_(step), motion_(step.lines, step.shift, step.dimension, step.eta) {
+    if (step.excluded == nullptr || step.excluded->claim().excluded.empty()) return;
+    labels_.resize(step.mesh.cell_count());
+    for (const ProofTree::Node& node : step.excluded->tree().nodes()) {
+      if (node.leaf()) labels_[node.cell] = node.label;
+    }
+  }
 
-  std::optional<Found> of_features(const FeatureContact& contact) {
+  std::optional<std::string> of_features(const FeatureContact& contact) {
     const Sides sides = sides_of(contact);
     const auto of_p = cells_with(sides.p), of_q = cells_with(sides.q);
-    for (const std::uint32_t i : of_p) {
-      for (const std::uint32_t j : of_q) {
-        if (i == j && !step_.strict) continue;
-        if (auto found = at_root(contact, sides)) {
-          found->i = i;
-          found->j = j;
-          return found;
-        }
-        return at_some_time(contact, of_p, of_q);
-      }
-    }
-    return std::nullopt;
+    if (!choose_cells(of_p, of_q)) return std::nullopt;
+    const mpz_class begin = motion_.fraction(contact.first.begin, false),
+                    end = motion_.fraction(contact.first.end, true);
+    if (!during(sides, begin, end) && !during(sides, part_of_step(0), part_of_step(1))) at_some_time(of_p, of_q);
+    return std::move(payload_);
   }
 
   /// At a time, the nearest points of some features of two cells that no short path joins.
-  std::optional<Found> of_near(const TooNear& near, const MeshPaths& paths) const {
+  std::optional<std::string> of_near(const TooNear& near, const MeshPaths& paths) {
     const mpz_class at = part_of_step(near.time);
-    const auto a = vertices_of(step_.mesh, near.first_cell), b = vertices_of(step_.mesh, near.second_cell);
-    for (unsigned m = 1; m < 1U << a.size(); ++m) {
-      for (unsigned n = 1; n < 1U << b.size(); ++n) {
-        Sides s{chosen(a, m), chosen(b, n)};
-        const bool swap = s.p.size() > s.q.size();
-        if (swap) std::swap(s.p, s.q);
-        const auto pair = pair_of(s);
-        if (!pair || joined(s, paths)) continue;
-        if (auto found = near_at(*pair, s, at)) {
-          if (swap) std::swap(found->p, found->q);
-          found->i = near.first_cell;
-          found->j = near.second_cell;
-          return found;
-        }
+    cells_ = {near.first_cell, near.second_cell};
+    const Sides whole{vertices_of(step_.mesh, near.first_cell), vertices_of(step_.mesh, near.second_cell)};
+    for (Sides& s : parts_of(whole, whole.p.size() + whole.q.size())) {
+      const bool swap = s.p.size() > s.q.size();
+      if (swap) std::swap(s.p, s.q);
+      const auto pair = pair_of(s);
+      if (!pair || joined(s, paths)) continue;
+      for (const std::size_t bits : {~std::size_t{0}, few_bits}) {
+        auto found = near_at(*pair, s, at, bits);
+        if (found && swap) std::swap(found->p, found->q);
+        if (found && take(std::move(*found))) return std::move(payload_);
       }
     }
     return std::nullopt;
   }
 
-  std::optional<Found> of_cells(std::uint32_t i, std::uint32_t j) { return at_rest(i, j, begin(), 0); }
+  std::optional<std::string> of_cells(std::uint32_t i, std::uint32_t j) {
+    cells_ = {i, j};
+    at_rest({vertices_of(step_.mesh, i), vertices_of(step_.mesh, j)}, part_of_step(0));
+    return std::move(payload_);
+  }
 
  private:
-  static constexpr unsigned long first_bits = IntegerMotion::first_bits, most_bits = 900;
+  static constexpr unsigned long first_bits = IntegerMotion::first_bits;
   static constexpr std::size_t most_cells = 64;
+  static constexpr std::size_t few_bits = 256;  ///< of weights that need not be exact
 
-  /// If the nearest points of the features' planes and lines are in the features, and near enough.
-  std::optional<Found> near_at(FeaturePair pair, const Sides& s, const mpz_class& at) const {
+  /// Keeps the payload if it is a witness.
+  bool take(Found found) {
+    for (Weights* side : {&found.p, &found.q}) reduce(*side);
+    found.i = cells_[0];
+    found.j = cells_[1];
+    std::string payload = encoded(found);
+    if (fault_of_witness(step_, payload)) return false;
+    payload_ = std::move(payload);
+    return true;
+  }
+
+  bool compared(std::uint32_t i, std::uint32_t j) const {
+    if (i == j && !step_.strict) return false;
+    if (labels_.empty()) return true;
+    const auto [a, b] = std::minmax(labels_[i], labels_[j]);
+    return !step_.excluded->claim().excluded.contains({a, b});
+  }
+
+  bool choose_cells(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q) {
+    for (const std::uint32_t i : of_p) {
+      for (const std::uint32_t j : of_q) {
+        if (!compared(i, j)) continue;
+        cells_ = {i, j};
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// If the nearest points of the features' planes and lines are in the features, and near enough. Weights are cut to
+  /// so many bits.
+  std::optional<Found> near_at(FeaturePair pair, const Sides& s, const mpz_class& at, std::size_t bits) const {
     const Segments segments(motion_, s.both(), at, first_bits);
     const auto place = [&](VertexId v) {
       PolyVector x;
@@ -146,14 +203,13 @@ class Search {
       return x;
     };
     Found found;
-    Equation e = equation(pair, s, place);
-    found.p = std::move(e.p);
-    found.q = std::move(e.q);
+    std::tie(found.p, found.q) = nearest(pair, s, place);
     found.g = {-at, mpz_class(1) << first_bits};
     found.e = first_bits;
     found.l = found.u = at;
     mpz_class square = 0, total_p = 0, total_q = 0;
     std::array<mpz_class, 3> x{}, y{};
+    for (Weights* side : {&found.p, &found.q}) cut(*side, bits);
     if (!add_up(segments, found.p, at, total_p, x) || !add_up(segments, found.q, at, total_q, y)) return std::nullopt;
     for (std::size_t k = 0; k < 3; ++k) {
       const mpz_class d = total_q * x[k] - total_p * y[k];
@@ -161,6 +217,16 @@ class Search {
     }
     const mpz_class least = (segments.scale() * motion_.length(step_.eta) << first_bits) * total_p * total_q;
     return square <= least * least ? std::optional(found) : std::nullopt;
+  }
+
+  /// Leaves so many bits of the largest of some constant weights.
+  static void cut(Weights& side, std::size_t bits) {
+    std::size_t most = 0;
+    for (const auto& [v, w] : side) most = std::max(most, w.empty() ? 0 : mpz_sizeinbase(w[0].get_mpz_t(), 2));
+    if (most <= bits) return;
+    for (auto& [v, w] : side) {
+      if (!w.empty()) w = trimmed({mpz_class(w[0] >> (most - bits))});
+    }
   }
 
   /// The sums of constant weights, and of weights times positions. False if a weight is negative or all are 0.
@@ -187,59 +253,43 @@ class Search {
     return cells;
   }
 
-  /// The condition that vanishes, and the weights of the nearest points.
-  struct Equation {
-    Poly f;
-    Weights p, q;
-  };
-
-  /// `at` gives the position of a vertex.
+  /// The weights of the nearest points of the features' planes and lines. `at` gives the position of a vertex.
   template <class At>
-  static Equation equation(FeaturePair pair, const Sides& s, const At& at) {
+  static std::pair<Weights, Weights> nearest(FeaturePair pair, const Sides& s, const At& at) {
     if (pair == FeaturePair::vertex_face) return vertex_face(s, at);
     if (pair == FeaturePair::edge_edge) return edge_edge(s, at);
     if (pair == FeaturePair::vertex_edge) return vertex_edge(s, at);
-    return vertex_vertex(s, at);
+    return {{{s.p[0], {1}}}, {{s.q[0], {1}}}};
   }
 
   template <class At>
-  static Equation vertex_face(const Sides& s, const At& at) {
+  static std::pair<Weights, Weights> vertex_face(const Sides& s, const At& at) {
     const PolyVector x = at(s.p[0]);
     const std::array<PolyVector, 3> corner = {at(s.q[0]), at(s.q[1]), at(s.q[2])};
     const PolyVector n = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
-    Equation e{inner(n, minus(x, corner[0])), {{s.p[0], {1}}}, {}};
+    Weights q;
     for (std::size_t i = 0; i < 3; ++i) {
-      e.q.push_back({s.q[i], inner(n, cross(minus(corner[(i + 1) % 3], x), minus(corner[(i + 2) % 3], x)))});
+      q.emplace_back(s.q[i], inner(n, cross(minus(corner[(i + 1) % 3], x), minus(corner[(i + 2) % 3], x))));
     }
-    return e;
+    return {{{s.p[0], {1}}}, std::move(q)};
   }
 
   template <class At>
-  static Equation edge_edge(const Sides& s, const At& at) {
+  static std::pair<Weights, Weights> edge_edge(const Sides& s, const At& at) {
     const PolyVector a = at(s.p[0]), c = at(s.q[0]);
     const PolyVector u = minus(at(s.p[1]), a), v = minus(at(s.q[1]), c), r = minus(c, a);
     const PolyVector n = cross(u, v);
     const Poly all = inner(n, n), along_u = inner(cross(r, v), n), along_v = inner(cross(r, u), n);
-    return {inner(n, r),
-            {{s.p[0], difference(all, along_u)}, {s.p[1], along_u}},
+    return {{{s.p[0], difference(all, along_u)}, {s.p[1], along_u}},
             {{s.q[0], difference(all, along_v)}, {s.q[1], along_v}}};
   }
 
   template <class At>
-  static Equation vertex_edge(const Sides& s, const At& at) {
+  static std::pair<Weights, Weights> vertex_edge(const Sides& s, const At& at) {
     const PolyVector a = at(s.q[0]), u = minus(at(s.q[1]), a), r = minus(at(s.p[0]), a);
-    const PolyVector n = cross(u, r);
     const Poly all = inner(u, u), along = inner(r, u);
-    return {common(n), {{s.p[0], {1}}}, {{s.q[0], difference(all, along)}, {s.q[1], along}}};
+    return {{{s.p[0], {1}}}, {{s.q[0], difference(all, along)}, {s.q[1], along}}};
   }
-
-  template <class At>
-  static Equation vertex_vertex(const Sides& s, const At& at) {
-    return {common(minus(at(s.p[0]), at(s.q[0]))), {{s.p[0], {1}}}, {{s.q[0], {1}}}};
-  }
-
-  /// What divides all three.
-  static Poly common(const PolyVector& x) { return greatest_common_divisor(greatest_common_divisor(x[0], x[1]), x[2]); }
 
   mpz_class begin() const { return motion_.time(step_.lines.first_time()); }
   /// T0 and so much of the step, rounded down to a multiple of 2^-first_bits; times 2^first_bits.
@@ -251,21 +301,20 @@ class Search {
     return result + (begin() << first_bits);
   }
 
-  /// At the root of the condition within the time of the contact, one after another of the parts into which
-  /// breakpoints cut that.
-  std::optional<Found> at_root(const FeatureContact& contact, const Sides& sides) const {
+  /// Looks for a witness between two times, in one after another of the parts into which breakpoints cut that.
+  bool during(const Sides& sides, mpz_class from, const mpz_class& end) {
     const auto vertices = sides.both();
-    const mpz_class end = motion_.fraction(contact.first.end, true);
-    mpz_class from = motion_.fraction(contact.first.begin, false);
-    const auto cuts = breakpoints_between(vertices, from, end);
-    for (const mpz_class& to : cuts) {
-      const Segments segments(motion_, vertices, from, first_bits);
-      const Equation condition = equation(contact.pair, sides, [&](VertexId v) { return segments.position(v); });
-      if (auto found = at_root_of(condition, from, to)) return found;
+    if (is_whole(from) && at_rest(sides, from)) return true;
+    for (const mpz_class& to : breakpoints_between(vertices, from, end)) {
+      if (from < to && at_roots(sides, from, to)) return true;
+      if (is_whole(to) && at_rest(sides, to)) return true;
       from = to;
     }
-    return std::nullopt;
+    return !is_whole(end) && at_rest(sides, end);
   }
+
+  /// Breakpoints are at whole numbers of integer time.
+  static bool is_whole(const mpz_class& at) { return at == 0 || mpz_scan1(at.get_mpz_t(), 0) >= first_bits; }
 
   /// Times of breakpoints between two times, and the second; at least that.
   std::vector<mpz_class> breakpoints_between(const std::vector<VertexId>& vertices, const mpz_class& from,
@@ -280,107 +329,77 @@ class Search {
     return {cuts.begin(), cuts.end()};
   }
 
-  static std::optional<Found> at_root_of(const Equation& condition, const mpz_class& from, const mpz_class& to) {
-    if (condition.f.size() < 2) return std::nullopt;
-    Found found{0, 0, condition.p, condition.q, square_free(condition.f), first_bits, from, to};
-    for (Weights* side : {&found.p, &found.q}) reduce(*side);
-    for (; found.e <= most_bits; halve(found)) {
-      if (!bracket(found)) return std::nullopt;
-      if (settled(found)) return found;
-    }
-    return std::nullopt;
+  /// At a time between two breakpoints at which some vertices of both features meet.
+  bool at_roots(const Sides& sides, const mpz_class& from, const mpz_class& to) {
+    const Segments segments(motion_, sides.both(), from, first_bits);
+    return any_dependency(
+        sides, [&](VertexId v) { return segments.position(v); },
+        [&](const Dependency& d) {
+          if (d.condition.size() < 2) return false;
+          const Poly g = square_free(d.condition);
+          const auto roots = roots_within(g, from, to, first_bits);
+          return std::ranges::any_of(roots, [&](const Root& root) { return at_root(d, g, root); });
+        });
   }
 
-  /// Without factors that all weights of a side have.
-  static void reduce(Weights& side) {
-    mpz_class content = 0;
-    for (const auto& [v, weight] : side) {
-      for (const mpz_class& c : weight) content = gcd(content, c);
+  /// Whether the weights are of one sign there. Where one vanishes, g becomes what it has in common with it.
+  bool at_root(const Dependency& d, Poly g, Root root) {
+    int sign = 0;
+    Found found;
+    for (std::size_t i = 0; i < d.weights.size(); ++i) {
+      const auto at_root = sign_at_root(d.weights[i], g, root);
+      if (!at_root || *at_root * sign < 0) return false;
+      if (*at_root != 0) sign = *at_root;
+      if (*at_root == 0) g = greatest_common_divisor(g, d.weights[i]);
+      const bool first = i < d.sides.p.size();
+      const VertexId v = first ? d.sides.p[i] : d.sides.q[i - d.sides.p.size()];
+      (first ? found.p : found.q).emplace_back(v, d.weights[i]);
     }
-    if (content == 0) return;
-    for (auto& [v, weight] : side) {
-      for (mpz_class& c : weight) c /= content;
-    }
-  }
-
-  /// Whether g changes its sign between l and u, which are made one if it is zero at either.
-  static bool bracket(Found& found) {
-    const int at_l = sign_at(found.g, found.l, found.e), at_u = sign_at(found.g, found.u, found.e);
-    if (at_l == 0) found.u = found.l;
-    if (at_l != 0 && at_u == 0) found.l = found.u;
-    return at_l * at_u <= 0;
-  }
-
-  static void halve(Found& found) {
-    if (found.l == found.u) {
-      found.e = most_bits + 1;
-      return;
-    }
-    const mpz_class middle = found.l + found.u;
-    found.l *= 2;
-    found.u *= 2;
-    ++found.e;
-    const int at_middle = sign_at(found.g, middle, found.e);
-    (at_middle * sign_at(found.g, found.l, found.e) <= 0 ? found.u : found.l) = middle;
-  }
-
-  /// Whether all weights are seen to be as they have to be. If one vanishes at the root, g becomes what it has in
-  /// common with it.
-  static bool settled(Found& found) {
-    bool all = true;
-    for (const Weights* side : {&found.p, &found.q}) {
-      Poly sum_of_weights;
-      for (const auto& [v, weight] : *side) {
-        all = not_negative(found, weight) && all;
-        sum_of_weights = sum(sum_of_weights, weight);
+    for (Weights* side : {&found.p, &found.q}) {
+      Poly total;
+      for (auto& [v, weight] : *side) {
+        if (sign < 0) weight = difference({}, weight);
+        total = sum(total, weight);
       }
-      all = all && least_sign(sum_of_weights, found.l, found.u, found.e) > 0;
+      if (sign_at_root(total, g, root) != 1) return false;
     }
-    return all;
+    found.g = std::move(g);
+    found.e = root.e;
+    found.l = root.l;
+    found.u = root.u;
+    return take(std::move(found));
   }
 
-  static bool not_negative(Found& found, const Poly& weight) {
-    if (divides(found.g, weight) || least_sign(weight, found.l, found.u, found.e) >= 0) return true;
-    const Poly both = greatest_common_divisor(found.g, weight);
-    if (both.size() < 2 || sign_at(both, found.l, found.e) * sign_at(both, found.u, found.e) > 0) return false;
-    found.g = both;
-    return true;
-  }
-
-  /// Cells that have the features, at rest at the end of the time's enclosure, and at some times of the step.
-  std::optional<Found> at_some_time(const FeatureContact& contact, const std::vector<std::uint32_t>& of_p,
-                                    const std::vector<std::uint32_t>& of_q) const {
-    std::vector<mpz_class> times = {motion_.fraction(contact.first.begin, false),
-                                    motion_.fraction(contact.first.end, true)};
-    for (int i = 0; i <= 16; ++i) times.push_back(part_of_step(i / 16.0));
-    for (const mpz_class& at : times) {
+  /// Cells that have the features, at rest at some times of the step.
+  bool at_some_time(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q) {
+    for (int k = 0; k <= 16; ++k) {
+      const mpz_class at = part_of_step(k / 16.0);
       for (const std::uint32_t i : of_p) {
         for (const std::uint32_t j : of_q) {
-          if (i == j) continue;
-          if (auto found = at_rest(i, j, at, first_bits)) return found;
+          if (i == j || !compared(i, j)) continue;
+          cells_ = {i, j};
+          if (at_rest({vertices_of(step_.mesh, i), vertices_of(step_.mesh, j)}, at)) return true;
         }
       }
     }
-    return std::nullopt;
+    return false;
   }
 
-  /// Whether two cells meet at a time: some vertices of theirs, none of them common, have just one way to do so.
-  std::optional<Found> at_rest(std::uint32_t i, std::uint32_t j, const mpz_class& at, unsigned long e) const {
-    const auto a = vertices_of(step_.mesh, i), b = vertices_of(step_.mesh, j);
-    for (unsigned m = 1; m < 1U << a.size(); ++m) {
-      for (unsigned n = 1; n < 1U << b.size(); ++n) {
-        if (std::popcount(m) + std::popcount(n) > 5) continue;
-        const std::vector<VertexId> p = chosen(a, m), q = chosen(b, n);
-        if (std::ranges::find_first_of(p, q) != p.end()) continue;
-        if (auto weights = weights_at(p, q, at, e)) {
-          Found found{i, j, {}, {}, {-at, mpz_class(1) << e}, e, at, at};
-          for (std::size_t k = 0; k < p.size(); ++k) found.p.push_back({p[k], trimmed({(*weights)[k]})});
-          for (std::size_t k = 0; k < q.size(); ++k) found.q.push_back({q[k], trimmed({(*weights)[p.size() + k]})});
-          return found;
-        }
-      }
-    }
-    return std::nullopt;
+  /// Whether two sides meet at a time: some of their vertices have just one way to do so.
+  bool at_rest(const Sides& sides, const mpz_class& at) {
+    // Few bits of time make weights short.
+    const unsigned long excess = at == 0 ? first_bits : std::min(first_bits, mpz_scan1(at.get_mpz_t(), 0));
+    const mpz_class time = at >> excess;
+    const unsigned long e = first_bits - excess;
+    return std::ranges::any_of(parts_of(sides, 5), [&](const Sides& part) {
+      const auto weights = weights_at(part.p, part.q, time, e);
+      if (!weights) return false;
+      Found found{0, 0, {}, {}, {-time, mpz_class(1) << e}, e, time, time};
+      for (std::size_t k = 0; k < part.p.size(); ++k) found.p.emplace_back(part.p[k], trimmed({(*weights)[k]}));
+      for (std::size_t k = 0; k < part.q.size(); ++k)
+        found.q.emplace_back(part.q[k], trimmed({(*weights)[part.p.size() + k]}));
+      return take(std::move(found));
+    });
   }
 
   /// Weights with which p and q meet, if they are unique but for a factor, and none is negative.
@@ -447,24 +466,33 @@ class Search {
 
   const WitnessStep& step_;
   IntegerMotion motion_;
+  std::vector<std::uint32_t> labels_;     ///< of the cells; empty if all pairs are compared
+  std::array<std::uint32_t, 2> cells_{};  ///< which the witness names
+  std::optional<std::string> payload_;
 };
-
-std::optional<std::string> payload(const std::optional<Found>& found) {
-  return found ? std::optional(encoded(*found)) : std::nullopt;
-}
 
 }  // namespace
 
+bool are_compared(const WitnessStep& step, std::uint32_t i, std::uint32_t j) {
+  if (step.excluded == nullptr || step.excluded->claim().excluded.empty()) return true;
+  const auto& nodes = step.excluded->tree().nodes();
+  const auto label = [&](std::uint32_t cell) {
+    return std::ranges::find_if(nodes, [&](const auto& node) { return node.leaf() && node.cell == cell; })->label;
+  };
+  const auto [a, b] = std::minmax({label(i), label(j)});
+  return !step.excluded->claim().excluded.contains({a, b});
+}
+
 std::optional<std::string> witness_of(const WitnessStep& step, const FeatureContact& contact) {
-  return payload(Search(step).of_features(contact));
+  return Search(step).of_features(contact);
 }
 
 std::optional<std::string> witness_of(const WitnessStep& step, const InitialIntersection& pair) {
-  return payload(Search(step).of_cells(pair.first_cell, pair.second_cell));
+  return Search(step).of_cells(pair.first_cell, pair.second_cell);
 }
 
 std::optional<std::string> witness_of(const WitnessStep& step, const TooNear& near, const MeshPaths& paths) {
-  return payload(Search(step).of_near(near, paths));
+  return Search(step).of_near(near, paths);
 }
 
 std::optional<std::string> witness_of(const WitnessStep& step, const std::optional<FeatureContact>& first,

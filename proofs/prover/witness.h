@@ -11,12 +11,12 @@
 // Each vertex is looked at on one segment between two of its breakpoints; the time at which the features meet is cut where
 // one of them has a breakpoint.
 //
-// Where the features span just a plane (in 2D a line) at the time of contact, g is the factor of their determinant that
-// vanishes then, and the weights are those of the nearest points of the plane (the line). Elsewhere (motion within a
-// plane, degenerate features, contact from the beginning) cells are looked at, at rest, at some times that are
-// fractions with a power of two below.
+// Algorithm: all ways in which some vertices of the two features can meet (proofs/prover/dependency.h) are tried, first
+// at the time of the contact and then during the whole step: at the roots of their conditions, and at rest at
+// breakpoints. Cells that meet at the beginning are looked at, at rest. A witness that is found is judged
+// (proofs/prover/witness_judge.h) before it is given away; where it does not hold, the search goes on.
 //
-// What this does not do: it does not find contacts, and for degenerate ones that last for a moment it finds no witness.
+// What this does not do: it does not find contacts.
 #pragma once
 
 #include <optional>
@@ -24,6 +24,7 @@
 #include <string>
 
 #include "noli/proofs/prover/mesh_paths.h"
+#include "noli/proofs/prover/step_prover.h"
 #include "noli/proofs/prover/too_near.h"
 #include "noli/proofs/prover/verifier.h"
 #include "noli/trajectory/world_lines.h"
@@ -39,7 +40,11 @@ struct WitnessStep {
   bool strict;
   double eta = 0;          ///< the least distance
   std::uint32_t ring = 1;  ///< features that a path of fewer edges joins may be nearer
+  const StepProver* excluded = nullptr;  ///< its labels and pairs of labels are not compared; nothing: all cells are
 };
+
+/// Whether the labels of two cells are not a pair that is excluded.
+bool are_compared(const WitnessStep& step, std::uint32_t i, std::uint32_t j);
 
 /// The payload for a pair of features that meets; nothing if none was found.
 std::optional<std::string> witness_of(const WitnessStep& step, const FeatureContact& contact);

@@ -57,6 +57,13 @@ TEST_F(FuzzLibraryMotions, FindsNothingInAnExactPipeline) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
+TEST_F(FuzzLibraryMotions, AsksTheFamiliesThatAreNamed) {
+  const Json document = json(plugin("noli"), 0, {"--family", "huge", "--family", "last_ulp", "--count", "6"});
+  ASSERT_EQ(document["generators"].size(), 2U);
+  for (const auto& generator : document["generators"]) EXPECT_EQ(generator["motions"], 3);
+  EXPECT_EQ(document["generators"][0]["name"], "huge");
+}
+
 TEST_F(FuzzLibraryMotions, AsksAboutAllPairsWhereThereIsNoSearch) {
   const Json document = json(faulty("always_hits"), 0, {"--count", "14"});
   const Json with_search = json(plugin("noli"), 0, {"--count", "14"});
@@ -238,7 +245,7 @@ TEST_F(FuzzLibraryMotions, RefusesWhatCannotBe) {
   refused({"--library", plugin("noli"), "--replay", falling, "--json", falling + "/frame-0.ply"}, "is read too");
   refused({"--library", plugin("noli"), "--replay", falling, "--first-only"}, "--first-only");
   refused({"--library", plugin("noli"), "--count", "1", "--verified-every", "2"}, "--verified-every");
-  refused({"--library", plugin("noli"), "--replay", falling, "--needs-witness"}, "--needs-witness");
+  refused({"--library", plugin("noli"), "--replay", falling, "--family", "landing"}, "--family");
   refused({"--library", plugin("noli"), "--count", "1", "--tolerance", "-1"}, "--tolerance");
   refused({"--count", "1", "--exact"}, "--library");
   refused({"--count", "1", "--query-limit", "1s"}, "--library");

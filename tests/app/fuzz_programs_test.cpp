@@ -379,7 +379,7 @@ TEST(FuzzScenesCommand, DoesNotOverwriteWhatItMinimises) {
   EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), ring_scene);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--count", "1", "--wrong-place", "/bodies"}).exit_code, 3);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "bodies"}).exit_code, 3);
-  EXPECT_EQ(run_noli({"fuzz", "trajectories", "--count", "1", "--needs-witness"}).exit_code, 3);
+  EXPECT_EQ(run_noli({"fuzz", "trajectories", "--count", "1", "--family", "landings"}).exit_code, 3);
 }
 
 /// Each once ended in a hang, in exit 4, or otherwise than when it was resumed. Lengths that are too large or too small

@@ -97,8 +97,8 @@ TEST_F(FuzzTrajectories, MakesAForgottenBorderSmall) {
   EXPECT_LE(finding.shrunk.mesh.vertex_count, 4u);
   const FrameMotion saved = read_frames(finding.folder);
   EXPECT_EQ(saved.frames, finding.shrunk.frames);
-  EXPECT_TRUE(difference(saved, forgets_the_end, true).has_value());
-  EXPECT_FALSE(difference(saved, oracle_answer, true).has_value());
+  EXPECT_TRUE(difference(saved, forgets_the_end).has_value());
+  EXPECT_FALSE(difference(saved, oracle_answer).has_value());
   std::ifstream readme(finding.folder / "README");
   const std::string text{std::istreambuf_iterator<char>(readme), {}};
   EXPECT_NE(text.find("noli fuzz trajectories --replay "), std::string::npos) << text;
@@ -167,7 +167,7 @@ TEST_F(FuzzTrajectories, FindsFeaturesThatDoNotMeetFirst) {
   EXPECT_TRUE(finding.difference.starts_with("features: ")) << finding.difference;
 }
 
-TEST_F(FuzzTrajectories, AMissingWitnessIsAFindingWhereOneIsPromised) {
+TEST_F(FuzzTrajectories, AMissingWitnessIsAFinding) {
   const FrameMotion motion = finding_of(forgets_the_end).shrunk;
   const auto without = [](const FrameMotion& one) {
     MotionAnswer answer = oracle_answer(one);
@@ -175,8 +175,68 @@ TEST_F(FuzzTrajectories, AMissingWitnessIsAFindingWhereOneIsPromised) {
     answer.plain = answer.verified = CheckerWord::not_asked;
     return answer;
   };
-  EXPECT_EQ(difference(motion, without, true), "proof: no witness was found");
-  EXPECT_EQ(difference(motion, without, false), std::nullopt);
+  EXPECT_EQ(difference(motion, without), "proof: no witness was found");
+  EXPECT_EQ(difference(motion, oracle_answer), std::nullopt);
+  options.decide = without;
+  options.max_findings = 0;
+  const TrajectoryReport report = fuzz_trajectories(options);
+  std::uint64_t without_witness = 0, contact = 0;
+  for (const TrajectoryTally& generator : report.generators) {
+    without_witness += generator.without_witness;
+    contact += generator.contact;
+  }
+  EXPECT_GT(contact, 0u);
+  EXPECT_EQ(without_witness, contact);
+  EXPECT_EQ(report.findings_total, report.extent.items) << "what is apart has no proof either";
+}
+
+TEST_F(FuzzTrajectories, MakesMotionsOfTheFamiliesThatAreNamed) {
+  options.families = {"landing", "border"};
+  const TrajectoryReport report = fuzz_trajectories(options);
+  ASSERT_EQ(report.generators.size(), 2u);
+  EXPECT_EQ(report.generators[0].name, "landing");
+  EXPECT_EQ(report.generators[1].name, "border");
+  EXPECT_EQ(report.generators[1].apart + report.generators[1].contact, 24u);
+  options.families = {"landings"};
+  EXPECT_THROW(fuzz_trajectories(options), std::invalid_argument);
+}
+
+/// The families of last bits have contacts and near misses of all kinds of features, in space and in the plane.
+TEST(MotionGenerators, DelicateOnesHaveBothAnswersForAllKindsOfFeatures) {
+  const std::vector<std::string> names = {"last_ulp", "huge", "landing"};
+  for (const MotionGenerator& generator : motion_generators(names)) {
+    Random random(17);
+    std::set<std::string> contacts;
+    int apart = 0;
+    for (int i = 0; i < 300; ++i) {
+      const FrameMotion motion = generator.make(random).motion;
+      const MotionTruth truth = truth_of(motion);
+      apart += truth.contact ? 0 : 1;
+      for (const FeatureTwo& pair : truth.first)
+        contacts.insert(std::to_string(motion.dimension()) + "D " + std::to_string(pair[0].size()) +
+                        std::to_string(pair[1].size()));
+    }
+    EXPECT_GE(apart, 30) << generator.name;
+    for (const char* const kind : {"3D 13", "3D 22", "3D 12", "2D 12", "2D 11"}) {
+      const std::string turned = std::string(kind).substr(0, 3) + kind[4] + kind[3];
+      EXPECT_TRUE(contacts.contains(kind) || contacts.contains(turned)) << generator.name << " " << kind;
+    }
+  }
+}
+
+/// Those that `last_ulp` is made for: the first contact is within an ulp of an end of the step, but not at it.
+TEST(MotionGenerators, LastUlpsMeetThere) {
+  const std::vector<std::string> names = {"last_ulp"};
+  Random random(18);
+  int last = 0, first = 0;
+  for (int i = 0; i < 300; ++i) {
+    const MotionTruth truth = truth_of(motion_generators(names)[0].make(random).motion);
+    if (!truth.time || truth.time->compare(0) == 0 || truth.time->compare(1) == 0) continue;
+    last += truth.time->compare(1 - 0x1p-50) > 0 ? 1 : 0;
+    first += truth.time->compare(0x1p-50) < 0 ? 1 : 0;
+  }
+  EXPECT_GE(last, 10);
+  EXPECT_GE(first, 10);
 }
 
 TEST_F(FuzzTrajectories, KeepsOneMotionOfEachShape) {

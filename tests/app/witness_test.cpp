@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contacts at the limits of doubles: `noli verify` has a witness for each, which both checkers take.
+#include <gtest/gtest.h>
+
+#include "noli/tests/app/process.h"
+#include "noli/tests/app/scene.h"
+#include "noli/tests/app/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+class ContactWitness : public testing::Test {
+ protected:
+  std::string frame(const std::string& name, const std::string& vertices, const std::string& cells) const {
+    return folder.write(name + ".obj", vertices + cells);
+  }
+
+  /// There is a contact, with a witness that both checkers take.
+  void expect_witness(const std::vector<std::string>& frames, const std::vector<std::string>& options = {}) const {
+    const std::string proof = folder.path("proof.noli");
+    std::vector<std::string> words = {"verify", "--proof", proof};
+    words.insert(words.end(), options.begin(), options.end());
+    words.insert(words.end(), frames.begin(), frames.end());
+    const Json said = json_of(words, 1);
+    EXPECT_EQ(said["verdict"], "contact");
+    EXPECT_EQ(said["proof"]["witnesses"], 1);
+    for (const char* const checker : {"plain", "--verified"}) {
+      if (checker[0] == '-' && !verified_checker_is_there()) continue;
+      std::vector<std::string> check = {"check", proof};
+      if (checker[0] == '-') check.emplace_back(checker);
+      check.insert(check.end(), frames.begin(), frames.end());
+      const Process checked = run_noli(check);
+      EXPECT_EQ(checked.exit_code, 1) << checker << checked.out << checked.err;
+    }
+  }
+
+  Folder folder;
+};
+
+/// The point passes the end of the edge within the last ulp of the step; at its end the three lie on one line, so the
+/// determinant vanishes there too.
+TEST_F(ContactWitness, InTheLastUlpBeforeARootAtTheEnd) {
+  for (const std::string last : {"6e-17", "5e-324", "1e-300"}) {
+    const auto begin = frame("begin", "v 0 0 0\nv 1 1 0\nv -1 0 0\n", "l 1 2\n"),
+               end = frame("end", "v 0 0 0\nv 1 0 0\nv " + last + " 0 0\n", "l 1 2\n");
+    expect_witness({begin, end}, {"--points"});
+    expect_witness({end, begin}, {"--points"});
+  }
+}
+
+/// In space: the point comes to the edge of a face of which another corner lands at the end.
+TEST_F(ContactWitness, InTheLastUlpOfAFaceThatLands) {
+  const auto begin = frame("begin", "v 0 -1 0\nv 0 1 0\nv 1 0 1\nv -1 0 0\n", "f 1 2 3\np 4\n"),
+             end = frame("end", "v 0 -1 0\nv 0 1 0\nv 1 0 0\nv 6e-17 0 0\n", "f 1 2 3\np 4\n");
+  expect_witness({begin, end});
+  expect_witness({end, begin});
+}
+
+/// Greatest doubles beside the least ones: a unit for all of them makes integers of 2,100 bits, of which weights are
+/// products.
+TEST_F(ContactWitness, OfEdgesAtTheGreatestDoubles) {
+  const std::string cells = "l 1 2\nl 3 4\n";
+  expect_witness({frame("a",
+                        "v -9.874789749538684e+307 -8.977429631287785e-301 1e+308\n"
+                        "v 1e+308 5.832074528801915e-301 9.87760021051951e+307\n"
+                        "v 3.5e-323 -9.797142976272272e-301 -1e+305\n"
+                        "v 1.0163341553452634e+308 0.8568574778858657 0\n",
+                        cells),
+                  frame("b",
+                        "v -4e-323 -0.6382894254807006 -1.5282775445787211e-301\n"
+                        "v 9.643080783031505e-301 1e+308 -3e-323\n"
+                        "v 1e-323 -1e+308 0\n"
+                        "v -1e-323 4.184931710532345e-301 0\n",
+                        cells)});
+}
+
+TEST_F(ContactWitness, OfAVertexAndAFaceAtTheGreatestDoubles) {
+  const std::string cells = "f 1 2 3\np 4\n";
+  expect_witness(
+      {frame("a", "v -1e308 -1.1e308 5e-324\nv 1e308 -1e308 -5e-324\nv 3e-320 1.7e308 0\nv 7e-310 5e-324 1.3e308\n",
+             cells),
+       frame("b", "v -1.5e308 -1e308 1e-323\nv 1e308 -1.2e308 3e-310\nv 3e-323 1.6e308 0\nv 7e-323 5e-324 -1.6e308\n",
+             cells)});
+}
+
+/// Coordinates of 1e308 have differences that are no doubles.
+TEST_F(ContactWitness, OfTheLeastDistanceAtTheGreatestDoubles) {
+  const std::string cells = "l 1 2\nl 3 4\n";
+  const std::string a = frame(
+      "a", "v -1e308 5e-324 1e307\nv 1e308 -1.5e-323 1e307\nv 2.5e-323 -1e308 0\nv 5e-324 1e308 0\n", cells);
+  const std::string proof = folder.path("proof.noli");
+  const Process near = run_noli({"verify", "--proof", proof, "--min-distance", "2e307", a, a});
+  EXPECT_EQ(near.exit_code, 1) << near.out << near.err;
+  EXPECT_EQ(run_noli({"check", proof, a, a}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace noli::app_tests
