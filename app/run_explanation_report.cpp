@@ -190,7 +190,7 @@ Json to_json(const RunExplanation& e) {
                     {"certificates", certificates_json(e.log.certificates)},
                     {"deepest_active", e.log.deepest},
                     {"bound", bound ? Json(*bound) : Json(nullptr)},
-                    {"end", e.log.last_end},
+                    {"end", e.log.end()},
                     {"parts", e.log.parts},
                     {"parts_ended", e.log.parts_ended},
                     {"windows_logged", e.log.windows},
@@ -201,7 +201,7 @@ Json to_json(const RunExplanation& e) {
 std::string to_text(const RunExplanation& e) {
   std::string text = fmt::format("verdict explained windows {} time {} deepest {} end {}\n", e.windows,
                                  digits17(e.time), e.deepest ? e.deepest->action.layer : 0,
-                                 e.log.last_end.empty() ? "unknown" : on_one_line(e.log.last_end));
+                                 e.log.end().empty() ? "unknown" : on_one_line(e.log.end()));
   text += fmt::format("{}: {} windows, {} s.\n", on_one_line(e.title), e.windows, e.time);
   if (e.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
   text += contact_text(e) + bound_text(e) + cap_text(e) + roll_backs_text(e);
