@@ -84,7 +84,8 @@ class Run {
     if (rows_.empty()) return;
     lines.push_back(full()
                         ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."
-                        : "The run recorded frames and the hash of its motion, which can be computed again from it.");
+                        : "The run recorded frames and the hash of its motion: noli verify --reproduce integrates and "
+                          "decides it again.");
   }
 
   std::string claim(const LogFacts& log) const {
