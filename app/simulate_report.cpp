@@ -109,8 +109,8 @@ std::string end_text(const SimulateOutcome& outcome) {
       return fmt::format(
           "Contact in window {}: first {} ({}), {}, at {} s ({} pairs of features in the window). The window is not "
           "part of the run.",
-          refused_window(outcome), contact_text(first.contact), on_one_line(outcome.first_names), noli::name(first.kind),
-          digits17(first.lower()), outcome.contact->contact_count());
+          refused_window(outcome), contact_text(first.contact), on_one_line(outcome.first_names),
+          noli::name(first.kind), digits17(first.lower()), outcome.contact->contact_count());
     }
     case RunEnd::too_near: return too_near_text(outcome);
     case RunEnd::not_finite: {
