@@ -43,6 +43,7 @@ struct PrecisionArguments {
   fs::path scene;
   bool brief = false;
   std::optional<double> until;
+  bool past_duration = false;
   std::vector<int> bits = {53, 64, 113, 256};
   int threads = 0;
   std::string time_limit;
@@ -87,6 +88,7 @@ ExitCode run(const PrecisionArguments& arguments) {
   SimulateRequest extent;
   extent.scene = arguments.scene;
   extent.until = arguments.until;
+  extent.past_duration = arguments.past_duration;
   request.windows = windows_of(extent, scene);
   const Stopwatch watch;
   const audit::PrecisionOutcome outcome = with_progress("audit precision", [&](const auto& show) {
@@ -110,9 +112,13 @@ Command add_audit_precision(CLI::App& audit) {
       ->required()
       ->type_name("SCENE.json");
   command->add_flag("--short", arguments->brief, "The scene's short form");
-  command->add_option("--until", arguments->until, "Simulated time to stop at; default: the scene's duration")
-      ->check(is_positive())
-      ->type_name("SECONDS");
+  auto* const until =
+      command->add_option("--until", arguments->until, "Simulated time to stop at; default: the scene's duration")
+          ->check(is_positive())
+          ->type_name("SECONDS");
+  command
+      ->add_flag("--past-duration", arguments->past_duration, "--until may lie beyond the scene's duration")
+      ->needs(until);
   command
       ->add_option("--bits", arguments->bits,
                    "Precisions to run, with commas between them [53,64,113,256]; energies are measured against the "

@@ -15,20 +15,23 @@ namespace {
 
 constexpr std::size_t most_notes = 10;
 
-void tell(const std::string& note) { std::fputs(fmt::format("noli: note: {}.\n", on_one_line(note)).c_str(), stderr); }
-
 }  // namespace
+
+void tell_note(const std::string& note) {
+  std::fputs(fmt::format("noli: note: {}.\n", on_one_line(note)).c_str(), stderr);
+}
 
 void tell_notes(const integrator::Explanation& explanation) {
   const std::vector<std::string> notes = integrator::notes(explanation);
-  for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) tell(notes[i]);
-  if (notes.size() > most_notes) tell(fmt::format("there are {} more, which explain tells", notes.size() - most_notes));
+  for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) tell_note(notes[i]);
+  if (notes.size() <= most_notes) return;
+  tell_note(fmt::format("there are {} more, which explain tells", notes.size() - most_notes));
 }
 
 void note_missing_short_form(const integrator::Scene& scene) {
   const auto brief = scene.document.find("short");
   if (brief != scene.document.end() && !brief->empty()) return;
-  tell("--short changes nothing: the scene has no \"short\"");
+  tell_note("--short changes nothing: the scene has no \"short\"");
 }
 
 }  // namespace noli::app

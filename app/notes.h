@@ -3,12 +3,17 @@
 // What the user should know of a scene, on standard error, a line each: no fault, and no result.
 #pragma once
 
+#include <string>
+
 #include "noli/integrator/scene/explain.h"
 
 namespace noli::app {
 
 /// What explain notes of the scene, so that whoever did not ask it knows too; of many the first few.
 void tell_notes(const integrator::Explanation& explanation);
+
+/// A line of its own. `note`: without a full stop.
+void tell_note(const std::string& note);
 
 /// For --short: that it changes nothing, if the scene has no short form.
 void note_missing_short_form(const integrator::Scene& scene);

@@ -84,7 +84,8 @@ class Run {
     if (rows_.empty()) return;
     lines.push_back(full()
                         ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."
-                        : "The run recorded frames and the hash of its motion, which can be computed again from it.");
+                        : "The run recorded frames and the hash of its motion: noli verify --reproduce integrates and "
+                          "decides it again.");
   }
 
   std::string claim(const LogFacts& log) const {
@@ -128,7 +129,7 @@ class Run {
     add("Windows", rows_.empty() ? "none" : fmt::format("{}, up to {} s", rows_.size(), ends_.back()));
     add("Events", fmt::format("{}", events));
     add("Breakpoints", fmt::format("{}", breakpoints));
-    add("Ended", log.last_end.empty() ? "its log does not say how" : log.last_end);
+    add("Ended", log.end().empty() ? "its log does not say how" : log.end());
     if (!log.roll_backs.empty()) add("Windows that were run again", fmt::format("{}", log.roll_backs.size()));
     if (const ActingLayer nearest = nearest_layer(); nearest.layer > 0) {
       const std::string pair = log.names.pair(nearest.pair, nearest.vertices, "and");

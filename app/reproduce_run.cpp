@@ -25,14 +25,15 @@ Found<Dim> find_window(const ReproduceRequest& request) {
   RunReader reader(request.run);
   Found<Dim> found;
   while (auto window = reader.next_window()) {
-    if (window->index == request.window) {
+    if (window->index + 1 == request.window) {
       found.window = std::move(*window);
       return found;
     }
     found.before = snapshot_of<Dim>(*window);
   }
   throw InputError(request.run.string(), "",
-                   fmt::format("has {} windows; expected one of them, found {}", reader.windows(), request.window));
+                   fmt::format("has {} windows, counted from 1; expected one of them, found {}", reader.windows(),
+                               request.window));
 }
 
 template <int Dim>

@@ -14,7 +14,7 @@ struct ReproduceRequest {
   std::filesystem::path scene;
   bool brief = false;
   std::filesystem::path run;  ///< that has the window
-  std::uint64_t window = 0;
+  std::uint64_t window = 1;     ///< from 1
   std::filesystem::path output;  ///< a file for the block LINE of the window (trajectory/FORMAT.md)
 };
 

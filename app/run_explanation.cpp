@@ -42,8 +42,8 @@ class Explaining {
       result_.smallest_step = row.steps.smallest;
     }
     add_energy(row);
-    if (row.deepest.layer > 0) add_layers(window.index, row);
-    if (result_.nearest && result_.nearest->window == window.index && window.lines) {
+    if (row.deepest.layer > 0) add_layers(result_.windows, row);
+    if (result_.nearest && result_.nearest->window == result_.windows && window.lines) {
       nearest_lines_ = std::move(*window.lines);
     }
   }

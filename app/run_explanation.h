@@ -32,7 +32,7 @@ namespace noli::app {
 
 /// A layer that acted, and in which window.
 struct ActingMoment {
-  std::uint64_t window = 0;
+  std::uint64_t window = 1;  ///< from 1
   ActingLayer action;
 };
 

@@ -190,7 +190,7 @@ Json to_json(const RunExplanation& e) {
                     {"certificates", certificates_json(e.log.certificates)},
                     {"deepest_active", e.log.deepest},
                     {"bound", bound ? Json(*bound) : Json(nullptr)},
-                    {"end", e.log.last_end},
+                    {"end", e.log.end()},
                     {"parts", e.log.parts},
                     {"parts_ended", e.log.parts_ended},
                     {"windows_logged", e.log.windows},
@@ -202,7 +202,7 @@ Answer answer_of(const RunExplanation& e) {
   Answer answer("explained", {{"windows", e.windows},
                               {"time", digits17(e.time)},
                               {"deepest", e.deepest ? e.deepest->action.layer : 0},
-                              {"end", e.log.last_end.empty() ? "unknown" : e.log.last_end}});
+                              {"end", e.log.end().empty() ? "unknown" : e.log.end()}});
   std::string& text = answer.text;
   text += fmt::format("{}: {} windows, {} s.\n", on_one_line(e.title), e.windows, e.time);
   if (e.open_window) text += "The run ends in a window that was never committed; it is left out.\n";

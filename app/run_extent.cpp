@@ -3,20 +3,24 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "noli/app/exit_code.h"
+#include "noli/integrator/scene/window_count.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
 
 std::uint64_t windows_of(const SimulateRequest& request, const integrator::Scene& scene) {
   constexpr double most = 0x1p53;
-  const double windows = std::ceil(request.until.value_or(scene.duration) / scene.window * (1 - 0x1p-50));
-  if (windows < most) return static_cast<std::uint64_t>(windows);
-  const std::string problem = fmt::format("expected fewer than 2^53 windows of {} s", scene.window);
-  if (request.until) throw UsageError("--until: " + problem);
-  throw InputError(request.scene.string(), "/duration", problem);
+  const double windows = integrator::windows_up_to(request.until.value_or(scene.duration), scene.window);
+  const std::string too_many = fmt::format("expected fewer than 2^53 windows of {} s", scene.window);
+  if (!(windows < most) && request.until) throw UsageError("--until: " + too_many);
+  if (!(windows < most)) throw InputError(request.scene.string(), "/duration", too_many);
+  if (request.until && !request.past_duration && windows > integrator::windows_up_to(scene.duration, scene.window)) {
+    throw UsageError(
+        fmt::format("--until {}: {} has a duration of {} s; expected no later time, or --past-duration to go beyond it",
+                    *request.until, request.scene.string(), scene.duration));
+  }
+  return static_cast<std::uint64_t>(windows);
 }
 
 void require_countable_frames(const SimulateRequest& request, const integrator::Scene& scene, std::size_t vertices,

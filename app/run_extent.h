@@ -10,7 +10,8 @@
 
 namespace noli::app {
 
-/// Of the whole run. Throws UsageError (--until) or InputError (the scene's duration) when they are too many to count.
+/// Of the whole run. Throws UsageError (--until) or InputError (the scene's duration) when they are too many to count,
+/// and UsageError when --until asks for more than the scene's duration has, without --past-duration.
 std::uint64_t windows_of(const SimulateRequest& request, const integrator::Scene& scene);
 
 /// Frames are told apart by their times, and those that are recorded are in memory for as long as their window is.

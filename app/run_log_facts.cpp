@@ -43,7 +43,7 @@ class Reader {
       facts_.going_on = true;
     }
     if (is("window")) window(entry);
-    if (is("roll_back")) facts_.roll_backs.push_back(entry);
+    if (is("roll_back")) roll_back(entry);
     if (is("end")) end(entry);
   }
 
@@ -75,6 +75,11 @@ class Reader {
       next_ = window + 1;
     }
     facts_.deepest = std::max(facts_.deepest, number<std::uint32_t>(timing, "deepest"));
+  }
+
+  void roll_back(Json entry) {
+    if (member(entry, "window").is_number_unsigned()) entry["window"] = entry["window"].get<std::uint64_t>() + 1;
+    facts_.roll_backs.push_back(std::move(entry));
   }
 
   void end(const Json& entry) {

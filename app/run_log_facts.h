@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "noli/app/body_names.h"
@@ -28,13 +29,16 @@ struct LogFacts {
   std::uint64_t windows = 0;        ///< that it tells of, each once
   std::uint64_t bad_lines = 0;
   std::uint32_t deepest = 0;  ///< layer that was active in any of these windows
-  std::vector<Json> roll_backs;
+  std::vector<Json> roll_backs;  ///< lines of the log, with windows counted from 1
   std::string last_end;   ///< of the last part that ended: "done", "interrupted", ...
   Json last_end_line;     ///< of the same, whole
   bool going_on = false;  ///< the last part has no line of its end: it goes on still, or was killed
   PhaseSeconds phases{};
   double verifying_seconds = 0;
   certificates::CertificateCounts certificates;
+
+  /// How the run ended, as far as is known: nothing when its last part goes on still, or was killed.
+  std::string end() const { return going_on ? "" : last_end; }
 };
 
 /// Throws std::system_error when the log cannot be read; one that is not there has no lines.

@@ -134,7 +134,7 @@ SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run) {
     return decode_row(window.state);
   } catch (const std::invalid_argument& error) {
     throw InputError(trajectory_path(run).string(), "",
-                     "the state of window " + std::to_string(window.index) + ": " + error.what());
+                     "the state of window " + std::to_string(window.index + 1) + ": " + error.what());
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -22,7 +23,11 @@ constexpr const char* footer =
     "Each window of simulated time is verified exactly before it is committed to the run, so what is in a run never\n"
     "contains a contact. Where one comes, the run ends (exit 1) with the features, the kind and the exact first time; "
     "the\n"
-    "windows before it stay. Interrupted runs (Ctrl-C, exit 2) go on with --resume, and end with the same bytes.\n"
+    "windows before it stay. Interrupted runs (Ctrl-C, exit 2) go on with --resume, and end with the same bytes; one "
+    "that\n"
+    "has all its windows is done, whenever the interruption came. Windows count from 1. The bytes to come are said "
+    "before\n"
+    "a run begins; a disk that will not hold them is an error (exit 4).\n"
     "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), not_finite\n"
     "(numbers run out), unstable (all windows are there, but steps that explain warns of have led the energy astray "
     "by\n"
@@ -32,12 +37,13 @@ constexpr const char* footer =
     "  noli simulate scenes/swinging_cloth.json --short -o runs/short\n"
     "  noli simulate scene.json -o run --until 2.5 --json result.json\n"
     "  noli simulate scene.json -o run --resume\n"
+    "  noli simulate scene.json -o run --until 20 --past-duration --resume\n"
     "  noli simulate scene.json --reproduce run --window 3 -o window3.block    of a run with \"record\": \"frames\"";
 
 struct SimulateArguments {
   SimulateRequest request;
   std::optional<std::string> reproduce;
-  std::uint64_t window = 0;
+  std::uint64_t window = 1;
   std::string time_limit;
   OutputOptions results;
 };
@@ -71,9 +77,11 @@ ExitCode run(SimulateArguments& arguments) {
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.results, with_files_of_runs({request.scene, request.run}));
-  request.begun = [&request](const integrator::Scene& scene, const integrator::Explanation& explanation) {
+  request.begun = [&request](const integrator::Scene& scene, const integrator::Explanation& explanation,
+                             const std::string& space) {
     if (request.brief) note_missing_short_form(scene);
     tell_notes(explanation);
+    tell_note(space);
   };
   const SimulateOutcome outcome = run_simulate(request);
   output.write("simulate", simulate_answer(request, outcome), simulate_json(request, outcome));
@@ -106,6 +114,11 @@ Command add_simulate(CLI::App& app) {
       command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
           ->check(is_positive())
           ->type_name("SECONDS");
+  command
+      ->add_flag("--past-duration", request.past_duration, "--until may lie beyond the scene's duration")
+      ->needs(until);
+  command->add_flag("--ignore-space", request.ignore_space,
+                    "Begin although the disk will not hold the run, by what explain predicts of its bytes");
   auto* const again = command
                           ->add_option("--reproduce", arguments->reproduce,
                                        "Integrate one window of this run again; its block goes to the file -o")
@@ -113,8 +126,8 @@ Command add_simulate(CLI::App& app) {
                           ->excludes(resume)
                           ->excludes(force)
                           ->excludes(until);
-  command->add_option("--window", arguments->window, "Which window, from 0")
-      ->check(is_count())
+  command->add_option("--window", arguments->window, "Which window, counted from 1")
+      ->check(whole_number(1, std::numeric_limits<std::uint64_t>::max()))
       ->needs(again)
       ->type_name("K");
   command

@@ -25,13 +25,16 @@ const char* verdict(const SimulateOutcome& outcome) {
   return "";
 }
 
+/// The window that is not part of the run, from 1.
+std::uint64_t refused_window(const SimulateOutcome& outcome) { return outcome.windows + 1; }
+
 /// Nothing if there was no contact.
 Json first_json(const SimulateOutcome& outcome) {
   if (!outcome.contact || !outcome.contact->first) return nullptr;
   Json json = contact_json(outcome.contact->first->contact);
   json["kind"] = noli::name(outcome.contact->first->kind);
   json["names"] = outcome.first_names;
-  json["window"] = outcome.windows;
+  json["window"] = refused_window(outcome);
   json["time"] = outcome.contact->first->lower();
   return json;
 }
@@ -39,7 +42,8 @@ Json first_json(const SimulateOutcome& outcome) {
 Json not_finite_json(const SimulateOutcome& outcome) {
   if (!outcome.not_finite) return nullptr;
   const integrator::NotFinite& found = *outcome.not_finite;
-  return {{"time", found.time},
+  return {{"window", refused_window(outcome)},
+          {"time", found.time},
           {"force", found.kind ? Json(integrator::name(*found.kind)) : Json(nullptr)},
           {"vertices", found.force},
           {"vertex", found.vertex}};
@@ -57,7 +61,8 @@ Json too_near_json(const SimulateOutcome& outcome) {
   const certificates::Stencil& pair = outcome.limit->pair;
   const std::vector<VertexId> vertices(pair.vertices.begin(),
                                        pair.vertices.begin() + static_cast<std::ptrdiff_t>(pair.size()));
-  return {{"time", outcome.limit->time},
+  return {{"window", refused_window(outcome)},
+          {"time", outcome.limit->time},
           {"pair", noli::name(pair.kind)},
           {"vertices", vertices},
           {"names", outcome.first_names},
@@ -80,7 +85,7 @@ std::string too_near_text(const SimulateOutcome& outcome) {
   return fmt::format(
       "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s{}. The "
       "window is not part of the run.",
-      outcome.windows, names, digits17(outcome.limit->time), start ? "; " + begins : "");
+      refused_window(outcome), names, digits17(outcome.limit->time), start ? "; " + begins : "");
 }
 
 /// All windows are there, and nothing touches in them.
@@ -104,8 +109,8 @@ std::string end_text(const SimulateOutcome& outcome) {
       return fmt::format(
           "Contact in window {}: first {} ({}), {}, at {} s ({} pairs of features in the window). The window is not "
           "part of the run.",
-          outcome.windows, contact_text(first.contact), on_one_line(outcome.first_names), noli::name(first.kind),
-          digits17(first.lower()), outcome.contact->contact_count());
+          refused_window(outcome), contact_text(first.contact), on_one_line(outcome.first_names),
+          noli::name(first.kind), digits17(first.lower()), outcome.contact->contact_count());
     }
     case RunEnd::too_near: return too_near_text(outcome);
     case RunEnd::not_finite: {
@@ -116,7 +121,7 @@ std::string end_text(const SimulateOutcome& outcome) {
       return fmt::format(
           "Numbers run out in window {}: at {} s {} leaves vertex {} a velocity or position that is not "
           "finite. The window is not part of the run.",
-          outcome.windows, digits17(found.time), force, found.vertex);
+          refused_window(outcome), digits17(found.time), force, found.vertex);
     }
     case RunEnd::unstable: return unstable_text(outcome);
     case RunEnd::interrupted: return "Interrupted; `--resume` goes on behind the last window.";

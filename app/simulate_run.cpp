@@ -24,6 +24,7 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/run_series.h"
 #include "noli/app/run_series_file.h"
+#include "noli/app/run_space.h"
 #include "noli/app/start_check.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/scene/build_model.h"
@@ -32,6 +33,7 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
+#include "noli/trajectory/series_file.h"
 
 namespace noli::app {
 
@@ -84,8 +86,9 @@ class Run {
     refuse_contact_at_start();
     const integrator::Explanation explanation = integrator::explain(scene);
     if (wants_watch(scene, explanation)) watch_energy();
+    const std::string space = require_space(scene, explanation);
     open(scene);
-    if (request.begun) request.begun(scene, explanation);
+    if (request.begun) request.begun(scene, explanation, space);
   }
 
   SimulateOutcome operator()() {
@@ -101,6 +104,8 @@ class Run {
       progress.show(static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
     }
     settle();
+    // Whoever stopped a run of which nothing was left to do has stopped nothing.
+    if (writer_->windows() == outcome_.windows_total && stopped_from_outside()) outcome_.end = RunEnd::done;
     find_end();
     conclude(clock);
     outcome_.proved = proof_ != nullptr && outcome_.windows > 0;
@@ -126,6 +131,10 @@ class Run {
     if (interrupted().load(std::memory_order_relaxed)) outcome_.end = RunEnd::interrupted;
     if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) outcome_.end = RunEnd::out_of_time;
     return outcome_.end != RunEnd::done;
+  }
+
+  bool stopped_from_outside() const {
+    return outcome_.end == RunEnd::interrupted || outcome_.end == RunEnd::out_of_time;
   }
 
   // --- Beginning -----------------------------------------------------------------------------------------------------
@@ -155,6 +164,36 @@ class Run {
     const std::string found =
         contact_at_start(verifier_, built_.model.mesh, positions_of<Dim>(built_.model.x), window_options(), names_);
     if (!found.empty()) throw InputError(request_.scene.string(), "/bodies", "the scene begins in contact: " + found);
+  }
+
+  /// Returns what is said of the bytes to come. Throws WriteError when the disk will not hold them, before anything is
+  /// written.
+  std::string require_space(const Scene& scene, const integrator::Explanation& explanation) const {
+    const RunToCome run = to_come();
+    const RunBytes bytes = bytes_to_come(scene, explanation, run);
+    std::optional<std::uint64_t> free = free_bytes(run.run);
+    if (free && request_.force) *free += bytes_in(run.run);  // what is replaced goes first
+    const auto problem = space_problem(bytes, run.run, free);
+    if (problem && !request_.ignore_space) throw WriteError(*problem);
+    return space_note(bytes, run.run, free);
+  }
+
+  RunToCome to_come() const {
+    RunToCome run;
+    run.run = folder_.path();
+    run.vertices = outcome_.vertices;
+    run.cells = outcome_.cells;
+    run.windows = outcome_.windows_total;
+    run.prove = request_.prove;
+    run.series = SeriesFile::available();
+    const bool there = std::filesystem::exists(trajectory_path(run.run));
+    if (!request_.resume || !there || !folder_.has_begun()) return run;
+    run.windows_there = RunReader(run.run).count_windows();
+    std::error_code error;
+    run.bytes_there = std::filesystem::file_size(trajectory_path(run.run));
+    const auto proof = std::filesystem::file_size(proof_path(run.run), error);
+    if (!error) run.bytes_there += proof;
+    return run;
   }
 
   RunScene run_scene(const Scene& scene) const {
@@ -231,7 +270,7 @@ class Run {
   void require_whole(const RunWindow& window) const {
     if (window.end == static_cast<double>(window.index + 1) * outcome_.window_length) return;
     throw InputError(folder_.path().string(), "",
-                     fmt::format("window {} ends at {} s; expected {} s to go on with it", window.index, window.end,
+                     fmt::format("window {} ends at {} s; expected {} s to go on with it", window.index + 1, window.end,
                                  static_cast<double>(window.index + 1) * outcome_.window_length));
   }
 
@@ -294,7 +333,7 @@ class Run {
       return proof_->prove(index, lines, writer_->open_window_hash(), proof_options());
     } catch (const NoProof& none) {
       folder_.log({{"event", "no_proof"}, {"window", index}, {"why", none.what()}});
-      outcome_.no_proof = fmt::format("window {}: {}", index, none.what());
+      outcome_.no_proof = fmt::format("window {}: {}", index + 1, none.what());
       proof_.reset();
       return true;
     }
@@ -417,15 +456,13 @@ class Run {
     log_end();
   }
 
-  /// Whoever has asked the run to stop has not asked for less than a whole folder; who asks again has.
+  /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it.
   void write_series() {
     const Doing writing(activity_, Phase::writing);
     const int before = interruptions();
     Progress progress("series.h5");
     progress.show(0);
     outcome_.series = write_series_file(folder_.path(), frame_rate_, [before] { return interruptions() > before; });
-    const bool done = outcome_.end == RunEnd::done || outcome_.end == RunEnd::unstable;
-    if (outcome_.series == SeriesEnd::stopped && done) outcome_.end = RunEnd::interrupted;
   }
 
   void log_end() {

@@ -4,7 +4,8 @@
 // only when nothing touches in it.
 //
 // Notation
-//   window k   [k W, (k + 1) W]; while it is integrated, the one before is verified on another thread
+//   window k   [k W, (k + 1) W], k = 0, 1, ... in files and in this code; whoever reads or types a number counts from
+//              1. While it is integrated, the one before is verified on another thread
 //   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5
 //
 // The bytes of trajectory.blocks depend on the scene alone: not on threads, on where a run was interrupted, on who
@@ -41,10 +42,13 @@ struct SimulateRequest {
   bool force = false;           ///< replace a run that is there
   bool prove = true;            ///< with record full, write proof.blocks
   std::optional<double> until;  ///< simulated time to stop at [s]; else the scene's duration
+  bool past_duration = false;   ///< it may lie beyond the scene's duration
+  bool ignore_space = false;    ///< begin though the disk is predicted not to hold the run
   int threads = 0;              ///< 0: all there are
   std::optional<std::chrono::nanoseconds> time_limit;
-  /// Called once nothing stands against the run any more, before anything is integrated.
-  std::function<void(const integrator::Scene&, const integrator::Explanation&)> begun;
+  /// Called once nothing stands against the run any more, before anything is integrated. The text says how many bytes
+  /// the run is about to write (run_space.h).
+  std::function<void(const integrator::Scene&, const integrator::Explanation&, const std::string& space)> begun;
 };
 
 enum class RunEnd {
@@ -96,9 +100,10 @@ struct SimulateOutcome {
 };
 
 /// Runs it. Ends at the last committed window when app::interrupted() or at the time limit: the one that is being
-/// integrated or verified then is dropped. After that series.h5 is written still, unless the user asks once more to
-/// stop. Throws InputError (scene), ReadInterrupted (while a run to go on with is read),
-/// UsageError (a run that is there, or is not), std::system_error (disk), std::bad_alloc.
+/// integrated or verified then is dropped. A run of which all windows are committed is done, whenever that came. After
+/// that series.h5 is written still, unless the user asks once more to stop. Throws InputError (scene), ReadInterrupted
+/// (while a run to go on with is read), UsageError (a run that is there, or is not), WriteError (the disk will not hold
+/// the run), std::system_error (disk), std::bad_alloc.
 SimulateOutcome run_simulate(const SimulateRequest& request);
 
 }  // namespace noli::app

@@ -9,6 +9,7 @@
 #include "noli/app/duration.h"
 #include "noli/app/frame_options.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/lines_pipe.h"
 #include "noli/app/machine.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
@@ -17,6 +18,7 @@
 #include "noli/app/verify_run.h"
 #include "noli/audit/scratch_folder.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/run_file.h"
 #include "noli/trajectory/text.h"
 
 namespace noli::app {
@@ -40,7 +42,8 @@ constexpr const char* footer =
     "  noli verify a.ply b.ply --proof ab.noli       and a proof that anybody can check: noli check ab.noli a.ply "
     "b.ply\n"
     "  noli verify a.ply b.ply --time-limit 10s --threads 1\n"
-    "  noli verify runs/cloth                        a run of `noli simulate` again, from its files alone";
+    "  noli verify runs/cloth                        a run of `noli simulate` again, from its files alone\n"
+    "  noli verify runs/ring --reproduce             one that recorded frames: its windows are integrated again";
 
 struct VerifyArguments {
   VerifyRequest request;
@@ -91,6 +94,9 @@ class NoSink : public Sink {
 class ProofRoute {
  public:
   explicit ProofRoute(VerifyRequest& request) : request_(request) {
+    if (request.lines_in_no_file && request.check && request.min_distance == 0) {
+      request.lines_pipe = &lines_.emplace(request.deadline);
+    }
     can_check_ = request.check && can_be_read_again();
     file_ = request.proof;
     if (!file_ && can_check_ && request.min_distance > 0) file_ = folder_.emplace().path() / "proof.noli";
@@ -111,6 +117,7 @@ class ProofRoute {
     if (!request_.check || outcome.not_checked || !whole) return;
     const Stopwatch watch;
     if (!checker_) checker_.emplace(Checker::plain, file_, trajectory(), request_.deadline);
+    if (lines_) lines_->close();
     const auto verdict = checker_->finish();
     outcome.check_seconds = watch.seconds();
     if (!verdict) return stopped(outcome);
@@ -123,9 +130,13 @@ class ProofRoute {
   }
 
  private:
-  std::vector<std::filesystem::path> trajectory() const { return trajectory_for_checker(request_.frames); }
+  std::vector<std::filesystem::path> trajectory() const {
+    if (lines_) return {lines_->path()};
+    return trajectory_for_checker(request_.frames);
+  }
 
   bool can_be_read_again() const {
+    if (request_.lines_in_no_file) return lines_.has_value();  // it is read once, as it is made
     std::error_code error;
     return std::ranges::all_of(trajectory(), [&](const auto& path) {
       return !std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error);
@@ -142,9 +153,11 @@ class ProofRoute {
   }
 
   std::optional<std::string> why_not(const VerifyOutcome& outcome) const {
+    if (!can_check_ && request_.lines_in_no_file)
+      return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
     if (!can_check_) return "what is verified is no file that could be read twice";
     if (outcome.no_proof) return "no proof was found";
-    if (outcome.open_window) return "the run has to be gone on with first, because it ends within a window";
+    if (outcome.open_window && !lines_) return "the run has to be gone on with first, because it ends within a window";
     return std::nullopt;
   }
 
@@ -161,6 +174,7 @@ class ProofRoute {
   bool can_check_ = false;
   std::optional<audit::ScratchFolder> folder_;
   std::optional<std::filesystem::path> file_;
+  std::optional<LinesPipe> lines_;  ///< of a run that is reproduced
   std::optional<CheckerProcess> checker_;
 };
 
@@ -180,6 +194,19 @@ void require_there(const std::vector<std::filesystem::path>& frames) {
   throw InputError(frames[0].string(), "", "cannot be opened: there is no such file or folder");
 }
 
+/// What goes with --reproduce, and what does not.
+void prepare_to_reproduce(VerifyRequest& request) {
+  if (request.reproduce && !request.run) {
+    throw UsageError("--reproduce: is for a run of `noli simulate`; expected its folder, found frames");
+  }
+  request.lines_in_no_file = request.reproduce && RunReader(request.frames[0]).header().record == RecordMode::frames;
+  if (request.lines_in_no_file && request.proof) {
+    throw UsageError(
+        "--proof: is about world lines in a file, and the run recorded frames alone; expected a run with \"record\": "
+        "\"full\", or no --proof");
+  }
+}
+
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   if (!arguments.time_limit.empty()) {
@@ -192,6 +219,7 @@ ExitCode run(VerifyArguments& arguments) {
   } else if (request.order != FrameOrder::checked || request.polygons != PolygonRule::fan) {
     throw UsageError("--order, --polygons: are for frames; expected none of them with a run");
   }
+  prepare_to_reproduce(request);
   auto inputs = with_files_of_runs(request.frames);
   if (request.ignore) inputs.push_back(*request.ignore);
   const Output output(arguments.results, inputs);
@@ -246,6 +274,17 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("2|3");
 }
 
+void add_reproduce(CLI::App& command, VerifyRequest& request) {
+  auto* const again = command.add_flag("--reproduce", request.reproduce,
+                                       "Integrate the windows of a run again, one after another, and verify them when "
+                                       "their world lines have the run's hashes; nothing is kept");
+  command
+      .add_option("--scene-folder", request.scene_folder,
+                  "With --reproduce: where the file of the scene was, if it names meshes in files")
+      ->needs(again)
+      ->type_name("FOLDER");
+}
+
 void add_flags(CLI::App& command, VerifyRequest& request) {
   auto* keep_going = command.add_flag("--keep-going", request.keep_going, "Go through all steps, contacts or not");
   command.add_flag("--first-only", request.first_only, "Be content with the first contact found")->excludes(keep_going);
@@ -266,6 +305,7 @@ Command add_verify(CLI::App& app) {
   command->footer(footer);
   const auto arguments = std::make_shared<VerifyArguments>();
   add_options(*command, *arguments);
+  add_reproduce(*command, arguments->request);
   add_flags(*command, arguments->request);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -7,12 +7,15 @@
 #include "noli/app/input_report.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/largest_distance.h"
+#include "noli/app/lines_pipe.h"
 #include "noli/app/machine.h"
 #include "noli/app/progress.h"
 #include "noli/app/prove_run.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/verify_run.h"
+#include "noli/app/windows_again.h"
+#include "noli/integrator/scene/window_count.h"
 #include "noli/proofs/prover/window_verifier.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
@@ -20,11 +23,13 @@
 namespace noli::app {
 namespace {
 
-RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
+RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log, double window) {
   RunEnding ending;
   if (!log.going_on && !log.last_end.empty()) ending.why = log.last_end;
   ending.going_on = log.going_on;
   ending.duration = duration_of(run);
+  const double windows = ending.duration ? integrator::windows_up_to(*ending.duration, window) : 0;
+  if (windows > 0 && windows < 0x1p53) ending.windows_total = static_cast<std::uint64_t>(windows);
   return ending;
 }
 
@@ -36,11 +41,12 @@ class MotionRun {
           "--static, --merge-identical, --points, --dimension, --ignore: are for frames; expected none of them with a "
           "run");
     }
+    require_world_lines();
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
     const LogFacts log = read_log(request.frames[0]);
     require_all_windows(request.frames[0], log, outcome_.steps_total);
-    outcome_.ending = ending_of(request.frames[0], log);
+    outcome_.ending = ending_of(request.frames[0], log, reader_.header().window_length);
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
@@ -51,19 +57,24 @@ class MotionRun {
     if (mesh.cell_count() == 0) {
       throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
     }
+    if (request.reproduce) {
+      again_ = WindowsAgain::of(request.frames[0], request.scene_folder, reader_.scene(), [this] { return stopped(); });
+      outcome_.reproduced = true;
+    }
   }
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
     look_at_files();
-    while (!stopped() && outcome_.complete) {
-      const auto window = read_next();
-      if (!window) break;
+    while (outcome_.complete) {
+      auto window = read_next();
+      // Whoever stops behind the last window has stopped nothing.
+      if (!window || stopped() || !reproduce(*window)) break;
       verify(*window);
       if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
     }
     conclude();
-    outcome_.seconds = watch.seconds() - outcome_.read_seconds;
+    outcome_.seconds = watch.seconds() - outcome_.read_seconds - outcome_.reproduce_seconds;
     return std::move(outcome_);
   }
 
@@ -84,12 +95,26 @@ class MotionRun {
     auto window = reader_.next_window();
     outcome_.read_seconds += watch.seconds();
     ended_ = !window;
-    if (window && !window->lines) {
-      throw InputError(
-          request_.frames[0].string(), "",
-          "recorded frames alone (\"record\": \"frames\"); expected world lines, which are what can be verified");
-    }
     return window;
+  }
+
+  void require_world_lines() const {
+    if (reader_.header().record == RecordMode::full || request_.reproduce) return;
+    throw InputError(
+        request_.frames[0].string(), "",
+        "only frames were recorded (\"record\": \"frames\"); expected world lines, which are what can be verified: "
+        "pass --reproduce to integrate the windows again, or put \"record\": \"full\" into the scene and run `noli "
+        "simulate SCENE.json -o RUN`");
+  }
+
+  /// Gives the window the world lines that it comes to when it is integrated again. False if it was stopped.
+  bool reproduce(RunWindow& window) {
+    if (!again_) return true;
+    const Stopwatch watch;
+    auto lines = again_->next(window);
+    outcome_.reproduce_seconds += watch.seconds();
+    if (lines) window.lines = std::move(lines);
+    return window.lines.has_value() && !stopped();
   }
 
   WindowOptions options() const {
@@ -107,7 +132,7 @@ class MotionRun {
     return options;
   }
 
-  void verify(const RunWindow& window) {
+  void verify(RunWindow& window) {
     if (!verifier_) verifier_.emplace(reader_.mesh(), beginning(window), options());
     WindowResult result = verifier_->verify(*window.lines, options());
     const bool drop = meeting_at_end_ && result.contact_count() > 0;
@@ -119,19 +144,36 @@ class MotionRun {
     if (request_.open_proof && (result.complete || found) && !outcome_.no_proof) prove(window, result);
   }
 
-  void prove(const RunWindow& window, const WindowResult& result) {
+  void prove(RunWindow& window, const WindowResult& result) {
+    if (witness_sought_ && request_.lines_pipe != nullptr) return;  // the checker reads no further
     const Stopwatch watch;
+    give_lines(window);
     if (!proof_) {
       outcome_.proof_begun = true;
       const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
       proof_ = std::make_unique<RunProof>(request_.open_proof(), reader_.scene(), beginning(window), claim);
     }
     if (result.contact_count() + result.initial_intersections > 0) {
+      witness_sought_ = true;
       if (proof_->refute(window.index, *window.lines, window.group_hash, result)) ++outcome_.witnesses;
     } else if (!outcome_.touches()) {
       prove_untouched(window);
     }
     outcome_.proof_seconds += watch.seconds();
+  }
+
+  /// World lines that are in no file: the checker reads them on their way, window by window.
+  void give_lines(RunWindow& window) {
+    if (request_.lines_pipe == nullptr) return;
+    request_.lines_pipe->drained();
+    if (!lines_) {
+      RunScene scene = reader_.scene();
+      scene.header.record = RecordMode::full;
+      lines_.emplace(request_.lines_pipe->sink(), scene);
+    }
+    lines_->append_window({window.index, *window.lines, window.velocities, window.state, {}});
+    window.group_hash = lines_->open_window_hash();
+    lines_->commit();
   }
 
   void prove_untouched(const RunWindow& window) {
@@ -216,6 +258,9 @@ class MotionRun {
   std::vector<std::uint8_t> scripted_;
   std::optional<WindowVerifier> verifier_;  ///< made where the run begins
   std::unique_ptr<RunProof> proof_;
+  std::unique_ptr<WindowsAgain> again_;  ///< with --reproduce
+  std::optional<RunWriter> lines_;       ///< of the run as if it were recorded in full
+  bool witness_sought_ = false;
   bool meeting_at_end_ = false;
   bool ended_ = false;  ///< all windows have been read
   VerifyOutcome outcome_;

@@ -16,6 +16,10 @@ namespace noli::app {
 namespace {
 
 const char* motion(const VerifyRequest& request) {
+  if (request.reproduce) {
+    return "every vertex moves linearly between its own breakpoints, from each window to the next; the windows were "
+           "integrated again from the run's own scene, and the hashes of their world lines were those of the run";
+  }
   if (request.run) return "every vertex moves linearly between its own breakpoints, from each window to the next";
   return request.constant_motion ? "each frame by itself, at rest"
                                  : "every vertex moves linearly from each frame to the next";
@@ -137,6 +141,7 @@ Json proof_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 Json run_json(const RunEnding& ending) {
   return {{"end", ending.why ? Json(*ending.why) : Json(nullptr)},
           {"time", ending.time},
+          {"windows_total", ending.windows_total ? Json(*ending.windows_total) : Json(nullptr)},
           {"duration", ending.duration ? Json(*ending.duration) : Json(nullptr)}};
 }
 
@@ -427,7 +432,10 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   json["first"] = first_json(outcome);
   json["reports"] = reports_json(outcome);
   json["initial_reports"] = initial_reports_json(outcome);
-  if (outcome.ending) json["run"] = run_json(*outcome.ending);
+  if (outcome.ending) {
+    json["run"] = run_json(*outcome.ending);
+    json["reproduced"] = outcome.reproduced;
+  }
   json["steps"] = outcome.steps.size();
   json["steps_total"] = outcome.steps_total;
   json["per_step"] = steps_json(outcome);
@@ -444,6 +452,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   if (request.open_proof) json["proof"] = proof_json(request, outcome);
   json["timing"] = {{"seconds", outcome.seconds},
                     {"read_seconds", outcome.read_seconds},
+                    {"reproduce_seconds", outcome.reproduce_seconds},
                     {"proof_seconds", outcome.proof_seconds},
                     {"check_seconds", outcome.check_seconds},
                     {"threads", threads_used(request)},

@@ -30,6 +30,8 @@
 
 namespace noli::app {
 
+class LinesPipe;
+
 struct VerifyRequest {
   std::vector<std::filesystem::path> frames;  ///< files in the order of time, or the folder of one run
   FrameOrder order = FrameOrder::checked;     ///< how they came to be in it; put_in_order() does it
@@ -49,6 +51,10 @@ struct VerifyRequest {
   std::optional<std::filesystem::path> ignore;  ///< groups of vertices that are not compared (groups.h)
   double min_distance = 0;                      ///< features have to be more than this apart
   std::uint32_t ring = 1;                       ///< but for those that a path of fewer edges joins
+  bool reproduce = false;                             ///< of a run: integrate its windows again (windows_again.h)
+  std::optional<std::filesystem::path> scene_folder;  ///< in which the file of its scene was; nothing: its own
+  bool lines_in_no_file = false;    ///< of a run that is reproduced: it recorded frames alone
+  LinesPipe* lines_pipe = nullptr;  ///< on which the checker reads its world lines then; nothing: nobody does
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::optional<std::filesystem::path> proof;  ///< the file where the user wants it
   bool check = true;                           ///< have the checker look at the proof
@@ -119,6 +125,7 @@ struct RunEnding {
   bool going_on = false;           ///< the last part has not ended, or was killed
   double time = 0;                 ///< of the last window [s]
   std::optional<double> duration;  ///< of the scene [s]
+  std::optional<std::uint64_t> windows_total;  ///< that the scene's duration asks for
 
   bool whole() const { return duration && time >= *duration; }
 };
@@ -147,6 +154,8 @@ struct VerifyOutcome {
   std::uint64_t cell_pairs = 0;
   double seconds = 0;                               ///< wall clock without reading
   double read_seconds = 0;                          ///< wall clock of reading
+  bool reproduced = false;                          ///< the windows were integrated again, with the run's hashes
+  double reproduce_seconds = 0;                     ///< wall clock of that
   bool no_proof = false;                            ///< nothing touches, but no proof of it was found
   std::optional<ListedNear> near;                   ///< who comes too near
   std::optional<LargestDistance> largest_distance;  ///< that the first time allows, if it is less than was asked for

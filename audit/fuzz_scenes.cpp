@@ -97,7 +97,7 @@ class SceneJudge {
 
   ProgramEnd simulate(const char* name, const std::vector<std::string>& more) {
     std::vector<std::string> words = {"simulate", file(), "-o", folder_ / name, "--threads", "1", "--time-limit", "4s",
-                                      "--porcelain"};
+                                      "--ignore-space", "--porcelain"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
@@ -113,13 +113,14 @@ class SceneJudge {
     const std::string line = first_line(end.out), verdict = word_behind(line, "verdict");
     if (!agree(verdict, end.code)) return found(fmt::format("verdict: {} with {}", verdict, end.words()));
     if (word_behind(line, "windows") == "0") return;
-    // Of a run that is recorded as frames there are no world lines to verify.
-    if (scene_.scene.value("record", "full") == "full") verify();
+    verify();
     if (end.code != 2 && !judgement_.difference && !judgement_.stopped) resume(end);
   }
 
   void verify() {
-    const ProgramEnd end = run({"verify", folder_ / "run", "--threads", "1"});
+    std::vector<std::string> words = {"verify", folder_ / "run", "--threads", "1"};
+    if (scene_.scene.value("record", "full") == "frames") words.emplace_back("--reproduce");
+    const ProgramEnd end = run(words);
     if (judgement_.stopped || judgement_.difference) return;
     judgement_.verified = true;
     if (end.code != 0)

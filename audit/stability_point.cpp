@@ -127,7 +127,7 @@ class Asking {
     const auto limit = std::chrono::duration_cast<std::chrono::milliseconds>(options_.point_limit).count();
     std::vector<std::string> words = {
         "simulate",     (folder_ / "scene.json").string(), "-o",     path(to), "--threads", "1",
-        "--time-limit", fmt::format("{}ms", limit),        "--json", "-"};
+        "--time-limit", fmt::format("{}ms", limit),        "--json", "-",         "--ignore-space"};
     words.insert(words.end(), more.begin(), more.end());
     return noli(words);
   }
@@ -137,7 +137,7 @@ class Asking {
   /// Without the folder, which has another name each time.
   std::string line_of(const std::string& text) const {
     const std::string prefix = path("");
-    std::string line = on_one_line(first_line(text));
+    std::string line = on_one_line(first_complaint(text));
     for (std::size_t at; (at = line.find(prefix)) != std::string::npos;) line.erase(at, prefix.size());
     return line;
   }

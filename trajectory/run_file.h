@@ -5,7 +5,7 @@
 //
 // Notation
 //   window k       the motion from begin to end, k = 0, 1, ...; the end of one is the beginning of the next, bit for
-//                  bit, in time and in every position
+//                  bit, in time and in every position. Messages count windows from 1
 //   record full    every world line is kept
 //   record frames  of each window only the hash of its world lines, frames, and the state at its end, from which it can
 //                  be computed again

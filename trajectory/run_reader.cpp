@@ -143,7 +143,7 @@ std::optional<RunWindow> RunReader::next_window() {
   window.begin = times.begin;
   window.end = times.end;
   if (window.index != windows() - 1) {
-    fail(blocks->front(), fmt::format("window {} where window {} was expected", window.index, windows() - 1));
+    fail(blocks->front(), fmt::format("window {} where window {} was expected", window.index + 1, windows()));
   }
   const std::string problem = last_ ? time_problem(*last_, window.begin) : "";
   if (!problem.empty()) fail(blocks->front(), problem);

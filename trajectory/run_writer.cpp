@@ -96,7 +96,7 @@ RunWriter::RunWriter(std::unique_ptr<Sink> sink, const RunReader& reader)
 
 void RunWriter::check(const WindowToWrite& window) const {
   require(!open_, "a window, though the one before is neither committed nor taken back");
-  require(window.index == windows(), fmt::format("window {} where {} is due", window.index, windows()));
+  require(window.index == windows(), fmt::format("window {} where {} is due", window.index + 1, windows() + 1));
   require(window.lines.vertex_count() == vertex_count_ && window.velocities.size() == vertex_count_,
           "not a world line and a velocity for each vertex");
   require(fits_dimension(header_.dimension, window.velocities), "a velocity is not finite or leaves the plane");

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "noli/integrator/groups.h"
+#include "noli/integrator/scene/window_count.h"
 
 namespace noli::integrator {
 namespace {
@@ -180,7 +181,7 @@ void predict(const Scene& scene, Model<double, Dim> model, Explanation& explanat
     add_groups(ForceKind::gravity, std::vector<double>(falling, model.gravity->step), model.clocks, explanation);
   }
   std::apply([&add](auto&... lists) { (add(lists), ...); }, model.forces.lists());
-  explanation.windows = std::ceil(scene.duration / scene.window);
+  explanation.windows = windows_up_to(scene.duration, scene.window);
   explanation.breakpoints = breakpoint_rate(scene, model, at);
   explanation.breakpoints_a_window = explanation.breakpoints * scene.window;
   explanation.bytes = byte_rate<Dim>(scene, model.x.size(), explanation.breakpoints);

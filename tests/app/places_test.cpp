@@ -63,7 +63,7 @@ TEST_F(Places, ThatCannotBeWrittenToAreKnownBeforeTheWorkBegins) {
       {{"simulate", file, "-o"}, {}, true, true},
       {{"simulate", file, "--force", "-o"}, {}, true, true},
       {{"simulate", file, "-o", run_path("new"), "--json"}, {}},
-      {{"simulate", file, "--reproduce", run_path("run"), "--window", "0", "-o"}, {}},
+      {{"simulate", file, "--reproduce", run_path("run"), "--window", "1", "-o"}, {}},
       {{"export", run_path("run"), "-o"}, {"/%d.ply"}, true, true},
       {{"verify", run_path("run"), "--json"}, {}},
       {{"verify", mesh, mesh, "--json"}, {}},

@@ -45,7 +45,8 @@ TEST_F(Simulate, VerifySaysThatARunWasInterruptedOrMayGoOn) {
   Json json = hanging_sheet();
   json["bodies"][0].erase("pin");
   json["duration"] = 10000;
-  ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run")}, interrupt_after(200)).exit_code, 2);
+  const std::vector<std::string> simulate = {"simulate", scene(json), "-o", run_path("run"), "--ignore-space"};
+  ASSERT_EQ(run_noli(simulate, interrupt_after(200)).exit_code, 2);
   const Json run = json_of({"verify", run_path("run")}, 0)["run"];
   EXPECT_EQ(run["end"], "interrupted");
   EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 10000 s (interrupted).\n"), std::string::npos);
@@ -67,7 +68,8 @@ TEST_F(Simulate, VerifyDoesWithoutLogAndScene) {
 
 TEST_F(Simulate, OfNoWindowNothingIsClaimed) {
   const std::string file = scene(resting_bar(1e9, 1e8));  // a window would take hours
-  const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--time-limit", "200ms"});
+  const Process process =
+      run_noli({"simulate", file, "-o", run_path("run"), "--time-limit", "200ms", "--ignore-space"});
   EXPECT_EQ(process.exit_code, 2) << process.err;
   EXPECT_EQ(process.out.find("verified exactly"), std::string::npos) << process.out;
   EXPECT_NE(process.out.find("\nNo window was committed to " + run_path("run") + ": nothing is claimed.\n"),
@@ -78,7 +80,7 @@ TEST_F(Simulate, OfNoWindowNothingIsClaimed) {
   EXPECT_NE(verified.out.find("\nUNDECIDED  0 of 0 windows: nothing found so far (no window was committed)\n"), std::string::npos)
       << verified.out;
   EXPECT_TRUE(says(run_path("run"), "The run ends at 0 s of 1000000000 s (time limit)."));
-  EXPECT_EQ(json_of({"simulate", file, "-o", run_path("json"), "--time-limit", "200ms"}, 2)["statement"],
+  EXPECT_EQ(json_of({"simulate", file, "-o", run_path("json"), "--time-limit", "200ms", "--ignore-space"}, 2)["statement"],
             "no window was committed: nothing is claimed.");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -179,7 +180,7 @@ TEST_F(Simulate, InterruptedRunsEndAtTheLastWindow) {
   ProcessOptions options;
   options.signal = SIGINT;
   options.signal_after = std::chrono::milliseconds(200);
-  const Process process = run_noli({"simulate", file, "-o", run_path("run")}, options);
+  const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--ignore-space"}, options);
   EXPECT_EQ(process.exit_code, 2) << process.out;
   EXPECT_EQ(process.verdict_line().rfind("UNDECIDED  ", 0), 0) << process.out;
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
@@ -245,7 +246,9 @@ TEST_F(Simulate, WhatExplainNotesIsToldBeforeTheRun) {
   Json json = beam(0.1);
   const std::string calm = scene(json);
   ASSERT_EQ(run_noli({"explain", calm}).out.find("Note: "), std::string::npos);
-  EXPECT_EQ(run_noli({"simulate", calm, "-o", run_path("calm")}).err, "");
+  const std::string calmly = run_noli({"simulate", calm, "-o", run_path("calm")}).err;
+  EXPECT_EQ(calmly.find("noli: note: about "), 0u) << calmly;  // of its bytes, and of nothing else
+  EXPECT_EQ(std::count(calmly.begin(), calmly.end(), '\n'), 1) << calmly;
   json["allow_unstable"] = true;
   const std::string unstable = scene(json);
   const std::string note = "steps above the limit of stability are accepted (\"allow_unstable\").\n";
@@ -402,7 +405,11 @@ TEST_F(Simulate, TimesBeyondAllWindowsAreRefused) {
     EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", until}).exit_code, 3) << until;
     EXPECT_FALSE(fs::exists(run_path("run"))) << until;
   }
-  EXPECT_EQ(json_of({"simulate", file, "-o", run_path("run"), "--until", "1e9"}, 1)["first_time"], 0.5);
+  const std::vector<std::string> late = {"simulate", file, "-o", run_path("run"), "--until", "1e9"};
+  EXPECT_EQ(run_noli(late).exit_code, 3);
+  auto meant = late;
+  meant.insert(meant.end(), {"--past-duration", "--ignore-space"});
+  EXPECT_EQ(json_of(meant, 1)["first_time"], 0.5);
 }
 
 TEST_F(Simulate, WhatIsNotComparedIsPartOfTheStatement) {
@@ -527,7 +534,8 @@ TEST_F(Simulate, AMissingShortFormIsNoted) {
       json["short"] = {{"/duration", 0.05}};
     const std::string file = scene(json);
     EXPECT_EQ(run_noli({"explain", file, "--short"}).err, expected ? note : "");
-    EXPECT_EQ(run_noli({"simulate", file, "--short", "-o", run_path(where)}).err, expected ? note : "");
+    const std::string told = run_noli({"simulate", file, "--short", "-o", run_path(where)}).err;
+    EXPECT_EQ(told.substr(0, told.find("noli: note: about ")), expected ? note : "") << told;
     EXPECT_EQ(run_noli({"explain", file}).err, "");
   }
 }
@@ -546,14 +554,14 @@ TEST_F(Simulate, AFolderThatIsNoRunIsCalledThat) {
   }
 }
 
-TEST_F(Simulate, WindowsToReproduceAreCountedFromZero) {
+TEST_F(Simulate, WindowsToReproduceAreCountedFromOne) {
   const std::string file = scene(beam(0.1));
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run")}).exit_code, 0);
-  for (const char* window : {"-1", "1.5", "one", "99999999999999999999"}) {
+  for (const char* window : {"-1", "0", "1.5", "one", "99999999999999999999"}) {
     const Process process =
         run_noli({"simulate", file, "--reproduce", run_path("run"), "--window", window, "-o", run_path("block")});
     EXPECT_EQ(process.exit_code, 3) << window;
-    EXPECT_NE(process.err.find(std::string("--window: ") + window + ": expected a whole number from 0"),
+    EXPECT_NE(process.err.find(std::string("--window: ") + window + ": expected a whole number from 1"),
               std::string::npos)
         << process.err;
   }

@@ -209,7 +209,7 @@ const Refused refused[] = {
     {"face", [](Attempt& a) { a.scene.mesh.faces[0][2] = 6; }, "a face beyond the mesh"},
     {"edge", [](Attempt& a) { a.scene.mesh.edges[0][0] = 6; }, "an edge beyond the mesh"},
     {"point", [](Attempt& a) { a.scene.mesh.points[0] = 6; }, "a point beyond the mesh"},
-    {"index", [](Attempt& a) { a.window.index = 1; }, "window 1 where 0 is due"},
+    {"index", [](Attempt& a) { a.window.index = 1; }, "window 2 where 1 is due"},
     {"velocities", [](Attempt& a) { a.window.velocities.pop_back(); },
      "not a world line and a velocity for each vertex"},
     {"infinite", [](Attempt& a) { a.window.velocities[1][0] = HUGE_VAL; },
