@@ -30,13 +30,19 @@ std::string half_of(int k) { return fmt::format("5e{:+03}", k - 1); }
 
 FrameInputs::FrameInputs(std::vector<fs::path> frames, PolygonRule rule)
     : rule_(rule), facts_(frames.size()), read_(frames.size(), false) {
-  for (std::size_t k = 0; k < frames.size(); ++k) facts_[k].file = std::move(frames[k]);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    try {
+      mesh_format(frames[k]);
+    } catch (const InputError& error) {
+      throw of_frame(error, frames[k], k, frames.size());
+    }
+    facts_[k].file = std::move(frames[k]);
+  }
 }
 
 void FrameInputs::look_at(std::size_t k) {
   const fs::path& path = facts_[k].file;
   try {
-    mesh_format(path);
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;
     const std::string bytes = read_whole_file(path);
@@ -74,7 +80,6 @@ Frame FrameInputs::parse(std::size_t k, std::string_view bytes, Polygons& polygo
 }
 
 Frame FrameInputs::read(std::size_t k) {
-  mesh_format(facts_[k].file);  // before the file is opened
   const std::string bytes = read_whole_file(facts_[k].file);
   if (facts_[k].looked_at && sha256(bytes) != facts_[k].sha256) {
     throw InputError(facts_[k].file.string(), "",

@@ -30,10 +30,11 @@ namespace noli {
 
 class FrameInputs {
  public:
+  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; it ends with "(frame 11 of 12)", from 1.
   explicit FrameInputs(std::vector<std::filesystem::path> frames, PolygonRule rule = PolygonRule::fan);
 
-  /// Looks at frame k: extension, and for a regular file header, counts, and that its cells are those of the first frame
-  /// that was looked at. Throws InputError, which ends with "(frame 11 of 12)", from 1; ReadInterrupted.
+  /// Looks at frame k, if it is a regular file: header, counts, and that its cells are those of the first frame that was
+  /// looked at. Throws InputError, which ends as above; ReadInterrupted.
   void look_at(std::size_t k);
 
   /// Reads frame k for a FrameSequence. Throws InputError as parse_frame does, and when the file is not the one that was

@@ -128,6 +128,7 @@ TEST_F(Frames, AllHeadersComeBeforeTheFirstStep) {
     other[10] = folder.write(std::string("cloth_10") + extension, "x");
     refused(with({"verify"}, other), advice);
   }
+  refused({"verify", folder.write("motion.npz", "x")}, "meshio.Mesh(");
   EXPECT_EQ(run_noli(with({"verify"}, frames)).exit_code, 1);
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/trajectory/frame_inputs.h"
 
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 #include <sys/stat.h>
 
 #include "noli/trajectory/frame_formats.h"
+#include "noli/trajectory/obj.h"
 #include "noli/trajectory/write_ply.h"
 #include "support.h"
 
@@ -25,8 +28,8 @@ std::string ply(double z, PlyEncoding encoding) { return format_ply(triangle(z),
 
 /// What is said when all are looked at.
 std::string refusal(const Paths& frames, PolygonRule rule = PolygonRule::fan) {
-  FrameInputs inputs(frames, rule);
   return input_error([&] {
+    FrameInputs inputs(frames, rule);
     for (std::size_t k = 0; k < frames.size(); ++k) inputs.look_at(k);
   });
 }
@@ -44,7 +47,7 @@ TEST(FrameInputs, SaysWhatWasRead) {
   const auto a = folder.write("a.obj", "v 0 0 0.500000\nv 12.25 0 0\nv 0 1 0\nv 3 3 3\nf 1 2 3\np 4\n");
   const FrameFacts obj = taken({a}).facts()[0];
   EXPECT_EQ(obj.file, a);
-  EXPECT_EQ(obj.bytes, 53u);
+  EXPECT_EQ(obj.bytes, 55u);
   EXPECT_EQ(obj.sha256, sha256(test::read_text(a)));
   EXPECT_EQ(obj.numbers, "text with 6 digits, 6 decimals");
   EXPECT_EQ(obj.vertices, 4u);
@@ -77,18 +80,19 @@ TEST(FrameInputs, TextThatMayHaveBeenRoundedEarnsANote) {
   EXPECT_EQ(note("a.obj", "v 1234.56 0.001\nv 1 0\nv 0 1\nf 1 2 3\n"),
             "coordinates are text with 6 digits, 3 decimals: gaps below 5e-03 may be decided by rounding");
   EXPECT_EQ(note("a.obj", "v 0.10000000000000001 0.2\nv 1 0\nv 0 1\nf 1 2 3\n"), "");
-  EXPECT_EQ(note("a.ply", ascii("double", "0.1234567 0\n1 0\n0 1\n3 0 1 2\n")),
+  EXPECT_EQ(note("a.ply", ascii("double", "0.1234567 0\n1.0000000 0\n0 1\n3 0 1 2\n")),
             "coordinates are text with 7 decimals: gaps below 5e-08 may be decided by rounding");
   EXPECT_EQ(note("a.ply", ascii("float", "0.123456789 0\n1 0\n0 1\n3 0 1 2\n")), "") << "9 digits tell every float";
   EXPECT_EQ(note("a.ply", ascii("double", "0.123456789 0\n1 0\n0 1\n3 0 1 2\n")),
-            "coordinates are text with 9 decimals: gaps below 5e-10 may be decided by rounding");
+            "coordinates are text with 9 digits, 9 decimals: gaps below 5e-09 may be decided by rounding")
+      << "9 digits of the largest number, 1";
   EXPECT_EQ(note("a.ply", ascii("int", "7 0\n1 0\n0 1\n3 0 1 2\n")), "") << "whole numbers are what they are";
 }
 
 TEST(FrameInputs, TheCoarsestTextOfAllCounts) {
   const TemporaryFolder folder;
-  const auto a = folder.write("a.obj", "v 0.5000 0\nv 1 0\nv 0 1\nf 1 2 3\n");
-  const auto b = folder.write("b.obj", "v 0.50 0\nv 1 0\nv 0 1\nf 1 2 3\n");
+  const auto a = folder.write("a.obj", "v 0.5000 0\nv 1.0000 0\nv 0 1\nf 1 2 3\n");
+  const auto b = folder.write("b.obj", "v 0.50 0\nv 1.00 0\nv 0 1\nf 1 2 3\n");
   EXPECT_EQ(taken({a, b, a}).notes()[0],
             "coordinates are text with 2 decimals: gaps below 5e-03 may be decided by rounding");
 }
@@ -136,7 +140,7 @@ const OtherFrame other_frames[] = {
      "expected a file that ends in .ply or .obj, found '.gz'; unpack it: gunzip -k b.obj.gz"},
     {"header", "b.ply", "ply\nformat ascii 2.0\n", "line 2: expected version 1.0, found '2.0'"},
     {"truncated", "b.ply", ply(0, PlyEncoding::binary_little_endian).substr(0, 200),
-     "byte 195: truncated: the header promises 3 entries of 'vertex', at least 24 bytes each, but only 5 bytes remain"},
+     "byte 173: truncated: the header promises 3 entries of 'vertex', at least 24 bytes each, but only 27 bytes remain"},
     {"no_vertices", "b.ply", "ply\nformat ascii 1.0\nend_header\n", "the header declares no element 'vertex'"},
     {"empty", "b.ply", "", "is empty"},
 };
@@ -161,13 +165,43 @@ TEST(FrameInputs, OtherSpellingsOfTheSameCellsAreTaken) {
                      folder.write("c.obj", v3 + "f -3 -2 -1\n"),
                      folder.write("d.obj", "# by hand\r\n\tv 0 0 \\\n0\nv 1 0 0\nv 0 1 0\ng x\nf 1 \\\n2 3\n"),
                      folder.write("e.ply", ply(2, PlyEncoding::ascii)),
-                     folder.write("f.ply", ply(3, PlyEncoding::binary_big_endian)),
+                     folder.write("f.ply", ascii("double", "0 0\n1 0\n0 1\n\n3   0 1 2")),
                      folder.write("g.ply", ply(4, PlyEncoding::binary_little_endian)),
                      folder.write("h.ply", ascii("float", "\n0 0\n1 0\n\n0 1\n3 0 1 2\n"))};
   for (const auto& first : all) {
     const FrameInputs inputs = taken({first, all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7]});
     for (const FrameFacts& facts : inputs.facts()) EXPECT_EQ(facts.cells, 1u) << facts.file;
   }
+}
+
+/// Whether both are meshes, and not the same.
+bool differ(const std::string& a, const std::string& b) {
+  try {
+    return parse_obj(a, "a.obj").mesh != parse_obj(b, "b.obj").mesh;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// What looks the same is the same: two texts that differ in one statement. Else a frame of another mesh would be
+/// noticed hours later.
+RC_GTEST_PROP(FrameLook, EqualLooksAreEqualMeshes, ()) {
+  const auto statement = rc::gen::element<std::string>("v 0 0 0\n", "v 1 2 3\n", "f 1 2 3\n", "f -1 -2 -3\n",
+                                                       "f 3 2 1\n", "f 1/1 2 3\n", "l 1 2\n", "l -1 -2\n", "p 1\n",
+                                                       "p -1\n", "# f 1 2 3\n", "vn 0 0 1\n", "g a\n", "l 2 \\\n1\n");
+  auto lines = *rc::gen::container<std::vector<std::string>>(*rc::gen::inRange(1, 8), statement);
+  const auto text = [&] {
+    std::string all = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (const std::string& line : lines) all += line;
+    return all;
+  };
+  const std::string a = text();
+  lines[*rc::gen::inRange<std::size_t>(0, lines.size())] = *statement;
+  std::swap(lines[*rc::gen::inRange<std::size_t>(0, lines.size())], lines[0]);
+  const std::string b = text();
+  const auto look_a = look_at_frame(a, "a.obj").cells, look_b = look_at_frame(b, "b.obj").cells;
+  RC_TAG(look_a && look_a == look_b ? "equal" : "other");
+  if (look_a && look_a == look_b) RC_ASSERT(!differ(a, b));
 }
 
 TEST(FrameInputs, PolygonsAreRefusedInAnyFrame) {

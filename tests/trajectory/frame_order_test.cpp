@@ -2,6 +2,7 @@
 #include "noli/trajectory/frame_order.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
