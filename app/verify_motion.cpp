@@ -50,6 +50,7 @@ class MotionRun {
     if (mesh.cell_count() == 0) {
       throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
     }
+    set_claim();
   }
 
   VerifyOutcome operator()() {
@@ -81,6 +82,17 @@ class MotionRun {
     return window;
   }
 
+  void set_claim() {
+    Claim& claim = outcome_.claim;
+    claim.motion = "run";
+    claim.dimension = outcome_.dimension;
+    claim.steps = outcome_.steps_total;
+    claim.strict = request_.strict;
+    claim.distance = request_.min_distance;
+    claim.ring = request_.ring;
+    set_cells_of_run(claim, reader_.scene());
+  }
+
   WindowOptions options() const {
     WindowOptions options;
     options.dimension = outcome_.dimension;
@@ -98,6 +110,8 @@ class MotionRun {
 
   void verify(const RunWindow& window) {
     if (!verifier_) verifier_.emplace(reader_.mesh(), beginning(window), options());
+    if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
+    outcome_.claim.to = window.end;
     WindowResult result = verifier_->verify(*window.lines, options());
     const bool drop = meeting_at_end_ && result.contact_count() > 0;
     meeting_at_end_ = result.contact_count() > 0;
@@ -113,7 +127,7 @@ class MotionRun {
     if (!proof_) {
       outcome_.proof_begun = true;
       const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
-      proof_ = std::make_unique<RunProof>(request_.open_proof(), reader_.scene(), beginning(window), claim);
+      proof_ = std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), beginning(window), claim);
     }
     if (result.contact_count() + result.initial_intersections > 0) {
       if (proof_->refute(window.index, *window.lines, window.group_hash, result)) ++outcome_.witnesses;
@@ -188,6 +202,7 @@ class MotionRun {
     stopped();
     const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
     if (ended_) outcome_.steps_total = reader_.windows();
+    outcome_.claim.steps = outcome_.steps_total;
     outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
     outcome_.open_window = ended_ && reader_.open_window().has_value();
     outcome_.complete = outcome_.complete && (ended_ || enough);

@@ -7,6 +7,7 @@
 
 #include "noli/app/contact_report.h"
 #include "noli/app/machine.h"
+#include "noli/audit/run_program.h"
 #include "noli/kernel/parallel.h"
 #include "noli/trajectory/error.h"
 
@@ -125,6 +126,14 @@ Json proof_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
           {"not_checked", or_null(outcome.not_checked)}};
 }
 
+/// The claim, and what weakens it.
+Json asked_json(const Claim& claim) {
+  if (claim.cells.empty()) return nullptr;
+  Json json = claim_json(claim);
+  json["weaker"] = weakenings(claim);
+  return json;
+}
+
 Json run_json(const RunEnding& ending) {
   return {{"end", ending.why ? Json(*ending.why) : Json(nullptr)},
           {"time", ending.time},
@@ -208,7 +217,11 @@ class Text {
            digits17(outcome_.largest_distance->limit),
            request_.ring == 1 ? " (neighbours by the mesh are near; see --min-distance-from-ring)" : "");
     }
+    if (outcome_.claim.empty) {
+      line("The claim is empty: fewer than two cells are compared, so nothing could touch (see --points, --ignore).");
+    }
     proof();
+    check_again();
     ending();
     if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
@@ -222,6 +235,22 @@ class Text {
     const std::string which =
         request_.ring > 1 ? fmt::format(", but for what fewer than {} edges join", request_.ring) : "";
     return fmt::format(", and it is all more than {} apart{}", digits17(request_.min_distance), which);
+  }
+
+  /// A proof that `noli check` takes only if it is asked for what it claims.
+  void check_again() {
+    if (!request_.proof || !outcome_.checked) return;
+    constexpr std::size_t most_named = 8;
+    std::vector<std::string> words = {"noli", "check", request_.proof->string()};
+    for (const auto& frame : request_.frames) {
+      if (request_.frames.size() <= most_named) words.push_back(frame.string());
+    }
+    if (request_.frames.size() > most_named) words.emplace_back("FRAMES...");
+    const std::size_t plain = words.size();
+    for (const std::string& field : fields_beyond_default(outcome_.claim)) {
+      words.insert(words.end(), {"--require", field});
+    }
+    if (words.size() > plain) line("To check it again, ask for what it claims: {}", audit::shell_words(words));
   }
 
   void ending() {
@@ -334,6 +363,12 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
     json["first_frame"] = {{"allowed", outcome.largest_distance->allowed}, {"not", outcome.largest_distance->limit}};
   }
   if (request.open_proof) json["proof"] = proof_json(request, outcome);
+  json["claim"] = asked_json(outcome.claim);
+  json["checker"] = nullptr;
+  if (outcome.checker) {
+    json["checker"] = {
+        {"name", outcome.checker->name}, {"version", outcome.checker->version}, {"commit", outcome.checker->commit}};
+  }
   json["timing"] = {{"seconds", outcome.seconds},
                     {"read_seconds", outcome.read_seconds},
                     {"proof_seconds", outcome.proof_seconds},
