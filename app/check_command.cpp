@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 
 #include "noli/app/checker.h"
+#include "noli/app/claim.h"
 #include "noli/app/commands.h"
 #include "noli/app/frame_options.h"
 #include "noli/app/input_report.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/run_log_facts.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/run_file.h"
+#include "noli/trajectory/text.h"
 
 namespace noli::app {
 namespace {
@@ -16,19 +23,111 @@ namespace fs = std::filesystem;
 
 constexpr const char* footer =
     "Runs the checker, a small program of its own that trusts nothing of this one (proofs/FORMAT.md, proofs/checker).\n"
-    "Exit codes: 0 every step has a proof and each of them holds; 1 the motion touches, and a witness shows it; 3 "
-    "anything else.\n"
+    "What has to be proved is your choice, not the proof's. Unless you ask for something else: frames in motion (or the "
+    "run), all\n"
+    "steps, every cell, no merged vertices, nothing left out but what the run's scene leaves out, no least distance. A "
+    "proof of less\n"
+    "is rejected, and so is a witness against more. Ask field by field:\n"
+    "  --require motion=rest       each frame by itself (noli verify --static)\n"
+    "  --require dimension=2       z does not count (--dimension 2)\n"
+    "  --require steps=5           the first five steps, or windows\n"
+    "  --require strict            also the features of one cell (--strict)\n"
+    "  --require points            also vertices without a cell (--points)\n"
+    "  --require distance=0.001    at least so far apart (--min-distance); ring=2: see --min-distance-from-ring\n"
+    "  --require merged=12         so many vertices may be merged (--merge-identical)\n"
+    "  --require excluded=1-2 --require cells=HASH    pairs of labels that may be left out (--ignore)\n"
+    "  --require empty             fewer than two cells that could touch\n"
+    "or all at once by the file that `noli verify --claim-out CLAIM.json` writes. proofs/FORMAT.md, section 6, has the "
+    "order.\n"
+    "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 3 anything else.\n"
     "Examples:\n"
     "  noli check proof.noli before.ply after.ply\n"
+    "  noli check proof.noli rest.ply --require motion=rest\n"
+    "  noli check proof.noli frames/*.ply --claim claim.json\n"
     "  noli check runs/cloth                      its proof.blocks, about its trajectory.blocks\n"
     "  noli check proof.noli runs/cloth --verified";
 
 struct CheckArguments {
   std::vector<fs::path> files;
+  std::vector<std::string> require;
+  std::optional<fs::path> claim;
   bool verified = false;
   FrameOrder order = FrameOrder::checked;
   OutputOptions results;
 };
+
+std::string field_of(const std::string& word) { return word.substr(0, word.find('=')); }
+
+bool asks(const std::vector<std::string>& words, const std::string& field) {
+  return std::ranges::any_of(words, [&](const std::string& word) { return field_of(word) == field; });
+}
+
+/// The words of --require; those of the command line count before those of --claim.
+std::vector<std::string> asked_by(const CheckArguments& arguments) {
+  std::vector<std::string> words = arguments.require;
+  if (!arguments.claim) return words;
+  for (const std::string& word : read_claim_file(*arguments.claim)) {
+    if (!asks(arguments.require, field_of(word))) words.push_back(word);
+  }
+  return words;
+}
+
+/// Windows that the log of a run tells of are asked where some are missing. What cannot be read is the checker's to say.
+void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words) {
+  if (asks(words, "steps")) return;
+  try {
+    const std::uint64_t logged = read_log(run).windows;
+    if (RunReader(run).count_windows() < logged) words.push_back("steps=" + std::to_string(logged));
+  } catch (const InputError&) {
+    return;
+  }
+}
+
+Json asked_json(const std::vector<std::string>& words) {
+  Json json = Json::object();
+  for (const std::string& word : words) json[field_of(word)] = word.substr(std::min(word.find('=') + 1, word.size()));
+  return json;
+}
+
+/// What follows the first "; " of the checker's first line: what weakens the claim, or on what the witness rests.
+Json weaker_json(const std::string& words) {
+  Json list = Json::array();
+  const std::string line = first_line(words);
+  for (std::size_t at = line.find("; "); at != std::string::npos;) {
+    const std::size_t end = line.find("; ", at + 2);
+    list.push_back(line.substr(at + 2, end == std::string::npos ? end : end - at - 2));
+    at = end;
+  }
+  return list;
+}
+
+Json check_json(const CheckArguments& arguments, const fs::path& proof, const std::vector<std::string>& asked,
+                const CheckerVerdict& verdict, const char* word) {
+  const CheckerVersion checker = version_of(arguments.verified ? Checker::verified : Checker::plain);
+  const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
+  return {{"verdict", word},
+          {"checker", {{"name", checker.name}, {"version", checker.version}, {"commit", checker.commit}}},
+          {"proof", proof.string()},
+          {"asked", asked_json(asked)},
+          {"claim", claim ? claim_json(*claim) : Json(nullptr)},
+          {"weaker", verdict.code == 3 ? Json::array() : weaker_json(verdict.words)},
+          {"words", verdict.words}};
+}
+
+/// The checker's first line without its verdict is the place; the line for programs is among the details.
+Answer check_answer(const CheckArguments& arguments, const CheckerVerdict& verdict, const char* word,
+                    const std::vector<std::string>& notes) {
+  const CheckerVersion checker = version_of(arguments.verified ? Checker::verified : Checker::plain);
+  const std::string line = first_line(verdict.words);
+  const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
+  Answer answer(word, {{"checker", checker.name}, {"version", checker.version}});
+  answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
+  answer.text += notes_text(notes);
+  answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
+  const std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
+  answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
+  return answer;
+}
 
 ExitCode run(const CheckArguments& arguments) {
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
@@ -45,21 +144,22 @@ ExitCode run(const CheckArguments& arguments) {
     throw InputError(proof.string(), "", std::string("is not there; expected a proof") + why);
   }
   if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
-  const Output output(arguments.results, arguments.files);
+  std::vector<fs::path> inputs = arguments.files;
+  if (arguments.claim) inputs.push_back(*arguments.claim);
+  const Output output(arguments.results, inputs);
+  std::vector<std::string> asked = asked_by(arguments);
+  if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) ask_for_all_windows(trajectory[0], asked);
   CheckerProcess checker(arguments.verified ? Checker::verified : Checker::plain, proof,
-                         trajectory_for_checker(trajectory), std::nullopt);
+                         trajectory_for_checker(trajectory), std::nullopt, asked);
   const auto said = checker.finish();
   if (!said) throw ReadInterrupted(proof.string());
   const CheckerVerdict& verdict = *said;
+  constexpr std::string_view at_fault = "rejected: the command line, ";
+  if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
-  Answer answer(word);
-  answer.text = verdict.words + notes_text(ordered.notes);
-  output.write("check", answer,
-               {{"verdict", word},
-                {"checker", arguments.verified ? "verified" : "plain"},
-                {"proof", proof.string()},
-                {"words", verdict.words},
-                {"notes", ordered.notes}});
+  Json json = check_json(arguments, proof, asked, verdict, word);
+  json["notes"] = ordered.notes;
+  output.write("check", check_answer(arguments, verdict, word, ordered.notes), json);
   return static_cast<ExitCode>(verdict.code);
 }
 
@@ -72,6 +172,13 @@ Command add_check(CLI::App& app) {
   command->add_option("files", arguments->files, "A proof, then PLY or OBJ files or a run; or a run alone")
       ->required()
       ->type_name("PROOF TRAJECTORY | RUN");
+  command
+      ->add_option("--require", arguments->require, "What the proof has to claim, a field of the claim; again for others")
+      ->type_name("FIELD=VALUE")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--claim", arguments->claim, "The same from the file that `noli verify --claim-out` writes")
+      ->type_name("CLAIM.json");
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
   add_order_option(*command, arguments->order);
   add_output_options(*command, arguments->results);

@@ -9,12 +9,14 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
+#include "noli/audit/run_program.h"
 #include "noli/audit/start_process.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/text.h"
@@ -26,8 +28,10 @@ namespace fs = std::filesystem;
 
 const char* name_of(Checker checker) { return checker == Checker::plain ? "noli_check" : "noli_check_verified"; }
 
-/// The name - is standard input's.
-std::string name_of_file(const fs::path& path) { return path == "-" ? "./-" : path.string(); }
+/// The name - is standard input's, and others that begin so are options.
+std::string name_of_file(const fs::path& path) {
+  return path.string().starts_with('-') ? "./" + path.string() : path.string();
+}
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
@@ -41,11 +45,24 @@ int wait_for(pid_t pid) {
 
 }  // namespace
 
+CheckerVersion version_of(Checker checker) {
+  audit::ProgramLimits limits;
+  limits.time = std::chrono::seconds(10);
+  const std::string name = name_of(checker);
+  const audit::ProgramEnd end = audit::run_program({beside_this_program(name).string(), "--version"}, limits);
+  std::istringstream words(end.out);
+  CheckerVersion said;
+  if (!end.exited_with(0) || !(words >> said.name >> said.version >> said.commit)) return {name, "unknown", "unknown"};
+  return said;
+}
+
 CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
-                               const std::vector<fs::path>& trajectory, Deadline deadline)
+                               const std::vector<fs::path>& trajectory, Deadline deadline,
+                               const std::vector<std::string>& asked)
     : checker_(checker), deadline_(deadline), words_(std::make_unique<audit::Pipe>()) {
-  std::vector<std::string> arguments = {beside_this_program(name_of(checker)).string(),
-                                        proof ? name_of_file(*proof) : "-"};
+  std::vector<std::string> arguments = {beside_this_program(name_of(checker)).string()};
+  for (const std::string& field : asked) arguments.insert(arguments.end(), {"--require", field});
+  arguments.push_back(proof ? name_of_file(*proof) : "-");
   for (const fs::path& path : trajectory) arguments.push_back(name_of_file(path));
   if (!proof) {
     proof_ = std::make_unique<audit::Pipe>();

@@ -22,6 +22,14 @@ enum class Checker { plain, verified };
 
 using Deadline = std::optional<std::chrono::steady_clock::time_point>;
 
+/// As it says itself: "noli_check", "0.1.0", the commit.
+struct CheckerVersion {
+  std::string name, version, commit;
+};
+
+/// Throws std::runtime_error when it is not there.
+CheckerVersion version_of(Checker checker);
+
 /// What a checker said, and how it ended: 0 accepted, 1 refuted, 3 rejected.
 struct CheckerVerdict {
   int code = 3;
@@ -31,10 +39,11 @@ struct CheckerVerdict {
 /// A checker at work. It does not share the signals of the terminal: who waits for it is interrupted, and ends it.
 class CheckerProcess {
  public:
-  /// Starts it on a proof in a file, or, without one, on what is written to it. Throws std::runtime_error when the
-  /// checker is not there.
+  /// Starts it on a proof in a file, or, without one, on what is written to it. `asked`: fields as they follow its
+  /// --require (proofs/FORMAT.md, section 6). Throws std::runtime_error when the checker is not there.
   CheckerProcess(Checker checker, const std::optional<std::filesystem::path>& proof,
-                 const std::vector<std::filesystem::path>& trajectory, Deadline deadline);
+                 const std::vector<std::filesystem::path>& trajectory, Deadline deadline,
+                 const std::vector<std::string>& asked);
   /// Ends it if it has not ended.
   ~CheckerProcess();
   CheckerProcess(const CheckerProcess&) = delete;

@@ -57,7 +57,8 @@ struct ProofsArguments {
 
 /// Of a proof and its trajectory, which the checker has to take.
 audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& trajectory) {
-  CheckerProcess checker(Checker::plain, proof, trajectory, std::nullopt);
+  const std::string bytes = read_whole_file(proof);
+  CheckerProcess checker(Checker::plain, proof, trajectory, std::nullopt, audit::own_claim(bytes));
   const auto said = checker.finish();
   if (!said) throw ReadInterrupted(proof.string());
   if (said->code == 3) {
@@ -65,7 +66,7 @@ audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& t
   }
   audit::ProofCase made;
   made.name = proof.filename().string();
-  made.proof = read_whole_file(proof);
+  made.proof = bytes;
   made.groups = audit::parse_proof(made.proof, proof.string());
   made.extension = trajectory[0].extension().string().substr(1);
   for (const fs::path& file : trajectory) made.files.push_back(read_whole_file(file));

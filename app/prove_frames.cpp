@@ -48,8 +48,8 @@ StepProver make_prover(const VerifyRequest& request, int dimension, const Mesh& 
       {dimension, request.strict, excluded_pairs(labels, exclusions), request.min_distance, request.ring});
 }
 
-ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
-                    const Exclusions* exclusions) {
+ProofFile make_file(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
+                    const IdenticalVertices* classes, const Exclusions* exclusions) {
   ProofHeader header;
   header.source = request.constant_motion ? ProofSource::frames_at_rest : ProofSource::frames;
   header.dimension = dimension;
@@ -68,13 +68,31 @@ ProofFile make_file(const VerifyRequest& request, int dimension, const Mesh& mes
       if (same[v] != v) header.merged.push_back({v, same[v]});
     }
   }
-  return {request.open_proof(), header};
+  return {request.open_proof(claim), header};
 }
 
 }  // namespace
 
-FrameProof::FrameProof(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
-                       const Exclusions* exclusions, std::span<const Position> x_t0, std::span<const Position> x_t1)
+Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
+                      const Exclusions* exclusions) {
+  Claim claim;
+  claim.motion = request.constant_motion ? "rest" : "linear";
+  claim.dimension = outcome.dimension;
+  claim.steps = outcome.steps_total;
+  claim.strict = request.strict;
+  claim.points = request.points;
+  claim.distance = request.min_distance;
+  claim.ring = request.ring;
+  claim.merged = outcome.merged_vertices;
+  claim.to = request.constant_motion ? 1 : static_cast<double>(outcome.steps_total);
+  const std::vector<std::uint32_t> labels = labels_of(mesh, exclusions);
+  set_cells(claim, mesh, labels, excluded_pairs(labels, exclusions));
+  return claim;
+}
+
+FrameProof::FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
+                       const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x_t0,
+                       std::span<const Position> x_t1)
     : mesh_(mesh),
       dimension_(dimension),
       eta_(request.min_distance),
@@ -82,7 +100,7 @@ FrameProof::FrameProof(const VerifyRequest& request, int dimension, const Mesh& 
       strict_(request.strict),
       rest_(request.constant_motion),
       prover_(make_prover(request, dimension, mesh, exclusions, x_t0, x_t1)),
-      file_(make_file(request, dimension, mesh, classes, exclusions)) {}
+      file_(make_file(request, claim, dimension, mesh, classes, exclusions)) {}
 
 bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                        const VerifyOptions& options) {

@@ -13,11 +13,15 @@
 
 namespace noli::app {
 
+/// What is asked of frames. `outcome`: what is known of them before the first step.
+Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
+                      const Exclusions* exclusions);
+
 class FrameProof {
  public:
   /// `mesh` is what is compared (after merging), `exclusions` or none what of it is not, which has to outlive this; the rest is what the claim says of it. Writes to
-  /// request.open_proof().
-  FrameProof(const VerifyRequest& request, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
+  /// request.open_proof(claim).
+  FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
              const Exclusions* exclusions, std::span<const Position> x_t0, std::span<const Position> x_t1);
 
   /// Writes the proof of a step that has no contact and commits it. False if it was stopped, which leaves the file as

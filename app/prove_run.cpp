@@ -74,6 +74,11 @@ CommitPoint last_commit(const std::filesystem::path& file, std::uint64_t groups)
 
 }  // namespace
 
+void set_cells_of_run(Claim& claim, const RunScene& scene) {
+  const std::vector<std::uint32_t> labels = labels_of(scene);
+  set_cells(claim, scene.mesh, labels, excluded_pairs(scene, labels));
+}
+
 std::filesystem::path proof_path(const std::filesystem::path& run_folder) { return run_folder / "proof.blocks"; }
 
 RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, const Claim& claim)

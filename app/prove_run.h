@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "noli/app/claim.h"
 #include "noli/proofs/prover/proof_file.h"
 #include "noli/proofs/prover/step_prover.h"
 #include "noli/proofs/prover/window_verifier.h"
@@ -18,6 +19,9 @@ namespace noli::app {
 
 /// The file in the folder of a run.
 std::filesystem::path proof_path(const std::filesystem::path& run_folder);
+
+/// What of a scene's cells is claimed: their hash, and the pairs that are not compared. `claim.strict` is set before.
+void set_cells_of_run(Claim& claim, const RunScene& scene);
 
 class RunProof {
  public:

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -20,6 +22,7 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/text.h"
+#include "noli/trajectory/write_file.h"
 
 namespace noli::app {
 namespace {
@@ -47,6 +50,7 @@ constexpr const char* footer =
 
 struct VerifyArguments {
   VerifyRequest request;
+  std::optional<std::filesystem::path> claim_out;
   std::string time_limit;
   OutputOptions results;
 };
@@ -82,6 +86,13 @@ void require_place_of_proof(const VerifyArguments& arguments) {
   require_writable_file(proof, "--proof");
 }
 
+void require_place_of_claim(const VerifyArguments& arguments, std::vector<std::filesystem::path> others) {
+  if (arguments.request.proof) others.push_back(*arguments.request.proof);
+  if (arguments.json && *arguments.json != "-") others.emplace_back(*arguments.json);
+  require_other_file(*arguments.claim_out, others, "--claim-out");
+  require_writable_file(*arguments.claim_out, "--claim-out");
+}
+
 /// What the prover decides when nobody wants its proof.
 class NoSink : public Sink {
   void write(std::string_view /*bytes*/) override {}
@@ -101,11 +112,11 @@ class ProofRoute {
     file_ = request.proof;
     if (!file_ && can_check_ && request.min_distance > 0) file_ = folder_.emplace().path() / "proof.noli";
     if (file_) {
-      request.open_proof = [this] { return to_file(); };
+      request.open_proof = [this](const Claim&) { return to_file(); };
     } else if (can_check_) {
-      request.open_proof = [this] { return to_checker(); };
+      request.open_proof = [this](const Claim& claim) { return to_checker(claim); };
     } else if (request.min_distance > 0) {
-      request.open_proof = [] { return std::make_unique<NoSink>(); };
+      request.open_proof = [](const Claim&) { return std::make_unique<NoSink>(); };
     }
   }
 
@@ -116,7 +127,7 @@ class ProofRoute {
     const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);
     if (!request_.check || outcome.not_checked || !whole) return;
     const Stopwatch watch;
-    if (!checker_) checker_.emplace(Checker::plain, file_, trajectory(), request_.deadline);
+    if (!checker_) checker_.emplace(Checker::plain, file_, trajectory(), request_.deadline, fields_of(outcome.claim));
     if (lines_) lines_->close();
     const auto verdict = checker_->finish();
     outcome.check_seconds = watch.seconds();
@@ -126,10 +137,22 @@ class ProofRoute {
       throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
                                *outcome.checked);
     }
+    require_claim(outcome.claim, verdict->words, refuted);
+    outcome.checker = version_of(Checker::plain);
     if (!refuted) outcome.verdict = Verdict::proved;
   }
 
  private:
+  /// The checker has looked at the claim that was asked, and at no other.
+  static void require_claim(const Claim& asked, const std::string& words, bool refuted) {
+    const char* const word = refuted ? "refuted" : "accepted";
+    const auto checked = claim_of_words(words);
+    if (!checked) throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
+    if (const auto other = difference(asked, *checked, refuted)) {
+      throw std::runtime_error(fmt::format("the checker {} another claim: {}", word, *other));
+    }
+  }
+
   std::vector<std::filesystem::path> trajectory() const {
     if (lines_) return {lines_->path()};
     return trajectory_for_checker(request_.frames);
@@ -147,8 +170,8 @@ class ProofRoute {
     std::filesystem::remove(*file_);
     return std::make_unique<FileSink>(*file_, FileSink::Open::create);
   }
-  std::unique_ptr<Sink> to_checker() {
-    checker_.emplace(Checker::plain, std::nullopt, trajectory(), request_.deadline);
+  std::unique_ptr<Sink> to_checker(const Claim& claim) {
+    checker_.emplace(Checker::plain, std::nullopt, trajectory(), request_.deadline, fields_of(claim));
     return std::make_unique<CheckerSink>(*checker_);
   }
 
@@ -227,10 +250,14 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
   if (request.proof) require_place_of_proof(arguments);
+  if (arguments.claim_out) require_place_of_claim(arguments, inputs);
   if (request.merge_identical) require_files(request.frames);
   ProofRoute route(request);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
   route.check(outcome);
+  if (arguments.claim_out && !outcome.claim.cells.empty()) {
+    write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
+  }
   output.write("verify", verify_answer(request, outcome), verify_json(request, outcome));
   return exit_code(outcome.verdict);
 }
@@ -266,6 +293,10 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("GROUPS.json");
   command.add_option("--proof", request.proof, "Write the proof there, a file that `noli check` checks")
       ->type_name("OUT");
+  command
+      .add_option("--claim-out", arguments.claim_out,
+                  "Write there what is asked, a file for `noli check --claim`, so that no proof can claim less")
+      ->type_name("CLAIM.json");
   command
       .add_option("--dimension", request.dimension,
                   "2 or 3; by default 2 if all z of the first two frames are equal, else 3. A later frame that leaves "

@@ -61,6 +61,7 @@ class MotionRun {
       again_ = WindowsAgain::of(request.frames[0], request.scene_folder, reader_.scene(), [this] { return stopped(); });
       outcome_.reproduced = true;
     }
+    set_claim();
   }
 
   VerifyOutcome operator()() {
@@ -96,6 +97,17 @@ class MotionRun {
     outcome_.read_seconds += watch.seconds();
     ended_ = !window;
     return window;
+  }
+
+  void set_claim() {
+    Claim& claim = outcome_.claim;
+    claim.motion = "run";
+    claim.dimension = outcome_.dimension;
+    claim.steps = outcome_.steps_total;
+    claim.strict = request_.strict;
+    claim.distance = request_.min_distance;
+    claim.ring = request_.ring;
+    set_cells_of_run(claim, reader_.scene());
   }
 
   void require_world_lines() const {
@@ -134,6 +146,8 @@ class MotionRun {
 
   void verify(RunWindow& window) {
     if (!verifier_) verifier_.emplace(reader_.mesh(), beginning(window), options());
+    if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
+    outcome_.claim.to = window.end;
     WindowResult result = verifier_->verify(*window.lines, options());
     const bool drop = meeting_at_end_ && result.contact_count() > 0;
     meeting_at_end_ = result.contact_count() > 0;
@@ -151,7 +165,7 @@ class MotionRun {
     if (!proof_) {
       outcome_.proof_begun = true;
       const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
-      proof_ = std::make_unique<RunProof>(request_.open_proof(), reader_.scene(), beginning(window), claim);
+      proof_ = std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), beginning(window), claim);
     }
     if (result.contact_count() + result.initial_intersections > 0) {
       witness_sought_ = true;
@@ -243,6 +257,7 @@ class MotionRun {
     stopped();
     const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
     if (ended_) outcome_.steps_total = reader_.windows();
+    outcome_.claim.steps = outcome_.steps_total;
     outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
     outcome_.open_window = ended_ && reader_.open_window().has_value();
     outcome_.complete = outcome_.complete && (ended_ || enough);

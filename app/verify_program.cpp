@@ -106,7 +106,11 @@ audit::MotionAnswer VerifyProgram::operator()(const audit::FrameMotion& motion) 
   std::vector<std::string> words = {noli_.string(), "verify", "--threads", "1", "--no-check",
                                     "--proof",      proof,    "--json",    "-", "--time-limit",
                                     time_to_decide};
-  if (motion.at_rest()) words.emplace_back("--static");
+  std::vector<std::string> asked = {"--require", "empty"};  // one cell alone may be a motion too
+  if (motion.at_rest()) {
+    words.emplace_back("--static");
+    asked.insert(asked.end(), {"--require", "motion=rest"});
+  }
   words.insert(words.end(), files.begin(), files.end());
   const audit::ProgramEnd end = audit::run_program(words, limits());
   audit::MotionAnswer answer;
@@ -130,6 +134,7 @@ audit::MotionAnswer VerifyProgram::operator()(const audit::FrameMotion& motion) 
   }
   if (!answer.has_proof) return answer;
   files.insert(files.begin(), proof);
+  files.insert(files.begin(), asked.begin(), asked.end());
   answer.plain = check(plain_, files, answer);
   if (has_verified_ && number % verified_every_ == 0) answer.verified = check(verified_, files, answer);
   return answer;

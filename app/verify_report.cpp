@@ -9,6 +9,7 @@
 #include "noli/app/input_report.h"
 #include "noli/app/machine.h"
 #include "noli/app/version.h"
+#include "noli/audit/run_program.h"
 #include "noli/kernel/parallel.h"
 #include "noli/trajectory/error.h"
 
@@ -138,6 +139,14 @@ Json proof_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
           {"not_checked", or_null(outcome.not_checked)}};
 }
 
+/// The claim, and what weakens it.
+Json asked_json(const Claim& claim) {
+  if (claim.cells.empty()) return nullptr;
+  Json json = claim_json(claim);
+  json["weaker"] = weakenings(claim);
+  return json;
+}
+
 Json run_json(const RunEnding& ending) {
   return {{"end", ending.why ? Json(*ending.why) : Json(nullptr)},
           {"time", ending.time},
@@ -207,11 +216,14 @@ class Place {
       const std::string ring = request_.ring > 1 ? fmt::format(", {} edges or more apart", request_.ring) : "";
       text += fmt::format(", and all{} is more than {} apart", ring, digits17(request_.min_distance));
     }
-    if (outcome_.merged_vertices > 0) text += fmt::format("; {} vertices are merged", outcome_.merged_vertices);
+    for (const std::string& phrase : weakenings(outcome_.claim)) text += "; " + phrase;
     return text;
   }
 
-  std::string by_checker() const { return "accepted by noli_check"; }
+  std::string by_checker() const {
+    return outcome_.checker ? fmt::format("accepted by {} {}", outcome_.checker->name, outcome_.checker->version)
+                            : "accepted by the checker";
+  }
 
   /// "step 3 (c.ply → d.ply)", "frame 3 (c.ply)", "window 3".
   std::string step(std::size_t number) const {
@@ -252,6 +264,7 @@ class Words {
     initial_intersections();
     remarks();
     proof();
+    check_again();
     looked_at();
     answer_.text += notes_text(outcome_.notes);
     statement();
@@ -307,6 +320,9 @@ class Words {
            digits17(outcome_.largest_distance->limit),
            request_.ring == 1 ? " (neighbours by the mesh are near; see --min-distance-from-ring)" : "");
     }
+    if (outcome_.claim.empty) {
+      line("The claim is empty: fewer than two cells are compared, so nothing could touch (see --points, --ignore).");
+    }
     ending();
     if (outcome_.open_window) line("The run ends in a window that was never committed; it is left out.");
     if (outcome_.verdict == Verdict::contact && !outcome_.complete) {
@@ -322,6 +338,9 @@ class Words {
     line("Looked at: {}, {} bytes{}; {} vertices, {} cells. noli {} ({}).", files(), bytes,
          numbers.empty() ? "" : ", " + numbers, outcome_.vertices,
          outcome_.faces + outcome_.edges + outcome_.points, version_number(), version_commit());
+    if (outcome_.checker) {
+      detail("Checked by {} {} ({}).", outcome_.checker->name, outcome_.checker->version, outcome_.checker->commit);
+    }
     for (const FrameFacts& facts : outcome_.inputs) {
       if (!facts.looked_at) continue;
       detail("  {}: {} bytes, {}SHA-256 {}", on_one_line(facts.file.string()), facts.bytes,
@@ -361,6 +380,22 @@ class Words {
     if (!outcome_.proof_begun) line("No proof was written to {}.", file);
     if (outcome_.verdict == Verdict::undecided && outcome_.proof_begun)
       line("{} is not complete, and proves nothing.", file);
+  }
+
+  /// A proof that `noli check` takes only if it is asked for what it claims.
+  void check_again() {
+    if (!request_.proof || !outcome_.checked) return;
+    constexpr std::size_t most_named = 8;
+    std::vector<std::string> words = {"noli", "check", request_.proof->string()};
+    for (const auto& frame : request_.frames) {
+      if (request_.frames.size() <= most_named) words.push_back(frame.string());
+    }
+    if (request_.frames.size() > most_named) words.emplace_back("FRAMES...");
+    const std::size_t plain = words.size();
+    for (const std::string& field : fields_beyond_default(outcome_.claim)) {
+      words.insert(words.end(), {"--require", field});
+    }
+    if (words.size() > plain) line("To check it again, ask for what it claims: {}", audit::shell_words(words));
   }
 
   /// What a user does now.
@@ -450,6 +485,12 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
     json["first_frame"] = {{"allowed", outcome.largest_distance->allowed}, {"not", outcome.largest_distance->limit}};
   }
   if (request.open_proof) json["proof"] = proof_json(request, outcome);
+  json["claim"] = asked_json(outcome.claim);
+  json["checker"] = nullptr;
+  if (outcome.checker) {
+    json["checker"] = {
+        {"name", outcome.checker->name}, {"version", outcome.checker->version}, {"commit", outcome.checker->commit}};
+  }
   json["timing"] = {{"seconds", outcome.seconds},
                     {"read_seconds", outcome.read_seconds},
                     {"reproduce_seconds", outcome.reproduce_seconds},

@@ -129,6 +129,7 @@ class Run {
     outcome_.faces = mesh_.faces.size();
     outcome_.edges = mesh_.edges.size();
     outcome_.points = mesh_.points.size();
+    outcome_.claim = claim_of_frames(request_, outcome_, mesh_, groups_ ? &groups_->exclusions : nullptr);
   }
 
   /// Pairs of groups are not compared.
@@ -232,7 +233,7 @@ class Run {
     const Stopwatch watch;
     if (!proof_) {
       outcome_.proof_begun = true;
-      proof_.emplace(request_, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr,
+      proof_.emplace(request_, outcome_.claim, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr,
                      groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
     }
     const auto step = sequence_.step();

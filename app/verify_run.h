@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "noli/app/checker.h"
+#include "noli/app/claim.h"
 #include "noli/app/contact_report.h"
 #include "noli/app/largest_distance.h"
 #include "noli/app/not_compared.h"
@@ -58,8 +60,8 @@ struct VerifyRequest {
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::optional<std::filesystem::path> proof;  ///< the file where the user wants it
   bool check = true;                           ///< have the checker look at the proof
-  /// Where the proof is written to, called once at most; empty: none is made.
-  std::function<std::unique_ptr<Sink>()> open_proof;
+  /// Where the proof of a claim is written to, called once at most; empty: none is made.
+  std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
@@ -161,6 +163,8 @@ struct VerifyOutcome {
   std::optional<LargestDistance> largest_distance;  ///< that the first time allows, if it is less than was asked for
   bool proof_begun = false;                         ///< something was written where the proof goes
   std::size_t witnesses = 0;                        ///< written to the proof
+  Claim claim;                                      ///< what is asked; without a hash of cells: not known yet
+  std::optional<CheckerVersion> checker;            ///< who looked at the proof
   std::optional<std::string> checked;               ///< what the checker said of the proof
   std::optional<std::string> not_checked;           ///< why it was not asked, though the user did not say so
   double proof_seconds = 0;                         ///< wall clock of making the proof

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <optional>
@@ -136,8 +137,10 @@ class HostedChecker : public ProofChecker {
   }
 
   ProofAnswer check(const ProofFiles& files) override {
+    const std::vector<std::string> asked = own_claim(files.proof);
     std::string records = file_record(proof_name, files.proof), run = "W";
-    run += static_cast<char>(files.files.size() + 1);
+    run += static_cast<char>(2 * asked.size() + 1 + files.files.size());
+    for (const std::string& field : asked) run += name_record("--require") + name_record(field);
     run += name_record(proof_name);
     for (std::size_t i = 0; i < files.files.size(); ++i) {
       records += file_record(trajectory_name(files, i), files.files[i]);
@@ -175,6 +178,7 @@ class ProgramChecker : public ProofChecker {
 
   ProofAnswer check(const ProofFiles& files) override {
     std::vector<std::string> words = {program_.string()};
+    for (const std::string& field : own_claim(files.proof)) words.insert(words.end(), {"--require", field});
     for (const std::string& name : write_proof_files(files, folder_)) words.push_back(folder_ / name);
     const ProgramEnd end = run_program(std::move(words), limits_);
     return end.kind == ProgramEnd::Kind::exited ? answer_of(end.code) : ProofAnswer{-1, end.words(), ""};
@@ -186,6 +190,39 @@ class ProgramChecker : public ProofChecker {
 };
 
 }  // namespace
+
+std::vector<std::string> own_claim(const std::string& proof) {
+  constexpr std::size_t begin = 28, fixed = 52, longest = 200;  // of CLAM's payload, and of a name that the host reads
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, proof.data() + begin + at, sizeof value);
+    return value;
+  };
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(proof[begin + at]); };
+  if (proof.size() < begin + fixed + 4 || proof.compare(16, 4, "CLAM") != 0 || byte(0) > 2) return {};
+  double eta = 0;
+  std::memcpy(&eta, proof.data() + begin + 8, sizeof eta);
+  const std::uint32_t ring = number(4), merged = number(48);
+  if (!std::isfinite(eta) || std::signbit(eta) || ring < 1 || (eta == 0 && ring > 1)) return {};
+  std::vector<std::string> fields = {"empty",
+                                     fmt::format("strict={}", byte(2) & 1),
+                                     fmt::format("points={}", byte(2) >> 1 & 1),
+                                     fmt::format("distance={:.17g}", eta),
+                                     fmt::format("ring={}", ring),
+                                     fmt::format("merged={}", merged)};
+  if (byte(0) == 2) return fields;
+  fields.emplace_back(byte(0) == 0 ? "motion=linear" : "motion=rest");
+  fields.push_back(fmt::format("dimension={}", byte(1) == 2 ? 2 : 3));
+  const std::uint64_t list = fixed + std::uint64_t{8} * merged;
+  if (proof.size() < begin + list + 4) return fields;
+  std::string pairs, cells;
+  for (std::uint64_t i = 0; i < number(list) && proof.size() >= begin + list + 12 + 8 * i && pairs.size() < longest; ++i)
+    pairs += fmt::format("{}{}-{}", i == 0 ? "" : ",", number(list + 4 + 8 * i), number(list + 8 + 8 * i));
+  if (pairs.empty() || pairs.size() > longest) return fields;
+  for (std::size_t i = 16; i < 48; ++i) cells += fmt::format("{:02x}", byte(i));
+  fields.insert(fields.end(), {"excluded=" + pairs, "cells=" + cells});
+  return fields;
+}
 
 std::unique_ptr<ProofChecker> hosted_checker(const fs::path& host, const fs::path& folder,
                                              std::chrono::milliseconds limit) {

@@ -25,6 +25,10 @@ struct ProofFiles {
   std::vector<std::string> files;
 };
 
+/// The fields by which a checker is asked for just what a proof claims (proofs/FORMAT.md, section 6): what mutants of a
+/// proof are judged by is what they claim themselves. Nothing for what has no claim.
+std::vector<std::string> own_claim(const std::string& proof);
+
 struct ProofAnswer {
   int code = 0;         ///< 0 accepted, 1 refuted, 3 rejected
   std::string failure;  ///< how it failed to say any of these, in words; then the code does not count

@@ -9,8 +9,6 @@
 
 namespace noli {
 
-namespace {
-
 /// The vertices of a cell as the mesh has them.
 Sha256Digest cells_hash(const ProofHeader& header) {
   std::string bytes;
@@ -25,6 +23,8 @@ Sha256Digest cells_hash(const ProofHeader& header) {
   }
   return sha256(bytes);
 }
+
+namespace {
 
 std::string claim_payload(const ProofHeader& header) {
   std::string bytes;

@@ -30,6 +30,9 @@ struct ProofHeader {
   std::uint32_t ring = 1;
 };
 
+/// Of the cells with their labels, as the claim has it.
+Sha256Digest cells_hash(const ProofHeader& header);
+
 class ProofFile {
  public:
   static constexpr FourLetters content = four_letters("PROF");

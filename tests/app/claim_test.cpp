@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <iterator>
+#include <sstream>
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
@@ -31,7 +33,7 @@ class Claims : public Simulate {
   std::string proof() const { return folder.path("proof.noli"); }
 
   int prove(const Words& paths, const Words& options) const {
-    Words words = {"verify", "--proof", proof()};
+    Words words = {"verify", "--proof", proof(), "--claim-out", folder.path("claim.json")};
     words.insert(words.end(), options.begin(), options.end());
     words.insert(words.end(), paths.begin(), paths.end());
     return run_noli(words).exit_code;
@@ -59,6 +61,33 @@ class Claims : public Simulate {
     words.insert(words.end(), more.begin(), more.end());
     return check(words);
   }
+  /// Rejected because of this field.
+  void expect_rejected(const Words& paths, const Words& asked, const std::string& field) const {
+    const Process process = check(paths, asked);
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(process.out.find("rejected: the claim: " + field + ": "), std::string::npos) << process.out << process.err;
+    EXPECT_NE(process.out.find("; --require "), std::string::npos) << process.out;
+  }
+  /// Rejected by default, and answered so when it is asked for by name.
+  void expect_weaker(const Words& paths, const Words& asked, const std::string& field, int code,
+                     const std::string& on_the_line) const {
+    expect_rejected(paths, {}, field);
+    const Process process = check(paths, asked);
+    EXPECT_EQ(process.exit_code, code) << process.out << process.err;
+    EXPECT_NE(process.out.find(on_the_line), std::string::npos) << process.out;
+  }
+  Json asked_claim() const { return Json::parse(read_text(folder.path("claim.json"))); }
+  /// Two triangles with a common corner, which is there twice.
+  Words glued() const {
+    const std::string frame = ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {-4, 0, 1}, {0, -4, 1}},
+                                       {{0, 1, 2}, {3, 4, 5}});
+    return frames({frame, frame});
+  }
+  /// A vertex without a cell that goes through a triangle.
+  Words particle() const {
+    const auto at = [](double z) { return ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, z}}, {{0, 1, 2}}); };
+    return frames({at(1), at(-1)});
+  }
   /// Cuts a block file off behind so many commits.
   static void cut(const fs::path& file, int commits) {
     const std::string bytes = bytes_of(file);
@@ -76,28 +105,26 @@ class Claims : public Simulate {
 TEST_F(Claims, AtRestSaysNothingOfWhatHappensBetweenFrames) {
   const Words paths = triangles({1, -1});
   ASSERT_EQ(prove(paths, {"--static"}), 0);
-  EXPECT_EQ(check(paths, {}).exit_code, 3);
+  expect_weaker(paths, {"motion=rest"}, "motion", 0, "; frames at rest\n");
 }
 
 TEST_F(Claims, MergedVerticesGlueBodiesTogether) {
-  const std::string glued = ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {-4, 0, 1}, {0, -4, 1}},
-                                     {{0, 1, 2}, {3, 4, 5}});
-  const Words paths = frames({glued, glued});
+  const Words paths = glued();
   ASSERT_EQ(prove(paths, {"--merge-identical"}), 0);
-  EXPECT_EQ(check(paths, {}).exit_code, 3);
+  expect_weaker(paths, {"merged=1"}, "merged", 0, "; 1 merged vertices\n");
+  EXPECT_EQ(check(paths, {"merged=7"}).exit_code, 0);
 }
 
 TEST_F(Claims, OneCellWithAParticleThatFliesThroughItIsEmpty) {
-  const auto above = [](double z) { return ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, z}}, {{0, 1, 2}}); };
-  const Words paths = frames({above(1), above(-1)});
+  const Words paths = particle();
   ASSERT_EQ(prove(paths, {}), 0);
-  EXPECT_EQ(check(paths, {}).exit_code, 3);
+  expect_weaker(paths, {"empty"}, "empty", 0, "; the claim is empty\n");
 }
 
 TEST_F(Claims, AWitnessInThePlaneRefutesNothingAboutFramesInSpace) {
   const Words paths = triangles({1, 0.5});
   ASSERT_EQ(prove(paths, {"--dimension", "2"}), 1);
-  EXPECT_EQ(check(paths, {}).exit_code, 3);
+  expect_weaker(paths, {"dimension=2"}, "dimension", 1, "; z does not count\n");
 }
 
 TEST_F(Claims, ARunThatIsCutOffLacksWindows) {
@@ -106,8 +133,237 @@ TEST_F(Claims, ARunThatIsCutOffLacksWindows) {
   const std::string run = run_path("run");
   ASSERT_EQ(run_noli({"simulate", scene(sheet), "-o", run}).exit_code, 0);
   EXPECT_EQ(check(Words{run}).exit_code, 0);
-  for (const char* const file : {"trajectory.blocks", "proof.blocks"}) cut(fs::path(run) / file, 1 + 5);
-  EXPECT_EQ(check(Words{run}).exit_code, 3);
+  for (const char* const file : {"proof.blocks", "trajectory.blocks"}) {
+    cut(fs::path(run) / file, 1 + 5);
+    const Process less = check(Words{run});
+    EXPECT_EQ(less.exit_code, 3);
+    EXPECT_NE(less.out.find("rejected: the claim: steps: the proof says 5, asked was "), std::string::npos) << less.out;
+    const Process asked = check(Words{run, "--require", "steps=5"});
+    EXPECT_EQ(asked.exit_code, 0) << asked.out << asked.err;
+    EXPECT_EQ(asked.out.find("; the first 5 steps") != std::string::npos, file == std::string("proof.blocks"));
+  }
+}
+
+TEST_F(Claims, FewerStepsThanThereAre) {
+  const Words paths = triangles({1, 0.5, 0.25, -1});
+  const Words some(paths.begin(), paths.end() - 1);
+  ASSERT_EQ(prove(some, {}), 0);
+  expect_weaker(paths, {"steps=2"}, "steps", 0, "; the first 2 steps\n");
+  EXPECT_EQ(check(paths, {"steps=3"}).exit_code, 3);
+}
+
+TEST_F(Claims, AWitnessBehindTheStepsThatWereAsked) {
+  const Words paths = triangles({1, 0.5, -1});
+  ASSERT_EQ(prove(paths, {}), 1);
+  EXPECT_EQ(check(paths, {}).exit_code, 1);
+  EXPECT_EQ(check(paths, {"steps=2"}).exit_code, 1);
+  const Process first = check(paths, {"steps=1"});
+  EXPECT_EQ(first.exit_code, 0) << first.out;
+  EXPECT_NE(first.out.find("accepted: nothing touches; the first 1 steps\n"), std::string::npos) << first.out;
+}
+
+TEST_F(Claims, AWitnessBetweenFramesRefutesNothingAboutFramesAtRest) {
+  const Words paths = triangles({1, -1});
+  ASSERT_EQ(prove(paths, {}), 1);
+  EXPECT_EQ(check(paths, {}).exit_code, 1);
+  EXPECT_EQ(check(paths, {"motion=rest"}).exit_code, 3);
+  const Words touching = triangles({1, 0, 1});
+  ASSERT_EQ(prove(touching, {"--static"}), 1);
+  for (const Words& asked : {Words{}, Words{"motion=rest"}}) EXPECT_EQ(check(touching, asked).exit_code, 1);
+}
+
+TEST_F(Claims, FeaturesOfOneCellWhereTheyWereAsked) {
+  const Words paths = triangles({1, 0.5});
+  ASSERT_EQ(prove(paths, {}), 0);
+  expect_rejected(paths, {"strict"}, "strict");
+  ASSERT_EQ(prove(paths, {"--strict"}), 0);
+  for (const Words& asked : {Words{}, Words{"strict"}}) EXPECT_EQ(check(paths, asked).exit_code, 0);
+  // A face that folds onto a line, beside another one.
+  const auto folding = [](double y) {
+    return ply_text({{0, 0, 0}, {2, 0, 0}, {1, y, 0}, {0, 0, 5}, {2, 0, 5}, {1, 1, 6}}, {{0, 1, 2}, {3, 4, 5}});
+  };
+  const Words folded = frames({folding(1), folding(-1)});
+  ASSERT_EQ(prove(folded, {"--strict"}), 1);
+  expect_weaker(folded, {"strict"}, "strict", 1, "; features of one cell count\n");
+}
+
+TEST_F(Claims, VerticesWithoutACellWhereTheyWereAsked) {
+  const Words paths = triangles({1, 0.5});
+  ASSERT_EQ(prove(paths, {}), 0);
+  expect_rejected(paths, {"points"}, "points");
+  const Words through = particle();
+  ASSERT_EQ(prove(through, {"--points"}), 1);
+  expect_weaker(through, {"points"}, "points", 1, "; vertices without a cell count\n");
+}
+
+TEST_F(Claims, TheLeastDistanceInBothDirections) {
+  const Words paths = triangles({1, 0.5});
+  ASSERT_EQ(prove(paths, {}), 0);
+  expect_rejected(paths, {"distance=0.25"}, "distance");
+  ASSERT_EQ(prove(paths, {"--min-distance", "0.25"}), 0);
+  for (const char* const asked : {"distance=0", "distance=0.125", "distance=0.25"}) {
+    EXPECT_EQ(check(paths, {asked}).exit_code, 0) << asked;
+  }
+  expect_rejected(paths, {"distance=0.375"}, "distance");
+  ASSERT_EQ(prove(paths, {"--min-distance", "0.75"}), 1);
+  expect_weaker(paths, {"distance=0.75"}, "distance", 1, " are too near; least distance 0.75, ring 1\n");
+  expect_rejected(paths, {"distance=0.625"}, "distance");
+  EXPECT_EQ(check(paths, {"distance=1"}).exit_code, 1);
+  const Words touching = triangles({1, -1});
+  ASSERT_EQ(prove(touching, {"--min-distance", "0.25"}), 1);
+  EXPECT_EQ(check(touching, {}).exit_code, 1);
+}
+
+TEST_F(Claims, TheRing) {
+  const Words paths = triangles({1, 0.5});
+  ASSERT_EQ(prove(paths, {"--min-distance", "0.25", "--min-distance-from-ring", "3"}), 0);
+  EXPECT_EQ(check(paths, {}).exit_code, 0);
+  expect_rejected(paths, {"distance=0.25"}, "ring");
+  expect_rejected(paths, {"distance=0.25", "ring=2"}, "ring");
+  for (const char* const ring : {"ring=3", "ring=4"}) EXPECT_EQ(check(paths, {"distance=0.25", ring}).exit_code, 0);
+  ASSERT_EQ(prove(paths, {"--min-distance", "0.75", "--min-distance-from-ring", "2"}), 1);
+  for (const char* const ring : {"ring=1", "ring=2"}) EXPECT_EQ(check(paths, {"distance=0.75", ring}).exit_code, 1);
+  expect_rejected(paths, {"distance=0.75", "ring=3"}, "ring");
+}
+
+TEST_F(Claims, PairsThatAreNotCompared) {
+  const Words paths = triangles({1, -1});
+  const std::string groups =
+      folder.write("groups.json", R"({"groups": {"a": [[0, 2]], "b": [[3, 5]]}, "ignore": [["a", "b"]]})");
+  ASSERT_EQ(prove(paths, {"--ignore", groups}), 0);
+  const Json claim = asked_claim();
+  const std::string cells = "cells=" + claim["cells"].get<std::string>();
+  EXPECT_EQ(claim["excluded"], Json::parse("[[1, 2]]"));
+  EXPECT_TRUE(claim["empty"].get<bool>());
+  expect_rejected(paths, {}, "excluded");
+  expect_rejected(paths, {"empty"}, "excluded");
+  expect_rejected(paths, {"excluded=1-1", cells, "empty"}, "excluded");
+  expect_rejected(paths, {"excluded=1-2", cells}, "empty");
+  expect_rejected(paths, {"excluded=1-2", "cells=" + std::string(64, '0'), "empty"}, "cells");
+  EXPECT_EQ(check(paths, {"excluded=1-2", "empty"}).exit_code, 3);
+  EXPECT_EQ(check(paths, {"excluded=1-2", cells, "empty"}).exit_code, 0);
+  EXPECT_EQ(check(paths, {"excluded=1-1,1-2", cells, "empty"}).exit_code, 0);
+}
+
+TEST_F(Claims, InSpaceWhereThePlaneWasAsked) {
+  const Words paths = triangles({1, 0.5});
+  ASSERT_EQ(prove(paths, {}), 0);
+  expect_rejected(paths, {"dimension=2"}, "dimension");
+}
+
+TEST_F(Claims, AWitnessOfOneClaimAgainstMergedVertices) {
+  const Words paths = glued();
+  ASSERT_EQ(prove(paths, {}), 1);
+  EXPECT_EQ(check(paths, {}).exit_code, 1);
+  expect_rejected(paths, {"merged=1"}, "merged");
+}
+
+/// All that `noli verify` proves, or refutes, `noli check` takes by the claim that was asked; and says which it was.
+TEST_F(Claims, AsVerifyWritesThem) {
+  const std::vector<Words> all = {{}, {"--static"}, {"--strict"}, {"--points"}, {"--merge-identical"}, {"--dimension", "2"},
+                                  {"--min-distance", "0.25"},
+                                  {"--min-distance", "0.75", "--min-distance-from-ring", "2"}};
+  for (const Words& options : all) {
+    const Words paths = triangles({1, 0.5});
+    const int code = prove(paths, options);
+    Words words = {proof()};
+    words.insert(words.end(), paths.begin(), paths.end());
+    words.insert(words.end(), {"--claim", folder.path("claim.json")});
+    EXPECT_EQ(check(words).exit_code, code) << (options.empty() ? "" : options[0]);
+    words.insert(words.begin(), "check");
+    const Json said = json_of(words, code), claim = asked_claim();
+    for (const auto& [key, value] : claim.items()) {
+      if (key == "schema" || key == "version") continue;
+      EXPECT_EQ(said["claim"][key], value) << key;
+      EXPECT_TRUE(said["asked"].contains(key)) << key;
+    }
+    EXPECT_EQ(said["checker"]["name"], "noli_check");
+    EXPECT_NE(said["checker"]["commit"], "");
+  }
+}
+
+TEST_F(Claims, VerifySaysWhatItAskedAndWhatWeakensIt) {
+  const Words paths = particle();
+  Words words = {"verify"};
+  words.insert(words.end(), paths.begin(), paths.end());
+  const Json empty = json_of(words, 0);
+  EXPECT_EQ(empty["verdict"], "proved");
+  EXPECT_TRUE(empty["claim"]["empty"].get<bool>());
+  EXPECT_EQ(empty["claim"]["weaker"], Json::parse(R"(["the claim is empty"])"));
+  EXPECT_EQ(empty["checker"]["name"], "noli_check");
+  EXPECT_NE(run_noli(words).out.find("The claim is empty: fewer than two cells"), std::string::npos);
+  const Words rest = triangles({1, -1});
+  Words at_rest = {"verify", "--static", "--proof", proof()};
+  at_rest.insert(at_rest.end(), rest.begin(), rest.end());
+  EXPECT_EQ(json_of(at_rest, 0)["claim"]["weaker"], Json::parse(R"(["frames at rest"])"));
+  // The command that checks the proof again is the one that is told.
+  const std::string out = run_noli(at_rest).out, before = "ask for what it claims: noli ";
+  const std::size_t at = out.find(before);
+  ASSERT_NE(at, std::string::npos) << out;
+  std::istringstream told(out.substr(at + before.size(), out.find('\n', at) - at - before.size()));
+  EXPECT_EQ(run_noli(Words{std::istream_iterator<std::string>(told), {}}).exit_code, 0);
+}
+
+TEST_F(Claims, AFileThatIsNoClaimIsRefused) {
+  const Words paths = triangles({1, 0.5});
+  ASSERT_EQ(prove(paths, {}), 0);
+  const Json good = asked_claim();
+  const auto by = [&](const std::string& text) {
+    Words words = {"check", proof(), "--claim", folder.write("other.json", text)};
+    words.insert(words.end(), paths.begin(), paths.end());
+    return run_noli(words);
+  };
+  EXPECT_EQ(by(good.dump()).exit_code, 0);
+  EXPECT_EQ(by(R"({"schema": "noli-claim", "version": 1})").exit_code, 0);
+  const auto with = [&](const char* key, const Json& value) {
+    Json json = good;
+    json[key] = value;
+    return json.dump();
+  };
+  for (const std::string& bad :
+       {std::string("{"), std::string("[]"), std::string("{}"), with("schema", "noli-result"), with("version", 2),
+        with("version", "1"), with("more", 1), with("from", 0), with("motion", 1), with("motion", "still"),
+        with("dimension", "2"), with("dimension", 4), with("steps", 0), with("steps", -1), with("strict", 0),
+        with("distance", "0"), with("distance", -1), with("ring", 0), with("merged", true), with("cells", 7),
+        with("cells", "00"), with("excluded", {{2, 1}}), with("excluded", "1-2"), with("empty", Json(nullptr))}) {
+    const Process process = by(bad);
+    EXPECT_EQ(process.exit_code, 3) << bad;
+    EXPECT_NE(process.err, "") << bad;
+  }
+  EXPECT_EQ(by(with("steps", 2)).exit_code, 3);
+  EXPECT_EQ(run_noli({"check", proof(), paths[0], paths[1], "--claim", folder.path("nowhere.json")}).exit_code, 3);
+  // The command line counts before the file.
+  Words words = {"check", proof(), "--claim", folder.write("two.json", with("steps", 2)), "--require", "steps=1"};
+  words.insert(words.end(), paths.begin(), paths.end());
+  EXPECT_EQ(run_noli(words).exit_code, 0);
+}
+
+TEST_F(Claims, WordsThatNobodyCanAskAreAFaultOfTheCommandLine) {
+  const Words paths = triangles({1, 0.5});
+  ASSERT_EQ(prove(paths, {}), 0);
+  for (const char* const word : {"motion", "motion=still", "steps=0", "nothing", "distance=-1", "ring=2", "excluded=1-2"}) {
+    const Process process = check(paths, {word});
+    EXPECT_EQ(process.exit_code, 3) << word;
+    EXPECT_EQ(process.out, "") << word;
+    EXPECT_NE(process.err.find(std::string("--require ") + std::string(word).substr(0, 4)), std::string::npos)
+        << process.err;
+  }
+}
+
+TEST_F(Claims, OfARun) {
+  const std::string run = run_path("run");
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run, "--until", "0.05"}).exit_code, 0);
+  ASSERT_EQ(prove({run}, {}), 0);
+  EXPECT_EQ(asked_claim()["motion"], "run");
+  EXPECT_EQ(asked_claim()["steps"], 5);
+  EXPECT_EQ(check(Words{proof(), run, "--claim", folder.path("claim.json")}).exit_code, 0);
+  EXPECT_EQ(check(Words{run, "--claim", folder.path("claim.json")}).exit_code, 0);
+  for (const char* const asked : {"motion=linear", "motion=rest", "steps=6", "strict", "distance=1e-9", "dimension=2"}) {
+    EXPECT_EQ(check(Words{run, "--require", asked}).exit_code, 3) << asked;
+  }
+  const Json said = json_of({"verify", run}, 0);
+  EXPECT_EQ(said["claim"]["weaker"], Json::array());
+  EXPECT_EQ(said["claim"]["from"], 0);
 }
 
 }  // namespace

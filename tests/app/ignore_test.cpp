@@ -51,12 +51,17 @@ TEST_F(Ignore, AGroupMayPassThroughItself) {
 
 TEST_F(Ignore, IsPartOfTheClaim) {
   const std::string proof = folder.path("proof.noli");
-  ASSERT_EQ(verify(std::string(all) + R"([["falling", "upper"], ["lower", "falling"]]})", {"--proof", proof}).exit_code,
+  ASSERT_EQ(verify(std::string(all) + R"([["falling", "upper"], ["lower", "falling"]]})",
+                   {"--proof", proof, "--claim-out", folder.path("claim.json")})
+                .exit_code,
             0);
   std::vector<std::string> arguments = {"check", proof};
   for (const auto& frame : frames()) arguments.push_back(frame);
+  EXPECT_EQ(run_noli(arguments).exit_code, 3);  // nobody has asked to leave something out
+  arguments.insert(arguments.end(), {"--claim", folder.path("claim.json")});
   const Process plain = run_noli(arguments);
   EXPECT_EQ(plain.exit_code, 0) << plain.out;
+  EXPECT_NE(plain.out.find("accepted: nothing that is compared touches; not compared: 1-3,2-3\n"), std::string::npos);
   EXPECT_NE(plain.out.find("Not compared, pairs of labels: 1-3 2-3"), std::string::npos) << plain.out;
   EXPECT_NE(plain.out.find("Cells with a label: 1 with 1; 1 with 2; 1 with 3; no others."), std::string::npos)
       << plain.out;

@@ -34,11 +34,13 @@ class Proof : public testing::Test {
     return run_noli(more);
   }
   Process prove(const std::vector<std::string>& frames, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> options = {"--proof", proof()};
+    std::vector<std::string> options = {"--proof", proof(), "--claim-out", claim()};
     options.insert(options.end(), more.begin(), more.end());
     return verify(frames, options);
   }
+  /// Asked for what `noli verify` claimed.
   Process check_by(std::vector<std::string> arguments, const std::vector<std::string>& frames) const {
+    if (fs::exists(claim())) arguments.insert(arguments.end(), {"--claim", claim()});
     arguments.insert(arguments.begin(), {"check", proof()});
     arguments.insert(arguments.end(), frames.begin(), frames.end());
     return run_noli(arguments);
@@ -53,6 +55,7 @@ class Proof : public testing::Test {
     return plain;
   }
   std::string proof() const { return folder.path("proof.noli"); }
+  std::string claim() const { return folder.path("claim.json"); }
 
   Folder folder;
 };
@@ -245,8 +248,19 @@ TEST_F(Proof, ACheckerIsNotTrustedBlindly) {
     const int status = std::system(command.c_str());
     return std::pair(WEXITSTATUS(status), read_text(folder.path("err")));
   };
-  EXPECT_EQ(verify_with("cat >/dev/null; echo accepted: as I was told").first, 0);
-  for (const char* script : {"exit 0", "cat >/dev/null", "cat >/dev/null; echo accepted: no; exit 3",
+  const std::string real = fs::path(NOLI_COMMAND).parent_path() / "noli_check";
+  EXPECT_EQ(verify_with("exec " + real + " \"$@\"").first, 0);
+  // The answer is about another claim, or about none.
+  for (const char* const change : {"s/motion=linear/motion=rest/", "s/dimension=3/dimension=2/", "s/steps=1/steps=2/",
+                                   "s/strict=0/strict=1/", "s/points=0/points=1/", "s/distance=0/distance=1/",
+                                   "s/ring=1/ring=2/", "s/merged=0/merged=1/", "s/excluded=/excluded=0-0/",
+                                   "s/cells=./cells=x/", "s/empty=0/empty=1/", "s/to=1/to=2/", "s/from=0/from=1/",
+                                   "s/ to=.*//", "s/^claim.*/claim/", "/^claim/d"}) {
+    const auto [code, error] = verify_with(real + " \"$@\" | sed '" + change + "'");
+    EXPECT_EQ(code, 4) << change;
+    EXPECT_NE(error.find("claim"), std::string::npos) << change << error;
+  }
+  for (const char* script : {"cat >/dev/null; echo accepted: as I was told", "exit 0", "cat >/dev/null", "cat >/dev/null; echo accepted: no; exit 3",
                              "cat >/dev/null; echo refuted: so; exit 1", "exit 7", "kill -9 $$"}) {
     const auto [code, error] = verify_with(script);
     EXPECT_EQ(code, 4) << script;

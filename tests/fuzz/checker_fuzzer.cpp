@@ -51,7 +51,8 @@ Proof crossing() {
 }
 Verdict ask(const std::string& proof, bool touching) {
   static const auto passing_frames = frames(two_edges(), "p"), touching_frames = frames(crossing(), "t");
-  return verdict(MemoryFile(proof).name(), touching ? touching_frames : passing_frames);
+  const MemoryFile file(proof);
+  return verdict(file.name(), touching ? touching_frames : passing_frames);
 }
 
 void fuzz(char mode, const std::string& rest) {

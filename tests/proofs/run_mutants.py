@@ -26,8 +26,25 @@ import time
 import corpus
 import mutate
 import slow_check
+import slow_files
 
 BATCH = 500
+
+
+def own_claim(proof):
+    """The words that ask for just what a proof claims: it is judged by that. None where it has no claim."""
+    try:
+        claim = slow_check.Claim(next(slow_files.groups(proof, b"PROF"))[0][0][1])
+    except Exception:  # whatever it is, the checkers say so
+        return []
+    fields = [f"strict={int(claim.strict)}", f"points={int(claim.points)}", f"distance={claim.eta:.17g}", f"ring={claim.ring}",
+              f"merged={len(claim.merged)}", "empty"]
+    if claim.source < 2:
+        fields += ["motion=" + ("linear", "rest")[claim.source], f"dimension={claim.dimension}"]
+        excluded = ",".join(f"{a}-{b}" for a, b in claim.excluded)
+        if excluded and len(excluded) < 200:
+            fields += ["excluded=" + excluded, "cells=" + claim.cells_hash.hex()]
+    return [word for field in fields for word in ("--require", field)]
 
 
 def name_bytes(name):
@@ -101,15 +118,16 @@ class Campaign:
             names = [f"p{slot}.noli"] + [f"{f'c{c}' if files is None else f'm{slot}'}-{i}.{case.extension}"
                                          for i in range(len(case.files if files is None else files))]
             records.append(self.checkers.write(names[0], proof))
+            words = own_claim(proof) + names
             if files is not None:
                 records += [self.checkers.write(name, data) for name, data in zip(names[1:], files)]
-            records.append(self.checkers.run(names))
+            records.append(self.checkers.run(words))
             expected.append((slot, "checker"))
             if k % 1000 == 0:
-                records.append(self.checkers.execute(self.arguments.checker, names))
+                records.append(self.checkers.execute(self.arguments.checker, words))
                 expected.append((slot, "process"))
             if self.arguments.verified and (k < 0 or k % self.arguments.verified_every == 0):
-                records.append(self.checkers.execute(self.arguments.verified, names))
+                records.append(self.checkers.execute(self.arguments.verified, words))
                 expected.append((slot, "verified"))
             made.append((c, kinds, proof, files, names))
         answers = self.checkers.answers(records, len(expected))
@@ -161,9 +179,9 @@ class Campaign:
                 file.write(data)
         with open(os.path.join(folder, "README"), "w", encoding="utf-8") as file:
             file.write(f"{self.cases[c].name}: {kinds}\n{codes}\n{words}\n\n")
-            file.write(f"In this folder:\n  noli_check {' '.join(names)}\n  slow_check.py {' '.join(names)}\n")
+            file.write(f"In this folder:\n  noli_check {' '.join(own_claim(proof) + names)}\n  slow_check.py {' '.join(names)}\n")
             if self.arguments.verified:
-                file.write(f"  noli_check_verified {' '.join(names)}\n")
+                file.write(f"  noli_check_verified {' '.join(own_claim(proof) + names)}\n")
             file.write(f"The same mutant again:\n  scripts/mutate-proofs 1 {self.arguments.seed} {k}\n")
 
     def save(self, spent, k):
