@@ -151,8 +151,11 @@ class Verified {
     const Json& noli = result_.at("noli");
     rows.push_back({"decided by", fmt::format("noli {} ({})", noli.at("version").get<std::string>(),
                                               noli.at("commit").get<std::string>())});
-    const Json checker = result_.value("proof", Json::object()).value("checker", Json());
-    if (checker.is_string()) rows.push_back({"checked by", checker.get<std::string>()});
+    if (const Json& checker = result_.at("checker"); checker.is_object()) {
+      rows.push_back({"checked by", fmt::format("{} {} ({})", checker.at("name").get<std::string>(),
+                                                checker.at("version").get<std::string>(),
+                                                checker.at("commit").get<std::string>())});
+    }
     const Json& inputs = result_.at("inputs");
     for (std::size_t i = 0; i < inputs.size() && i < most_inputs; ++i) {
       rows.push_back({fmt::format("input {}", i + 1), input_in_words(inputs.at(i))});
