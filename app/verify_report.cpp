@@ -213,8 +213,9 @@ class Place {
   std::string untouched() const {
     std::string text = nothing_touches_in_short(outcome_.not_compared);
     if (request_.min_distance > 0) {
-      const std::string ring = request_.ring > 1 ? fmt::format(", {} edges or more apart", request_.ring) : "";
-      text += fmt::format(", and all{} is more than {} apart", ring, digits17(request_.min_distance));
+      const std::string which =
+          request_.ring > 1 ? fmt::format("what is {} mesh edges or more away", request_.ring) : "all";
+      text += fmt::format(", and {} is more than {} apart", which, digits17(request_.min_distance));
     }
     for (const std::string& phrase : weakenings(outcome_.claim)) text += "; " + phrase;
     return text;
