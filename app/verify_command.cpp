@@ -88,7 +88,7 @@ void require_place_of_proof(const VerifyArguments& arguments) {
 
 void require_place_of_claim(const VerifyArguments& arguments, std::vector<std::filesystem::path> others) {
   if (arguments.request.proof) others.push_back(*arguments.request.proof);
-  if (arguments.json && *arguments.json != "-") others.emplace_back(*arguments.json);
+  if (arguments.results.json && *arguments.results.json != "-") others.emplace_back(*arguments.results.json);
   require_other_file(*arguments.claim_out, others, "--claim-out");
   require_writable_file(*arguments.claim_out, "--claim-out");
 }

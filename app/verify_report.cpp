@@ -206,8 +206,10 @@ class Place {
     if (request_.constant_motion) return steps;
     if (!request_.run) return fmt::format("{} frames, {}", request_.frames.size(), steps);
     const RunEnding& ending = *outcome_.ending;
-    const std::string of = ending.duration && !ending.whole() ? fmt::format(" of {} s", *ending.duration) : " s";
-    return fmt::format("{}, {}{}", steps, ending.time, of);
+    if (ending.whole() || !ending.duration) return fmt::format("{}, {} s", steps, ending.time);
+    const std::string of =
+        ending.windows_total ? fmt::format("{} of {} windows", outcome_.steps_total, *ending.windows_total) : steps;
+    return fmt::format("{}, {} of {} s", of, ending.time, *ending.duration);
   }
 
   std::string untouched() const {
