@@ -119,8 +119,9 @@ TEST_F(Proof, TheSameMotionFromAnotherFormatHasTheSameProof) {
   const auto ply = triangles({1, 0.5});
   std::vector<std::string> obj;
   for (const std::string height : {"1", "5e-1"}) {
-    obj.push_back(folder.write(std::to_string(obj.size()) + ".obj", "v 0 0 0\nv 4 0 -0\nv 0 4 0\nv 1 1 " + height + "\nv 1.5 1 " +
-                                                              height + "\nv 1 1.5 " + height + "\nf 1 2 3\nf 4 5 6\n"));
+    const std::string text = "v 0 0 0\nv 4 0 -0\nv 0 4 0\nv 1 1 " + height + "\nv 1.5 1 " + height + "\nv 1 1.5 " +
+                             height + "\nf 1 2 3\nf 4 5 6\n";
+    obj.push_back(folder.write(std::to_string(obj.size()) + ".obj", text));
   }
   ASSERT_EQ(prove(ply).exit_code, 0);
   EXPECT_EQ(check(obj).exit_code, 0);
