@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/run_file.h"
 
 namespace noli::app {
 namespace {
@@ -41,7 +44,11 @@ std::string notes_text(const std::vector<std::string>& notes) {
 }
 
 std::vector<FrameFacts> run_facts(const std::filesystem::path& run, const std::function<bool()>& stop) {
-  return {file_facts(run / "trajectory.blocks", stop), file_facts(run / "manifest.json", stop)};
+  std::vector<FrameFacts> facts = {file_facts(trajectory_path(run), stop)};
+  const std::filesystem::path manifest = run / "manifest.json";
+  std::error_code error;
+  if (std::filesystem::exists(manifest, error)) facts.push_back(file_facts(manifest, stop));
+  return facts;
 }
 
 }  // namespace noli::app

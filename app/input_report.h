@@ -25,8 +25,8 @@ std::string polygons_text(PolygonRule rule);
 /// "Note: ....", a line each.
 std::string notes_text(const std::vector<std::string>& notes);
 
-/// The files of a run that `noli verify` reads of it and that do not change any more once it has ended: trajectory.blocks
-/// and manifest.json, each with the SHA-256 of its bytes. Throws InputError, ReadInterrupted when `stop` says true.
+/// The files of a run that `noli verify` reads and that do not change once it has ended: trajectory.blocks and, where it
+/// is there, manifest.json, each with the SHA-256 of its bytes. Throws InputError; ReadInterrupted when `stop` says true.
 std::vector<FrameFacts> run_facts(const std::filesystem::path& run, const std::function<bool()>& stop);
 
 }  // namespace noli::app

@@ -15,9 +15,7 @@ namespace {
 
 constexpr const char* advice = "; verify what is shown, with --json, and report that result";
 
-bool is_hash(const Json& value) {
-  return value.is_string() && value.get_ref<const std::string&>().size() == 64;
-}
+bool is_hash(const Json& value) { return value.is_string() && value.get_ref<const std::string&>().size() == 64; }
 
 std::string member(const Json& input, const char* key) {
   const Json value = input.is_object() ? input.value(key, Json()) : Json();
@@ -32,8 +30,8 @@ std::string shortened(const std::string& hash) { return hash.substr(0, 12) + "..
 ResultInputs::ResultInputs(const Json& result, const std::filesystem::path& path)
     : path_(path), inputs_(result.value("inputs", Json::array())) {
   const bool hashes = inputs_.is_array() && !inputs_.empty() && std::ranges::any_of(inputs_, [](const Json& input) {
-    return input.is_object() && is_hash(input.value("sha256", Json()));
-  });
+                        return input.is_object() && is_hash(input.value("sha256", Json()));
+                      });
   if (!hashes) refuse(std::string("does not say what it is about: \"inputs\" with SHA-256 is missing") + advice);
 }
 
@@ -51,9 +49,8 @@ void ResultInputs::require_frame(std::size_t k, const FrameFacts& read) const {
 void ResultInputs::require_run(const std::filesystem::path& run) const {
   for (const FrameFacts& facts : run_facts(run, [] { return interrupted().load(std::memory_order_relaxed); })) {
     const std::string name = facts.file.filename().string(), found = hex(facts.sha256);
-    const auto input = std::ranges::find_if(inputs_, [&](const Json& of) {
-      return std::filesystem::path(member(of, "file")).filename() == name;
-    });
+    const auto input = std::ranges::find_if(
+        inputs_, [&](const Json& of) { return std::filesystem::path(member(of, "file")).filename() == name; });
     const std::string expected = input == inputs_.end() ? "" : member(*input, "sha256");
     if (expected.empty()) refuse(fmt::format("has no SHA-256 of {}{}", name, advice));
     if (expected == found) continue;

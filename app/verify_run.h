@@ -40,9 +40,9 @@ struct VerifyRequest {
   std::string ordered;                        ///< the same in words
   std::vector<std::string> order_notes;
   PolygonRule polygons = PolygonRule::fan;
-  bool run = false;                           ///< it is a run: steps are its windows, times are seconds
-  std::optional<int> dimension;               ///< nothing: 2 if all z of the first two frames are equal, else 3
-  int threads = 0;                            ///< 0: all there are
+  bool run = false;              ///< it is a run: steps are its windows, times are seconds
+  std::optional<int> dimension;  ///< nothing: 2 if all z of the first two frames are equal, else 3
+  int threads = 0;               ///< 0: all there are
   std::size_t max_reports = 100;
   bool keep_going = false;       ///< all steps, not only up to the first that has a contact
   bool first_only = false;       ///< stop at any contact

@@ -33,30 +33,12 @@ constexpr std::string_view soup =
 struct Advice {
   std::string_view extension, text;
 };
-constexpr std::array<Advice, 24> advices = {{{".npz", arrays},
-                                             {".npy", arrays},
-                                             {".h5", arrays},
-                                             {".hdf5", arrays},
-                                             {".mat", arrays},
-                                             {".abc", scene},
-                                             {".usd", scene},
-                                             {".usda", scene},
-                                             {".usdc", scene},
-                                             {".usdz", scene},
-                                             {".glb", scene},
-                                             {".gltf", scene},
-                                             {".fbx", scene},
-                                             {".dae", scene},
-                                             {".blend", scene},
-                                             {".stl", soup},
-                                             {".vtk", "meshio"},
-                                             {".vtu", "meshio"},
-                                             {".vtp", "ParaView"},
-                                             {".off", "meshio"},
-                                             {".gz", "gunzip -k"},
-                                             {".xz", "unxz -k"},
-                                             {".bz2", "bunzip2 -k"},
-                                             {".zst", "unzstd"}}};
+constexpr std::array<Advice, 24> advices = {
+    {{".npz", arrays},     {".npy", arrays},   {".h5", arrays},        {".hdf5", arrays},    {".mat", arrays},
+     {".abc", scene},      {".usd", scene},    {".usda", scene},       {".usdc", scene},     {".usdz", scene},
+     {".glb", scene},      {".gltf", scene},   {".fbx", scene},        {".dae", scene},      {".blend", scene},
+     {".stl", soup},       {".vtk", "meshio"}, {".vtu", "meshio"},     {".vtp", "ParaView"}, {".off", "meshio"},
+     {".gz", "gunzip -k"}, {".xz", "unxz -k"}, {".bz2", "bunzip2 -k"}, {".zst", "unzstd"}}};
 
 }  // namespace
 

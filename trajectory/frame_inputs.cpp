@@ -116,8 +116,7 @@ std::vector<std::string> FrameInputs::notes() const {
   if (coarsest != nullptr) {
     const int k = *coarsest->rounded_at;
     const bool fixed = k <= 0 && coarsest->decimals == static_cast<std::uint64_t>(-k);
-    const std::string text =
-        fixed ? fmt::format("text with {} decimal{}", -k, k == -1 ? "" : "s") : coarsest->numbers;
+    const std::string text = fixed ? fmt::format("text with {} decimal{}", -k, k == -1 ? "" : "s") : coarsest->numbers;
     notes.push_back(fmt::format("coordinates are {}: gaps below {} may be decided by rounding", text, half_of(k)));
   }
   if (polygons_ > 0) {
@@ -125,10 +124,10 @@ std::vector<std::string> FrameInputs::notes() const {
     const std::string where = static_cast<std::size_t>(read) == read_.size()
                                   ? std::string("all frames")
                                   : fmt::format("the {} frames that were read", read);
-    notes.push_back(fmt::format("{} polygon{} of more than three corners {} cut into fans of triangles; largest "
-                                "non-planarity in {}: {}",
-                                polygons_, polygons_ == 1 ? "" : "s", polygons_ == 1 ? "is" : "are", where,
-                                non_planarity_));
+    notes.push_back(
+        fmt::format("{} polygon{} of more than three corners {} cut into fans of triangles; largest "
+                    "non-planarity in {}: {}",
+                    polygons_, polygons_ == 1 ? "" : "s", polygons_ == 1 ? "is" : "are", where, non_planarity_));
   }
   return notes;
 }

@@ -30,15 +30,15 @@ namespace noli {
 
 class FrameInputs {
  public:
-  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; it ends with "(frame 11 of 12)", from 1.
+  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; it ends with "(frame 11 of 12)".
   explicit FrameInputs(std::vector<std::filesystem::path> frames, PolygonRule rule = PolygonRule::fan);
 
-  /// Looks at frame k, if it is a regular file: header, counts, and that its cells are those of the first frame that was
-  /// looked at. Throws InputError, which ends as above; ReadInterrupted.
+  /// Looks at frame k, if it is a regular file: header, counts, and that its cells are those of the first frame that
+  /// was looked at. Throws InputError, which ends as above; ReadInterrupted.
   void look_at(std::size_t k);
 
-  /// Reads frame k for a FrameSequence. Throws InputError as parse_frame does, and when the file is not the one that was
-  /// looked at any more.
+  /// Reads frame k for a FrameSequence. Throws InputError as parse_frame does, and when the file has changed since it
+  /// was looked at.
   Frame read(std::size_t k);
   /// Calls read(); valid as long as this is.
   ReadFrame reader();

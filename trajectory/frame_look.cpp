@@ -178,8 +178,8 @@ class PlyLook {
 
   void take_text(const PlyElement& vertex, const std::vector<std::size_t>& wanted, const TextDigits& digits) {
     if (wanted.empty()) return;  // whole numbers are what they are
-    const bool all_single = std::ranges::all_of(
-        wanted, [&](std::size_t p) { return vertex.properties[p].type == PlyType::float32; });
+    const bool all_single =
+        std::ranges::all_of(wanted, [&](std::size_t p) { return vertex.properties[p].type == PlyType::float32; });
     take_digits(digits, all_single ? digits_of_float32 : digits_of_float64, facts_);
     if (all_single) facts_.numbers += ", read as float32";
   }
@@ -199,8 +199,8 @@ FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& pat
   look.facts.looked_at = true;
   look.facts.bytes = bytes.size();
   look.facts.sha256 = sha256(bytes);
-  look.cells = format == MeshFormat::ply ? PlyLook(bytes, path.string(), look.facts).cells()
-                                         : look_at_obj(bytes, look.facts);
+  look.cells =
+      format == MeshFormat::ply ? PlyLook(bytes, path.string(), look.facts).cells() : look_at_obj(bytes, look.facts);
   return look;
 }
 

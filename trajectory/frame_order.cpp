@@ -72,12 +72,13 @@ class Family {
   void sort(std::vector<std::size_t>& order) const {
     std::vector<std::size_t> sorted(size());
     for (std::size_t i = 0; i < size(); ++i) sorted[i] = i;
-    std::ranges::stable_sort(sorted, {}, [&](std::size_t i) -> const auto& { return names_[i].decimals; });
+    std::ranges::stable_sort(
+        sorted, {}, [&](std::size_t i) -> const auto& { return names_[i].decimals; });
     for (std::size_t i = 0; i < size(); ++i) order[places_[i]] = places_[sorted[i]];
   }
 
-  /// The numbers that count the frames, ascending, each with one of its frames; none where not exactly one number of the
-  /// names differs, or it is not always a whole one from 0.
+  /// The numbers that count the frames, ascending, each with one of its frames. None unless exactly one number of the
+  /// names differs, and is always a whole one from 0.
   std::vector<std::pair<std::uint64_t, std::size_t>> counted() const {
     const auto column = varying();
     if (!column) return {};
@@ -164,7 +165,8 @@ class Orderer {
     if (!family.may_be_integers()) return decimal ? in_words(*decimal) : "";
     if (decimal && integer) return in_words(*decimal);
     if (decimal) return in_words(*decimal) + ", which is against their numbers if these are decimals (0.10 before 0.9)";
-    if (integer) return in_words(*integer) + ", which is their order only if the numbers are decimals (0.10 before 0.9)";
+    if (integer)
+      return in_words(*integer) + ", which is their order only if the numbers are decimals (0.10 before 0.9)";
     return "";
   }
 
@@ -249,8 +251,6 @@ void append_capped(std::vector<std::string>& notes, const std::vector<std::strin
   if (shown < more.size()) notes.push_back(fmt::format("and {} more {}", more.size() - shown, what));
 }
 
-OrderedFrames order_frames(std::vector<fs::path> frames, FrameOrder order) {
-  return Orderer(std::move(frames))(order);
-}
+OrderedFrames order_frames(std::vector<fs::path> frames, FrameOrder order) { return Orderer(std::move(frames))(order); }
 
 }  // namespace noli

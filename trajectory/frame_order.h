@@ -8,9 +8,9 @@
 //             digits are an exponent; `e05` is not
 //   family    the names that differ in their numbers only: `cloth_1.ply` and `cloth_10.obj`, not `body_1.ply`
 //   12.5      may be a decimal or two numbers. Read as decimals 0.10 comes before 0.9, read as two numbers after it.
-//             Where the two disagree the user is asked. They are surely decimals where one fraction of the family begins
-//             with 0 and another has a different length (0.05, 0.1), or where one has an exponent. 1.2.3 is three
-//             numbers
+//             Where the two disagree the user is asked. They are surely decimals where one fraction of the family
+//             begins with 0 and another has a different length (0.05, 0.1), or where one has an exponent. 1.2.3 is
+//             three numbers
 //   order     names of a family compare by their first number, then by the second, and so on. Numbers of folders come
 //             before those of the file's own name
 //

@@ -92,7 +92,8 @@ double larger_height(const Height& h, double at_least) {
 
 std::string refused_polygon(std::size_t corners) {
   return fmt::format(
-      "a face of {} corners; expected triangles (--polygons refuse): cut it into triangles, in all frames alike, or pass "
+      "a face of {} corners; expected triangles (--polygons refuse): cut it into triangles, in all frames alike, or "
+      "pass "
       "--polygons fan",
       corners);
 }
@@ -103,8 +104,7 @@ double largest_non_planarity(const Mesh& mesh, std::span<const Fan> fans, std::s
   for (const Fan& fan : fans) {
     const auto triangles = std::span(mesh.faces).subspan(fan.first, fan.count);
     std::size_t base = 0;
-    while (base < fan.count &&
-           has_zero_area(x(triangles[base][0]), x(triangles[base][1]), x(triangles[base][2]))) {
+    while (base < fan.count && has_zero_area(x(triangles[base][0]), x(triangles[base][1]), x(triangles[base][2]))) {
       ++base;
     }
     if (base == fan.count) continue;  // there is no plane

@@ -26,7 +26,8 @@ void TextDigits::add(std::string_view word) {
   }
   if (whole + fraction == 0) return;
   int exponent = 0;
-  if (at < word.size() && ((word[at] | 0x20) != 'e' || parse_number(word.substr(at + 1), exponent) != std::errc{})) return;
+  if (at < word.size() && ((word[at] | 0x20) != 'e' || parse_number(word.substr(at + 1), exponent) != std::errc{}))
+    return;
   any_ = true;
   const int behind = static_cast<int>(fraction) - exponent;
   decimals_ = std::max(decimals_, static_cast<std::size_t>(std::max(behind, 0)));

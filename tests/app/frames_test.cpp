@@ -27,9 +27,8 @@ class Frames : public testing::Test {
     return words;
   }
   static bool has_note(const Json& json, const std::string& text) {
-    return std::ranges::any_of(json["notes"], [&](const Json& note) {
-      return note.get<std::string>().find(text) != std::string::npos;
-    });
+    return std::ranges::any_of(
+        json["notes"], [&](const Json& note) { return note.get<std::string>().find(text) != std::string::npos; });
   }
   static void refused(const Words& words, const std::string& complaint) {
     const Process process = run_noli(words);
@@ -40,9 +39,9 @@ class Frames : public testing::Test {
 
   /// A small triangle over a large one, or beside it.
   std::string frame(const std::string& name, double x, double z) const {
-    return folder.write(name, ply_text({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {x - 0.5, -0.5, z}, {x + 0.5, -0.5, z},
-                                        {x, 0.5, z}},
-                                       {{0, 1, 2}, {3, 4, 5}}));
+    return folder.write(
+        name, ply_text({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {x - 0.5, -0.5, z}, {x + 0.5, -0.5, z}, {x, 0.5, z}},
+                       {{0, 1, 2}, {3, 4, 5}}));
   }
   /// cloth_0 to cloth_11. The triangle comes from the side and goes down through the other one in step 10. In the order
   /// in which a shell names them it goes around it.
@@ -64,8 +63,9 @@ class Frames : public testing::Test {
 
 TEST_F(Frames, TwelveFramesInTheOrderOfTheShell) {
   const Words verify = with({"verify"}, cloth_in_shell());
-  refused(verify, fmt::format("{} comes before {}; pass --order natural, or --order given if this is the order you mean",
-                              folder.path("cloth_10.ply"), folder.path("cloth_2.ply")));
+  refused(verify,
+          fmt::format("{} comes before {}; pass --order natural, or --order given if this is the order you mean",
+                      folder.path("cloth_10.ply"), folder.path("cloth_2.ply")));
   const Json natural = json_of(with(verify, {"--order", "natural"}), 1);
   EXPECT_EQ(natural["verdict"], "contact");
   EXPECT_EQ(natural["first"]["step"], 10);
@@ -112,18 +112,23 @@ TEST_F(Frames, OrderIsOneOfTwoWords) {
 
 TEST_F(Frames, AllHeadersComeBeforeTheFirstStep) {
   Words frames = cloth_in_time();
-  frame("cloth_1.ply", 0, -1);  // contact in step 2
-  ASSERT_EQ(json_of(with({"verify"}, frames), 1)["first"]["step"], 2);
+  frame("cloth_1.ply", -10, -1);  // contact in step 1
+  ASSERT_EQ(json_of(with({"verify"}, frames), 1)["first"]["step"], 1);
   const std::string good = test::read_text(frames[10]);
-  folder.write("cloth_10.ply", ply_text({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}));
-  refused(with({"verify"}, frames), fmt::format("{}: has 1 faces, but {} has 2; all frames must have the same mesh (frame "
-                                                "11 of 12)",
-                                                frames[10], frames[0]));
+  folder.write("cloth_10.ply",
+               ply_text({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}));
+  refused(with({"verify"}, frames),
+          fmt::format("{}: has 1 faces, but {} has 2; all frames must have the same mesh (frame "
+                      "11 of 12)",
+                      frames[10], frames[0]));
   folder.write("cloth_10.ply", "ply\nformat ascii 3.0\n");
   refused(with({"verify"}, frames), frames[10] + ": line 2: expected version 1.0, found '3.0' (frame 11 of 12)");
   folder.write("cloth_10.ply", good);
-  for (const auto& [extension, advice] : {std::pair{".npz", "meshio.Mesh("}, {".abc", "Blender"}, {".usd", "Blender"},
-                                          {".stl", "no shared vertices"}, {".gz", "gunzip -k cloth_10.gz"}}) {
+  for (const auto& [extension, advice] : {std::pair{".npz", "meshio.Mesh("},
+                                          {".abc", "Blender"},
+                                          {".usd", "Blender"},
+                                          {".stl", "no shared vertices"},
+                                          {".gz", "gunzip -k cloth_10.gz"}}) {
     Words other = frames;
     other[10] = folder.write(std::string("cloth_10") + extension, "x");
     refused(with({"verify"}, other), advice);
@@ -197,8 +202,10 @@ TEST_F(Polygons, AnotherFirstCornerIsAnotherQuestion) {
   const Json apart = ask("f 1 2 3 4", 0), touching = ask("f 2 3 4 1", 1);
   for (const Json& json : {apart, touching}) {
     EXPECT_EQ(json["statement"]["polygons"], rule);
-    EXPECT_TRUE(has_note(json, "1 polygon of more than three corners is cut into fans of triangles; largest "
-                               "non-planarity in all frames: 3.2659")) << json["notes"];
+    EXPECT_TRUE(has_note(json,
+                         "1 polygon of more than three corners is cut into fans of triangles; largest "
+                         "non-planarity in all frames: 3.2659"))
+        << json["notes"];
   }
 }
 

@@ -46,10 +46,11 @@ class Proof : public testing::Test {
     return run_noli(arguments);
   }
   /// What the checkers that are there say of the proof: all the same.
-  Process check(const std::vector<std::string>& frames) const {
-    const Process plain = check_by({}, frames);
+  Process check(const std::vector<std::string>& frames, std::vector<std::string> more = {}) const {
+    const Process plain = check_by(more, frames);
     if (!verified_checker_is_there()) return plain;
-    const Process verified = check_by({"--verified"}, frames);
+    more.emplace_back("--verified");
+    const Process verified = check_by(more, frames);
     EXPECT_EQ(verified.exit_code, plain.exit_code) << plain.out << verified.out;
     EXPECT_EQ(verified.verdict_line(), plain.verdict_line());
     return plain;
@@ -111,7 +112,7 @@ TEST_F(Proof, IsOfItsFramesInTheirOrderAlone) {
       {frames[2], frames[1], frames[0]},
       {frames[0], frames[1], folder.write("other.ply", two_triangles(0.3))}};
   for (const auto& other : others) {
-    const Process checked = check(other);
+    const Process checked = check(other, {"--order", "given"});
     EXPECT_EQ(checked.exit_code, 3) << checked.out;
     EXPECT_EQ(checked.verdict_line().substr(0, 8), "REJECTED");
   }
@@ -121,8 +122,9 @@ TEST_F(Proof, TheSameMotionFromAnotherFormatHasTheSameProof) {
   const auto ply = triangles({1, 0.5});
   std::vector<std::string> obj;
   for (const std::string height : {"1", "5e-1"}) {
-    obj.push_back(folder.write("frame" + height + ".obj", "v 0 0 0\nv 4 0 -0\nv 0 4 0\nv 1 1 " + height + "\nv 1.5 1 " +
-                                                              height + "\nv 1 1.5 " + height + "\nf 1 2 3\nf 4 5 6\n"));
+    const std::string text = "v 0 0 0\nv 4 0 -0\nv 0 4 0\nv 1 1 " + height + "\nv 1.5 1 " + height + "\nv 1 1.5 " +
+                             height + "\nf 1 2 3\nf 4 5 6\n";
+    obj.push_back(folder.write(std::to_string(obj.size()) + ".obj", text));
   }
   ASSERT_EQ(prove(ply).exit_code, 0);
   EXPECT_EQ(check(obj).exit_code, 0);

@@ -211,7 +211,8 @@ TEST_F(Report, RefusesAResultAboutOtherFiles) {
   const std::vector<std::string> both = run_with_contact();
   older = Json::parse(bytes_of(both[1]));
   older["inputs"][0]["sha256"] = std::string(64, '0');
-  write({both[0], folder.write("older.json", older.dump())}, 3, "its trajectory.blocks had SHA-256 000000000000..., but");
+  write({both[0], folder.write("older.json", older.dump())}, 3,
+        "its trajectory.blocks had SHA-256 000000000000..., but");
   older.erase("inputs");
   write({both[0], folder.write("older.json", older.dump())}, 3, "does not say what it is about");
 }

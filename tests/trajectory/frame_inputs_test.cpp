@@ -60,7 +60,8 @@ TEST(FrameInputs, SaysWhatWasRead) {
 }
 
 const std::string ascii_header =
-    "ply\nformat ascii 1.0\nelement vertex 3\nproperty TYPE x\nproperty TYPE y\nelement face 1\nproperty list uchar int "
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty TYPE x\nproperty TYPE y\nelement face 1\nproperty list uchar "
+    "int "
     "vertex_indices\nend_header\n";
 
 std::string ascii(std::string type, const std::string& body) {
@@ -100,16 +101,21 @@ TEST(FrameInputs, TheCoarsestTextOfAllCounts) {
 TEST(FrameInputs, PolygonsEarnANote) {
   const TemporaryFolder folder;
   const std::string quad = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 1 ";
-  const auto flat = folder.write("0.obj", quad + "0\nf 1 2 3 4\n"), bent = folder.write("1.obj", quad + "3\nf 1 2 3 4\n");
+  const auto flat = folder.write("0.obj", quad + "0\nf 1 2 3 4\n"),
+             bent = folder.write("1.obj", quad + "3\nf 1 2 3 4\n");
   const auto other = folder.write("2.obj", quad + "3\nf 2 3 4 1\n");
-  EXPECT_EQ(taken({flat, flat}).notes().back(),
-            "1 polygon of more than three corners is cut into fans of triangles; largest non-planarity in all frames: 0");
-  EXPECT_EQ(taken({flat, bent}).notes().back(),
-            "1 polygon of more than three corners is cut into fans of triangles; largest non-planarity in all frames: 3");
+  EXPECT_EQ(
+      taken({flat, flat}).notes().back(),
+      "1 polygon of more than three corners is cut into fans of triangles; largest non-planarity in all frames: 0");
+  EXPECT_EQ(
+      taken({flat, bent}).notes().back(),
+      "1 polygon of more than three corners is cut into fans of triangles; largest non-planarity in all frames: 3");
   EXPECT_EQ(taken({other}).polygons(), 1u);
   EXPECT_NE(taken({other}).non_planarity(), 3) << "another plane";
   EXPECT_GT(taken({other}).non_planarity(), 0);
-  EXPECT_EQ(input_error([&] { taken({flat, other}); }),
+  EXPECT_EQ(input_error([&] {
+              taken({flat, other});
+            }),
             other.string() + ": face 0 has vertices [1, 2, 3], but " + flat.string() +
                 " has [0, 1, 2] there; all frames must have the same mesh (frame 2 of 2)");
   FrameInputs one({flat, bent});
@@ -128,7 +134,8 @@ struct OtherFrame {
 };
 const std::string v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const OtherFrame other_frames[] = {
-    {"vertices", "b.obj", v3 + "v 1 1 1\nf 1 2 3\n", "has 4 vertices, but NAME has 3; all frames must have the same mesh"},
+    {"vertices", "b.obj", v3 + "v 1 1 1\nf 1 2 3\n",
+     "has 4 vertices, but NAME has 3; all frames must have the same mesh"},
     {"faces", "b.obj", triangle_obj + "f 1 3 2\n", "has 2 faces, but NAME has 1; all frames must have the same mesh"},
     {"corners", "b.obj", v3 + "f 2 3 1\n",
      "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh"},
@@ -140,7 +147,8 @@ const OtherFrame other_frames[] = {
      "expected a file that ends in .ply or .obj, found '.gz'; unpack it: gunzip -k b.obj.gz"},
     {"header", "b.ply", "ply\nformat ascii 2.0\n", "line 2: expected version 1.0, found '2.0'"},
     {"truncated", "b.ply", ply(0, PlyEncoding::binary_little_endian).substr(0, 200),
-     "byte 173: truncated: the header promises 3 entries of 'vertex', at least 24 bytes each, but only 27 bytes remain"},
+     "byte 173: truncated: the header promises 3 entries of 'vertex', at least 24 bytes each, but only 27 bytes "
+     "remain"},
     {"no_vertices", "b.ply", "ply\nformat ascii 1.0\nend_header\n", "the header declares no element 'vertex'"},
     {"empty", "b.ply", "", "is empty"},
 };
@@ -183,8 +191,8 @@ bool differ(const std::string& a, const std::string& b) {
   }
 }
 
-/// What looks the same is the same: two texts that differ in one statement. Else a frame of another mesh would be
-/// noticed hours later.
+/// What looks the same is the same: two texts that differ in one statement, or in the order of two. Else a frame of
+/// another mesh would be noticed hours later.
 RC_GTEST_PROP(FrameLook, EqualLooksAreEqualMeshes, ()) {
   const auto statement = rc::gen::element<std::string>("v 0 0 0\n", "v 1 2 3\n", "f 1 2 3\n", "f -1 -2 -3\n",
                                                        "f 3 2 1\n", "f 1/1 2 3\n", "l 1 2\n", "l -1 -2\n", "p 1\n",
@@ -196,8 +204,12 @@ RC_GTEST_PROP(FrameLook, EqualLooksAreEqualMeshes, ()) {
     return all;
   };
   const std::string a = text();
-  lines[*rc::gen::inRange<std::size_t>(0, lines.size())] = *statement;
-  std::swap(lines[*rc::gen::inRange<std::size_t>(0, lines.size())], lines[0]);
+  const auto place = *rc::gen::inRange<std::size_t>(0, lines.size());
+  if (*rc::gen::arbitrary<bool>()) {
+    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(place), *statement);
+  } else {
+    std::swap(lines[place], lines[0]);
+  }
   const std::string b = text();
   const auto look_a = look_at_frame(a, "a.obj").cells, look_b = look_at_frame(b, "b.obj").cells;
   RC_TAG(look_a && look_a == look_b ? "equal" : "other");
@@ -207,7 +219,8 @@ RC_GTEST_PROP(FrameLook, EqualLooksAreEqualMeshes, ()) {
 TEST(FrameInputs, PolygonsAreRefusedInAnyFrame) {
   const TemporaryFolder folder;
   const std::string v4 = v3 + "v 1 1 0\n";
-  const auto triangles = folder.write("0.obj", v4 + "f 1 2 3\nf 1 3 4\n"), quad = folder.write("1.obj", v4 + "f 1 2 3 4\n");
+  const auto triangles = folder.write("0.obj", v4 + "f 1 2 3\nf 1 3 4\n"),
+             quad = folder.write("1.obj", v4 + "f 1 2 3 4\n");
   FrameInputs fan({triangles, quad});
   fan.look_at(0);
   fan.look_at(1);

@@ -38,8 +38,9 @@ TEST(FrameOrder, TheShellPutsTenBeforeTwo) {
   const OrderedFrames sorted = order_frames(shell, FrameOrder::natural);
   EXPECT_EQ(sorted.frames, time);
   EXPECT_EQ(sorted.how, "sorted by the numbers in the names (--order natural)");
-  EXPECT_EQ(sorted.notes, std::vector<std::string>{"frames were sorted by the numbers in their names (--order natural): "
-                                                   "10 of 12 changed places"});
+  EXPECT_EQ(sorted.notes,
+            std::vector<std::string>{"frames were sorted by the numbers in their names (--order natural): "
+                                     "10 of 12 changed places"});
   const OrderedFrames given = order_frames(shell, FrameOrder::given);
   EXPECT_EQ(given.frames, shell);
   EXPECT_EQ(given.how, "as given, against the numbers in the names (--order given)");
@@ -87,14 +88,16 @@ TEST(FrameOrder, NumbersOfAnyLengthWithLeadingZeros) {
 TEST(FrameOrder, AsksWhereANumberMayBeADecimalOrTwo) {
   expect_taken({"t_0.10.ply", "t_0.90.ply", "t_1.00.ply"});
   expect_taken({"t_0.5.ply", "t_1.ply", "t_1.5.ply"});
-  EXPECT_EQ(refusal({"t_0.9.ply", "t_0.10.ply"}),
-            std::string("frames: t_0.9.ply comes before t_0.10.ply, which is against their numbers if these are decimals "
-                        "(0.10 before 0.9)") +
-                advice);
-  EXPECT_EQ(refusal({"t_0.10.ply", "t_0.9.ply"}),
-            std::string("frames: t_0.10.ply comes before t_0.9.ply, which is their order only if the numbers are decimals "
-                        "(0.10 before 0.9)") +
-                advice);
+  EXPECT_EQ(
+      refusal({"t_0.9.ply", "t_0.10.ply"}),
+      std::string("frames: t_0.9.ply comes before t_0.10.ply, which is against their numbers if these are decimals "
+                  "(0.10 before 0.9)") +
+          advice);
+  EXPECT_EQ(
+      refusal({"t_0.10.ply", "t_0.9.ply"}),
+      std::string("frames: t_0.10.ply comes before t_0.9.ply, which is their order only if the numbers are decimals "
+                  "(0.10 before 0.9)") +
+          advice);
   EXPECT_EQ(natural({"t_0.9.ply", "t_0.10.ply"}), (Paths{"t_0.10.ply", "t_0.9.ply"}));
   expect_taken({"t_0.05.ply", "t_0.1.ply", "t_0.15.ply"});  // nobody counts 05 and 1
   EXPECT_NE(refusal({"t_0.1.ply", "t_0.05.ply"}), "");
@@ -143,8 +146,7 @@ TEST(FrameOrder, OfManyGapsTenAreShown) {
 
 TEST(FrameOrder, NotesAFileThatIsGivenTwice) {
   EXPECT_EQ(notes({"a.ply", "b.ply", "./a.ply"}), std::vector<std::string>{"a.ply is given twice: as frames 1, 3"});
-  EXPECT_EQ(notes(cloth({1, 1, 1, 2})),
-            std::vector<std::string>{"cloth_1.obj is given 3 times: as frames 1, 2, 3"});
+  EXPECT_EQ(notes(cloth({1, 1, 1, 2})), std::vector<std::string>{"cloth_1.obj is given 3 times: as frames 1, 2, 3"});
   EXPECT_EQ(order_frames({"a_2.ply", "a_1.ply", "a_2.ply"}, FrameOrder::natural).notes.back(),
             "a_2.ply is given twice: as frames 2, 3");
 }
