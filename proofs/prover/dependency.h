@@ -25,6 +25,13 @@ struct Dependency {
   FeatureSides sides;
   std::vector<Poly> weights;  ///< of sides.both()
   Poly condition;
+
+  /// The greatest one of the weights.
+  std::size_t degree() const {
+    std::size_t size = 1;
+    for (const Poly& weight : weights) size = std::max(size, weight.size());
+    return size - 1;
+  }
 };
 
 /// Tries all vertices first, then fewer, at most four; ends with the first that `take` accepts, and says whether there

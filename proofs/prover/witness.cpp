@@ -336,10 +336,35 @@ class Search {
         sides, [&](VertexId v) { return segments.position(v); },
         [&](const Dependency& d) {
           if (d.condition.size() < 2) return false;
-          const Poly g = square_free(d.condition);
+          Poly g = square_free(d.condition);
+          for (const mpz_class& end : {from, to}) g = without_breakpoint(std::move(g), end);
+          if (g.size() < 2) return false;
           const auto roots = roots_within(g, from, to, first_bits);
-          return std::ranges::any_of(roots, [&](const Root& root) { return at_root(d, g, root); });
+          return std::ranges::any_of(roots, [&](const Root& root) {
+            return at_root(d, g, root) || (g.size() == 2 && at_fraction(d, g, root));
+          });
         });
+  }
+
+  /// What meets at a breakpoint does so at rest.
+  static Poly without_breakpoint(Poly g, const mpz_class& at) {
+    if (!is_whole(at) || sign_at(g, at, first_bits) != 0) return g;
+    return primitive(quotient(std::move(g), {mpz_class(-at >> first_bits), 1}));
+  }
+
+  /// With the weights at the root of a t - b, as constants: however near other roots are.
+  bool at_fraction(const Dependency& d, const Poly& g, const Root& root) {
+    const mpz_class b = -g[0], a = g[1];
+    Dependency constant = d;
+    for (Poly& weight : constant.weights) {
+      mpz_class value = 0, power = 1;
+      for (std::size_t k = d.degree() + 1; k-- > 0; power *= a) {
+        value *= b;
+        if (k < weight.size()) value += weight[k] * power;
+      }
+      weight = trimmed({value});
+    }
+    return at_root(constant, g, root);
   }
 
   /// Whether the weights are of one sign there. Where one vanishes, g becomes what it has in common with it.
