@@ -199,7 +199,9 @@ GeneratedMotion last_ulp(Random& random) {
   const std::size_t first = begin.size();
   begin.insert(begin.end(), met.begin.begin() + split, met.begin.end());
   end.insert(end.end(), met.end.begin() + split, met.end.end());
-  const std::size_t others = std::max<std::size_t>(more == 0 ? 1 : 0, random.below(4 - (begin.size() - first)));
+  const bool alone = random.one_in(6);  // without anything that lands beside them
+  const std::size_t least = more == 0 && !alone ? 1 : 0;
+  const std::size_t others = std::max<std::size_t>(least, alone ? 0 : random.below(4 - (begin.size() - first)));
   for (std::size_t i = 0; i < others && begin.size() - first < 3; ++i) add_landing(begin, end, axes, -1, random);
   constexpr std::array<double, 5> units = {1, 0x1p-40, 0.1, 1.0 / 3, 1e9};
   const double unit = random.one_of(units);
