@@ -72,6 +72,8 @@ GeneratedMotion dressed(int dimension, const Corners& cells, const std::vector<F
       for (std::size_t k = 0; k < axes; ++k) x[name[v]][to[k]] = flip[k] * frame[v][k] + 0.0;
     }
   }
+  const bool flat = made.motion.frames.size() > 2 && made.motion.dimension() != dimension;
+  if (flat) made.motion.frames.resize(2);  // by chance: no later frame may leave that plane
   return made;
 }
 
@@ -199,7 +201,9 @@ GeneratedMotion last_ulp(Random& random) {
   const std::size_t first = begin.size();
   begin.insert(begin.end(), met.begin.begin() + split, met.begin.end());
   end.insert(end.end(), met.end.begin() + split, met.end.end());
-  const std::size_t others = std::max<std::size_t>(more == 0 ? 1 : 0, random.below(4 - (begin.size() - first)));
+  const bool alone = random.one_in(6);  // without anything that lands beside them
+  const std::size_t least = more == 0 && !alone ? 1 : 0;
+  const std::size_t others = std::max<std::size_t>(least, alone ? 0 : random.below(4 - (begin.size() - first)));
   for (std::size_t i = 0; i < others && begin.size() - first < 3; ++i) add_landing(begin, end, axes, -1, random);
   constexpr std::array<double, 5> units = {1, 0x1p-40, 0.1, 1.0 / 3, 1e9};
   const double unit = random.one_of(units);
@@ -221,12 +225,12 @@ GeneratedMotion last_ulp(Random& random) {
 
 GeneratedMotion huge(Random& random) {
   const QueryType type = random.one_of(all_query_types);
-  const bool mixed = random.one_in(2);
+  const bool mixed = random.one_in(64);  // proofs of such take seconds
   const auto height = static_cast<std::size_t>(type.dimension - 1);
   const Frame floor = around_origin(type, mixed, random);
   const Frame other = random.one_in(2) ? floor : around_origin(type, mixed, random);
   std::vector<Frame> frames = {floor, other};
-  const double from = sign(random), to = random.one_in(6) ? 0 : random.one_in(4) ? from : -from;
+  const double from = sign(random), to = mixed ? -from : random.one_in(6) ? 0 : random.one_in(4) ? from : -from;
   const bool lies = random.one_in(2);  // Q, in the floor
   for (std::size_t i = 0; i < floor.size(); ++i) {
     const bool above = i < first_size(type.pair);

@@ -75,7 +75,7 @@ std::vector<FeatureSides> parts_of(const FeatureSides& features, std::size_t mos
 }
 
 bool any_dependency(const FeatureSides& features, const std::function<PolyVector(VertexId)>& position,
-                    const std::function<bool(const Dependency&)>& take) {
+                    const std::function<bool(Dependency)>& take) {
   for (const FeatureSides& sides : parts_of(features, 4)) {
     std::vector<PolyVector> points;
     for (const VertexId v : sides.both()) points.push_back(position(v));
@@ -83,7 +83,7 @@ bool any_dependency(const FeatureSides& features, const std::function<PolyVector
       Dependency d{sides, affine_dependency(points, coordinates), {}};
       d.condition = condition_of(points, coordinates, d.weights);
       for (std::size_t i = sides.p.size(); i < points.size(); ++i) d.weights[i] = difference({}, d.weights[i]);
-      if (take(d)) return true;
+      if (take(std::move(d))) return true;
     }
   }
   return false;

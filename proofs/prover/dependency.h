@@ -25,12 +25,19 @@ struct Dependency {
   FeatureSides sides;
   std::vector<Poly> weights;  ///< of sides.both()
   Poly condition;
+
+  /// The greatest one of the weights.
+  std::size_t degree() const {
+    std::size_t size = 1;
+    for (const Poly& weight : weights) size = std::max(size, weight.size());
+    return size - 1;
+  }
 };
 
 /// Tries all vertices first, then fewer, at most four; ends with the first that `take` accepts, and says whether there
 /// was one.
 bool any_dependency(const FeatureSides& features, const std::function<PolyVector(VertexId)>& position,
-                    const std::function<bool(const Dependency&)>& take);
+                    const std::function<bool(Dependency)>& take);
 
 /// The parts of two features that have no vertex in common, of at most so many vertices; those of most vertices first.
 std::vector<FeatureSides> parts_of(const FeatureSides& features, std::size_t most);

@@ -45,13 +45,16 @@ Vector rounded(const Vector& n, std::size_t bits) {
   return result;
 }
 
-/// The same direction in as few bits as are enough, of some numbers that are tried.
-Vector shortened(const Vector& n, const Question& question) {
-  for (const std::size_t bits : {9U, 15U, 22U, 30U, 40U, 60U, 90U, 130U, 200U, 400U}) {
+/// The same direction in as few bits as are enough, of some numbers that are tried; nothing if it takes more than a
+/// proof has room for.
+std::optional<Vector> shortened(const Vector& n, const Question& question) {
+  constexpr std::array<std::size_t, 14> tried = {9,   15,  22,  30,  40,   60,   90,
+                                                 130, 200, 400, 1000, 2400, 5000, most_direction_bits};
+  for (const std::size_t bits : tried) {
     Vector shorter = rounded(n, bits);
     if (separates(shorter, question)) return shorter;
   }
-  return n;
+  return std::nullopt;
 }
 
 class Search {
@@ -88,7 +91,7 @@ class Search {
   bool take(const Vector& n) {
     if (!separates(n, question_)) return false;
     found_ = shortened(n, question_);
-    return true;
+    return found_.has_value();
   }
 
   Question question_;

@@ -25,22 +25,6 @@ Poly derivative(const Poly& f) {
   return trimmed(std::move(d));
 }
 
-/// f / g. Precondition: g divides f over the rational numbers.
-Poly quotient(Poly f, const Poly& g) {
-  Poly q;
-  while (f.size() >= g.size()) {
-    const mpz_class lead = f.back();
-    for (mpz_class& c : f) c *= g.back();
-    for (mpz_class& c : q) c *= g.back();
-    const std::size_t shift = f.size() - g.size();
-    if (q.size() <= shift) q.resize(shift + 1, 0);
-    q[shift] += lead;
-    for (std::size_t i = 0; i < g.size(); ++i) f[shift + i] -= lead * g[i];
-    f = trimmed(std::move(f));
-  }
-  return q;
-}
-
 }  // namespace
 
 Poly trimmed(Poly f) {
@@ -94,6 +78,18 @@ Poly square_free(const Poly& f) {
   const Poly g = primitive(f);
   const Poly common = greatest_common_divisor(g, derivative(g));
   return common.size() > 1 ? primitive(quotient(g, common)) : g;
+}
+
+Poly quotient(Poly f, const Poly& g) {
+  Poly q;
+  while (f.size() >= g.size()) {
+    const std::size_t shift = f.size() - g.size();
+    if (q.empty()) q.resize(shift + 1, 0);
+    mpz_divexact(q[shift].get_mpz_t(), f.back().get_mpz_t(), g.back().get_mpz_t());
+    for (std::size_t i = 0; i < g.size(); ++i) f[shift + i] -= q[shift] * g[i];
+    f = trimmed(std::move(f));
+  }
+  return q;
 }
 
 bool divides(const Poly& g, Poly f) { return remainder(trimmed(std::move(f)), g).empty(); }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/proofs/prover/roots.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace noli::witness {
 
 namespace {
@@ -16,6 +19,18 @@ int sign_changes(const std::vector<mpz_class>& coefficients) {
   return changes;
 }
 
+/// The same in as few bits as are enough, so that there is room to go on.
+Root shortened(Root root) {
+  unsigned long spare = root.e;
+  for (const mpz_class* bound : {&root.l, &root.u}) {
+    if (*bound != 0) spare = std::min(spare, mpz_scan1(bound->get_mpz_t(), 0));
+  }
+  root.l >>= spare;
+  root.u >>= spare;
+  root.e -= spare;
+  return root;
+}
+
 /// Adds the roots strictly between l and u.
 void add_inside(const Poly& f, const Root& within, std::vector<Root>& roots) {
   const auto& [l, u, e] = within;
@@ -26,8 +41,8 @@ void add_inside(const Poly& f, const Root& within, std::vector<Root>& roots) {
   if (e == most_root_bits) return;
   const mpz_class middle = l + u;
   if (sign_at(f, middle, e + 1) == 0) roots.push_back({middle, middle, e + 1});
-  add_inside(f, {2 * l, middle, e + 1}, roots);
-  add_inside(f, {middle, 2 * u, e + 1}, roots);
+  add_inside(f, shortened({2 * l, middle, e + 1}), roots);
+  add_inside(f, shortened({middle, 2 * u, e + 1}), roots);
 }
 
 }  // namespace
@@ -36,8 +51,8 @@ std::vector<Root> roots_within(const Poly& f, const mpz_class& from, const mpz_c
   std::vector<Root> roots;
   if (sign_at(f, from, e) == 0) roots.push_back({from, from, e});
   if (from == to) return roots;
-  add_inside(f, {from, to, e}, roots);
-  if (sign_at(f, to, e) == 0) roots.push_back({from, to, e});
+  add_inside(f, shortened({from, to, e}), roots);
+  if (sign_at(f, to, e) == 0) roots.push_back(shortened({from, to, e}));
   return roots;
 }
 
@@ -57,6 +72,7 @@ bool refine(const Poly& f, Root& root) {
   } else {
     (at_middle == at_u ? root.u : root.l) = middle;
   }
+  root = shortened(std::move(root));
   return true;
 }
 

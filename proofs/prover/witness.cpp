@@ -86,18 +86,23 @@ Sides sides_of(const FeatureContact& contact) {
   return {};
 }
 
-/// 1: f is positive at the root of g, and all of its Bernstein coefficients are, on the enclosure that is left of it;
-/// 0: f vanishes there; -1: f is negative; nothing if that is not seen.
-std::optional<int> sign_at_root(const Poly& f, const Poly& g, Root& root) {
+/// 1: f is positive at the root of g, and none of its Bernstein coefficients is negative on the enclosure that is left of
+/// it; `strictly`: all of them are positive. 0: f vanishes there; -1: as for 1, with -f; nothing if that is not seen.
+std::optional<int> sign_at_root(const Poly& f, const Poly& g, Root& root, bool strictly) {
   if (f.empty()) return 0;
   const Poly negative = difference({}, f);
-  std::optional<Poly> both;
+  const auto seen = [&](int least) -> std::optional<int> {
+    if (least_sign(f, root.l, root.u, root.e) >= least) return 1;
+    if (least_sign(negative, root.l, root.u, root.e) >= least) return -1;
+    return std::nullopt;
+  };
+  if (const auto sign = seen(1)) return sign;
+  const Poly both = greatest_common_divisor(f, g);
+  if (both.size() > 1 && changes_sign(both, root)) return 0;
   for (;;) {
-    if (least_sign(f, root.l, root.u, root.e) > 0) return 1;
-    if (least_sign(negative, root.l, root.u, root.e) > 0) return -1;
-    if (!both) both = greatest_common_divisor(f, g);
-    if (both->size() > 1 && changes_sign(*both, root)) return 0;
+    if (const auto sign = seen(strictly ? 1 : 0)) return sign;
     if (!refine(g, root)) return std::nullopt;
+    if (both.size() > 1 && changes_sign(both, root)) return 0;
   }
 }
 
@@ -334,12 +339,48 @@ class Search {
     const Segments segments(motion_, sides.both(), from, first_bits);
     return any_dependency(
         sides, [&](VertexId v) { return segments.position(v); },
-        [&](const Dependency& d) {
+        [&](Dependency d) {
           if (d.condition.size() < 2) return false;
-          const Poly g = square_free(d.condition);
+          divide(d);
+          Poly g = square_free(d.condition);
+          for (const mpz_class& end : {from, to}) g = without_breakpoint(std::move(g), end);
+          if (g.size() < 2) return false;
           const auto roots = roots_within(g, from, to, first_bits);
-          return std::ranges::any_of(roots, [&](const Root& root) { return at_root(d, g, root); });
+          return std::ranges::any_of(roots, [&](const Root& root) {
+            return at_root(d, g, root) || (g.size() == 2 && at_fraction(d, g, root));
+          });
         });
+  }
+
+  /// By what all of its weights have in common: near a time at which they vanish together, their sum would not be seen to
+  /// be positive.
+  static void divide(Dependency& d) {
+    Poly common;
+    for (const Poly& weight : d.weights) common = greatest_common_divisor(common, weight);
+    if (common.size() < 2) return;
+    for (Poly& weight : d.weights) weight = quotient(std::move(weight), common);
+    d.condition = quotient(std::move(d.condition), common);
+  }
+
+  /// What meets at a breakpoint does so at rest.
+  static Poly without_breakpoint(Poly g, const mpz_class& at) {
+    if (!is_whole(at) || sign_at(g, at, first_bits) != 0) return g;
+    return quotient(std::move(g), {mpz_class(-at >> first_bits), 1});
+  }
+
+  /// With the weights at the root of a t - b, as constants: however near other roots are.
+  bool at_fraction(const Dependency& d, const Poly& g, const Root& root) {
+    const mpz_class b = -g[0], a = g[1];
+    Dependency constant = d;
+    for (Poly& weight : constant.weights) {
+      mpz_class value = 0, power = 1;
+      for (std::size_t k = d.degree() + 1; k-- > 0; power *= a) {
+        value *= b;
+        if (k < weight.size()) value += weight[k] * power;
+      }
+      weight = trimmed({value});
+    }
+    return at_root(constant, g, root);
   }
 
   /// Whether the weights are of one sign there. Where one vanishes, g becomes what it has in common with it.
@@ -347,7 +388,7 @@ class Search {
     int sign = 0;
     Found found;
     for (std::size_t i = 0; i < d.weights.size(); ++i) {
-      const auto at_root = sign_at_root(d.weights[i], g, root);
+      const auto at_root = sign_at_root(d.weights[i], g, root, false);
       if (!at_root || *at_root * sign < 0) return false;
       if (*at_root != 0) sign = *at_root;
       if (*at_root == 0) g = greatest_common_divisor(g, d.weights[i]);
@@ -361,7 +402,7 @@ class Search {
         if (sign < 0) weight = difference({}, weight);
         total = sum(total, weight);
       }
-      if (sign_at_root(total, g, root) != 1) return false;
+      if (sign_at_root(total, g, root, true) != 1) return false;
     }
     found.g = std::move(g);
     found.e = root.e;

@@ -61,18 +61,31 @@ TEST_F(ContactWitness, InTheLastUlpOfAFaceThatLands) {
 /// products.
 TEST_F(ContactWitness, OfEdgesAtTheGreatestDoubles) {
   const std::string cells = "l 1 2\nl 3 4\n";
-  expect_witness({frame("a",
-                        "v -9.874789749538684e+307 -8.977429631287785e-301 1e+308\n"
-                        "v 1e+308 5.832074528801915e-301 9.87760021051951e+307\n"
-                        "v 3.5e-323 -9.797142976272272e-301 -1e+305\n"
-                        "v 1.0163341553452634e+308 0.8568574778858657 0\n",
-                        cells),
-                  frame("b",
-                        "v -4e-323 -0.6382894254807006 -1.5282775445787211e-301\n"
-                        "v 9.643080783031505e-301 1e+308 -3e-323\n"
-                        "v 1e-323 -1e+308 0\n"
-                        "v -1e-323 4.184931710532345e-301 0\n",
-                        cells)});
+  expect_witness(
+      {frame("a", "v -1.7e308 5e-324 1.7e308\nv 1.79e308 -1.5e-323 1.7e308\nv 2.5e-323 -1.7e308 0\nv 5e-324 1.7e308 0\n",
+             cells),
+       frame("b", "v -5e-324 1e-323 -1.7e308\nv 5e-324 5e-324 -1.7e308\nv 1e-323 -1.7e308 5e-324\nv 2.5e-323 1e-323 0\n",
+             cells)});
+}
+
+/// These are apart, but some direction has to have more bits than a proof has room for, or the time has to be cut into
+/// shorter pieces.
+TEST_F(ContactWitness, ThereIsNoneOfEdgesThatAreApartAtTheGreatestDoublesSlow) {
+  const std::string cells = "l 1 2\nl 3 4\n";
+  const std::string begin = frame("a",
+                                  "v -9.874789749538684e+307 -8.977429631287785e-301 1e+308\n"
+                                  "v 1e+308 5.832074528801915e-301 9.87760021051951e+307\n"
+                                  "v 3.5e-323 -9.797142976272272e-301 -1e+305\n"
+                                  "v 1.0163341553452634e+308 0.8568574778858657 0\n",
+                                  cells),
+                    end = frame("b",
+                                "v -4e-323 -0.6382894254807006 -1.5282775445787211e-301\n"
+                                "v 9.643080783031505e-301 1e+308 -3e-323\n"
+                                "v 1e-323 -1e+308 0\n"
+                                "v -1e-323 4.184931710532345e-301 0\n",
+                                cells);
+  const Process process = run_noli({"verify", begin, end});
+  EXPECT_EQ(process.exit_code, 0) << process.out << process.err;
 }
 
 TEST_F(ContactWitness, OfAVertexAndAFaceAtTheGreatestDoubles) {
