@@ -154,8 +154,7 @@ Command add_check(CLI::App& app) {
       ->add_option("--require", arguments->require,
                    "What the proof has to claim, a field of the claim; again for others")
       ->type_name("FIELD=VALUE")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);  // what follows one are files
   command->add_option("--claim", arguments->claim, "The same from the file that `noli verify --claim-out` writes")
       ->type_name("CLAIM.json");
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
