@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* footer =
     "Runs the checker, a small program of its own that trusts nothing of this one (proofs/FORMAT.md, proofs/checker).\n"
-    "What has to be proved is your choice, not the proof's. Unless you ask for something else: frames in motion (or the "
-    "run), all\n"
+    "What has to be proved is your choice, not the proof's. Unless you ask for something else: frames in motion (or "
+    "the run), all\n"
     "steps, every cell, no merged vertices, nothing left out but what the run's scene leaves out, no least distance. A "
     "proof of less\n"
     "is rejected, and so is a witness against more. Ask field by field:\n"
@@ -72,7 +72,8 @@ std::vector<std::string> asked_by(const CheckArguments& arguments) {
   return words;
 }
 
-/// Windows that the log of a run tells of are asked where some are missing. What cannot be read is the checker's to say.
+/// All windows that the log of a run tells of are asked where some are missing. What cannot be read is the checker's to
+/// say.
 void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words) {
   if (asks(words, "steps")) return;
   try {
@@ -173,10 +174,10 @@ Command add_check(CLI::App& app) {
       ->required()
       ->type_name("PROOF TRAJECTORY | RUN");
   command
-      ->add_option("--require", arguments->require, "What the proof has to claim, a field of the claim; again for others")
+      ->add_option("--require", arguments->require,
+                   "What the proof has to claim, a field of the claim; again for others")
       ->type_name("FIELD=VALUE")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);  // what follows one are files
   command->add_option("--claim", arguments->claim, "The same from the file that `noli verify --claim-out` writes")
       ->type_name("CLAIM.json");
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");

@@ -101,8 +101,9 @@ bool read_field(std::string_view key, std::string_view value, Claim& claim) {
   return key == "to" && read_number(value, claim.to);
 }
 
-constexpr std::array<std::string_view, 13> keys = {"motion", "dimension", "steps", "strict", "points", "distance", "ring",
-                                                   "merged", "excluded",  "cells", "empty",  "from",   "to"};
+constexpr std::array<std::string_view, 13> keys = {"motion", "dimension", "steps",    "strict", "points",
+                                                   "distance", "ring",    "merged",   "excluded", "cells",
+                                                   "empty",  "from",      "to"};
 
 /// Values of a claim in the order of its line.
 std::vector<std::pair<std::string, std::string>> values(const Claim& claim) {
@@ -180,7 +181,8 @@ class ClaimFile {
     if (!list.is_array()) fail("/excluded", "expected an array of pairs of labels");
     LabelPairs pairs;
     for (const Json& pair : list) {
-      const bool two = pair.is_array() && pair.size() == 2 && pair[0].is_number_unsigned() && pair[1].is_number_unsigned();
+      const bool two = pair.is_array() && pair.size() == 2 && pair[0].is_number_unsigned() &&
+                       pair[1].is_number_unsigned();
       if (!two || pair[0].get<std::uint64_t>() > pair[1].get<std::uint64_t>() ||
           pair[1].get<std::uint64_t>() > 0xffffffff) {
         fail("/excluded", "expected pairs [a, b] of labels, a <= b");

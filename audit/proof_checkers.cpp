@@ -216,7 +216,8 @@ std::vector<std::string> own_claim(const std::string& proof) {
   const std::uint64_t list = fixed + std::uint64_t{8} * merged;
   if (proof.size() < begin + list + 4) return fields;
   std::string pairs, cells;
-  for (std::uint64_t i = 0; i < number(list) && proof.size() >= begin + list + 12 + 8 * i && pairs.size() < longest; ++i)
+  const std::uint64_t count = std::min<std::uint64_t>(number(list), (proof.size() - begin - list - 4) / 8);
+  for (std::uint64_t i = 0; i < count && pairs.size() < longest; ++i)
     pairs += fmt::format("{}{}-{}", i == 0 ? "" : ",", number(list + 4 + 8 * i), number(list + 8 + 8 * i));
   if (pairs.empty() || pairs.size() > longest) return fields;
   for (std::size_t i = 16; i < 48; ++i) cells += fmt::format("{:02x}", byte(i));

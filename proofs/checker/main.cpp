@@ -5,8 +5,8 @@
 // noli_check --version
 //
 // Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What may be asked, what it says, and
-// its exit codes are in sections 6 and 7 there. A proof, or the block file of a run, that is named - is read from the standard
-// input.
+// its exit codes are in sections 6 and 7 there. A proof, or the block file of a run, that is named - is read from the
+// standard input.
 #include <exception>
 #include <map>
 

@@ -14,10 +14,10 @@ compile Noli
 
 # What the theorems rest on.
 theorems=(check_sound check_sound_cells check_well_formed run_app glue_sound glue_well_formed chain_sound
-          check_hit_sound check_hit_sound_both start_read_same start_read_sound)
+          check_hit_sound check_hit_sound_both start_read_same start_read_sound asked_holds)
 {
   echo 'Require Import ZArith List Reals.'
-  echo 'From Noli Require Import Spec Checker Sound Reading Glue Hit.'
+  echo 'From Noli Require Import Spec Checker Sound Reading Glue Hit Asked.'
   echo 'Open Scope Z_scope. Open Scope R_scope.'
   for theorem in "${theorems[@]}"; do
     echo "Check $theorem."

@@ -262,8 +262,8 @@ TEST_F(Proof, ACheckerIsNotTrustedBlindly) {
     EXPECT_EQ(code, 4) << change;
     EXPECT_NE(error.find("claim"), std::string::npos) << change << error;
   }
-  for (const char* script : {"cat >/dev/null; echo accepted: as I was told", "exit 0", "cat >/dev/null", "cat >/dev/null; echo accepted: no; exit 3",
-                             "cat >/dev/null; echo refuted: so; exit 1", "exit 7", "kill -9 $$"}) {
+  for (const char* script : {"cat >/dev/null; echo accepted: as I was told", "exit 0", "cat >/dev/null",
+                             "cat >/dev/null; echo accepted: no; exit 3", "cat >/dev/null; echo refuted: so; exit 1", "exit 7", "kill -9 $$"}) {
     const auto [code, error] = verify_with(script);
     EXPECT_EQ(code, 4) << script;
     EXPECT_NE(error.find("check"), std::string::npos) << script << error;

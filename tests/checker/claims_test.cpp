@@ -35,8 +35,8 @@ Proof two_steps() {
 TEST(Claims, EachField) {
   EXPECT_ACCEPTED(two_edges().check());
   EXPECT_REJECTED(with_claim([](auto& c) { c.source = 3; }).check(), "source");
-  EXPECT_REJECTED(with_claim([](auto& c) { c.dimension = 1; }).check(), "dimension");
-  EXPECT_REJECTED(with_claim([](auto& c) { c.dimension = 4; }).check(), "dimension");
+  EXPECT_REJECTED(with_claim([](auto& c) { c.dimension = 1; }).check(), "expected dimension 2 or 3");
+  EXPECT_REJECTED(with_claim([](auto& c) { c.dimension = 4; }).check(), "expected dimension 2 or 3");
   EXPECT_REJECTED(with_claim([](auto& c) { c.flags = 4; }).check(), "flag");
   EXPECT_REJECTED(with_claim([](auto& c) { c.zero = 1; }).check(), "expected 0");
   EXPECT_REJECTED(with_claim([](auto& c) { c.ring = 0; }).check(), "ring");

@@ -49,7 +49,7 @@ TEST(Witnesses, AtTheSquareRootOfTwo) {
       "");
   Proof excluded = root_two();
   excluded.claim.excluded = {{0, 0}};
-  EXPECT_REJECTED(check(at_root_two, excluded), "excluded");
+  EXPECT_REJECTED(check(at_root_two, excluded), "the pair is excluded");
 }
 
 TEST(Witnesses, WithAWeightThatIsZero) {
