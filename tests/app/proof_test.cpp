@@ -104,6 +104,7 @@ TEST_F(Proof, CellsThatIntersectFromTheBeginningHaveAWitness) {
 TEST_F(Proof, IsOfItsFramesInTheirOrderAlone) {
   const auto frames = triangles({1, 0.5, 0.25});
   ASSERT_EQ(prove(frames).exit_code, 0);
+  fs::remove(claim());  // which asks for two steps by name: then a third is not looked at
   EXPECT_EQ(check(frames).exit_code, 0);
   const std::vector<std::vector<std::string>> others = {
       {frames[1], frames[0], frames[2]},
