@@ -352,8 +352,8 @@ class Search {
         });
   }
 
-  /// By what all of its weights have in common: near a time at which they vanish together, their sum would not be seen to
-  /// be positive.
+  /// By what all of its weights have in common: near a time at which they vanish together, their sum would not be seen
+  /// to be positive.
   static void divide(Dependency& d) {
     Poly common;
     for (const Poly& weight : d.weights) common = greatest_common_divisor(common, weight);
