@@ -99,7 +99,8 @@ struct TrajectoryReport {
   std::uint64_t corpus_size = 0;  ///< motions in the corpus, of before and new
 };
 
-/// Runs until a limit. Throws std::invalid_argument for a family that is not there. With a count and without a corpus the report is the same for any number of threads. What
+/// Runs until a limit. Throws std::invalid_argument for a family that is not there.
+/// With a count and without a corpus the report is the same for any number of threads. What
 /// cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
 /// the machine fails.
 TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options);

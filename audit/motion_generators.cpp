@@ -248,7 +248,8 @@ constexpr std::array<MotionGenerator, 17> generators = {{
     {"hinge", "neighbours that share an edge or a vertex and fold onto each other", hinge},
     {"query", "the generators of `noli fuzz queries`, as loose cells", query},
     {"soup", "anything on a small grid: shared, repeated, degenerate, several contacts at once", soup},
-    {"last_ulp", "contact in the last instants of a step, or the first, with a root at its end, or beginning", last_ulp},
+    {"last_ulp", "contact in the last instants of a step, or the first, with a root at its end, or beginning",
+     last_ulp},
     {"huge", "coordinates up to the greatest double, alone or beside tiny ones", huge},
     {"landing", "coming to rest on something, a few units in the last place off, frame after frame", landing},
 }};

@@ -25,7 +25,8 @@ Poly determinant(const Matrix& matrix) {
 }
 
 /// Numbers that add up to 0, and so do they times each of these coordinates of the points.
-std::vector<Poly> affine_dependency(const std::vector<PolyVector>& points, const std::vector<std::size_t>& coordinates) {
+std::vector<Poly> affine_dependency(const std::vector<PolyVector>& points,
+                                    const std::vector<std::size_t>& coordinates) {
   Matrix rows = {{}, std::vector<Poly>(points.size(), Poly{1})};  // row 0 is left out of each minor
   for (const std::size_t k : coordinates) {
     auto& row = rows.emplace_back();

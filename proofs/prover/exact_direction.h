@@ -24,8 +24,8 @@ namespace noli {
 
 using IntegerVector = std::array<Integer, 3>;
 
-/// Of a component: a sint (proofs/FORMAT.md, section 2) has 1,200 groups of seven bits, one of them for the sign, and one
-/// is left for what rounding carries.
+/// Of a component: a sint (proofs/FORMAT.md, section 2) has 1,200 groups of seven bits, one of them for the sign, and
+/// one is left for what rounding carries.
 constexpr std::size_t most_direction_bits = 8398;
 
 /// A direction that separates, with few bits where few do; nothing if there is none of at most most_direction_bits.

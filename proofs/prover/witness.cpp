@@ -86,8 +86,8 @@ Sides sides_of(const FeatureContact& contact) {
   return {};
 }
 
-/// 1: f is positive at the root of g, and none of its Bernstein coefficients is negative on the enclosure that is left of
-/// it; `strictly`: all of them are positive. 0: f vanishes there; -1: as for 1, with -f; nothing if that is not seen.
+/// 1: f is positive at the root of g, and none of its Bernstein coefficients is negative on the enclosure that is left
+/// of it; `strictly`: all of them are positive. 0: f vanishes there; -1: as for 1, with -f; nothing if that is not seen.
 std::optional<int> sign_at_root(const Poly& f, const Poly& g, Root& root, bool strictly) {
   if (f.empty()) return 0;
   const Poly negative = difference({}, f);
@@ -352,8 +352,8 @@ class Search {
         });
   }
 
-  /// By what all of its weights have in common: near a time at which they vanish together, their sum would not be seen to
-  /// be positive.
+  /// By what all of its weights have in common: near a time at which they vanish together, their sum would not be seen
+  /// to be positive.
   static void divide(Dependency& d) {
     Poly common;
     for (const Poly& weight : d.weights) common = greatest_common_divisor(common, weight);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Witnesses of contact: the payload of block WITN (proofs/FORMAT.md, section 5), for steps between frames and for windows.
+// Witnesses of contact: the payload of block WITN (proofs/FORMAT.md, section 5), for steps between frames and for
+// windows.
 //
 // Notation
 //   integer time   time in units of 2^q, the step's
@@ -8,8 +9,8 @@
 //   weights    of the vertices of two features, as polynomials in the time, such that g divides the difference of the
 //              two points that they give
 //
-// Each vertex is looked at on one segment between two of its breakpoints; the time at which the features meet is cut where
-// one of them has a breakpoint.
+// Each vertex is looked at on one segment between two of its breakpoints; the time at which the features meet is cut
+// where one of them has a breakpoint.
 //
 // Algorithm: all ways in which some vertices of the two features can meet (proofs/prover/dependency.h) are tried, first
 // at the time of the contact and then during the whole step: at the roots of their conditions, and at rest at

@@ -62,9 +62,13 @@ TEST_F(ContactWitness, InTheLastUlpOfAFaceThatLands) {
 TEST_F(ContactWitness, OfEdgesAtTheGreatestDoubles) {
   const std::string cells = "l 1 2\nl 3 4\n";
   expect_witness(
-      {frame("a", "v -1.7e308 5e-324 1.7e308\nv 1.79e308 -1.5e-323 1.7e308\nv 2.5e-323 -1.7e308 0\nv 5e-324 1.7e308 0\n",
+      {frame("a",
+             "v -1.7e308 5e-324 1.7e308\nv 1.79e308 -1.5e-323 1.7e308\n"
+             "v 2.5e-323 -1.7e308 0\nv 5e-324 1.7e308 0\n",
              cells),
-       frame("b", "v -5e-324 1e-323 -1.7e308\nv 5e-324 5e-324 -1.7e308\nv 1e-323 -1.7e308 5e-324\nv 2.5e-323 1e-323 0\n",
+       frame("b",
+             "v -5e-324 1e-323 -1.7e308\nv 5e-324 5e-324 -1.7e308\n"
+             "v 1e-323 -1.7e308 5e-324\nv 2.5e-323 1e-323 0\n",
              cells)});
 }
 

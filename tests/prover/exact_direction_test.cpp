@@ -10,7 +10,7 @@
 namespace noli {
 namespace {
 
-/// (a, b) with a = 2^bits, and b a power of 3 of that size; and what is opposite to it, but for one unit. A direction that
+/// (a, b) with a = 2^bits, and b a power of 3 of that size; and its opposite, except for one unit. A direction that
 /// separates both is across (a, b), to as many bits.
 std::vector<IntegerVector> almost_opposite(std::size_t bits) {
   const Integer a = Integer(1) << bits;
