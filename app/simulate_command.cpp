@@ -77,8 +77,9 @@ ExitCode run(SimulateArguments& arguments) {
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.results, with_files_of_runs({request.scene, request.run}));
-  request.begun = [&request](const integrator::Scene& scene, const integrator::Explanation& explanation,
-                             const std::string& space) {
+  request.begun = [&arguments, &request](const integrator::Scene& scene, const integrator::Explanation& explanation,
+                                         const std::string& space) {
+    if (arguments.results.quiet) return;
     if (request.brief) note_missing_short_form(scene);
     tell_notes(explanation);
     tell_note(space);
