@@ -116,8 +116,7 @@ Command add_audit_precision(CLI::App& audit) {
       command->add_option("--until", arguments->until, "Simulated time to stop at; default: the scene's duration")
           ->check(is_positive())
           ->type_name("SECONDS");
-  command
-      ->add_flag("--past-duration", arguments->past_duration, "--until may lie beyond the scene's duration")
+  command->add_flag("--past-duration", arguments->past_duration, "--until may lie beyond the scene's duration")
       ->needs(until);
   command
       ->add_option("--bits", arguments->bits,

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* footer =
-    "Runs the checker, a small program of its own that trusts nothing of this one (proofs/FORMAT.md, proofs/checker).\n"
+    "Runs the checker, a separate small program that trusts nothing of this one (proofs/FORMAT.md, proofs/checker).\n"
     "What has to be proved is your choice, not the proof's. Unless you ask for something else: frames in motion (or "
     "the run), all\n"
     "steps, every cell, no merged vertices, nothing left out but what the run's scene leaves out, no least distance. A "
@@ -86,7 +86,10 @@ void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words) {
 
 Json asked_json(const std::vector<std::string>& words) {
   Json json = Json::object();
-  for (const std::string& word : words) json[field_of(word)] = word.substr(std::min(word.find('=') + 1, word.size()));
+  for (const std::string& word : words) {
+    const std::string field = field_of(word);
+    json[field] = field == word ? "1" : word.substr(field.size() + 1);  // a bare word means 1
+  }
   return json;
 }
 
@@ -102,9 +105,8 @@ Json weaker_json(const std::string& words) {
   return list;
 }
 
-Json check_json(const CheckArguments& arguments, const fs::path& proof, const std::vector<std::string>& asked,
+Json check_json(const CheckerVersion& checker, const fs::path& proof, const std::vector<std::string>& asked,
                 const CheckerVerdict& verdict, const char* word) {
-  const CheckerVersion checker = version_of(arguments.verified ? Checker::verified : Checker::plain);
   const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
   return {{"verdict", word},
           {"checker", {{"name", checker.name}, {"version", checker.version}, {"commit", checker.commit}}},
@@ -116,9 +118,8 @@ Json check_json(const CheckArguments& arguments, const fs::path& proof, const st
 }
 
 /// The checker's first line without its verdict is the place; the line for programs is among the details.
-Answer check_answer(const CheckArguments& arguments, const CheckerVerdict& verdict, const char* word,
+Answer check_answer(const CheckerVersion& checker, const CheckerVerdict& verdict, const char* word,
                     const std::vector<std::string>& notes) {
-  const CheckerVersion checker = version_of(arguments.verified ? Checker::verified : Checker::plain);
   const std::string line = first_line(verdict.words);
   const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
   Answer answer(word, {{"checker", checker.name}, {"version", checker.version}});
@@ -150,17 +151,18 @@ ExitCode run(const CheckArguments& arguments) {
   const Output output(arguments.results, inputs);
   std::vector<std::string> asked = asked_by(arguments);
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) ask_for_all_windows(trajectory[0], asked);
-  CheckerProcess checker(arguments.verified ? Checker::verified : Checker::plain, proof,
-                         trajectory_for_checker(trajectory), std::nullopt, asked);
+  const Checker which = arguments.verified ? Checker::verified : Checker::plain;
+  CheckerProcess checker(which, proof, trajectory_for_checker(trajectory), std::nullopt, asked);
   const auto said = checker.finish();
   if (!said) throw ReadInterrupted(proof.string());
   const CheckerVerdict& verdict = *said;
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
-  Json json = check_json(arguments, proof, asked, verdict, word);
+  const CheckerVersion version = version_of(which);
+  Json json = check_json(version, proof, asked, verdict, word);
   json["notes"] = ordered.notes;
-  output.write("check", check_answer(arguments, verdict, word, ordered.notes), json);
+  output.write("check", check_answer(version, verdict, word, ordered.notes), json);
   return static_cast<ExitCode>(verdict.code);
 }
 

@@ -190,7 +190,8 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
     return audit::fuzz_library_motions(options);
   });
   const double seconds = watch.seconds();
-  output.write("fuzz-library-trajectories", report_answer(arguments, report, seconds), report_json(arguments, report, seconds));
+  output.write("fuzz-library-trajectories", report_answer(arguments, report, seconds),
+               report_json(arguments, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.extent);
 }
@@ -207,9 +208,9 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   const Again result = look_again(arguments);
   const audit::FrameMotion& motion = result.motion;
   const char* const word = interrupted() ? "undecided" : result.found ? "finding" : "no_finding";
-  Answer answer(word, {{"frames", motion.frames.size()},
-                       {"cells", motion.mesh.cell_count()},
-                       {"vertices", motion.mesh.vertex_count}});
+  Answer answer(
+      word,
+      {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
   std::string& text = answer.text;
   if (result.found) text += on_one_line(result.found->words) + '\n';
   if (result.saved) {
@@ -218,12 +219,12 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   }
   output.write("fuzz-replay", answer,
                {{"verdict", word},
-                      {"library", arguments.theirs.asked.path.string()},
-                      {"frames", motion.frames.size()},
-                      {"cells", motion.mesh.cell_count()},
-                      {"vertices", motion.mesh.vertex_count},
-                      {"difference", result.found ? Json(result.found->words) : Json()},
-                      {"folder", result.saved ? Json(result.saved->string()) : Json()}});
+                {"library", arguments.theirs.asked.path.string()},
+                {"frames", motion.frames.size()},
+                {"cells", motion.mesh.cell_count()},
+                {"vertices", motion.mesh.vertex_count},
+                {"difference", result.found ? Json(result.found->words) : Json()},
+                {"folder", result.saved ? Json(result.saved->string()) : Json()}});
   if (interrupted()) return ExitCode::undecided;
   return result.found ? ExitCode::refuted : ExitCode::holds;
 }

@@ -286,12 +286,12 @@ ExitCode again(const ProofsArguments& arguments) {
     text += fmt::format("saved as {}, a proof of {} bytes\n", on_one_line(saved->string()), proof.files.proof.size());
   output.write("fuzz-replay", answer,
                {{"verdict", word},
-                      {"plain", word_of(judged.plain)},
-                      {"words", judged.plain.words},
-                      {"verified", verified},
-                      {"claim", claim},
-                      {"difference", finding ? Json(judged.difference) : Json()},
-                      {"folder", saved ? Json(saved->string()) : Json()}});
+                {"plain", word_of(judged.plain)},
+                {"words", judged.plain.words},
+                {"verified", verified},
+                {"claim", claim},
+                {"difference", finding ? Json(judged.difference) : Json()},
+                {"folder", saved ? Json(saved->string()) : Json()}});
   if (stopped) return ExitCode::undecided;
   return finding ? ExitCode::refuted : ExitCode::holds;
 }

@@ -183,11 +183,11 @@ ExitCode replay(const FuzzArguments& arguments) {
   answer.text += not_asked_text(file);
   output.write("fuzz-replay", answer,
                {{"verdict", word},
-                       {"queries", queries},
-                       {"not_asked", file.queries().size() - queries},
-                       {"findings", differences.size()},
-                       {"probe", file.queries().at(0).probe.has_value()},
-                       {"differences", differences}});
+                {"queries", queries},
+                {"not_asked", file.queries().size() - queries},
+                {"findings", differences.size()},
+                {"probe", file.queries().at(0).probe.has_value()},
+                {"differences", differences}});
   return fuzz_exit_code(differences.size(), queries, undecided);
 }
 
@@ -220,8 +220,8 @@ ExitCode minimise(const FuzzArguments& arguments) {
     const std::string command = again(arguments, result);
     save(finding, result, file.queries()[finding.index].probe.has_value(), command);
     answer.text += fmt::format("query {}: {}; {} different numbers; saved as {}\n  again: {}\n", finding.index + 1,
-                         finding.difference, audit::distinct_coordinates(finding.shrunk), on_one_line(result.string()),
-                         command);
+                               finding.difference, audit::distinct_coordinates(finding.shrunk),
+                               on_one_line(result.string()), command);
     json["reports"].push_back({{"query", finding.index + 1},
                                {"difference", finding.difference},
                                {"distinct_coordinates", audit::distinct_coordinates(finding.shrunk)},
@@ -264,7 +264,8 @@ ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
     return audit::fuzz_library(options);
   });
   const double seconds = watch.seconds();
-  output.write("fuzz-library-queries", library_fuzz_answer(options, report, seconds), library_fuzz_json(options, report, seconds));
+  output.write("fuzz-library-queries", library_fuzz_answer(options, report, seconds),
+               library_fuzz_json(options, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }

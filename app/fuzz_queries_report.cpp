@@ -170,9 +170,8 @@ Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& repor
 }
 
 Answer fuzz_answer(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds) {
-  Answer answer(
-      verdict(exit_code(report), "no_difference"),
-      {{"queries", report.queries}, {"findings", report.findings_total}, {"seed", options.seed}});
+  Answer answer(verdict(exit_code(report), "no_difference"),
+                {{"queries", report.queries}, {"findings", report.findings_total}, {"seed", options.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
@@ -222,9 +221,8 @@ Json library_fuzz_json(const audit::LibraryFuzzOptions& options, const audit::Li
 
 Answer library_fuzz_answer(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
                            double seconds) {
-  Answer answer(verdict(exit_code(report), "no_finding"), {{"queries", report.queries},
-                                                           {"contacts", report.contacts},
-                                                           {"findings", report.findings_total}});
+  Answer answer(verdict(exit_code(report), "no_finding"),
+                {{"queries", report.queries}, {"contacts", report.contacts}, {"findings", report.findings_total}});
   for (const audit::LibraryFault fault : faults) {
     answer.add({name(fault), report.faults[static_cast<std::size_t>(fault)]});
   }

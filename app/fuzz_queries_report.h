@@ -20,7 +20,7 @@ Answer fuzz_answer(const audit::FuzzOptions& options, const audit::FuzzReport& r
 Json fuzz_json(const audit::FuzzOptions& options, const audit::FuzzReport& report, double seconds);
 
 Answer library_fuzz_answer(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
-                              double seconds);
+                           double seconds);
 Json library_fuzz_json(const audit::LibraryFuzzOptions& options, const audit::LibraryFuzzReport& report,
                        double seconds);
 

@@ -168,11 +168,11 @@ ExitCode again(const ScenesArguments& arguments) {
   if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
   output.write("fuzz-replay", answer,
                {{"verdict", word},
-                      {"end", judgement.end},
-                      {"verified", judgement.verified},
-                      {"resumed", judgement.resumed},
-                      {"difference", judgement.difference ? Json(*judgement.difference) : Json()},
-                      {"file", saved ? Json(saved->string()) : Json()}});
+                {"end", judgement.end},
+                {"verified", judgement.verified},
+                {"resumed", judgement.resumed},
+                {"difference", judgement.difference ? Json(*judgement.difference) : Json()},
+                {"file", saved ? Json(saved->string()) : Json()}});
   if (judgement.stopped) return ExitCode::undecided;
   return judgement.difference ? ExitCode::refuted : ExitCode::holds;
 }

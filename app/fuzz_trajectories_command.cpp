@@ -164,19 +164,19 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   }
   const bool unknown = interrupted() || (undecided && !found);
   const char* const word = unknown ? "undecided" : found ? "finding" : "no_finding";
-  Answer answer(word, {{"frames", motion.frames.size()},
-                       {"cells", motion.mesh.cell_count()},
-                       {"vertices", motion.mesh.vertex_count}});
+  Answer answer(
+      word,
+      {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
   std::string& text = answer.text;
   if (found) text += on_one_line(*found) + '\n';
   if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
   output.write("fuzz-replay", answer,
                {{"verdict", word},
-                      {"frames", motion.frames.size()},
-                      {"cells", motion.mesh.cell_count()},
-                      {"vertices", motion.mesh.vertex_count},
-                      {"difference", found ? Json(*found) : Json()},
-                      {"folder", saved ? Json(saved->string()) : Json()}});
+                {"frames", motion.frames.size()},
+                {"cells", motion.mesh.cell_count()},
+                {"vertices", motion.mesh.vertex_count},
+                {"difference", found ? Json(*found) : Json()},
+                {"folder", saved ? Json(saved->string()) : Json()}});
   if (unknown) return ExitCode::undecided;
   return found ? ExitCode::refuted : ExitCode::holds;
 }

@@ -60,10 +60,9 @@ void write(const Json& value, std::size_t depth, std::string& out) {
 }  // namespace
 
 std::string digits4(double number) {
-  constexpr std::size_t mantissa = 5;  // "2.631" of "2.6318040000000001e-01"
-  const std::string digits = fmt::format("{:.16e}", number);
-  const std::string cut = digits.substr(0, mantissa) + digits.substr(digits.find('e'));
-  return fmt::format("{:g}", std::strtod(cut.c_str(), nullptr));
+  const std::string rounded = fmt::format("{:.4g}", number);
+  const bool as_late_as_the_end = number < 1 && std::strtod(rounded.c_str(), nullptr) >= 1;
+  return as_late_as_the_end ? "0.9999" : rounded;
 }
 
 std::string digits17(double number) {

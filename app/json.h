@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;
 /// A number as JSON and the text have it: 17 significant digits, which name one double only.
 std::string digits17(double number);
 
-/// A number that is not negative to be read at a glance: its first four digits, the rest cut off, so that no time
-/// before the end of a step reads as its end.
+/// A number that is not negative, to be read at a glance: rounded to four digits, but never from below 1 to 1, so that
+/// no time before the end of a step reads as its end.
 std::string digits4(double number);
 
 /// The document with an indentation of two and a newline at its end. Bytes that are no UTF-8 (in names of files) are

@@ -63,6 +63,7 @@ void LinesPipe::put(std::string_view bytes) {
 
 void LinesPipe::drained() {
   std::unique_lock lock(mutex_);
+  if (!awaited_since_) awaited_since_ = std::chrono::steady_clock::now();
   changed_.wait(lock, [this] { return waiting_.empty() || over_; });
   if (unopened_) {
     throw std::runtime_error("the checker does not read the world lines; expected it to open " + path_.string());
@@ -84,10 +85,15 @@ bool LinesPipe::given_up() const {
   return deadline_ && std::chrono::steady_clock::now() >= *deadline_;
 }
 
+/// Whether somebody has waited too long for the checker to read. Before anybody waits it may not have been started.
+bool LinesPipe::waited_too_long() const {
+  const std::lock_guard lock(mutex_);
+  return awaited_since_ && std::chrono::steady_clock::now() >= *awaited_since_ + time_to_open;
+}
+
 /// Waits for the checker to open its end, without which there is none of ours.
 std::optional<int> LinesPipe::open() const {
-  const auto last = std::chrono::steady_clock::now() + time_to_open;
-  while (!given_up() && std::chrono::steady_clock::now() < last) {
+  while (!given_up() && !waited_too_long()) {
     const int end = ::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     if (end >= 0) return end;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -48,6 +48,7 @@ class LinesPipe {
   void put(std::string_view bytes);
   void work();
   bool given_up() const;
+  bool waited_too_long() const;
   std::optional<int> open() const;
   bool write(int end, std::string_view bytes) const;
 
@@ -58,8 +59,9 @@ class LinesPipe {
   std::condition_variable changed_;
   std::deque<std::string> waiting_;  ///< the first is on its way until it is gone
   bool closing_ = false, abandoned_ = false;
-  bool over_ = false;      ///< nothing is written any more
-  bool unopened_ = false;  ///< because nobody has opened it
+  bool over_ = false;                                                   ///< nothing is written any more
+  std::optional<std::chrono::steady_clock::time_point> awaited_since_;  ///< by drained()
+  bool unopened_ = false;                                               ///< because nobody has opened it
   std::thread thread_;
 };
 

@@ -21,8 +21,9 @@ class FrameProof {
  public:
   /// `mesh` is what is compared (after merging), `exclusions` or none what of it is not, which has to outlive this; the rest is what the claim says of it. Writes to
   /// request.open_proof(claim).
-  FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh, const IdenticalVertices* classes,
-             const Exclusions* exclusions, std::span<const Position> x_t0, std::span<const Position> x_t1);
+  FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
+             const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x_t0,
+             std::span<const Position> x_t1);
 
   /// Writes the proof of a step that has no contact and commits it. False if it was stopped, which leaves the file as
   /// it was.

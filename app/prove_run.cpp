@@ -124,8 +124,8 @@ bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256
 void RunProof::commit() { file_.commit(); }
 
 WitnessStep RunProof::what(const WorldLines& lines) const {
-  return {scene_.mesh, lines, 0, static_cast<int>(scene_.header.dimension), claim_.strict, claim_.eta, claim_.ring,
-          &prover_};
+  return {scene_.mesh,   lines,      0,           static_cast<int>(scene_.header.dimension),
+          claim_.strict, claim_.eta, claim_.ring, &prover_};
 }
 
 bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,

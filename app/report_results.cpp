@@ -148,15 +148,16 @@ class Verified {
   /// What was looked at, and by whom, below the statement.
   void put_inputs() const {
     Json& rows = report_.page["statement"];
-    const Json& noli = result_.at("noli");
-    rows.push_back({"decided by", fmt::format("noli {} ({})", noli.at("version").get<std::string>(),
-                                              noli.at("commit").get<std::string>())});
-    if (const Json& checker = result_.at("checker"); checker.is_object()) {
-      rows.push_back({"checked by", fmt::format("{} {} ({})", checker.at("name").get<std::string>(),
-                                                checker.at("version").get<std::string>(),
-                                                checker.at("commit").get<std::string>())});
+    if (const Json noli = result_.value("noli", Json()); noli.is_object()) {
+      rows.push_back({"decided by", fmt::format("noli {} ({})", noli.at("version").get<std::string>(),
+                                                noli.at("commit").get<std::string>())});
     }
-    const Json& inputs = result_.at("inputs");
+    if (const Json checker = result_.value("checker", Json()); checker.is_object()) {
+      rows.push_back({"checked by",
+                      fmt::format("{} {} ({})", checker.at("name").get<std::string>(),
+                                  checker.at("version").get<std::string>(), checker.at("commit").get<std::string>())});
+    }
+    const Json inputs = result_.value("inputs", Json::array());
     for (std::size_t i = 0; i < inputs.size() && i < most_inputs; ++i) {
       rows.push_back({fmt::format("input {}", i + 1), input_in_words(inputs.at(i))});
     }
@@ -164,7 +165,7 @@ class Verified {
   }
 
   static std::string input_in_words(const Json& input) {
-    std::string words = input.at("file").get<std::string>();
+    std::string words = page_name(input.at("file").get<std::string>());
     for (const auto& [key, unit] : {std::pair("bytes", " bytes"), {"vertices", " vertices"}, {"cells", " cells"}}) {
       if (const Json number = input.value(key, Json()); number.is_number()) words += ", " + number.dump() + unit;
     }

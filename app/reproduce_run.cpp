@@ -31,9 +31,9 @@ Found<Dim> find_window(const ReproduceRequest& request) {
     }
     found.before = snapshot_of<Dim>(*window);
   }
-  throw InputError(request.run.string(), "",
-                   fmt::format("has {} windows, counted from 1; expected one of them, found {}", reader.windows(),
-                               request.window));
+  throw InputError(
+      request.run.string(), "",
+      fmt::format("has {} windows, counted from 1; expected one of them, found {}", reader.windows(), request.window));
 }
 
 template <int Dim>

@@ -13,8 +13,8 @@ namespace noli::app {
 struct ReproduceRequest {
   std::filesystem::path scene;
   bool brief = false;
-  std::filesystem::path run;  ///< that has the window
-  std::uint64_t window = 1;     ///< from 1
+  std::filesystem::path run;     ///< that has the window
+  std::uint64_t window = 1;      ///< from 1
   std::filesystem::path output;  ///< a file for the block LINE of the window (trajectory/FORMAT.md)
 };
 

@@ -28,11 +28,11 @@ struct LogFacts {
   std::uint64_t parts_ended = 0;    ///< with a line of their own
   std::uint64_t windows = 0;        ///< that it tells of, each once
   std::uint64_t bad_lines = 0;
-  std::uint32_t deepest = 0;  ///< layer that was active in any of these windows
+  std::uint32_t deepest = 0;     ///< layer that was active in any of these windows
   std::vector<Json> roll_backs;  ///< lines of the log, with windows counted from 1
-  std::string last_end;   ///< of the last part that ended: "done", "interrupted", ...
-  Json last_end_line;     ///< of the same, whole
-  bool going_on = false;  ///< the last part has no line of its end: it goes on still, or was killed
+  std::string last_end;          ///< of the last part that ended: "done", "interrupted", ...
+  Json last_end_line;            ///< of the same, whole
+  bool going_on = false;         ///< the last part has no line of its end: it goes on still, or was killed
   PhaseSeconds phases{};
   double verifying_seconds = 0;
   certificates::CertificateCounts certificates;

@@ -62,13 +62,12 @@ ExitCode reproduce(const SimulateArguments& arguments) {
   answer.text = fmt::format("{}, SHA-256 {}, is in {}.\n",
                             outcome.same ? "The window of the run" : "Another window than the run has",
                             hex(outcome.found), on_one_line(request.run.string()));
-  output.write(
-      "reproduce", answer,
-      {{"verdict", verdict},
-       {"window", arguments.window},
-       {"breakpoints", outcome.breakpoints},
-       {"sha256", hex(outcome.found)},
-       {"expected", hex(outcome.expected)}});
+  output.write("reproduce", answer,
+               {{"verdict", verdict},
+                {"window", arguments.window},
+                {"breakpoints", outcome.breakpoints},
+                {"sha256", hex(outcome.found)},
+                {"expected", hex(outcome.expected)}});
   return outcome.same ? ExitCode::holds : ExitCode::refuted;
 }
 
@@ -115,8 +114,7 @@ Command add_simulate(CLI::App& app) {
       command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
           ->check(is_positive())
           ->type_name("SECONDS");
-  command
-      ->add_flag("--past-duration", request.past_duration, "--until may lie beyond the scene's duration")
+  command->add_flag("--past-duration", request.past_duration, "--until may lie beyond the scene's duration")
       ->needs(until);
   command->add_flag("--ignore-space", request.ignore_space,
                     "Begin although the disk will not hold the run, by what explain predicts of its bytes");

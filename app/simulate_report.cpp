@@ -61,12 +61,9 @@ Json too_near_json(const SimulateOutcome& outcome) {
   const certificates::Stencil& pair = outcome.limit->pair;
   const std::vector<VertexId> vertices(pair.vertices.begin(),
                                        pair.vertices.begin() + static_cast<std::ptrdiff_t>(pair.size()));
-  return {{"window", refused_window(outcome)},
-          {"time", outcome.limit->time},
-          {"pair", noli::name(pair.kind)},
-          {"vertices", vertices},
-          {"names", outcome.first_names},
-          {"start", start_gap_json(outcome)}};
+  return {{"window", refused_window(outcome)}, {"time", outcome.limit->time},
+          {"pair", noli::name(pair.kind)},     {"vertices", vertices},
+          {"names", outcome.first_names},      {"start", start_gap_json(outcome)}};
 }
 
 /// What begins within all layers is no matter of the motion.
@@ -154,7 +151,7 @@ double per(double count, double seconds) { return seconds > 0 ? count / seconds 
 /// What stands behind the verdict.
 std::string place(const SimulateOutcome& outcome) {
   const std::string committed =
-      fmt::format("{} of {} windows, {} s", outcome.windows, outcome.windows_total, outcome.time);
+      fmt::format("{} of {} windows, {} s", outcome.windows, outcome.windows_total, digits4(outcome.time));
   const std::string at = fmt::format("window {}", outcome.windows + 1);
   switch (outcome.end) {
     case RunEnd::done: return fmt::format("{}: {}", committed, nothing_touches_in_short(outcome.not_compared));

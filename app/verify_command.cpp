@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -89,6 +90,7 @@ void require_place_of_proof(const VerifyArguments& arguments) {
 void require_place_of_claim(const VerifyArguments& arguments, std::vector<std::filesystem::path> others) {
   if (arguments.request.proof) others.push_back(*arguments.request.proof);
   if (arguments.results.json && *arguments.results.json != "-") others.emplace_back(*arguments.results.json);
+  if (*arguments.claim_out == "-") throw UsageError("--claim-out -: expected the name of a file");
   require_other_file(*arguments.claim_out, others, "--claim-out");
   require_writable_file(*arguments.claim_out, "--claim-out");
 }
@@ -180,7 +182,8 @@ class ProofRoute {
       return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
     if (!can_check_) return "what is verified is no file that could be read twice";
     if (outcome.no_proof) return "no proof was found";
-    if (outcome.open_window && !lines_) return "the run has to be gone on with first, because it ends within a window";
+    if (outcome.open_window && !lines_)
+      return "the run ends within a window; resume it first (noli simulate ... --resume)";
     return std::nullopt;
   }
 
@@ -255,7 +258,9 @@ ExitCode run(VerifyArguments& arguments) {
   ProofRoute route(request);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
   route.check(outcome);
-  if (arguments.claim_out && !outcome.claim.cells.empty()) {
+  if (arguments.claim_out && outcome.claim.cells.empty()) {
+    std::fputs("noli: note: no claim was written: no step was looked at\n", stderr);
+  } else if (arguments.claim_out) {
     write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
   }
   output.write("verify", verify_answer(request, outcome), verify_json(request, outcome));
@@ -282,7 +287,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("DISTANCE");
   command
       .add_option("--min-distance-from-ring", request.ring,
-                  "But for features that a path of fewer than K mesh edges joins: these have to be disjoint")
+                  "Features fewer than K mesh edges apart need only be disjoint")
       ->check(CLI::Range(1, 255))
       ->type_name("K");
   command

@@ -69,7 +69,7 @@ class MotionRun {
     look_at_files();
     while (outcome_.complete) {
       auto window = read_next();
-      // Whoever stops behind the last window has stopped nothing.
+      // A stop after the last window changes nothing.
       if (!window || stopped() || !reproduce(*window)) break;
       verify(*window);
       if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
@@ -165,7 +165,8 @@ class MotionRun {
     if (!proof_) {
       outcome_.proof_begun = true;
       const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
-      proof_ = std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), beginning(window), claim);
+      proof_ =
+          std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), beginning(window), claim);
     }
     if (result.contact_count() + result.initial_intersections > 0) {
       witness_sought_ = true;

@@ -31,7 +31,7 @@ std::string claim(const VerifyRequest& request) {
                                       request.strict ? ", or of one," : "");
   if (request.min_distance == 0) return who + " meet at any time of a step";
   const std::string which =
-      request.ring > 1 ? fmt::format(" (but for what fewer than {} edges of the mesh join)", request.ring) : "";
+      request.ring > 1 ? fmt::format(" (except features fewer than {} mesh edges apart)", request.ring) : "";
   return fmt::format("{} meet at any time of a step, or come within {} of each other{}", who,
                      digits17(request.min_distance), which);
 }
@@ -58,7 +58,8 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
        "faces, and the loose edges and points that the files list; their features are their vertices, edges and "
        "themselves"},
       {"contact", "closed simplices have a point in common; degenerate ones are what their hull is; touching counts"},
-      {"neighbours", "features that share a vertex are not compared; vertices are who they are by index"},
+      {"neighbours",
+       "features that share a vertex are not compared; vertices are identified by index and never merged unless asked"},
       {"initial_intersections", "pairs of cells whose vertex-disjoint parts meet at the first time of all"},
       {"excluded", excluded_json(request, outcome)},
       {"min_distance", request.min_distance},
@@ -188,7 +189,7 @@ class Place {
       case Verdict::contact: return contact();
       case Verdict::too_near: return near();
       case Verdict::undecided:
-        return fmt::format("{} of {} {}: nothing found so far ({})", outcome_.steps.size(), outcome_.steps_total,
+        return fmt::format("{} of {} {} begun: nothing found so far ({})", outcome_.steps.size(), outcome_.steps_total,
                            steps_word(outcome_.steps_total), why_incomplete(outcome_));
     }
     return "";
@@ -206,10 +207,10 @@ class Place {
     if (request_.constant_motion) return steps;
     if (!request_.run) return fmt::format("{} frames, {}", request_.frames.size(), steps);
     const RunEnding& ending = *outcome_.ending;
-    if (ending.whole() || !ending.duration) return fmt::format("{}, {} s", steps, ending.time);
+    if (ending.whole() || !ending.duration) return fmt::format("{}, {} s", steps, digits4(ending.time));
     const std::string of =
         ending.windows_total ? fmt::format("{} of {} windows", outcome_.steps_total, *ending.windows_total) : steps;
-    return fmt::format("{}, {} of {} s", of, ending.time, *ending.duration);
+    return fmt::format("{}, {} of {} s", of, digits4(ending.time), *ending.duration);
   }
 
   std::string untouched() const {
@@ -239,18 +240,26 @@ class Place {
   std::string contact() const {
     if (outcome_.first) {
       const First& first = *outcome_.first;
-      return fmt::format("{}  t = {}{}  {}", step(first.step), digits4(first.time), request_.run ? " s" : "",
-                         pair_in_short(first.contact, first.face));
+      return fmt::format("{}  t = {}{}  {}{}", step(first.step), digits4(first.time), request_.run ? " s" : "",
+                         pair_in_short(first.contact, first.face), rests_on());
     }
-    if (outcome_.initial_reports.empty()) return "from the beginning";
+    if (outcome_.initial_reports.empty()) return "from the beginning" + rests_on();
     const auto& [number, pair] = outcome_.initial_reports.front();
-    return fmt::format("{}  from its beginning  cell {} × cell {}", step(number), pair.first_cell, pair.second_cell);
+    return fmt::format("{}  from its beginning  cell {} × cell {}{}", step(number), pair.first_cell, pair.second_cell,
+                       rests_on());
+  }
+
+  /// What the checker's witness rests on that is not asked by default: "; z does not count".
+  std::string rests_on() const {
+    const std::size_t at = outcome_.checked ? outcome_.checked->find("; ") : std::string::npos;
+    return at == std::string::npos ? "" : outcome_.checked->substr(at);
   }
 
   std::string near() const {
     const TooNear& pair = outcome_.near->pair;
-    return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart", step(outcome_.near->step),
-                       digits4(pair.time), pair.first_cell, pair.second_cell, digits17(request_.min_distance));
+    const std::string ring = request_.ring > 1 ? fmt::format(", {} mesh edges or more away", request_.ring) : "";
+    return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart{}", step(outcome_.near->step),
+                       digits4(pair.time), pair.first_cell, pair.second_cell, digits17(request_.min_distance), ring);
   }
 
   const VerifyRequest& request_;
@@ -335,12 +344,14 @@ class Words {
 
   /// What was verified, by whom; each file with --verbose.
   void looked_at() {
+    if (outcome_.claim.cells.empty())
+      return line("Nothing was read. noli {} ({}).", version_number(), version_commit());
     std::uint64_t bytes = 0;
     for (const FrameFacts& facts : outcome_.inputs) bytes += facts.bytes;
     const std::string numbers = outcome_.inputs.empty() ? "" : outcome_.inputs.front().numbers;
     line("Looked at: {}, {} bytes{}; {} vertices, {} cells. noli {} ({}).", files(), bytes,
-         numbers.empty() ? "" : ", " + numbers, outcome_.vertices,
-         outcome_.faces + outcome_.edges + outcome_.points, version_number(), version_commit());
+         numbers.empty() ? "" : ", " + numbers, outcome_.vertices, outcome_.faces + outcome_.edges + outcome_.points,
+         version_number(), version_commit());
     if (outcome_.checker) {
       detail("Checked by {} {} ({}).", outcome_.checker->name, outcome_.checker->version, outcome_.checker->commit);
     }
@@ -394,6 +405,7 @@ class Words {
       if (request_.frames.size() <= most_named) words.push_back(frame.string());
     }
     if (request_.frames.size() > most_named) words.emplace_back("FRAMES...");
+    if (request_.order == FrameOrder::given) words.insert(words.end(), {"--order", "given"});
     const std::size_t plain = words.size();
     for (const std::string& field : fields_beyond_default(outcome_.claim)) {
       words.insert(words.end(), {"--require", field});
@@ -406,9 +418,9 @@ class Words {
     switch (outcome_.verdict) {
       case Verdict::contact:
         if (!request_.keep_going && outcome_.steps.size() < outcome_.steps_total) {
-          return "--keep-going counts the contacts of all steps; --json OUT.json, then noli report, shows them.";
+          return "--keep-going counts the contacts of all steps.";
         }
-        return "--json OUT.json, then noli report OUT.json with the same frames or run, shows where.";
+        return "write the result with --json OUT.json; noli report OUT.json and the same inputs shows where.";
       case Verdict::undecided: return outcome_.out_of_time ? "give it more time (--time-limit)." : "";
       case Verdict::too_near:
       case Verdict::no_contact:

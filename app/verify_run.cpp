@@ -332,9 +332,13 @@ class Run {
     outcome_.notes = request_.order_notes;
     append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");
     for (const std::string& note : inputs_.notes()) outcome_.notes.push_back(note);
-    if (outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1) {
+    const bool contact = outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1;
+    const bool near = outcome_.near && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
+    if (contact || near) {
       outcome_.notes.emplace_back(
-          "the first contact is between two frames: straight lines are assumed there; finer frames tell more");
+          contact
+              ? "the first contact is between two frames: straight lines are assumed there; finer frames tell more"
+              : "what is too near is so between two frames: straight lines are assumed there; finer frames tell more");
     }
   }
 

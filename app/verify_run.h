@@ -50,12 +50,12 @@ struct VerifyRequest {
   bool points = false;           ///< vertices that nothing refers to are particles
   bool constant_motion = false;  ///< --static: each frame for itself
   bool merge_identical = false;
-  std::optional<std::filesystem::path> ignore;  ///< groups of vertices that are not compared (groups.h)
-  double min_distance = 0;                      ///< features have to be more than this apart
-  std::uint32_t ring = 1;                       ///< but for those that a path of fewer edges joins
+  std::optional<std::filesystem::path> ignore;        ///< groups of vertices that are not compared (groups.h)
+  double min_distance = 0;                            ///< features have to be more than this apart
+  std::uint32_t ring = 1;                             ///< but for those that a path of fewer edges joins
   bool reproduce = false;                             ///< of a run: integrate its windows again (windows_again.h)
   std::optional<std::filesystem::path> scene_folder;  ///< in which the file of its scene was; nothing: its own
-  bool lines_in_no_file = false;    ///< of a run that is reproduced: it recorded frames alone
+  bool lines_in_no_file = false;                      ///< of a run that is reproduced: it recorded frames alone
   LinesPipe* lines_pipe = nullptr;  ///< on which the checker reads its world lines then; nothing: nobody does
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::optional<std::filesystem::path> proof;  ///< the file where the user wants it

@@ -96,8 +96,8 @@ class SceneJudge {
   }
 
   ProgramEnd simulate(const char* name, const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"simulate", file(), "-o", folder_ / name, "--threads", "1", "--time-limit", "4s",
-                                      "--ignore-space", "--porcelain"};
+    std::vector<std::string> words = {"simulate", file(),         "-o", folder_ / name,   "--threads",
+                                      "1",        "--time-limit", "4s", "--ignore-space", "--porcelain"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }

@@ -272,8 +272,8 @@ class SelfAudit {
   void run_scene(const fs::path& folder, const std::vector<std::string>& more, const std::vector<int>& codes,
                  SelfPart& p) const {
     const std::string run_folder = (folder / "run").string();
-    std::vector<std::string> words = {"simulate", (folder / "scene.json").string(), "-o", run_folder, "--json", "-",
-                                      "--ignore-space"};
+    std::vector<std::string> words = {
+        "simulate", (folder / "scene.json").string(), "-o", run_folder, "--json", "-", "--ignore-space"};
     words.insert(words.end(), more.begin(), more.end());
     const CommandRun run = noli(words);
     const Json json = Json::parse(run.out, nullptr, false);

@@ -126,8 +126,8 @@ class Asking {
   CommandRun simulate(const std::string& to, const std::vector<std::string>& more) {
     const auto limit = std::chrono::duration_cast<std::chrono::milliseconds>(options_.point_limit).count();
     std::vector<std::string> words = {
-        "simulate",     (folder_ / "scene.json").string(), "-o",     path(to), "--threads", "1",
-        "--time-limit", fmt::format("{}ms", limit),        "--json", "-",         "--ignore-space"};
+        "simulate",     (folder_ / "scene.json").string(), "-o",     path(to), "--threads",     "1",
+        "--time-limit", fmt::format("{}ms", limit),        "--json", "-",      "--ignore-space"};
     words.insert(words.end(), more.begin(), more.end());
     return noli(words);
   }

@@ -31,6 +31,7 @@ void TextDigits::add(std::string_view word) {
   any_ = true;
   const int behind = static_cast<int>(fraction) - exponent;
   decimals_ = std::max(decimals_, static_cast<std::size_t>(std::max(behind, 0)));
+  if (behind > 0) least_decimals_ = std::min(least_decimals_.value_or(decimals_), static_cast<std::size_t>(behind));
   if (significant == 0) return;
   digits_ = std::max(digits_, significant);
   const int first = static_cast<int>(whole) - static_cast<int>(zeros) - 1 + exponent;
@@ -39,7 +40,8 @@ void TextDigits::add(std::string_view word) {
 
 std::optional<int> TextDigits::unit() const {
   if (!any_) return std::nullopt;
-  if (!largest_) return -static_cast<int>(decimals_);
+  const bool fixed = least_decimals_ && *least_decimals_ == decimals_;
+  if (!largest_ || fixed) return -static_cast<int>(decimals_);
   return *largest_ - static_cast<int>(digits_) + 1;
 }
 

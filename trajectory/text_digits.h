@@ -6,8 +6,9 @@
 //   digits     of one number: from its first digit that is not 0 to its last one, zeros at the end included; the most
 //              of all numbers is what the text is said to have
 //   decimals   of one number: digits behind the point, where an exponent moves it; the most of all numbers
-//   unit       10^k, the place of the last of so many digits in the number of the largest magnitude. With %.6f it is
-//              10^-6; with %g or %e it is that of the coarsest coordinate
+//   unit       10^k. Where all numbers with decimals have as many, it is the place of the last one: with %.6f 10^-6.
+//              Else it is the place of the last of so many digits in the number of the largest magnitude: with %g or %e
+//              that of the coarsest coordinate
 //
 // What this does not do: it cannot know whether numbers were rounded. 0.5 may be a half, or 0.46 with one decimal.
 #pragma once
@@ -33,7 +34,8 @@ class TextDigits {
 
  private:
   std::size_t digits_ = 0, decimals_ = 0;
-  std::optional<int> largest_;  ///< k of the first digit of the largest number
+  std::optional<std::size_t> least_decimals_;  ///< of the numbers that have any
+  std::optional<int> largest_;                 ///< k of the first digit of the largest number
   bool any_ = false;
 };
 

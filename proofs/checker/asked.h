@@ -32,8 +32,8 @@ inline std::string text_of(const Sha256::Digest& hash) {
   return text;
 }
 
-/// Whether the claim is about two cells with vertices u != v, one in each, or, if strict, one cell with both.
-inline bool compares_any(const Claim& claim) {
+/// Whether the claim is about two cells with vertices u != v, one in each, or, if `strict`, one cell with both.
+inline bool compares_any(const Claim& claim, bool strict) {
   struct Label {
     std::size_t cells = 0;
     std::set<std::uint32_t> vertices;  ///< at most two of them
@@ -46,7 +46,7 @@ inline bool compares_any(const Claim& claim) {
       if (label.vertices.size() < 2) label.vertices.insert(v);
     }
     const bool several = std::ranges::any_of(cell, [&](auto v) { return v != cell.v[0]; });
-    if (claim.strict && several && !claim.is_excluded(cell.label, cell.label)) return true;
+    if (strict && several && !claim.is_excluded(cell.label, cell.label)) return true;
   }
   for (auto a = labels.begin(); a != labels.end(); ++a) {
     for (auto b = a; b != labels.end(); ++b) {
@@ -88,9 +88,10 @@ class Asked {
     require_word(eta_ > 0 || ring_ == 1, "ring", "says who may be nearer than a distance: expected distance=ETA too");
   }
 
-  /// Whether a number of steps is asked by name, and so many of the claim's are enough.
+  /// Whether a number of steps is asked by name, and so many of the claim's, at least one, are enough.
   bool enough_steps(const Claim& claim, std::uint64_t steps) const {
-    return steps_ && steps + (claim.source == 0 && source(claim) == 1 ? 1 : 0) >= *steps_;  // frame k ends step k - 1
+    const std::uint64_t ends = claim.source == 0 && source(claim) == 1 ? 1 : 0;  // frame k ends step k - 1
+    return steps_ && steps > 0 && steps + ends >= *steps_;
   }
 
   /// Rejects a claim that is weaker. `flat`: each of its steps is.
@@ -111,7 +112,8 @@ class Asked {
     const std::set<LabelPair>& pairs = excluded_ ? *excluded_ : by_default;
     proof.require(std::ranges::includes(pairs, claim.excluded), "excluded", text_of(claim.excluded), text_of(pairs),
                   "excluded=" + text_of(claim.excluded) + " --require cells=" + text_of(claim.hash));
-    proof.require(empty_ || compares_any(claim), "empty", "1", "0");
+    const char* const would_do = claim.strict && compares_any(claim, true) ? "strict=1" : "empty=1";
+    proof.require(empty_ || compares_any(claim, strict_), "empty", "1", "0", would_do);
   }
   /// Rejects a claim of too few steps. `more`: the trajectory goes on.
   void require_steps(const Claim& claim, std::uint64_t steps, bool more) const {
@@ -148,9 +150,10 @@ class Asked {
     }
     void require(bool condition, const std::string& field, const std::string& says, const std::string& wanted,
                  const std::string& would_do) const {
-      const std::string hint = "; --require " + would_do + " accepts it";
       if (condition) return;
-      throw Rejected{"the claim", field + ": " + who + " says " + says + ", asked was " + wanted + hint};
+      const auto named = [](const std::string& value) { return value.empty() ? "nothing" : value; };
+      const std::string both = " says " + named(says) + ", asked was " + named(wanted);
+      throw Rejected{"the claim", field + ": " + who + both + "; --require " + would_do + " asks for that"};
     }
   };
   void require_cells(const Says& who, const Claim& claim) const {
@@ -222,9 +225,9 @@ class Asked {
     std::set<LabelPair> result;
     for (std::size_t at = 0; !text.empty() && at <= text.size();) {
       const std::size_t end = std::min(text.find(',', at), text.size()), minus = std::min(text.find('-', at), end);
-      const LabelPair pair = {number(word, text.substr(at, minus - at), std::uint32_t{0}),
-                              number(word, text.substr(std::min(minus + 1, end), end - std::min(minus + 1, end)),
-                                     std::uint32_t{0})};
+      const LabelPair pair = {
+          number(word, text.substr(at, minus - at), std::uint32_t{0}),
+          number(word, text.substr(std::min(minus + 1, end), end - std::min(minus + 1, end)), std::uint32_t{0})};
       require_word(pair[0] <= pair[1] && (result.empty() || *result.rbegin() < pair), word,
                    "expected pairs A-B with A <= B, in ascending order");
       result.insert(pair);

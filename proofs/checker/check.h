@@ -72,7 +72,7 @@ class Check {
     const std::size_t pairs = run() ? 0 : claim_.excluded.size();
     const std::string list = pairs > 8 ? std::to_string(pairs) + " pairs" : text_of(claim_.excluded);
     if (pairs > 0) text += "; not compared: " + list;
-    if (!compares_any(claim_)) text += "; the claim is empty";
+    if (!compares_any(claim_, claim_.strict)) text += "; the claim is empty";
     if (first_steps_) text += "; the first " + std::to_string(steps_) + " steps";
     return text;
   }

@@ -22,7 +22,7 @@ static void print_fields(const Claim& claim, std::uint64_t steps, const std::arr
               motions[claim.source], claim.dimension, static_cast<unsigned long long>(steps), claim.strict ? 1 : 0,
               claim.points ? 1 : 0, text_of(claim.eta).c_str(), claim.ring, claim.merged);
   std::printf(" excluded=%s cells=%s empty=%d from=%s to=%s\n", text_of(claim.excluded).c_str(),
-              text_of(claim.hash).c_str(), compares_any(claim) ? 0 : 1, text_of(times[0]).c_str(),
+              text_of(claim.hash).c_str(), compares_any(claim, claim.strict) ? 0 : 1, text_of(times[0]).c_str(),
               text_of(times[1]).c_str());
 }
 

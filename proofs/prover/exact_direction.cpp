@@ -48,7 +48,7 @@ Vector rounded(const Vector& n, std::size_t bits) {
 /// The same direction in as few bits as are enough, of some numbers that are tried; nothing if it takes more than a
 /// proof has room for.
 std::optional<Vector> shortened(const Vector& n, const Question& question) {
-  constexpr std::array<std::size_t, 14> tried = {9,   15,  22,  30,  40,   60,   90,
+  constexpr std::array<std::size_t, 14> tried = {9,   15,  22,  30,   40,   60,   90,
                                                  130, 200, 400, 1000, 2400, 5000, most_direction_bits};
   for (const std::size_t bits : tried) {
     Vector shorter = rounded(n, bits);

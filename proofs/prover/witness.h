@@ -39,8 +39,8 @@ struct WitnessStep {
   double shift;  ///< its times are those of the lines and this more, exactly
   int dimension;
   bool strict;
-  double eta = 0;          ///< the least distance
-  std::uint32_t ring = 1;  ///< features that a path of fewer edges joins may be nearer
+  double eta = 0;                        ///< the least distance
+  std::uint32_t ring = 1;                ///< features that a path of fewer edges joins may be nearer
   const StepProver* excluded = nullptr;  ///< its labels and pairs of labels are not compared; nothing: all cells are
 };
 

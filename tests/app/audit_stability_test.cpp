@@ -95,9 +95,9 @@ TEST_F(AuditStability, FindsAVerdictThatIsNotThatOfTheExitCode) {
 }
 
 TEST_F(AuditStability, FindsARunThatIsNotVerifiedAgain) {
-  found("speed", R"(case "$ALL" in *' verify '*) echo verdict contact; exit 1;; esac)",
+  found("speed", R"(case "$ALL" in *' verify '*) echo verdict=contact; exit 1;; esac)",
         "`noli verify` says, with exit 1");
-  found("speed", R"(case "$ALL" in *' verify '*) echo verdict contact; exit 0;; esac)",
+  found("speed", R"(case "$ALL" in *' verify '*) echo verdict=contact; exit 0;; esac)",
         "`noli verify` says, with exit 0");
 }
 

@@ -46,8 +46,7 @@ TEST_F(Ccd, NoticesAFlippedLabel) {
   const auto path = folder.write("vertex_edge.csv", vertex_edge(-3, "1") + vertex_edge(1, "1") + vertex_edge(0, "0"));
   const Process process = run_noli({"ccd", path});
   EXPECT_EQ(process.exit_code, 1);
-  EXPECT_EQ(process.verdict_line(),
-            "DISAGREEMENT  queries 3, contacts 2, labelled 3, disagreements 2, complete true");
+  EXPECT_EQ(process.verdict_line(), "DISAGREEMENT  queries 3, contacts 2, labelled 3, disagreements 2, complete true");
   EXPECT_NE(process.out.find("query 2: labelled 1, but apart"), std::string::npos) << process.out;
   EXPECT_NE(process.out.find("query 3: labelled 0, but in contact"), std::string::npos) << process.out;
   const Json json = json_of({"ccd", path, "--max-reports", "1"}, 1);

@@ -45,9 +45,9 @@ class Claims : public Simulate {
   }
   /// All that it says; of a rejection that is about no claim, which may be told otherwise, that it is one.
   static std::string told_by(const Process& process) {
-    if (process.exit_code != 3) return process.out;
-    const bool of_claim = process.out.find("rejected: the claim: ") != std::string::npos;
-    return of_claim ? process.out : process.verdict_line();
+    const std::string line = process.verdict_of_checker();
+    if (process.exit_code != 3) return process.out.substr(0, process.out.rfind(" (noli_check"));
+    return line.starts_with("REJECTED  the claim: ") ? line : line.substr(0, line.find(' '));
   }
   /// What the checkers that are there say: the same words.
   static Process check(Words words) {
@@ -71,7 +71,7 @@ class Claims : public Simulate {
   void expect_rejected(const Words& paths, const Words& asked, const std::string& field) const {
     const Process process = check(paths, asked);
     EXPECT_EQ(process.exit_code, 3) << process.out;
-    EXPECT_NE(process.out.find("rejected: the claim: " + field + ": "), std::string::npos)
+    EXPECT_NE(process.out.find("REJECTED  the claim: " + field + ": "), std::string::npos)
         << process.out << process.err;
     EXPECT_NE(process.out.find("; --require "), std::string::npos) << process.out;
   }
@@ -86,8 +86,8 @@ class Claims : public Simulate {
   Json asked_claim() const { return Json::parse(read_text(folder.path("claim.json"))); }
   /// Two triangles with a common corner, which is there twice.
   Words glued() const {
-    const std::string frame = ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {-4, 0, 1}, {0, -4, 1}},
-                                       {{0, 1, 2}, {3, 4, 5}});
+    const std::string frame =
+        ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {-4, 0, 1}, {0, -4, 1}}, {{0, 1, 2}, {3, 4, 5}});
     return frames({frame, frame});
   }
   /// A vertex without a cell that goes through a triangle.
@@ -144,7 +144,7 @@ TEST_F(Claims, ARunThatIsCutOffLacksWindows) {
     cut(fs::path(run) / file, 1 + 5);
     const Process less = check(Words{run});
     EXPECT_EQ(less.exit_code, 3);
-    EXPECT_NE(less.out.find("rejected: the claim: steps: the proof says 5, asked was "), std::string::npos) << less.out;
+    EXPECT_NE(less.out.find("REJECTED  the claim: steps: the proof says 5, asked was "), std::string::npos) << less.out;
     const Process asked = check(Words{run, "--require", "steps=5"});
     EXPECT_EQ(asked.exit_code, 0) << asked.out << asked.err;
     EXPECT_EQ(asked.out.find("; the first 5 steps") != std::string::npos, file == std::string("proof.blocks"));
@@ -166,7 +166,7 @@ TEST_F(Claims, AWitnessBehindTheStepsThatWereAsked) {
   EXPECT_EQ(check(paths, {"steps=2"}).exit_code, 1);
   const Process first = check(paths, {"steps=1"});
   EXPECT_EQ(first.exit_code, 0) << first.out;
-  EXPECT_NE(first.out.find("accepted: nothing touches; the first 1 steps\n"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("ACCEPTED  nothing touches; the first 1 steps ("), std::string::npos) << first.out;
 }
 
 TEST_F(Claims, AWitnessBetweenFramesRefutesNothingAboutFramesAtRest) {
@@ -332,12 +332,18 @@ TEST_F(Claims, AFileThatIsNoClaimIsRefused) {
     json[key] = value;
     return json.dump();
   };
-  for (const std::string& bad :
-       {std::string("{"), std::string("[]"), std::string("{}"), with("schema", "noli-result"), with("version", 2),
-        with("version", "1"), with("more", 1), with("from", 0), with("motion", 1), with("motion", "still"),
-        with("dimension", "2"), with("dimension", 4), with("steps", 0), with("steps", -1), with("strict", 0),
-        with("distance", "0"), with("distance", -1), with("ring", 0), with("merged", true), with("cells", 7),
-        with("cells", "00"), with("excluded", {{2, 1}}), with("excluded", "1-2"), with("empty", Json(nullptr))}) {
+  for (const std::string& bad : {std::string("{"),        std::string("[]"),
+                                 std::string("{}"),       with("schema", "noli-result"),
+                                 with("version", 2),      with("version", "1"),
+                                 with("more", 1),         with("from", 0),
+                                 with("motion", 1),       with("motion", "still"),
+                                 with("dimension", "2"),  with("dimension", 4),
+                                 with("steps", 0),        with("steps", -1),
+                                 with("strict", 0),       with("distance", "0"),
+                                 with("distance", -1),    with("ring", 0),
+                                 with("merged", true),    with("cells", 7),
+                                 with("cells", "00"),     with("excluded", {{2, 1}}),
+                                 with("excluded", "1-2"), with("empty", Json(nullptr))}) {
     const Process process = by(bad);
     EXPECT_EQ(process.exit_code, 3) << bad;
     EXPECT_NE(process.err, "") << bad;

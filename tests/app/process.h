@@ -31,6 +31,12 @@ struct Process {
   std::string out, err;
   std::uint64_t peak_bytes = 0;
 
+  /// The verdict's line without " (noli_check 0.1.0)", so that what two checkers say can be compared.
+  std::string verdict_of_checker() const {
+    const std::string line = verdict_line();
+    return line.substr(0, line.rfind(" (noli_check"));
+  }
+
   /// The last line of standard output, without its end: the verdict in capitals, and its place.
   std::string verdict_line() const {
     const std::string_view all = std::string_view(out).substr(0, out.find_last_not_of('\n') + 1);

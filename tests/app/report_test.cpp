@@ -221,7 +221,12 @@ TEST_F(Report, HasEveryConditionOfTheStatement) {
   const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
   const std::string result = verdict(frames, 1);
   const Json json = page({result});
-  EXPECT_EQ(json["statement"].size(), Json::parse(bytes_of(result))["statement"].size());
+  // And two inputs, and who decided and who checked.
+  EXPECT_EQ(json["statement"].size(), Json::parse(bytes_of(result))["statement"].size() + 4);
+  EXPECT_NE(stated(json, "decided by").find("noli "), std::string::npos);
+  EXPECT_NE(stated(json, "checked by").find("noli_check "), std::string::npos);
+  EXPECT_NE(stated(json, "input 1").find("0.obj, "), std::string::npos);
+  EXPECT_NE(stated(json, "input 2").find("SHA-256 "), std::string::npos);
   EXPECT_EQ(stated(json, "dimension"), "3");
   EXPECT_EQ(stated(json, "not compared"), "nothing");
   EXPECT_EQ(stated(json, "least distance"), "0");

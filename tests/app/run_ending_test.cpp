@@ -9,7 +9,7 @@ namespace noli::app_tests {
 namespace {
 
 bool says(const std::string& run, const std::string& line) {
-  return run_noli({"verify", run}).out.find("\n" + line + "\n") != std::string::npos;
+  return ("\n" + run_noli({"verify", run}).out).find("\n" + line + "\n") != std::string::npos;
 }
 
 bool speaks_of_an_end(const std::string& run) {
@@ -77,11 +77,13 @@ TEST_F(Simulate, OfNoWindowNothingIsClaimed) {
       << process.out;
   const Process verified = run_noli({"verify", run_path("run")});
   EXPECT_EQ(verified.exit_code, 2);
-  EXPECT_NE(verified.out.find("\nUNDECIDED  0 of 0 windows: nothing found so far (no window was committed)\n"), std::string::npos)
+  EXPECT_NE(verified.out.find("\nUNDECIDED  0 of 0 windows begun: nothing found so far (no window was committed)\n"),
+            std::string::npos)
       << verified.out;
   EXPECT_TRUE(says(run_path("run"), "The run ends at 0 s of 1000000000 s (time limit)."));
-  EXPECT_EQ(json_of({"simulate", file, "-o", run_path("json"), "--time-limit", "200ms", "--ignore-space"}, 2)["statement"],
-            "no window was committed: nothing is claimed.");
+  EXPECT_EQ(
+      json_of({"simulate", file, "-o", run_path("json"), "--time-limit", "200ms", "--ignore-space"}, 2)["statement"],
+      "no window was committed: nothing is claimed.");
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ TEST_F(Simulate, WindowsCountFromOneInEveryCommand) {
     EXPECT_EQ(same.exit_code, 0) << same.err;
     EXPECT_TRUE(says(same.out, std::string(" window ") + window)) << same.out;
   }
-  EXPECT_EQ(json_of({"simulate", file, "--reproduce", run, "--window", "39", "-o", run_path("again.block")},
-                    0)["window"],
-            39);
+  EXPECT_EQ(
+      json_of({"simulate", file, "--reproduce", run, "--window", "39", "-o", run_path("again.block")}, 0)["window"],
+      39);
   EXPECT_TRUE(says(again("0").err, "--window: 0: expected a whole number from 1")) << again("0").err;
   EXPECT_TRUE(says(again("40").err, "has 39 windows, counted from 1; expected one of them, found 40"));
   // The first one begins where the scene does.
@@ -161,8 +161,8 @@ TEST_F(Simulate, ARunWithAllItsWindowsIsDoneWheneverItIsStopped) {
   const std::string file = scene(hanging_sheet());
   bool seen[2] = {false, false};
   for (int i = 0; i < 60; ++i) {
-    const Process limited = run_noli({"simulate", file, "-o", run_path("run"), "--force", "--json", "-",
-                                      "--time-limit", std::to_string(1 + 5 * i) + "ms"});
+    const Process limited = run_noli({"simulate", file, "-o", run_path("run"), "--force", "--json", "-", "--time-limit",
+                                      std::to_string(1 + 5 * i) + "ms"});
     expect_done_or_undecided(limited);
     seen[limited.exit_code == 0] = true;
     if (limited.exit_code == 0 && i % 3 == 0) break;

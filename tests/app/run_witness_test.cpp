@@ -79,10 +79,13 @@ class RunWitness : public Simulate {
     return run_noli(arguments);
   }
   /// The exit code on which all checkers that are there agree.
-  int check(const std::string& run) const {
-    const Process plain = run_noli({"check", proof(), run});
+  int check(const std::string& run, const std::string& distance = "0") const {
+    const std::vector<std::string> asked = {"check", proof(), run, "--require", "distance=" + distance};
+    const Process plain = run_noli(asked);
     if (verified_checker_is_there()) {
-      EXPECT_EQ(run_noli({"check", "--verified", proof(), run}).out, plain.out);
+      std::vector<std::string> again = asked;
+      again.emplace_back("--verified");
+      EXPECT_EQ(run_noli(again).verdict_of_checker(), plain.verdict_of_checker());
     }
     return plain.exit_code;
   }
@@ -115,7 +118,7 @@ TEST_F(RunWitness, WhatComesTooNearHasOneToo) {
     const Process process = verify(run, {"--min-distance", "0.25"});
     ASSERT_LE(process.exit_code, 1) << seed << process.out << process.err;
     if (process.verdict_line().starts_with("CONTACT")) continue;
-    EXPECT_EQ(check(run), process.exit_code) << seed;
+    EXPECT_EQ(check(run, "0.25"), process.exit_code) << seed;
     (process.exit_code == 0 ? proved : near) += 1;
   }
   std::printf("proved %d, too near %d\n", proved, near);
@@ -131,7 +134,7 @@ TEST_F(RunWitness, TheMeshMayAllowLess) {
   const Json first = Json::parse(read_text(folder.path("result.json")))["first_frame"];
   const double allowed = first["allowed"], limit = first["not"];
   EXPECT_NE(process.out.find("The first frame allows "), std::string::npos);
-  EXPECT_EQ(check(run_path("run")), 1);
+  EXPECT_EQ(check(run_path("run"), "0.5"), 1);
   // The cells are squares of 1/6, each cut in two, a little out of place.
   EXPECT_GT(allowed, 0.11);
   EXPECT_LT(limit, 0.13);

@@ -35,9 +35,7 @@ class Schema : public Simulate {
     return json;
   }
 
-  std::string frame(const std::string& name, double height) const {
-    return folder.write(name, two_triangles(height));
-  }
+  std::string frame(const std::string& name, double height) const { return folder.write(name, two_triangles(height)); }
 };
 
 TEST_F(Schema, NamesAreListedAndEachIsPrinted) {
@@ -114,13 +112,15 @@ TEST_F(Schema, OfRuns) {
   expect_valid("explain-run", {"explain", run_path("run")});
   expect_valid("explain-scene", {"explain", file});
   expect_valid("info", {"info", run_path("run"), frame("a.ply", 1)});
-  expect_valid("reproduce", {"simulate", file, "--reproduce", run_path("run"), "--window", "3", "-o",
-                             folder.path("window.block")});
-  expect_valid("simulate", {"simulate", folder.write("falling.json", falling_triangle().dump()), "-o", run_path("falls")});
+  expect_valid("reproduce",
+               {"simulate", file, "--reproduce", run_path("run"), "--window", "3", "-o", folder.path("window.block")});
+  expect_valid("simulate",
+               {"simulate", folder.write("falling.json", falling_triangle().dump()), "-o", run_path("falls")});
 }
 
 TEST_F(Schema, OfQueriesAndFuzzers) {
-  const std::string queries = std::string(NOLI_SOURCE_DIR) + "/tests/kernel/queries/border-near-the-begin-edge-edge.csv";
+  const std::string queries =
+      std::string(NOLI_SOURCE_DIR) + "/tests/kernel/queries/border-near-the-begin-edge-edge.csv";
   ASSERT_TRUE(fs::exists(queries));
   expect_valid("ccd", {"ccd", queries, "--times"});
   const std::string out = folder.path("findings");
@@ -132,13 +132,14 @@ TEST_F(Schema, OfQueriesAndFuzzers) {
 
 TEST_F(Schema, OfAudits) {
   const std::string library = std::string(NOLI_CCD_PLUGINS) + "/textbook.so";
-  const std::string queries = std::string(NOLI_SOURCE_DIR) + "/tests/kernel/queries/border-near-the-begin-edge-edge.csv";
+  const std::string queries =
+      std::string(NOLI_SOURCE_DIR) + "/tests/kernel/queries/border-near-the-begin-edge-edge.csv";
   expect_valid("audit-ccd", {"audit", "ccd", "--library", library, queries});
   expect_valid("audit-pipeline",
                {"audit", "ccd", "--library", library, "--frames", frame("a.ply", 1), frame("b.ply", 0.5)});
   expect_valid("audit-precision", {"audit", "precision", scene(hanging_sheet()), "--until", "0.02"});
-  expect_valid("audit-stability", {"audit", "stability", "--row", "frames-offset", "--points", "1", "--out",
-                                   folder.path("findings")});
+  expect_valid("audit-stability",
+               {"audit", "stability", "--row", "frames-offset", "--points", "1", "--out", folder.path("findings")});
   expect_valid("audit-self", {"audit", "self", "--only", "rounding", "--out", folder.path("self")});
 }
 

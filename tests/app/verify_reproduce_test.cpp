@@ -26,8 +26,8 @@ TEST_F(Reproduce, ARunOfFramesSaysWhatToDo) {
   const std::string run = frames_of(beam(0.1));
   const Process process = run_noli({"verify", run});
   EXPECT_EQ(process.exit_code, 3);
-  for (const char* part : {"only frames were recorded", "pass --reproduce", "\"record\": \"full\"",
-                           "noli simulate SCENE.json -o RUN"}) {
+  for (const char* part :
+       {"only frames were recorded", "pass --reproduce", "\"record\": \"full\"", "noli simulate SCENE.json -o RUN"}) {
     EXPECT_TRUE(says(process.err, part)) << process.err;
   }
 }

@@ -60,7 +60,8 @@ TEST_F(Verify, CountsEveryContactAndFindsTheFirst) {
   EXPECT_EQ(json["initial_intersections"], 0);
   EXPECT_EQ(json["first_time"], 0.25);
   const Json first = {
-      {"pair", "vertex_face"}, {"features", {{3}, {0, 1, 2}}}, {"face", 0}, {"kind", "crossing"}, {"step", 1}, {"time", 0.25}};
+      {"pair", "vertex_face"}, {"features", {{3}, {0, 1, 2}}}, {"face", 0}, {"kind", "crossing"}, {"step", 1},
+      {"time", 0.25}};
   EXPECT_EQ(json["first"], first);
   EXPECT_EQ(json["steps"], 1);
   EXPECT_EQ(json["faces"], 2);

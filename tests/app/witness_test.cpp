@@ -30,6 +30,10 @@ class ContactWitness : public testing::Test {
       std::vector<std::string> check = {"check", proof};
       if (checker[0] == '-') check.emplace_back(checker);
       check.insert(check.end(), frames.begin(), frames.end());
+      for (const std::string& option : options) {
+        if (option == "--points") check.insert(check.end(), {"--require", "points"});
+        if (option == "--min-distance") check.insert(check.end(), {"--require", "distance=" + options.back()});
+      }
       const Process checked = run_noli(check);
       EXPECT_EQ(checked.exit_code, 1) << checker << checked.out << checked.err;
     }
@@ -61,15 +65,14 @@ TEST_F(ContactWitness, InTheLastUlpOfAFaceThatLands) {
 /// products.
 TEST_F(ContactWitness, OfEdgesAtTheGreatestDoubles) {
   const std::string cells = "l 1 2\nl 3 4\n";
-  expect_witness(
-      {frame("a",
-             "v -1.7e308 5e-324 1.7e308\nv 1.79e308 -1.5e-323 1.7e308\n"
-             "v 2.5e-323 -1.7e308 0\nv 5e-324 1.7e308 0\n",
-             cells),
-       frame("b",
-             "v -5e-324 1e-323 -1.7e308\nv 5e-324 5e-324 -1.7e308\n"
-             "v 1e-323 -1.7e308 5e-324\nv 2.5e-323 1e-323 0\n",
-             cells)});
+  expect_witness({frame("a",
+                        "v -1.7e308 5e-324 1.7e308\nv 1.79e308 -1.5e-323 1.7e308\n"
+                        "v 2.5e-323 -1.7e308 0\nv 5e-324 1.7e308 0\n",
+                        cells),
+                  frame("b",
+                        "v -5e-324 1e-323 -1.7e308\nv 5e-324 5e-324 -1.7e308\n"
+                        "v 1e-323 -1.7e308 5e-324\nv 2.5e-323 1e-323 0\n",
+                        cells)});
 }
 
 /// These are apart, but some direction has to have more bits than a proof has room for, or the time has to be cut into
@@ -104,12 +107,12 @@ TEST_F(ContactWitness, OfAVertexAndAFaceAtTheGreatestDoubles) {
 /// Coordinates of 1e308 have differences that are no doubles.
 TEST_F(ContactWitness, OfTheLeastDistanceAtTheGreatestDoubles) {
   const std::string cells = "l 1 2\nl 3 4\n";
-  const std::string a = frame(
-      "a", "v -1e308 5e-324 1e307\nv 1e308 -1.5e-323 1e307\nv 2.5e-323 -1e308 0\nv 5e-324 1e308 0\n", cells);
+  const std::string a =
+      frame("a", "v -1e308 5e-324 1e307\nv 1e308 -1.5e-323 1e307\nv 2.5e-323 -1e308 0\nv 5e-324 1e308 0\n", cells);
   const std::string proof = folder.path("proof.noli");
   const Process near = run_noli({"verify", "--proof", proof, "--min-distance", "2e307", a, a});
   EXPECT_EQ(near.exit_code, 1) << near.out << near.err;
-  EXPECT_EQ(run_noli({"check", proof, a, a}).exit_code, 1);
+  EXPECT_EQ(run_noli({"check", proof, a, a, "--require", "distance=2e307"}).exit_code, 1);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(Asked, OfFramesTheirMotion) {
   rest.claim.source = 1;
   rest.tokens.push_back(rest.tokens[0]);
   EXPECT_REJECTED(rest.asked({}),
-                  "the claim: motion: the proof says rest, asked was linear; --require motion=rest accepts it");
+                  "the claim: motion: the proof says rest, asked was linear; --require motion=rest asks for that");
   EXPECT_REJECTED(rest.asked({"motion=linear"}), "the claim: motion");
   EXPECT_REJECTED(rest.asked({"motion=run"}), "the claim: motion");
   EXPECT_VERDICT(rest.asked({"motion=rest"}), 0, "; frames at rest");
@@ -54,6 +54,8 @@ TEST(Asked, OfWitnessesTheirMotion) {
   Proof proof = refuted(meeting());
   EXPECT_VERDICT(proof.asked({}), 1, "meet");
   EXPECT_REJECTED(proof.asked({"motion=rest"}), "motion: the witness in step 1 says linear, asked was rest");
+  // No step is proved, so no frame is.
+  EXPECT_REJECTED(proof.asked({"motion=rest", "steps=1"}), "motion: the witness in step 1 says linear, asked was rest");
   EXPECT_REJECTED(proof.asked({"motion=run"}), "the claim: motion");
   proof.claim.source = 1;
   EXPECT_VERDICT(proof.asked({}), 1, "meet");
@@ -135,7 +137,7 @@ TEST(Asked, Steps) {
   Proof one = proof;
   one.tokens.pop_back();
   EXPECT_REJECTED(one.asked({}), "steps: the proof says 1, asked was all of them");
-  EXPECT_REJECTED(one.asked({"steps=2"}), "steps: the proof says 1, asked was 2; --require steps=1 accepts it");
+  EXPECT_REJECTED(one.asked({"steps=2"}), "steps: the proof says 1, asked was 2; --require steps=1 asks for that");
   EXPECT_VERDICT(one.asked({"steps=1"}), 0, "; the first 1 steps");
   // What is behind is not looked at.
   one.frames[2].pop_back();
@@ -224,7 +226,7 @@ Proof one_strict_edge() {
 
 TEST(Asked, FeaturesOfOneCell) {
   const Proof proof = two_edges();
-  EXPECT_REJECTED(proof.asked({"strict"}), "strict: the proof says 0, asked was 1; --require strict=0 accepts it");
+  EXPECT_REJECTED(proof.asked({"strict"}), "strict: the proof says 0, asked was 1; --require strict=0 asks for that");
   EXPECT_REJECTED(proof.asked({"strict=1"}), "the claim: strict");
   EXPECT_ACCEPTED(proof.asked({"strict=0"}));
   EXPECT_ACCEPTED(one_strict_edge().asked({"strict"}));
@@ -240,7 +242,7 @@ TEST(Asked, FeaturesOfOneCell) {
 
 TEST(Asked, VerticesWithoutACell) {
   Proof proof = two_edges();
-  EXPECT_REJECTED(proof.asked({"points"}), "points: the proof says 0, asked was 1; --require points=0 accepts it");
+  EXPECT_REJECTED(proof.asked({"points"}), "points: the proof says 0, asked was 1; --require points=0 asks for that");
   proof.claim.flags = 2;
   EXPECT_ACCEPTED(proof.asked({"points"}));
   EXPECT_ACCEPTED(proof.asked({}));
@@ -287,7 +289,7 @@ TEST(Asked, TheRing) {
   proof.claim.eta = 1;
   proof.claim.ring = 3;
   EXPECT_ACCEPTED(proof.asked({}));
-  EXPECT_REJECTED(proof.asked({"distance=1"}), "ring: the proof says 3, asked was 1; --require ring=3 accepts it");
+  EXPECT_REJECTED(proof.asked({"distance=1"}), "ring: the proof says 3, asked was 1; --require ring=3 asks for that");
   EXPECT_REJECTED(proof.asked({"distance=1", "ring=2"}), "the claim: ring");
   EXPECT_ACCEPTED(proof.asked({"distance=1", "ring=3"}));
   EXPECT_ACCEPTED(proof.asked({"distance=1", "ring=4"}));
@@ -307,7 +309,7 @@ TEST(Asked, MergedVertices) {
   proof.cells.push_back({1, 4});
   proof.cells_after = {{0, 1}, {2, 3}};
   proof.claim.merged = {{4, 0}};
-  EXPECT_REJECTED(proof.asked({}), "merged: the proof says 1, asked was 0; --require merged=1 accepts it");
+  EXPECT_REJECTED(proof.asked({}), "merged: the proof says 1, asked was 0; --require merged=1 asks for that");
   EXPECT_VERDICT(proof.asked({"merged=1"}), 0, "; 1 merged vertices");
   EXPECT_ACCEPTED(proof.asked({"merged=2"}));
   EXPECT_ACCEPTED(two_edges().asked({"merged=2"}));
@@ -404,7 +406,7 @@ TEST(Asked, EmptyClaims) {
     return proof;
   };
   const auto is_empty = [](const Proof& proof) {
-    EXPECT_REJECTED(proof.asked({}), "empty: the proof says 1, asked was 0; --require empty=1 accepts it");
+    EXPECT_REJECTED(proof.asked({}), "empty: the proof says 1, asked was 0; --require empty=1 asks for that");
     EXPECT_VERDICT(proof.asked({"empty"}), 0, "; the claim is empty");
   };
   const auto is_not = [](const Proof& proof) {
@@ -441,13 +443,48 @@ TEST(Asked, EmptyByWhatIsExcluded) {
 
 TEST(Asked, FieldsThatNobodyCanAsk) {
   const std::string cells = "cells=" + std::string(64, '0');
-  for (const std::string field :
-       {"", "=", "motion", "motion=", "motion=Rest", "dimension", "dimension=1", "dimension=4", "dimension=+2",
-        "steps=0", "steps=-1", "steps=1.0", "steps=99999999999", "strict=", "strict=2", "points=yes", "distance", "distance=-1",
-        "distance=-0", "distance=nan", "distance=inf", "distance=1e999", "distance=.5", "distance=1 ", "ring=0",
-        "ring=4294967296", "merged=", "merged=-1", "excluded", "excluded=1", "excluded=1-", "excluded=-1",
-        "excluded=2-1", "excluded=1-2,", "excluded=,1-2", "excluded=1-2,1-2", "excluded=1-2,0-1", "excluded=1-2-3", "cells=", "empty=",
-        "from=0", "all"}) {
+  for (const std::string field : {"",
+                                  "=",
+                                  "motion",
+                                  "motion=",
+                                  "motion=Rest",
+                                  "dimension",
+                                  "dimension=1",
+                                  "dimension=4",
+                                  "dimension=+2",
+                                  "steps=0",
+                                  "steps=-1",
+                                  "steps=1.0",
+                                  "steps=99999999999",
+                                  "strict=",
+                                  "strict=2",
+                                  "points=yes",
+                                  "distance",
+                                  "distance=-1",
+                                  "distance=-0",
+                                  "distance=nan",
+                                  "distance=inf",
+                                  "distance=1e999",
+                                  "distance=.5",
+                                  "distance=1 ",
+                                  "ring=0",
+                                  "ring=4294967296",
+                                  "merged=",
+                                  "merged=-1",
+                                  "excluded",
+                                  "excluded=1",
+                                  "excluded=1-",
+                                  "excluded=-1",
+                                  "excluded=2-1",
+                                  "excluded=1-2,",
+                                  "excluded=,1-2",
+                                  "excluded=1-2,1-2",
+                                  "excluded=1-2,0-1",
+                                  "excluded=1-2-3",
+                                  "cells=",
+                                  "empty=",
+                                  "from=0",
+                                  "all"}) {
     EXPECT_REJECTED(two_edges().asked({cells, field}), "the command line");
   }
   EXPECT_REJECTED(two_edges().asked({"cells=" + std::string(63, '0')}), "64 digits");

@@ -111,8 +111,11 @@ inline Fields own_claim(const std::string& proof) {
     for (std::uint32_t i = 0; i < merged; ++i) c.u64();
     const auto excluded = read_pairs<std::uint32_t>(c, c.u32(), "");
     if (eta == 0 && ring > 1) return {};
-    Fields fields = {"empty", "distance=" + text_of(eta), "ring=" + std::to_string(ring),
-                     "merged=" + std::to_string(merged), "strict=" + std::to_string(flags & 1),
+    Fields fields = {"empty",
+                     "distance=" + text_of(eta),
+                     "ring=" + std::to_string(ring),
+                     "merged=" + std::to_string(merged),
+                     "strict=" + std::to_string(flags & 1),
                      "points=" + std::to_string(flags >> 1 & 1)};
     if (source < 2) {
       fields.push_back(std::string("motion=") + motions[static_cast<std::size_t>(source)]);
@@ -211,7 +214,7 @@ struct Proof {
   std::vector<std::string> witness{};  ///< by step; empty where it has none
   ClaimFields claim{};
   std::vector<std::uint32_t> labels{};  ///< block LABL, if there are any
-  std::optional<Fields> fields{};  ///< that are asked; none: just what it claims
+  std::optional<Fields> fields{};       ///< that are asked; none: just what it claims
   StepFields step{};  ///< of all; number, times, hash and kind are set where `keep` does not say otherwise
   bool keep = false;
 

@@ -82,7 +82,7 @@ struct RunProof {
   std::vector<std::string> tokens{token::N + token::F + token::mx + token::F};
   std::vector<std::uint32_t> labels{};
   std::string witness{};
-  std::size_t steps = 99;  ///< at most, of the proof
+  std::size_t steps = 99;          ///< at most, of the proof
   std::optional<Fields> fields{};  ///< that are asked; none: the proof's own claim
 
   Verdict check() const { return check(run.blocks()); }

@@ -18,7 +18,7 @@ let hex hash =
 let merged claim = let n = ref 0 in Array.iteri (fun v s -> if v <> s then incr n) claim.same; !n
 
 (* Whether two cells count that have vertices u and v, not equal, one in each; or, if strict, one cell with both. *)
-let compares_any claim =
+let compares_any claim strict =
   let excluded = Hashtbl.create 64 in List.iter (fun pair -> Hashtbl.replace excluded pair ()) claim.excluded;
   let counts a b = not (Hashtbl.mem excluded (min a b, max a b)) in
   (* By label: how many cells, and one or two of their vertices. *)
@@ -36,7 +36,7 @@ let compares_any claim =
   let both (a, (cells, u)) (b, (_, v)) =
     counts a b && (a <> b || cells > 1) && List.exists (fun x -> List.exists (( <> ) x) (u @ v)) (u @ v) in
   let labels = List.of_seq (Hashtbl.to_seq known) in
-  (claim.strict && List.exists Fun.id (List.mapi of_one (Array.to_list claim.cells)))
+  (strict && List.exists Fun.id (List.mapi of_one (Array.to_list claim.cells)))
   || List.exists (fun a -> List.exists (both a) labels) labels
 
 (* What a witness shows; its step is counted from 0. *)
@@ -64,18 +64,19 @@ let dimension_of asked claim =
 
 let require holds who field ?would_do says wanted =
   let would_do = Option.value would_do ~default:(field ^ "=" ^ says) in
+  let named value = if value = "" then "nothing" else value in
   if not holds then
-    raise (Rejected (Printf.sprintf "the claim: %s: %s says %s, asked was %s; --require %s accepts it" field who says
-                       wanted would_do))
+    raise (Rejected (Printf.sprintf "the claim: %s: %s says %s, asked was %s; --require %s asks for that" field who
+                       (named says) (named wanted) would_do))
 
 let require_cells who asked claim =
   let wanted = Option.value asked.of_cells ~default:claim.hash in
   require (wanted = claim.hash) who "cells" (hex claim.hash) (hex wanted)
 
-(* A number of steps is asked by name, and so many of the claim's are enough: frame k ends step k - 1. *)
+(* A number of steps is asked by name, and so many of the claim's, at least one, are enough: frame k ends step k - 1. *)
 let enough_steps asked claim steps =
   let ends = if claim.source = 0 && source_of asked claim = 1 then 1 else 0 in
-  match asked.steps with Some n -> steps + ends >= n | None -> false
+  match asked.steps with Some n -> steps > 0 && steps + ends >= n | None -> false
 
 (* Rejects a claim that is weaker; flat: each of its steps is. *)
 let require_claimed asked claim flat =
@@ -98,7 +99,8 @@ let require_claimed asked claim flat =
   let would_do = Printf.sprintf "excluded=%s --require cells=%s" (pairs_text claim.excluded) (hex claim.hash) in
   the_proof (List.for_all (Hashtbl.mem known) claim.excluded) "the proof" "excluded" ~would_do
     (pairs_text claim.excluded) (pairs_text may);
-  require (asked.may_be_empty || compares_any claim) "empty" "1" "0"
+  let would_do = if claim.strict && compares_any claim true then "strict=1" else "empty=1" in
+  the_proof (asked.may_be_empty || compares_any claim asked.is_strict) "the proof" "empty" ~would_do "1" "0"
 
 (* Rejects a claim of too few steps; more: the trajectory goes on. *)
 let require_steps asked claim steps more =
@@ -195,5 +197,5 @@ let weaker claim steps first_steps =
   when_ (claim.source = 1) "; frames at rest"
   ^ when_ (merged > 0) (Printf.sprintf "; %d merged vertices" merged)
   ^ when_ (claim.source < 2 && n > 0) ("; not compared: " ^ pairs)
-  ^ when_ (not (compares_any claim)) "; the claim is empty"
+  ^ when_ (not (compares_any claim claim.strict)) "; the claim is empty"
   ^ when_ first_steps (Printf.sprintf "; the first %d steps" steps)

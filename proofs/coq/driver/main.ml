@@ -220,7 +220,7 @@ let print_fields claim said =
     motions.(claim.source) claim.motion.dimension said.steps (bit claim.strict) (bit claim.points)
     (number_text claim.eta) claim.ring (merged claim);
   Printf.printf " excluded=%s cells=%s empty=%d from=%s to=%s\n" (pairs_text claim.excluded) (hex claim.hash)
-    (bit (not (compares_any claim))) (number_text said.from) (number_text said.until)
+    (bit (not (compares_any claim claim.strict))) (number_text said.from) (number_text said.until)
 
 let run asked proof paths =
   let file = open_file proof "PROF" in let claim = read_claim file paths in
