@@ -34,7 +34,7 @@ constexpr const char* footer =
     "  --require strict            also the features of one cell (--strict)\n"
     "  --require points            also vertices without a cell (--points)\n"
     "  --require distance=0.001    at least so far apart (--min-distance); ring=2: see --min-distance-from-ring\n"
-    "  --require merged=12         so many vertices may be merged (--merge-identical)\n"
+    "  --require merged=12         so many vertices may be merged (--merge-identical), together with cells=HASH\n"
     "  --require excluded=1-2 --require cells=HASH    pairs of labels that may be left out (--ignore)\n"
     "  --require empty             fewer than two cells that could touch\n"
     "or all at once by the file that `noli verify --claim-out CLAIM.json` writes. proofs/FORMAT.md, section 6, has the "
@@ -77,7 +77,7 @@ std::vector<std::string> asked_by(const CheckArguments& arguments) {
 void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words) {
   if (asks(words, "steps")) return;
   try {
-    const std::uint64_t logged = read_log(run).windows;
+    const std::uint64_t logged = read_log(run).windows_told;
     if (RunReader(run).count_windows() < logged) words.push_back("steps=" + std::to_string(logged));
   } catch (const InputError&) {
     return;

@@ -249,7 +249,8 @@ std::vector<std::string> fields_beyond_default(const Claim& claim) {
   plain.motion = claim.motion == "run" ? "run" : "linear";
   plain.dimension = claim.motion == "run" ? claim.dimension : 3;
   plain.steps = claim.steps;
-  plain.cells = claim.excluded.empty() || claim.motion == "run" ? claim.cells : "";
+  const bool told_by_cells = claim.merged > 0 || (!claim.excluded.empty() && claim.motion != "run");
+  plain.cells = told_by_cells ? "" : claim.cells;
   const std::vector<std::string> own = fields_of(claim), by_default = fields_of(plain);
   std::vector<std::string> fields;
   std::ranges::copy_if(own, std::back_inserter(fields),

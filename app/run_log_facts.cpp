@@ -66,7 +66,14 @@ class Reader {
     }
   }
 
+  /// Lines may be damaged; what one of them tells of was there.
+  void tell(std::uint64_t windows) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 53;
+    if (windows <= most) facts_.windows_told = std::max(facts_.windows_told, windows);
+  }
+
   void window(const Json& entry) {
+    if (member(entry, "window").is_number_unsigned()) tell(number<std::uint64_t>(entry, "window") + 1);
     const Json& timing = member(entry, "timing");
     if (!member(timing, "deepest").is_number()) return;  // what it does not say is not known
     const auto window = number<std::uint64_t>(entry, "window");
@@ -84,6 +91,7 @@ class Reader {
 
   void end(const Json& entry) {
     ++facts_.parts_ended;
+    if (member(entry, "windows").is_number_unsigned()) tell(number<std::uint64_t>(entry, "windows"));
     facts_.going_on = false;
     const Json& why = member(entry, "end");
     facts_.last_end = why.is_string() ? why.get<std::string>() : "";
@@ -126,9 +134,9 @@ LogFacts read_log(const std::filesystem::path& run) {
 }
 
 void require_all_windows(const std::filesystem::path& run, const LogFacts& log, std::uint64_t windows) {
-  if (log.windows <= windows) return;
+  if (log.windows_told <= windows) return;
   throw InputError((run / "trajectory.blocks").string(), "",
-                   fmt::format("windows are missing: it has {}, the log tells of {}", windows, log.windows));
+                   fmt::format("windows are missing: it has {}, the log tells of {}", windows, log.windows_told));
 }
 
 }  // namespace noli::app

@@ -27,6 +27,7 @@ struct LogFacts {
   std::uint64_t parts = 0;          ///< begun
   std::uint64_t parts_ended = 0;    ///< with a line of their own
   std::uint64_t windows = 0;        ///< that it tells of, each once
+  std::uint64_t windows_told = 0;   ///< up to the last one that any line tells of
   std::uint64_t bad_lines = 0;
   std::uint32_t deepest = 0;     ///< layer that was active in any of these windows
   std::vector<Json> roll_backs;  ///< lines of the log, with windows counted from 1

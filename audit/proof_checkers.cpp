@@ -210,18 +210,21 @@ std::vector<std::string> own_claim(const std::string& proof) {
                                      fmt::format("distance={:.17g}", eta),
                                      fmt::format("ring={}", ring),
                                      fmt::format("merged={}", merged)};
+  std::string cells = "cells=";
+  for (std::size_t i = 16; i < 48; ++i) cells += fmt::format("{:02x}", byte(i));
+  if (merged > 0) fields.push_back(cells);
   if (byte(0) == 2) return fields;
   fields.emplace_back(byte(0) == 0 ? "motion=linear" : "motion=rest");
   fields.push_back(fmt::format("dimension={}", byte(1) == 2 ? 2 : 3));
   const std::uint64_t list = fixed + std::uint64_t{8} * merged;
   if (proof.size() < begin + list + 4) return fields;
-  std::string pairs, cells;
+  std::string pairs;
   const std::uint64_t count = std::min<std::uint64_t>(number(list), (proof.size() - begin - list - 4) / 8);
   for (std::uint64_t i = 0; i < count && pairs.size() < longest; ++i)
     pairs += fmt::format("{}{}-{}", i == 0 ? "" : ",", number(list + 4 + 8 * i), number(list + 8 + 8 * i));
   if (pairs.empty() || pairs.size() > longest) return fields;
-  for (std::size_t i = 16; i < 48; ++i) cells += fmt::format("{:02x}", byte(i));
-  fields.insert(fields.end(), {"excluded=" + pairs, "cells=" + cells});
+  fields.push_back("excluded=" + pairs);
+  if (merged == 0) fields.push_back(cells);
   return fields;
 }
 

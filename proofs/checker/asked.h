@@ -85,6 +85,7 @@ class Asked {
     for (const std::string& field : fields) take(field);
     const bool any_excluded = excluded_ && !excluded_->empty();
     require_word(cells_ || !any_excluded, "excluded", "only the cells say what labels are: expected cells=HASH too");
+    require_word(cells_ || merged_ == 0, "merged", "only the cells say which are merged: expected cells=HASH too");
     require_word(eta_ > 0 || ring_ == 1, "ring", "says who may be nearer than a distance: expected distance=ETA too");
   }
 
@@ -106,12 +107,14 @@ class Asked {
     proof.require(claim.points || !points_, "points", "0", "1");
     proof.require(claim.eta >= eta_, "distance", text_of(claim.eta), text_of(eta_));
     proof.require(claim.ring <= ring_ || eta_ == 0, "ring", std::to_string(claim.ring), std::to_string(ring_));
-    proof.require(claim.merged <= merged_, "merged", std::to_string(claim.merged), std::to_string(merged_));
+    const std::string cells = " --require cells=" + text_of(claim.hash);
+    proof.require(claim.merged <= merged_, "merged", std::to_string(claim.merged), std::to_string(merged_),
+                  "merged=" + std::to_string(claim.merged) + cells);
     require_cells(proof, claim);
     const std::set<LabelPair> by_default = claim.source == 2 ? claim.excluded : std::set<LabelPair>{};
     const std::set<LabelPair>& pairs = excluded_ ? *excluded_ : by_default;
     proof.require(std::ranges::includes(pairs, claim.excluded), "excluded", text_of(claim.excluded), text_of(pairs),
-                  "excluded=" + text_of(claim.excluded) + " --require cells=" + text_of(claim.hash));
+                  "excluded=" + text_of(claim.excluded) + cells);
     const char* const would_do = claim.strict && compares_any(claim, true) ? "strict=1" : "empty=1";
     proof.require(empty_ || compares_any(claim, strict_), "empty", "1", "0", would_do);
   }

@@ -112,26 +112,28 @@ class Claims : public Simulate {
 TEST_F(Claims, AtRestSaysNothingOfWhatHappensBetweenFrames) {
   const Words paths = triangles({1, -1});
   ASSERT_EQ(prove(paths, {"--static"}), 0);
-  expect_weaker(paths, {"motion=rest"}, "motion", 0, "; frames at rest\n");
+  expect_weaker(paths, {"motion=rest"}, "motion", 0, "; frames at rest (");
 }
 
 TEST_F(Claims, MergedVerticesGlueBodiesTogether) {
   const Words paths = glued();
   ASSERT_EQ(prove(paths, {"--merge-identical"}), 0);
-  expect_weaker(paths, {"merged=1"}, "merged", 0, "; 1 merged vertices\n");
-  EXPECT_EQ(check(paths, {"merged=7"}).exit_code, 0);
+  const std::string cells = "cells=" + asked_claim()["cells"].get<std::string>();
+  expect_weaker(paths, {"merged=1", cells}, "merged", 0, "; 1 merged vertices (");
+  EXPECT_EQ(check(paths, {"merged=7", cells}).exit_code, 0);
+  EXPECT_EQ(check(paths, {"merged=7"}).exit_code, 3);
 }
 
 TEST_F(Claims, OneCellWithAParticleThatFliesThroughItIsEmpty) {
   const Words paths = particle();
   ASSERT_EQ(prove(paths, {}), 0);
-  expect_weaker(paths, {"empty"}, "empty", 0, "; the claim is empty\n");
+  expect_weaker(paths, {"empty"}, "empty", 0, "; the claim is empty (");
 }
 
 TEST_F(Claims, AWitnessInThePlaneRefutesNothingAboutFramesInSpace) {
   const Words paths = triangles({1, 0.5});
   ASSERT_EQ(prove(paths, {"--dimension", "2"}), 1);
-  expect_weaker(paths, {"dimension=2"}, "dimension", 1, "; z does not count\n");
+  expect_weaker(paths, {"dimension=2"}, "dimension", 1, "; z does not count (");
 }
 
 TEST_F(Claims, ARunThatIsCutOffLacksWindows) {
@@ -155,7 +157,7 @@ TEST_F(Claims, FewerStepsThanThereAre) {
   const Words paths = triangles({1, 0.5, 0.25, -1});
   const Words some(paths.begin(), paths.end() - 1);
   ASSERT_EQ(prove(some, {}), 0);
-  expect_weaker(paths, {"steps=2"}, "steps", 0, "; the first 2 steps\n");
+  expect_weaker(paths, {"steps=2"}, "steps", 0, "; the first 2 steps (");
   EXPECT_EQ(check(paths, {"steps=3"}).exit_code, 3);
 }
 
@@ -191,7 +193,7 @@ TEST_F(Claims, FeaturesOfOneCellWhereTheyWereAsked) {
   };
   const Words folded = frames({folding(1), folding(-1)});
   ASSERT_EQ(prove(folded, {"--strict"}), 1);
-  expect_weaker(folded, {"strict"}, "strict", 1, "; features of one cell count\n");
+  expect_weaker(folded, {"strict"}, "strict", 1, "; features of one cell count (");
 }
 
 TEST_F(Claims, VerticesWithoutACellWhereTheyWereAsked) {
@@ -200,7 +202,7 @@ TEST_F(Claims, VerticesWithoutACellWhereTheyWereAsked) {
   expect_rejected(paths, {"points"}, "points");
   const Words through = particle();
   ASSERT_EQ(prove(through, {"--points"}), 1);
-  expect_weaker(through, {"points"}, "points", 1, "; vertices without a cell count\n");
+  expect_weaker(through, {"points"}, "points", 1, "; vertices without a cell count (");
 }
 
 TEST_F(Claims, TheLeastDistanceInBothDirections) {
@@ -262,7 +264,7 @@ TEST_F(Claims, AWitnessOfOneClaimAgainstMergedVertices) {
   const Words paths = glued();
   ASSERT_EQ(prove(paths, {}), 1);
   EXPECT_EQ(check(paths, {}).exit_code, 1);
-  expect_rejected(paths, {"merged=1"}, "merged");
+  expect_rejected(paths, {"merged=1", "cells=" + asked_claim()["cells"].get<std::string>()}, "merged");
 }
 
 /// All that `noli verify` proves, or refutes, `noli check` takes by the claim that was asked; and says which it was.

@@ -43,7 +43,9 @@ def own_claim(proof):
         fields += ["motion=" + ("linear", "rest")[claim.source], f"dimension={claim.dimension}"]
         excluded = ",".join(f"{a}-{b}" for a, b in claim.excluded)
         if excluded and len(excluded) < 200:
-            fields += ["excluded=" + excluded, "cells=" + claim.cells_hash.hex()]
+            fields.append("excluded=" + excluded)
+    if claim.merged or any(field.startswith("excluded=") for field in fields):
+        fields.append("cells=" + claim.cells_hash.hex())
     return [word for field in fields for word in ("--require", field)]
 
 

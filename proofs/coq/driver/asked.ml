@@ -92,7 +92,9 @@ let require_claimed asked claim flat =
   require (claim.eta >= asked.least) "distance" (number_text claim.eta) (number_text asked.least);
   require (claim.ring <= asked.from_ring || asked.least = 0.0) "ring" (string_of_int claim.ring)
     (string_of_int asked.from_ring);
-  require (merged <= asked.may_merge) "merged" (string_of_int merged) (string_of_int asked.may_merge);
+  let would_do = Printf.sprintf "merged=%d --require cells=%s" merged (hex claim.hash) in
+  the_proof (merged <= asked.may_merge) "the proof" "merged" ~would_do (string_of_int merged)
+    (string_of_int asked.may_merge);
   require_cells "the proof" asked claim;
   let may = Option.value asked.may_exclude ~default:(if claim.source = 2 then claim.excluded else []) in
   let known = Hashtbl.create 64 in List.iter (fun pair -> Hashtbl.replace known pair ()) may;
@@ -186,6 +188,8 @@ let of_words words =
   let asked, _ = List.fold_left one (nothing, []) words in
   check (asked.of_cells <> None || Option.value asked.may_exclude ~default:[] = []) "excluded"
     "only the cells say what labels are: expected cells=HASH too";
+  check (asked.of_cells <> None || asked.may_merge = 0) "merged"
+    "only the cells say which are merged: expected cells=HASH too";
   check (asked.least > 0.0 || asked.from_ring = 1) "ring"
     "says who may be nearer than a distance: expected distance=ETA too";
   asked

@@ -66,7 +66,8 @@ def own_claim(proof):
              f"ring={ring}", f"merged={merged}", "empty"]
     if source < 2: words.append("motion=" + ("linear", "rest")[source])
     excluded = ",".join(f"{a}-{b}" for a, b in pairs)
-    if excluded and source < 2: words += ["excluded=" + excluded, "cells=" + c[16:48].hex()]
+    if excluded and source < 2: words.append("excluded=" + excluded)
+    if (excluded and source < 2) or merged: words.append("cells=" + c[16:48].hex())
     return words
 
 
@@ -220,7 +221,7 @@ for name, proof, files, code in good:
     agree(f"{name}, by default", proof, files, None, [])
     for field in FIELDS:
         other = [o for o in own_claim(proof) if o.split("=")[0] != field.split("=")[0]]
-        if not field.startswith(("ring", "excluded=0")): agree(f"{name}, asked", proof, files, None, [field])
+        if not field.startswith(("ring", "excluded=0", "merged")): agree(f"{name}, asked", proof, files, None, [field])
         agree(f"{name}, asked", proof, files, None, other + [field])
     for _ in range(10):
         some = {field.split("=")[0]: field for field in asking.sample(FIELDS, 4)}
