@@ -246,14 +246,14 @@ TEST(Asked, FeaturesOfOneCell) {
   EXPECT_REJECTED(proof.asked({"strict=1"}), "the claim: strict");
   EXPECT_ACCEPTED(proof.asked({"strict=0"}));
   EXPECT_ACCEPTED(one_strict_edge().asked({"strict"}));
-  EXPECT_ACCEPTED(one_strict_edge().asked({}));
+  EXPECT_REJECTED(one_strict_edge().asked({}), "the claim: empty");
   Proof witness{{{{0, 0, 0}, {3, 0, 0}}, {{3, 0, 0}, {0, 0, 0}}}, {{0, 1}}};
   witness.claim.flags = 1;
   witness.tokens.clear();
   witness.witness = {raw(0u) + raw(0u) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(1u) + poly({1}) +
                      poly({-1, 2}) + uint(1) + sint(1) + sint(1)};
   EXPECT_VERDICT(witness.asked({"strict"}), 1, "; features of one cell count");
-  EXPECT_REJECTED(witness.asked({}), "strict: the witness in step 1 says 1, asked was 0; --require strict=1 accepts");
+  EXPECT_REJECTED(witness.asked({}), "strict: the witness in step 1 says 1, asked was 0; --require strict=1 asks for that");
 }
 
 TEST(Asked, VerticesWithoutACell) {
@@ -294,7 +294,7 @@ TEST(Asked, OfWitnessesTheirDistance) {
   EXPECT_VERDICT(proof.asked({}), 1, "meet");
   EXPECT_EQ(proof.asked({}).words.find("distance"), std::string::npos);
   proof.frames[0][1][0] = 1;
-  EXPECT_REJECTED(proof.asked({}), "distance: the witness in step 1 says 2, asked was 0; --require distance=2 accepts");
+  EXPECT_REJECTED(proof.asked({}), "distance: the witness in step 1 says 2, asked was 0; --require distance=2 asks for that");
   EXPECT_REJECTED(proof.asked({"distance=1.5"}), "the claim: distance");
   EXPECT_VERDICT(proof.asked({"distance=2"}), 1, "are too near; least distance 2, ring 1");
   EXPECT_VERDICT(proof.asked({"distance=3"}), 1, "too near");
@@ -350,7 +350,7 @@ TEST(Asked, PairsOfLabelsThatAreNotCompared) {
   EXPECT_ACCEPTED(proof.asked({"excluded=3-3,3-5", cells}));
   proof.claim.excluded = {{3, 3}, {5, 5}};
   EXPECT_REJECTED(proof.asked({}),
-                  "excluded: the proof says 3-3,5-5, asked was ; --require excluded=3-3,5-5 --require " + cells);
+                  "excluded: the proof says 3-3,5-5, asked was nothing; --require excluded=3-3,5-5 --require " + cells);
   EXPECT_REJECTED(proof.asked({"excluded="}), "the claim: excluded");
   EXPECT_REJECTED(proof.asked({"excluded=3-3", cells}), "the claim: excluded");
   EXPECT_REJECTED(proof.asked({"excluded=3-3,5-6", cells}), "the claim: excluded");
