@@ -52,7 +52,9 @@ class Proof : public testing::Test {
     more.emplace_back("--verified");
     const Process verified = check_by(more, frames);
     EXPECT_EQ(verified.exit_code, plain.exit_code) << plain.out << verified.out;
-    if (plain.exit_code != 3) EXPECT_EQ(verified.verdict_of_checker(), plain.verdict_of_checker());
+    if (plain.exit_code != 3) {
+      EXPECT_EQ(verified.verdict_of_checker(), plain.verdict_of_checker());
+    }
     return plain;
   }
   std::string proof() const { return folder.path("proof.noli"); }
