@@ -40,7 +40,8 @@ void TextDigits::add(std::string_view word) {
 
 std::optional<int> TextDigits::unit() const {
   if (!any_) return std::nullopt;
-  const bool fixed = least_decimals_ && *least_decimals_ == decimals_;
+  // 0.000001 beside 4: no notation with so few digits writes that, but a fixed number of decimals.
+  const bool fixed = least_decimals_ && *least_decimals_ == decimals_ && digits_ < decimals_;
   if (!largest_ || fixed) return -static_cast<int>(decimals_);
   return *largest_ - static_cast<int>(digits_) + 1;
 }

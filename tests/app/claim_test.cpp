@@ -215,7 +215,7 @@ TEST_F(Claims, TheLeastDistanceInBothDirections) {
   }
   expect_rejected(paths, {"distance=0.375"}, "distance");
   ASSERT_EQ(prove(paths, {"--min-distance", "0.75"}), 1);
-  expect_weaker(paths, {"distance=0.75"}, "distance", 1, " are too near; least distance 0.75, ring 1\n");
+  expect_weaker(paths, {"distance=0.75"}, "distance", 1, " are too near; least distance 0.75, ring 1 (");
   expect_rejected(paths, {"distance=0.625"}, "distance");
   EXPECT_EQ(check(paths, {"distance=1"}).exit_code, 1);
   const Words touching = triangles({1, -1});

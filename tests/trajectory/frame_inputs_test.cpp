@@ -87,6 +87,8 @@ TEST(FrameInputs, TextThatMayHaveBeenRoundedEarnsANote) {
   EXPECT_EQ(note("a.ply", ascii("double", "0.123456789 0\n1 0\n0 1\n3 0 1 2\n")),
             "coordinates are text with 9 digits, 9 decimals: gaps below 5e-09 may be decided by rounding")
       << "9 digits of the largest number, 1";
+  EXPECT_EQ(note("a.obj", "v 4 0 0.000001\nv 1 0 0.000000\nv 0 1 0.000000\nf 1 2 3\n"),
+            "coordinates are text with 6 decimals: gaps below 5e-07 may be decided by rounding");
   EXPECT_EQ(note("a.ply", ascii("int", "7 0\n1 0\n0 1\n3 0 1 2\n")), "") << "whole numbers are what they are";
 }
 
