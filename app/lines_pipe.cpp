@@ -91,7 +91,7 @@ bool LinesPipe::waited_too_long() const {
   return awaited_since_ && std::chrono::steady_clock::now() >= *awaited_since_ + time_to_open;
 }
 
-/// Waits for the checker to open its end, without which there is none of ours.
+/// Waits for the checker to open its end; until then ours cannot be opened.
 std::optional<int> LinesPipe::open() const {
   while (!given_up() && !waited_too_long()) {
     const int end = ::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);

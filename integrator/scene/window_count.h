@@ -7,7 +7,7 @@
 
 namespace noli::integrator {
 
-/// A time that is a whole number of windows but for rounding, as 0.07 of 0.01, takes just so many.
+/// A time that is a whole number of windows except for rounding, as 0.07 of 0.01, takes just that number.
 inline double windows_up_to(double time, double window) { return std::ceil(time / window * (1 - 0x1p-50)); }
 
 }  // namespace noli::integrator

@@ -203,7 +203,7 @@ def by_hand():
 by_hand()
 for name, proof, files, code in good: agree(name, proof, files, code)
 
-# What is asked: by default, one field after another, some at once; and such that nobody can ask
+# What is asked: the default, one field after another, several at once, and impossible fields
 
 FIELDS = ["motion=linear", "motion=rest", "motion=run", "dimension=2", "dimension=3", "steps=1", "steps=2", "steps=3",
           "steps=4", "strict", "strict=0", "points", "points=1", "distance=0", "distance=1e-9", "distance=0.5",
