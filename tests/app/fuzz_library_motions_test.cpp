@@ -138,7 +138,7 @@ TEST_F(FuzzLibraryMotions, FindsOtherFaultsSlow) {
                                        {"finds_neighbours", "not_found"},
                                        {"lies_about_time", "late"},
                                        {"leaks", "leak"}}) {
-    const Json document = json(faulty(library), 1, {"--count", "28", "--max-findings", "0"});
+    const Json document = json(faulty(library), 1, {"--count", "51", "--max-findings", "0"});
     EXPECT_GT(document["faults"][fault], 0) << library;
   }
 }
