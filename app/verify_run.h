@@ -52,7 +52,7 @@ struct VerifyRequest {
   bool merge_identical = false;
   std::optional<std::filesystem::path> ignore;        ///< groups of vertices that are not compared (groups.h)
   double min_distance = 0;                            ///< features have to be more than this apart
-  std::uint32_t ring = 1;                             ///< but for those that a path of fewer edges joins
+  std::uint32_t ring = 1;                             ///< features fewer mesh edges apart may be nearer
   bool reproduce = false;                             ///< of a run: integrate its windows again (windows_again.h)
   std::optional<std::filesystem::path> scene_folder;  ///< in which the file of its scene was; nothing: its own
   bool lines_in_no_file = false;                      ///< of a run that is reproduced: it recorded frames alone

@@ -24,7 +24,7 @@ struct MotionGenerator {
 /// All generators; the order never depends on anything.
 std::span<const MotionGenerator> motion_generators();
 
-/// Those with these names, in that order; all if there are none. Throws std::invalid_argument for other names.
+/// The generators with these names, in that order; without names, all of them. Throws std::invalid_argument for other names.
 std::vector<MotionGenerator> motion_generators(std::span<const std::string> names);
 
 }  // namespace noli::audit

@@ -83,8 +83,7 @@ Frame FrameInputs::read(std::size_t k) {
   const std::string bytes = read_whole_file(facts_[k].file);
   if (facts_[k].looked_at && sha256(bytes) != facts_[k].sha256) {
     throw InputError(facts_[k].file.string(), "",
-                     "has changed since it was looked at; expected files that nobody writes to (verify them again once "
-                     "they are complete)");
+                     "has changed since it was looked at; verify the frames again once they are complete");
   }
   Polygons polygons{rule_};
   Frame frame = parse(k, bytes, polygons);

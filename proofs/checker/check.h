@@ -43,8 +43,8 @@ class Check {
     c.require(cells_hash() == claim_.hash, "the claim is about other cells than those of the trajectory");
   }
 
-  /// Step after step. What the first witness says that refutes the claim that is asked; if there is none, the claim of
-  /// the file holds, and is at least as strong as the one that is asked.
+  /// Checks step after step. Returns the words of the first witness that refutes the asked claim. Without such a
+  /// witness the claim of the file holds, and is at least as strong as the asked one.
   std::optional<std::string> go() {
     for (std::uint64_t read = 0;; ++read) {
       auto block = proof_.next();

@@ -28,7 +28,7 @@ using IntegerVector = std::array<Integer, 3>;
 /// one is left for what rounding carries.
 constexpr std::size_t most_direction_bits = 8398;
 
-/// A direction that separates, with few bits where few do; nothing if there is none of at most most_direction_bits.
+/// A direction that separates, with as few bits as are enough; nothing if more than most_direction_bits are needed.
 /// Precondition: `differences` is not empty.
 std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences, const Integer& least2);
 

@@ -33,7 +33,7 @@ Poly quotient(Poly f, const Poly& g);
 bool divides(const Poly& g, Poly f);
 /// Sign of f(at / 2^e).
 int sign_at(const Poly& f, const mpz_class& at, unsigned long e);
-/// The Bernstein coefficients of f on [l / 2^e, u / 2^e], times positive numbers. Those of 0 are none.
+/// The Bernstein coefficients of f on [l / 2^e, u / 2^e], times positive numbers. The polynomial 0 has no coefficients.
 std::vector<mpz_class> bernstein(const Poly& f, const mpz_class& l, const mpz_class& u, unsigned long e);
 /// The least sign of the Bernstein coefficients of f on [l / 2^e, u / 2^e].
 int least_sign(const Poly& f, const mpz_class& l, const mpz_class& u, unsigned long e);

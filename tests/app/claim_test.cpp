@@ -153,6 +153,40 @@ TEST_F(Claims, ARunThatIsCutOffLacksWindows) {
   }
 }
 
+/// Any line that is left tells of the windows before it.
+TEST_F(Claims, ADamagedLogHidesNoMissingWindows) {
+  Json sheet = hanging_sheet();
+  sheet["duration"] = 0.2;
+  const std::string run = run_path("run");
+  ASSERT_EQ(run_noli({"simulate", scene(sheet), "-o", run}).exit_code, 0);
+  const fs::path log = fs::path(run) / "log.jsonl";
+  std::vector<std::string> lines;
+  std::istringstream text(bytes_of(log));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  // Without the lines of all windows but the last one, and, then, of none but the end.
+  const auto keep = [&](const std::vector<std::string>& events) {
+    std::ofstream out(log, std::ios::binary);
+    for (const std::string& line : lines) {
+      const bool window = line.find("\"event\":\"window\"") != std::string::npos;
+      const bool kept = std::ranges::any_of(events, [&](const auto& e) { return line.find(e) != std::string::npos; });
+      if (!window || kept) out << line << '\n';
+    }
+  };
+  const std::vector<std::vector<std::string>> damages = {{"\"window\":19"}, {}};
+  for (const auto& kept : damages) {
+    keep(kept);
+    EXPECT_EQ(check(Words{run}).exit_code, 0);
+  }
+  for (const char* const file : {"proof.blocks", "trajectory.blocks"}) cut(fs::path(run) / file, 1 + 19);
+  for (const auto& kept : damages) {
+    keep(kept);
+    const Process less = check(Words{run});
+    EXPECT_EQ(less.exit_code, 3) << less.out;
+    EXPECT_NE(less.out.find("steps: the proof says 19, asked was 20"), std::string::npos) << less.out;
+    EXPECT_EQ(run_noli({"verify", run}).exit_code, 3);
+  }
+}
+
 TEST_F(Claims, FewerStepsThanThereAre) {
   const Words paths = triangles({1, 0.5, 0.25, -1});
   const Words some(paths.begin(), paths.end() - 1);
@@ -310,7 +344,7 @@ TEST_F(Claims, VerifySaysWhatItAskedAndWhatWeakensIt) {
   Words at_rest = {"verify", "--static", "--proof", proof()};
   at_rest.insert(at_rest.end(), rest.begin(), rest.end());
   EXPECT_EQ(json_of(at_rest, 0)["claim"]["weaker"], Json::parse(R"(["frames at rest"])"));
-  // The command that checks the proof again is the one that is told.
+  // The printed command checks the proof again.
   const std::string out = run_noli(at_rest).out, before = "ask for what it claims: noli ";
   const std::size_t at = out.find(before);
   ASSERT_NE(at, std::string::npos) << out;
