@@ -4,8 +4,8 @@
 // conditions, the one with the number in the environment variable NOLI_MUTANT. Prints a line for each: number, file,
 // line, condition.
 //
-// A condition is a conjunct of the first argument of `require(...)`, or of what `const bool apart`, `usable`, `same`,
-// `covers` or `together` is initialised with.
+// A condition is a conjunct of the first argument of `require(...)` or `require_word(...)`, or of what
+// `const bool apart`, `usable`, `same`, `covers` or `together` is initialised with.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -53,7 +53,8 @@ std::vector<std::string> conjuncts(const std::string& text) {
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
-  static const std::regex place(R"(\brequire\((?!bool )|\bconst bool (apart|usable|same|covers|together) =\s)");
+  static const std::regex place(
+      R"(\brequire(?:_word)?\((?!bool )|\bconst bool (apart|usable|same|covers|together) =\s)");
   int number = 0;
   for (int i = 2; i < argc; ++i) {
     std::ifstream in(argv[i], std::ios::binary);

@@ -64,7 +64,7 @@ class Witness {
     q_ = read(claim.cells[j]);
     g_ = poly();
     e_ = c_.uint();
-    require(e_ <= 1024, "the denominator is too long");
+    require(e_ <= 8192, "the denominator is too long");
     l_ = c_.sint();
     u_ = c_.sint();
     c_.end();

@@ -18,7 +18,7 @@ struct Root {
 };
 
 /// No enclosure has a larger e: as far as proofs/FORMAT.md, section 5, goes.
-constexpr unsigned long most_root_bits = 1024;
+constexpr unsigned long most_root_bits = 8192;
 
 /// The roots of f in [from / 2^e, to / 2^e], in any order. A root at the end is enclosed with l < u, unless from is to.
 /// Roots that are too near each other for most_root_bits are left out, except one at an end. Precondition: f is

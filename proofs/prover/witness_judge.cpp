@@ -157,7 +157,7 @@ class Judge {
     q_ = side_of(j);
     const std::uint8_t degree_and_1 = read_poly(g_);
     const mpz_class e = bytes_.uint(10);
-    require(e <= 1024, "e is above 1,024");
+    require(e <= 8192, "e is above 8,192");
     const mpz_class one = mpz_class(1) << e.get_ui();
     l_ = mpq_class(bytes_.sint(), one);
     u_ = mpq_class(bytes_.sint(), one);

@@ -45,7 +45,7 @@ WitnessFields changed(const std::function<void(WitnessFields&)>& change, Witness
 TEST(Witnesses, AtTheSquareRootOfTwo) {
   EXPECT_VERDICT(check(at_root_two), 1, "in step 1, vertices {0} of cell 1 and {1 2} of cell 0 meet");
   EXPECT_VERDICT(
-      check({0, 1, at_root_two.q, at_root_two.p, {1, -2, -1}, 1023, mpz_class(1) << 1021, mpz_class(1) << 1022}), 1,
+      check({0, 1, at_root_two.q, at_root_two.p, {1, -2, -1}, 8192, mpz_class(1) << 8190, mpz_class(1) << 8191}), 1,
       "");
   Proof excluded = root_two();
   excluded.claim.excluded = {{0, 0}};
@@ -89,7 +89,7 @@ TEST(Witnesses, WithinTheStep) {
   EXPECT_REJECTED(check(changed([](auto& w) { w.l = -1; })), "not in the step");
   EXPECT_REJECTED(check(changed([](auto& w) { w.u = 5; })), "not in the step");
   EXPECT_REJECTED(check(changed([](auto& w) { std::swap(w.l, w.u); })), "not in the step");
-  EXPECT_REJECTED(check(changed([](auto& w) { w.e = 1025; })), "denominator");
+  EXPECT_REJECTED(check(changed([](auto& w) { w.e = 8193; })), "denominator");
 }
 
 TEST(Witnesses, AtBothEnds) {

@@ -141,6 +141,22 @@ TEST(Witness, EveryContactOfAWindowHasOne) {
   EXPECT_GE(contacts, 1000u);
 }
 
+/// Roots are as small as products of three smallest doubles are beside products of three largest ones.
+TEST(Witness, ContactsInTheFirst2ToMinus1024OfAStepHaveOne) {
+  const Mesh mesh{4, {}, {{0, 1}, {3, 2}}, {}};
+  const std::vector<Position> x_t1 = {{0, 0, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, -0x1p30}};
+  for (const double gap : {0x1p-1000, 0x1p-1060, 0x1p-1074}) {
+    const std::vector<Position> x_t0 = {{0, 0, 0}, {0, 0, -0x1p-990}, {0, 0, -1}, {-gap, 0, 0}};
+    const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+    const WitnessStep what{mesh, lines, 7, 3, false};
+    const VerifyResult found = verify_step(mesh, x_t0, x_t1, {});
+    ASSERT_TRUE(found.first) << gap;
+    const auto payload = witness_of(what, *found.first);
+    ASSERT_TRUE(payload) << gap;
+    EXPECT_EQ(fault_of_witness(what, *payload), std::nullopt) << gap;
+  }
+}
+
 // --- the judge ---
 
 /// The point 0 rests in the origin; the edge 1-2 comes over it when (1 + t)^2 = 2. Its ends are at -(1 + t), -1 and 2,
@@ -216,7 +232,7 @@ class Judge : public ::testing::Test {
 TEST_F(Judge, TakesAWitnessOfTheSquareRootOfTwo) {
   EXPECT_EQ(fault([](Fields&) {}), "");
   EXPECT_EQ(fault([](Fields& w) { w.g = poly({1, -2, -1}); }), "");
-  EXPECT_EQ(fault([](Fields& w) { w.e = 1024, w.l = mpz_class(1) << 1022, w.u = mpz_class(1) << 1023; }), "");
+  EXPECT_EQ(fault([](Fields& w) { w.e = 8192, w.l = mpz_class(1) << 8190, w.u = mpz_class(1) << 8191; }), "");
   EXPECT_EQ(fault([](Fields& w) { w.q.push_back({1, w.g}); }), "") << "g divides that weight";
 }
 
@@ -235,7 +251,7 @@ TEST_F(Judge, RefusesOtherTimes) {
   EXPECT_EQ(fault([](Fields& w) { w.l = -1; }), "the time is not in the step");
   EXPECT_EQ(fault([](Fields& w) { w.l = 3; }), "the time is not in the step");
   EXPECT_EQ(fault([](Fields& w) { w.l = 2, w.u = 3; }), "g does not change its sign");
-  EXPECT_EQ(fault([](Fields& w) { w.e = 1025; }), "e is above 1,024");
+  EXPECT_EQ(fault([](Fields& w) { w.e = 8193; }), "e is above 8,192");
   EXPECT_EQ(fault([](Fields& w) { w.g.push_back(0); }), "the last coefficient of g is 0");
 }
 

@@ -146,7 +146,7 @@ let refute file claim number flat scene =
   let side = list 3 (fun c -> let v = vertex c in (v, poly c)) in
   let wi, wj = both (below (Array.length claim.cells)) c in let wp, wq = both side c in
   let wg = poly c in let e = uint c in
-  check c (e <= 1024 && Z.sign (List.hd (List.rev wg)) <> 0) "the denominator is too long, or g begins with 0";
+  check c (e <= 8192 && Z.sign (List.hd (List.rev wg)) <> 0) "the denominator is too long, or g begins with 0";
   let wl, wu = both sint c in finish c;
   let w = { Hit.wi; wj; wp; wq; wg; wl; wu; wd = Z.shift_left Z.one e } in
   check c (Hit.check_hit claim.strict scene w) "the witness does not hold"; ignore (expect file "CMIT");
