@@ -146,7 +146,7 @@ TEST(Witness, ContactsInTheFirst2ToMinus1024OfAStepHaveOne) {
   const Mesh mesh{4, {}, {{0, 1}, {3, 2}}, {}};
   const std::vector<Position> x_t1 = {{0, 0, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, -0x1p30}};
   for (const double gap : {0x1p-1000, 0x1p-1060, 0x1p-1074}) {
-    const std::vector<Position> x_t0 = {{0, 0, 0}, {0, 0, -0x1p-990}, {0, 0, -1}, {-gap, 0, 0}};
+    const std::vector<Position> x_t0 = {{0, 0, 0}, {0, 0, -0x1p-960}, {0, 0, -1}, {-gap, 0, 0}};
     const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
     const WitnessStep what{mesh, lines, 7, 3, false};
     const VerifyResult found = verify_step(mesh, x_t0, x_t1, {});
