@@ -13,6 +13,7 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -58,6 +59,7 @@ void set_up_child(const ProcessOptions& options, const Pipe& out, const Pipe& er
     ::_exit(126);
   }
   if (options.close_standard_output) ::close(STDOUT_FILENO);
+  for (const auto& [name, value] : options.environment) ::setenv(name.c_str(), value.c_str(), 1);
   if (options.file_size) {
     const struct rlimit limit = {*options.file_size, *options.file_size};
     setrlimit(RLIMIT_FSIZE, &limit);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace noli::app_tests {
@@ -24,6 +25,7 @@ struct ProcessOptions {
   std::optional<std::uint64_t> address_space;  ///< limit, in bytes
   std::optional<std::uint64_t> file_size;      ///< limit, in bytes: as if the disk were full
   bool obey_permissions = false;               ///< of files and folders, even when the tests are run by root
+  std::vector<std::pair<std::string, std::string>> environment;  ///< variables beside those of the tests
 };
 
 struct Process {

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Each call of the system that a command makes fails once, or from then on: memory, files, the disk. The answer is then
+// the true one, or it is that there is none (exit 2, 3 or 4, with a message); never a signal, never exit 0 with less
+// than the truth; and every run that was begun goes on to the same bytes.
+//
+// Notation
+//   kind    of calls, as preload/faults.cpp counts them
+//   number  of a call among those of its kind, from 1
+//
+// The fast tests take some numbers of each kind, the slow ones more; with NOLI_EVERY_FAULT=1 the slow ones take all.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "noli/tests/app/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+/// In arguments "IN/" is the folder of what is read, made once, and "OUT/" one that is empty before each call.
+struct Command {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* program = "noli";  ///< in which calls fail; it may be a child of noli
+  const char* begun = nullptr;   ///< copied from IN to OUT/run before
+};
+
+void PrintTo(const Command& command, std::ostream* out) { *out << command.name; }
+
+const std::vector<std::string>& kinds() {
+  static const std::vector<std::string> names = {"allocate", "open", "read", "write", "sync", "rename", "close"};
+  return names;
+}
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = {
+      {"VerifyFrames", {"verify", "IN/a.obj", "IN/b.obj", "--json", "OUT/a.json", "--proof", "OUT/a.noli"}},
+      {"VerifyContact", {"verify", "IN/a.obj", "IN/c.obj", "--json", "OUT/a.json", "--proof", "OUT/a.noli"}},
+      {"VerifyInTheChecker", {"verify", "IN/a.obj", "IN/b.obj", "--json", "OUT/a.json"}, "noli_check"},
+      {"VerifyRun", {"verify", "IN/run", "--json", "OUT/a.json"}},
+      {"Check", {"check", "IN/proof.noli", "IN/a.obj", "IN/b.obj", "--json", "OUT/a.json"}},
+      {"CheckInTheChecker", {"check", "IN/proof.noli", "IN/a.obj", "IN/b.obj", "--json", "OUT/a.json"}, "noli_check"},
+      {"CheckRun", {"check", "IN/run", "--json", "OUT/a.json"}},
+      {"Ccd", {"ccd", "IN/vertex-vertex.csv", "--porcelain"}},
+      {"Simulate", {"simulate", "IN/scene.json", "-o", "OUT/run"}},
+      {"SimulateFrames", {"simulate", "IN/frames.json", "-o", "OUT/run"}},
+      {"Resume", {"simulate", "IN/scene.json", "-o", "OUT/run", "--resume"}, "noli", "half"},
+      {"ExplainScene", {"explain", "IN/scene.json", "--json", "OUT/a.json"}},
+      {"ExplainRun", {"explain", "IN/run", "--json", "OUT/a.json"}},
+      {"Export", {"export", "IN/run", "--fps", "50", "-o", "OUT/frames/%02d.obj"}},
+      {"Report", {"report", "IN/run", "-o", "OUT/page.html"}},
+      {"Info", {"info", "IN/a.obj", "--json", "OUT/a.json"}},
+      {"FuzzQueries", {"fuzz", "queries", "--count", "20", "--seed", "1", "--json", "OUT/a.json"}},
+  };
+  return all;
+}
+
+/// What a call leaves: its code, its words, its files.
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+  std::map<std::string, std::string> files;
+
+  bool same_answer(const Outcome& other) const {
+    return exit_code == other.exit_code && out == other.out && files == other.files;
+  }
+};
+
+Json scene_of(const char* record) {
+  Json json = Json::parse(R"({
+      "noli_scene": 1, "duration": 0.03, "window": 0.01, "gravity": [0, 0, -9.81],
+      "bodies": [{"name": "upper", "mesh": {"grid": {"size": [1, 1], "cells": [1, 1]}},
+                  "transform": {"translate": [0, 0, 1]},
+                  "material": {"young": 2e4, "density": 200, "thickness": 0.001}},
+                 {"name": "lower", "mesh": {"grid": {"size": [1, 1], "cells": [1, 1]}},
+                  "material": {"young": 2e4, "density": 200, "thickness": 0.001}}]})");
+  json["record"] = record;
+  json["frame_rate"] = 200;
+  return json;
+}
+
+class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
+ protected:
+  static void SetUpTestSuite() {
+    in_ = new Folder;
+    in_->write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\nf 4 5 6\n");
+    in_->write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\nf 4 5 6\n");
+    in_->write("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -2\nv 1 0 -2\nv 0 1 -2\nf 1 2 3\nf 4 5 6\n");
+    in_->write("vertex-vertex.csv", "0,1,0,1,0,1\n1,1,0,1,0,1\n0,1,0,1,0,1\n1,1,0,1,0,1\n");
+    in_->write("scene.json", scene_of("full").dump());
+    in_->write("frames.json", scene_of("frames").dump());
+    const auto made = [](const std::vector<std::string>& arguments, int code) {
+      const Process process = run_noli(arguments);
+      ASSERT_EQ(process.exit_code, code) << process.out << process.err;
+    };
+    made({"simulate", in_->path("scene.json"), "-o", in_->path("run")}, 0);
+    made({"simulate", in_->path("scene.json"), "-o", in_->path("half"), "--until", "0.01"}, 0);
+    made({"verify", in_->path("a.obj"), in_->path("b.obj"), "--proof", in_->path("proof.noli")}, 0);
+  }
+  static void TearDownTestSuite() {
+    delete in_;
+    in_ = nullptr;
+  }
+
+  const Command& command() const { return std::get<0>(GetParam()); }
+  const std::string& kind() const { return std::get<1>(GetParam()); }
+
+  std::string out_path(const std::string& name) const { return out_.path(name); }
+
+  std::vector<std::string> words() const {
+    std::vector<std::string> words = command().arguments;
+    for (std::string& word : words) {
+      if (word.starts_with("IN/")) word = in_->path(word.substr(3));
+      if (word.starts_with("OUT/")) word = out_path("now/" + word.substr(4));
+    }
+    return words;
+  }
+
+  /// Documents without what a clock decides.
+  static std::string content_of(const fs::path& path) {
+    std::string bytes = bytes_of(path);
+    if (path.extension() == ".html" || path.filename() == "log.jsonl" || path.extension() == ".h5") return "";
+    if (path.extension() != ".json") return bytes;
+    Json json = Json::parse(bytes, nullptr, false);
+    if (json.is_object()) json.erase("timing");
+    return json.dump();
+  }
+
+  Outcome call(const std::string& fault, const std::string& counts = "") const {
+    fs::remove_all(out_path("now"));
+    fs::create_directories(out_path("now"));
+    if (command().begun != nullptr) fs::copy(in_->path(command().begun), out_path("now/run"));
+    ProcessOptions options;
+    options.environment = {
+        {"LD_PRELOAD", NOLI_FAULT_LIBRARY}, {"NOLI_FAULT_PROGRAM", command().program}, {"NOLI_FAULT", fault}};
+    if (!counts.empty()) options.environment.emplace_back("NOLI_FAULT_COUNTS", counts);
+    const Process process = run_noli(words(), options);
+    Outcome outcome{process.exit_code, process.out, process.err, {}};
+    for (const auto& entry : fs::recursive_directory_iterator(out_path("now"))) {
+      const bool left = entry.path().filename().string().starts_with(".noli-");  // could not be removed
+      if (!entry.is_regular_file() || left) continue;
+      outcome.files[fs::relative(entry.path(), out_path("now")).string()] = content_of(entry.path());
+    }
+    return outcome;
+  }
+
+  /// How many calls of the kind the command makes.
+  std::uint64_t count() const {
+    const std::string path = out_path("counts");
+    fs::remove(path);
+    call("", path);
+    std::istringstream lines(bytes_of(path));
+    std::string name;
+    for (std::uint64_t number = 0; lines >> name >> number;) {
+      if (name == kind()) return number;
+    }
+    ADD_FAILURE() << "the library did not count";
+    return 0;
+  }
+
+  bool makes_a_run() const {
+    return std::ranges::any_of(command().arguments, [](const auto& word) { return word == "OUT/run"; });
+  }
+
+  /// A run that a fault has cut short goes on to the same bytes.
+  void expect_goes_on(const Outcome& whole) const {
+    const std::string run = out_path("now/run");
+    const bool there = fs::exists(run);
+    const Process process = run_noli({"simulate", words()[1], "-o", run, there ? "--resume" : "--force"});
+    ASSERT_EQ(process.exit_code, 0) << process.err;
+    for (const char* name : {"trajectory.blocks", "proof.blocks"}) {
+      const auto found = whole.files.find(std::string("run/") + name);
+      if (found == whole.files.end()) continue;
+      EXPECT_TRUE(bytes_of(fs::path(run) / name) == found->second) << name;
+    }
+  }
+
+  void expect_answer_or_none(const Outcome& found, const Outcome& whole) const {
+    ASSERT_NE(found.exit_code, -1) << "a signal: " << found.err;
+    if (!found.same_answer(whole)) {
+      EXPECT_TRUE(found.exit_code >= 2 && found.exit_code <= 4) << found.exit_code << ": " << found.out << found.err;
+      const bool said = found.err.find("noli: ") != std::string::npos ||
+                        found.out.find("UNDECIDED") != std::string::npos ||
+                        found.out.find("REJECTED") != std::string::npos;
+      EXPECT_TRUE(said) << found.exit_code << "without a message: " << found.out << found.err;
+    }
+    if (makes_a_run()) expect_goes_on(whole);
+  }
+
+  /// Numbers from 1 to `end`: all, or so many, the first and last among them.
+  static std::vector<std::uint64_t> numbers(std::uint64_t end, std::uint64_t most) {
+    std::vector<std::uint64_t> list;
+    for (std::uint64_t i = 0; i < std::min(end, most); ++i) {
+      list.push_back(end <= most ? i + 1 : 1 + i * (end - 1) / (most - 1));
+    }
+    return list;
+  }
+
+  void try_faults(std::uint64_t most) const {
+    const Outcome whole = call("");
+    ASSERT_TRUE(whole.exit_code == 0 || whole.exit_code == 1) << whole.err;
+    ASSERT_TRUE(call("").same_answer(whole)) << "two answers to one question";
+    std::uint64_t tried = 0;
+    for (const std::uint64_t number : numbers(count(), most)) {
+      for (const char* after : {"", "+"}) {
+        const std::string fault = kind() + ":" + std::to_string(number) + after;
+        SCOPED_TRACE(fault);
+        expect_answer_or_none(call(fault), whole);
+        ++tried;
+        if (HasFailure()) return;
+      }
+    }
+    RecordProperty("faults", static_cast<int>(tried));
+  }
+
+  static Folder* in_;
+  Folder out_;
+};
+
+Folder* Faults::in_ = nullptr;
+
+TEST_P(Faults, AreNeverAFalseAnswer) { try_faults(4); }
+
+TEST_P(Faults, AreNeverAFalseAnswerSlow) { try_faults(std::getenv("NOLI_EVERY_FAULT") != nullptr ? ~0ull : 60); }
+
+INSTANTIATE_TEST_SUITE_P(Each, Faults, testing::Combine(testing::ValuesIn(commands()), testing::ValuesIn(kinds())),
+                         [](const auto& one) {
+                           return std::string(std::get<0>(one.param).name) + "_" + std::get<1>(one.param);
+                         });
+
+}  // namespace
+}  // namespace noli::app_tests
