@@ -97,8 +97,7 @@ ExitCode run(AuditArguments& arguments) {
   if (arguments.order != FrameOrder::checked || arguments.polygons != PolygonRule::fan) {
     throw UsageError("--order, --polygons: are for --frames; expected none of them with queries");
   }
-  const Output output(arguments.results, inputs(arguments));
-  require_svg_file(arguments.svg, arguments.results.json, inputs(arguments));
+  const Output output(arguments.results, inputs(arguments), outputs("--svg", arguments.svg));
   const audit::AuditOutcome outcome = with_progress("audit ccd", [&](const auto& show) {
     request.progress = show;
     return audit::audit_ccd(request);

@@ -69,8 +69,7 @@ ExitCode run(IntegratorArguments& arguments) {
   options.halvings = static_cast<int>(arguments.halvings);
   options.windows = static_cast<int>(arguments.windows);
   options.stop = &interrupted();
-  const Output output(arguments.results, arguments.scenes);
-  require_svg_file(arguments.svg, arguments.results.json, arguments.scenes);
+  const Output output(arguments.results, arguments.scenes, outputs("--svg", arguments.svg));
   IntegratorResults results;
   for (const integrator::Scene& scene : scenes_of(arguments)) {
     options.begun = [&](const std::string& method, double factor) {

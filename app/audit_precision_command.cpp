@@ -80,8 +80,7 @@ ExitCode run(const PrecisionArguments& arguments) {
   if (!arguments.time_limit.empty()) {
     request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
   }
-  const Output output(arguments.results, {arguments.scene});
-  require_svg_file(arguments.svg, arguments.results.json, {arguments.scene});
+  const Output output(arguments.results, {arguments.scene}, outputs("--svg", arguments.svg));
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
   if (arguments.brief) note_missing_short_form(scene);

@@ -10,6 +10,7 @@
 #include "noli/app/json.h"
 #include "noli/app/machine.h"
 #include "noli/app/output.h"
+#include "noli/app/output_files.h"
 #include "noli/app/progress.h"
 #include "noli/audit/fuzz_scenes.h"
 #include "noli/audit/kind_of_difference.h"
@@ -155,7 +156,7 @@ ExitCode again(const ScenesArguments& arguments) {
     if (audit::SceneJudgement last = judge(scene); last.difference) judgement = std::move(last);
     saved = fs::path(arguments.common.out) / (file.stem().string() + "-minimised.json");
     make_writable_folder(arguments.common.out, "--out");
-    require_other_file(*saved, {file}, "--out");
+    require_output_files({{"--out", *saved}}, {file}, true);
     write_file(*saved, scene.dump(2) + '\n');
   }
   judgement.stopped |= interrupted();

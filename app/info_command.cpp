@@ -110,7 +110,7 @@ Answer info_answer(const Json& files) {
 }
 
 ExitCode run(const InfoArguments& arguments) {
-  const Output output(arguments.results, with_files_of_runs(arguments.files));
+  const Output output(arguments.results, arguments.files);
   Json files = Json::array();
   for (const auto& path : arguments.files) files.push_back(info_of(path));
   output.write("info", info_answer(files), {{"verdict", "described"}, {"files", files}});

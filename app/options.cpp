@@ -20,6 +20,7 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
   auto* const verbose = command.add_flag("-v,--verbose", options.verbose, "Print all that was looked at and done");
   quiet->excludes(porcelain)->excludes(verbose);
   verbose->excludes(porcelain);
+  command.add_flag("--force", options.force, "Outputs may replace files that exist");
 }
 
 void add_threads_option(CLI::App& command, int& threads) {

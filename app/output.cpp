@@ -82,13 +82,6 @@ std::string link_target(const std::string& path) {
   return error ? path : target.string();
 }
 
-/// Whether standard output goes to this very file (a terminal or pipe may take both).
-bool is_standard_output(const std::string& path) {
-  struct stat file = {}, out = {};
-  if (::stat(path.c_str(), &file) != 0 || ::fstat(STDOUT_FILENO, &out) != 0) return false;
-  return S_ISREG(file.st_mode) && file.st_dev == out.st_dev && file.st_ino == out.st_ino;
-}
-
 /// Whether a file that exists may be written but not replaced: its folder is not ours to change, or it is a mount
 /// point. Judged by why replacing it failed.
 bool must_be_kept(int error) { return error == EACCES || error == EPERM || error == EBUSY; }
@@ -144,14 +137,10 @@ bool write_file(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs) : options_(std::move(options)) {
-  const std::optional<std::string>& path = options_.json;
-  if (!path || *path == "-") return;
-  require_other_file(*path, inputs, "--json");
-  if (is_standard_output(*path)) {
-    throw UsageError("--json " + *path + ": standard output goes there; expected another file, or '-'");
-  }
-  require_writable_file(*path, "--json");
+Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs, std::vector<OutputFile> others)
+    : options_(std::move(options)) {
+  if (options_.json) others.insert(others.begin(), {"--json", *options_.json});
+  require_output_files(others, inputs, options_.force);
 }
 
 std::string Output::words(const Answer& answer) const {
@@ -171,18 +160,6 @@ void Output::write(std::string_view schema, const Answer& answer, const Json& js
   write_standard_output(words(answer));
 }
 
-void require_other_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
-                        const std::string& option) {
-  std::error_code error;
-  for (const auto& input : inputs) {
-    if (!std::filesystem::equivalent(input, file, error)) continue;
-    throw UsageError(option + " " + file.string() + ": is read too; expected a file that is not");
-  }
-  if (std::filesystem::is_directory(file, error)) {
-    throw UsageError(option + " " + file.string() + ": is a folder; expected a file");
-  }
-}
-
 void require_writable_file(const std::filesystem::path& file, const std::string& option) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
@@ -191,16 +168,6 @@ void require_writable_file(const std::filesystem::path& file, const std::string&
   if (can_write(file.string())) return;
   throw UsageError(option + " " + file.string() + ": cannot be written: " + reason() +
                    "; expected a file in a folder that is there and may be written to");
-}
-
-void require_svg_file(const std::optional<std::string>& svg, const std::optional<std::string>& json,
-                      const std::vector<std::filesystem::path>& inputs) {
-  if (!svg) return;
-  require_other_file(*svg, inputs, "--svg");
-  const bool both =
-      json && *json != "-" && std::filesystem::weakly_canonical(*json) == std::filesystem::weakly_canonical(*svg);
-  if (both) throw UsageError("--svg " + *svg + ": is where --json goes; expected another file");
-  require_writable_file(*svg, "--svg");
 }
 
 void require_program(const std::filesystem::path& program, const std::string& option) {

@@ -15,6 +15,7 @@
 
 #include "noli/app/answer.h"
 #include "noli/app/json.h"
+#include "noli/app/output_files.h"
 
 namespace noli::app {
 
@@ -23,13 +24,13 @@ struct OutputOptions {
   bool porcelain = false;
   bool quiet = false;
   bool verbose = false;
+  bool force = false;  ///< outputs may replace what is there
 };
 
 class Output {
  public:
-  /// `inputs`: files that the command reads; none of them may be the JSON, nor may the file that standard output goes
-  /// to. Throws UsageError when a file cannot be written there; leaves nothing behind.
-  Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs);
+  /// Checks all outputs of the command, the JSON and `others`, by the rule of output_files.h. Throws UsageError.
+  Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs, std::vector<OutputFile> others = {});
 
   /// Writes the results. `schema` names that of the JSON, `noli schema NAME`: "verify". A file is written under another name first and then renamed: it is complete or absent, and has
   /// the owner and permissions of the one that it replaces. A file that may be written but not replaced (in a folder
@@ -43,18 +44,9 @@ class Output {
   OutputOptions options_;
 };
 
-/// Throws UsageError, naming `option`, when the file is one of the inputs, or a folder.
-void require_other_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
-                        const std::string& option);
-
 /// Throws UsageError, naming `option`, when the file cannot be written: one that is there, or a new one in its folder.
 /// Leaves nothing behind.
 void require_writable_file(const std::filesystem::path& file, const std::string& option);
-
-/// What --svg OUT.svg is asked beforehand: throws UsageError when the file cannot be written, or is one of the inputs or
-/// where the JSON goes. Nothing is asked where no picture is.
-void require_svg_file(const std::optional<std::string>& svg, const std::optional<std::string>& json,
-                      const std::vector<std::filesystem::path>& inputs);
 
 /// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, in the one
 /// that it would be in. Leaves nothing behind.

@@ -96,7 +96,8 @@ std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_fold
                                            const RunScene& scene, std::span<const Position> x,
                                            const VerifyOptions& options) {
   const std::filesystem::path file = proof_path(run_folder);
-  const CommitPoint committed = last_commit(file, windows + 1);
+  // Before the first window nothing was told of the proof, and a loss of power may have left any part of it.
+  const CommitPoint committed = windows == 0 ? CommitPoint{} : last_commit(file, windows + 1);
   if (committed.groups == 0) std::filesystem::remove(file);  // there is none, or not even its claim was written
   auto sink =
       std::make_unique<FileSink>(file, committed.groups == 0 ? FileSink::Open::create : FileSink::Open::existing);

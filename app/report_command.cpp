@@ -12,6 +12,7 @@
 #include "noli/app/frame_options.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/output_files.h"
 #include "noli/app/report_assets.h"
 #include "noli/app/report_inputs.h"
 #include "noli/app/report_page.h"
@@ -220,11 +221,6 @@ class Report {
   ReportPage report_;
 };
 
-void require_place_of_page(const ReportArguments& arguments) {
-  require_other_file(arguments.output, arguments.inputs, "-o");
-  require_place_of_run(arguments.output, arguments.inputs.front(), arguments.force);
-}
-
 CLI::Validator is_rate() {
   return CLI::Validator(
       [](const std::string& text) {
@@ -237,7 +233,7 @@ CLI::Validator is_rate() {
 ExitCode run(const ReportArguments& arguments) {
   if (!has_report_page())
     throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
-  require_place_of_page(arguments);
+  require_output_files({{"-o", arguments.output, true}}, arguments.inputs, arguments.force);
   Report report(arguments);
   const ReportPage& page = report();
   const std::string html = report_html(page);

@@ -9,6 +9,7 @@
 
 #include "noli/app/exit_code.h"
 #include "noli/app/output.h"
+#include "noli/app/output_files.h"
 #include "noli/app/run_folder.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/write_file.h"
@@ -47,7 +48,7 @@ FigureOutcome run_figure(const FigureRequest& request) {
   const std::size_t figure = number_of(request.figure);
   const bool picture = is_picture(request.output);
   RunReader reader(request.run);
-  require_place_of_run(request.output, request.run, request.force);
+  require_output_files({{"-o", request.output, true}}, {request.run}, request.force);
   const FigureData data = read(request.run, reader);
   replace_file(request.output, (picture ? svg_writers() : csv_writers())[figure](data));
   return {data.windows.size(), data.windows.back().row.time, reader.open_window().has_value()};

@@ -142,27 +142,6 @@ std::optional<double> duration_of(const fs::path& run) {
   return std::nullopt;
 }
 
-std::vector<fs::path> with_files_of_runs(std::vector<fs::path> paths) {
-  std::vector<fs::path> files;
-  for (const fs::path& path : paths) {
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(path, error)) files.push_back(entry.path());
-  }
-  paths.insert(paths.end(), files.begin(), files.end());
-  return paths;
-}
-
-void require_place_of_run(const fs::path& output, const fs::path& run, bool force) {
-  require_other_file(output, with_files_of_runs({run}), "-o");
-  require_writable_file(output, "-o");
-  std::error_code error;
-  const fs::file_status there = fs::symlink_status(output, error);
-  if (fs::exists(there) && !fs::is_regular_file(there))
-    throw UsageError("-o " + output.string() + ": is no regular file; expected the name of a file");
-  if (force || !fs::exists(output, error)) return;
-  throw UsageError("-o " + output.string() + ": is there already; expected no such file, or --force");
-}
-
 void RunFolder::log(std::uint64_t window, const SeriesRow& row, std::uint32_t deepest) {
   log({{"event", "window"},
        {"window", window},

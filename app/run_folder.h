@@ -56,11 +56,4 @@ std::string title_of(const std::filesystem::path& run);
 /// Of the scene of a run [s]; nothing where that is not there or damaged.
 std::optional<double> duration_of(const std::filesystem::path& run);
 
-/// The same paths, and what is in those that are folders of runs.
-std::vector<std::filesystem::path> with_files_of_runs(std::vector<std::filesystem::path> paths);
-
-/// Throws UsageError when a file that is made of a run cannot be written there: one of the run's own, a folder, a place
-/// that cannot be written to, or, without `force`, a file that is there already.
-void require_place_of_run(const std::filesystem::path& output, const std::filesystem::path& run, bool force);
-
 }  // namespace noli::app

@@ -8,6 +8,7 @@
 
 #include "noli/app/exit_code.h"
 #include "noli/app/output.h"
+#include "noli/app/output_files.h"
 #include "noli/app/picture.h"
 #include "noli/app/png.h"
 #include "noli/app/run_folder.h"
@@ -25,7 +26,7 @@ void check(const PictureRequest& request) {
     throw UsageError("-o " + request.output.string() + ": expected a name that ends in .png");
   }
   make_writable_folder(request.output.parent_path(), "-o");
-  require_place_of_run(request.output, request.run, request.force);
+  require_output_files({{"-o", request.output, true}}, {request.run}, request.force);
 }
 
 View view_of(const PictureRequest& request, std::uint32_t dimension) {

@@ -51,10 +51,7 @@ struct SimulateArguments {
 /// The words of --reproduce.
 ExitCode reproduce(const SimulateArguments& arguments) {
   const SimulateRequest& request = arguments.request;
-  const auto inputs = with_files_of_runs({request.scene, *arguments.reproduce});
-  const Output output(arguments.results, inputs);
-  require_other_file(request.run, inputs, "-o");
-  require_writable_file(request.run, "-o");
+  const Output output(arguments.results, {request.scene, *arguments.reproduce}, {{"-o", request.run}});
   const ReproduceOutcome outcome =
       run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
   const char* const verdict = outcome.same ? "same" : "different";
@@ -75,7 +72,8 @@ ExitCode run(SimulateArguments& arguments) {
   SimulateRequest& request = arguments.request;
   if (arguments.reproduce) return reproduce(arguments);
   if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
-  const Output output(arguments.results, with_files_of_runs({request.scene, request.run}));
+  const Output output(arguments.results, {request.scene, request.run});
+  request.force = arguments.results.force;
   request.begun = [&arguments, &request](const integrator::Scene& scene, const integrator::Explanation& explanation,
                                          const std::string& space) {
     if (arguments.results.quiet) return;
@@ -108,8 +106,6 @@ Command add_simulate(CLI::App& app) {
           "--no-proof", [&request] { request.prove = false; },
           "Write no proofs of the windows (only with \"record\": \"full\" there are any)")
       ->excludes(resume);
-  auto* const force =
-      command->add_flag("--force", request.force, "Replace the run that is in the folder")->excludes(resume);
   auto* const until =
       command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
           ->check(is_positive())
@@ -123,7 +119,6 @@ Command add_simulate(CLI::App& app) {
                                        "Integrate one window of this run again; its block goes to the file -o")
                           ->type_name("RUN")
                           ->excludes(resume)
-                          ->excludes(force)
                           ->excludes(until);
   command->add_option("--window", arguments->window, "Which window, counted from 1")
       ->check(whole_number(1, std::numeric_limits<std::uint64_t>::max()))
@@ -136,6 +131,8 @@ Command add_simulate(CLI::App& app) {
           "comes on top, and Ctrl-C ends that too")
       ->type_name("TIME");
   add_output_options(*command, arguments->results);
+  command->get_option("--force")->description(
+      "Replace the run that is in the folder (not with --resume), and outputs that exist");
   add_threads_option(*command, request.threads);
   return {command, [arguments] { return run(*arguments); }};
 }

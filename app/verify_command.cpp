@@ -67,32 +67,18 @@ ExitCode exit_code(Verdict verdict) {
   return ExitCode::failure;
 }
 
-/// The proof is made anew; it may not be one of the files that are read, nor something that is no file.
-void require_place_of_proof(const VerifyArguments& arguments) {
-  const std::filesystem::path& proof = *arguments.request.proof;
-  auto others = with_files_of_runs(arguments.request.frames);
-  if (arguments.request.ignore) others.push_back(*arguments.request.ignore);
-  require_other_file(proof, others, "--proof");
-  std::error_code error;
-  const auto same = [&](const std::filesystem::path& other) {
-    return std::filesystem::weakly_canonical(proof, error) == std::filesystem::weakly_canonical(other, error);
-  };
-  if (const auto& json = arguments.results.json; json && *json != "-" && same(*json)) {
-    throw UsageError("--proof " + proof.string() + ": --json goes there too; expected another file");
+/// Beside the results.
+std::vector<OutputFile> outputs_of(const VerifyArguments& arguments) {
+  std::vector<OutputFile> files;
+  if (const auto& proof = arguments.request.proof) {
+    if (*proof == "-") throw UsageError("--proof -: a proof is not text; expected the name of a file");
+    files.push_back({"--proof", *proof, true});
   }
-  if (proof == "-") throw UsageError("--proof -: a proof is no text for standard output; expected the name of a file");
-  if (std::filesystem::exists(proof, error) && !std::filesystem::is_regular_file(proof, error)) {
-    throw UsageError("--proof " + proof.string() + ": is no regular file; expected the name of a file");
+  if (const auto& claim = arguments.claim_out) {
+    if (*claim == "-") throw UsageError("--claim-out -: expected the name of a file");
+    files.push_back({"--claim-out", *claim});
   }
-  require_writable_file(proof, "--proof");
-}
-
-void require_place_of_claim(const VerifyArguments& arguments, std::vector<std::filesystem::path> others) {
-  if (arguments.request.proof) others.push_back(*arguments.request.proof);
-  if (arguments.results.json && *arguments.results.json != "-") others.emplace_back(*arguments.results.json);
-  if (*arguments.claim_out == "-") throw UsageError("--claim-out -: expected the name of a file");
-  require_other_file(*arguments.claim_out, others, "--claim-out");
-  require_writable_file(*arguments.claim_out, "--claim-out");
+  return files;
 }
 
 /// What the prover decides when nobody wants its proof.
@@ -246,14 +232,12 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--order, --polygons: are for frames; expected none of them with a run");
   }
   prepare_to_reproduce(request);
-  auto inputs = with_files_of_runs(request.frames);
+  auto inputs = request.frames;
   if (request.ignore) inputs.push_back(*request.ignore);
-  const Output output(arguments.results, inputs);
+  const Output output(arguments.results, inputs, outputs_of(arguments));
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
-  if (request.proof) require_place_of_proof(arguments);
-  if (arguments.claim_out) require_place_of_claim(arguments, inputs);
   if (request.merge_identical) require_files(request.frames);
   ProofRoute route(request);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noli/app/output_files.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <set>
+
+#include "noli/app/exit_code.h"
+#include "noli/app/output.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const OutputFile& output, const std::string& problem) {
+  throw UsageError(output.option + " " + output.path.string() + ": " + problem);
+}
+
+/// Where a path leads, with all symbolic links followed, also when there is no file at the end.
+fs::path place_of(fs::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links) {
+    const fs::path to = fs::read_symlink(path, error);
+    path = to.is_absolute() ? to : path.parent_path() / to;
+  }
+  const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? path : place;
+}
+
+/// By name, or by device and inode.
+bool one_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return place_of(a) == place_of(b) || fs::equivalent(a, b, error);
+}
+
+bool is_regular_or_nothing(const fs::path& path) {
+  struct stat status = {};
+  return ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
+}
+
+/// Whether standard output goes to this very file (a terminal or pipe may take both).
+bool is_standard_output(const fs::path& path) {
+  struct stat file = {}, out = {};
+  if (::stat(path.c_str(), &file) != 0 || ::fstat(STDOUT_FILENO, &out) != 0) return false;
+  return S_ISREG(file.st_mode) && file.st_dev == out.st_dev && file.st_ino == out.st_ino;
+}
+
+void require_file(const OutputFile& output) {
+  std::error_code error;
+  if (fs::is_directory(output.path, error)) refuse(output, "is a folder; expected a file");
+  if (output.only_files && !is_regular_or_nothing(output.path)) {
+    refuse(output, "is no regular file; expected the name of a file");
+  }
+  if (is_standard_output(output.path)) refuse(output, "standard output goes there; expected another file, or '-'");
+}
+
+void require_not_read(const OutputFile& output, const fs::path& input) {
+  if (one_file(output.path, input)) refuse(output, "is read too; expected a file that is not");
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(input, error)) {
+    if (entry.is_regular_file(error) && one_file(output.path, entry.path())) {
+      refuse(output, "is read too; expected a file that is not");
+    }
+  }
+}
+
+/// `runs`: folders that hold a run, or will.
+void require_not_of_run(const OutputFile& output, const std::vector<fs::path>& runs) {
+  const fs::path place = place_of(output.path), folder = place.parent_path();
+  std::error_code error;
+  bool in_run = fs::exists(folder / "trajectory.blocks", error);
+  for (const fs::path& run : runs) in_run = in_run || place_of(run) == folder;
+  if (in_run && is_file_of_run(place.filename())) {
+    refuse(output, "is a file of the run in that folder; expected another name");
+  }
+}
+
+void require_new(const OutputFile& output, bool force) {
+  std::error_code error;
+  const bool there = fs::exists(fs::symlink_status(output.path, error));
+  if (!there || force || !is_regular_or_nothing(output.path)) return;
+  refuse(output, "is there already; expected no such file, or --force");
+}
+
+}  // namespace
+
+bool is_file_of_run(const fs::path& name) {
+  static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks",
+                                              "proof.blocks",  "log.jsonl",  "series.h5"};
+  const std::string text = name.extension() == ".part" ? name.stem().string() : name.string();
+  return names.count(text) > 0 || text.starts_with(".noli-");
+}
+
+std::vector<OutputFile> outputs(const std::string& option, const std::optional<std::string>& path) {
+  if (!path) return {};
+  return {{option, *path}};
+}
+
+void require_output_files(const std::vector<OutputFile>& outputs, const std::vector<fs::path>& inputs, bool force) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const OutputFile& output = outputs[i];
+    if (output.path == "-") continue;
+    require_file(output);
+    for (const fs::path& input : inputs) require_not_read(output, input);
+    require_not_of_run(output, inputs);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (outputs[k].path != "-" && is_regular_or_nothing(output.path) && one_file(outputs[k].path, output.path)) {
+        refuse(output, "is where " + outputs[k].option + " goes; expected another file");
+      }
+    }
+    require_new(output, force);
+    require_writable_file(output.path, output.option);
+  }
+}
+
+}  // namespace noli::app
