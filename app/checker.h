@@ -49,7 +49,8 @@ class CheckerProcess {
   /// Throws std::runtime_error when the checker reads no more.
   void write(std::string_view bytes);
   /// Waits until it has read all that was written and has ended; nothing after a stop: then it is killed. Throws
-  /// std::runtime_error when it was ended by a signal, or with another code than it may, or closed its output and stayed.
+  /// std::runtime_error when it was ended by a signal, ended with another code than it may, or closed its output and
+  /// stayed.
   std::optional<CheckerVerdict> finish();
 
  private:

@@ -24,8 +24,8 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 extern "C" void remind(int) { ::alarm(1); }
 
 extern "C" void interrupt(int) {
-  if (heard_everywhere.load(std::memory_order_relaxed)) ask_to_stop(StopReason::interrupted);
-  user_asked.store(true, std::memory_order_relaxed);
+  user_asked.store(true);
+  if (heard_everywhere.load()) ask_to_stop(StopReason::interrupted);
   requests.fetch_add(1, std::memory_order_relaxed);
   ::alarm(1);
 }
@@ -66,8 +66,8 @@ const std::atomic<bool>& interrupted() { return user_asked; }
 int interruptions() { return requests.load(std::memory_order_relaxed); }
 
 void hear_stops_everywhere() {
-  heard_everywhere.store(true, std::memory_order_relaxed);
-  if (user_asked.load(std::memory_order_relaxed)) ask_to_stop(StopReason::interrupted);  // a moment too early
+  heard_everywhere.store(true);
+  if (user_asked.load()) ask_to_stop(StopReason::interrupted);  // a moment too early
 }
 
 bool stop_requested() { return stop_asked().has_value() || user_asked.load(std::memory_order_relaxed); }

@@ -19,13 +19,13 @@ int interruptions();
 /// second); a closed pipe is an error of writing instead of a signal.
 void install_signal_handlers();
 
-/// From now on whoever asks for stops hears those of the user (trajectory/stop.h): readers, generators and the like throw
-/// Stopped. For commands that report nothing, or know how to report less, when that happens. Others look at
+/// From now on whoever asks for stops (trajectory/stop.h) hears those of the user: readers, generators and the like
+/// throw Stopped. For commands that report nothing, or know how to report less, when that happens. Others look at
 /// interrupted() between two pieces of work, and lose none.
 void hear_stops_everywhere();
 
-/// Asks to stop (trajectory/stop.h) once this much time has passed from now. Precondition: install_signal_handlers() was called. A second
-/// call replaces the first. Throws std::system_error.
+/// Asks to stop (trajectory/stop.h) once this much time has passed from now. Precondition: install_signal_handlers()
+/// was called. A second call replaces the first. Throws std::system_error.
 void stop_after(std::chrono::nanoseconds limit);
 
 /// Whether work has to end, whoever asked for it.

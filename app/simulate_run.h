@@ -100,10 +100,10 @@ struct SimulateOutcome {
 };
 
 /// Runs it. Ends at the last committed window when app::interrupted() or at the time limit: the one that is being
-/// integrated or verified then is dropped. Before the first window nothing is written. A run of which all windows are committed is done, whenever that came. After
-/// that series.h5 is written still, unless the user asks once more to stop. Throws InputError (scene), ReadInterrupted
-/// (while a run to go on with is read), UsageError (a run that is there, or is not), WriteError (the disk will not hold
-/// the run), std::system_error (disk), std::bad_alloc.
+/// integrated or verified then is dropped. A stop before the run begins leaves no folder. A run of which all windows
+/// are committed is done, whenever the stop came. After that series.h5 is written still, unless the user asks once more
+/// to stop. Throws InputError (scene), Stopped (while the scene, or a run to go on with, is read), UsageError (a run
+/// that is there, or is not), WriteError (the disk will not hold the run), std::system_error (disk), std::bad_alloc.
 SimulateOutcome run_simulate(const SimulateRequest& request);
 
 }  // namespace noli::app

@@ -86,8 +86,8 @@ void run_std(std::size_t count, int threads, const Task& task) {
 }
 
 #ifdef NOLI_PARALLEL_TBB
-/// Arenas that no loop is in. TBB frees one only once all its threads have looked away, so on a busy machine new ones for
-/// each loop would pile up: 7 KB for each step of a sequence.
+/// Arenas that no loop is in. TBB frees one only once all its threads have looked away, so on a busy machine new ones
+/// for each loop would pile up: 7 KB for each step of a sequence.
 class Arenas {
  public:
   using Arena = std::unique_ptr<tbb::task_arena>;
