@@ -68,17 +68,30 @@ std::string small_run(const Folder& folder) {
   return run;
 }
 
+/// Whether this noli writes pages; says so when a test has to go without them.
+bool reports_are_built(const Folder& folder) {
+  const Process process = run_noli({"report", "nothing.json", "-o", folder.path("probe.html")});
+  const bool built = process.err.find("was built without reports") == std::string::npos;
+  if (!built) std::fputs("skipped: reports, which are not built (NOLI_WITH_REPORT)\n", stderr);
+  return built;
+}
+
 /// What takes longer than anybody waits.
 struct Endless {
   const char* name;
   std::function<std::vector<std::string>(const Folder&)> arguments;
-  bool tells = true;  ///< ends with a verdict; else with a message alone
+  bool tells = true;     ///< ends with a verdict; else with a message alone
+  bool reports = false;  ///< asks for a page
 };
 
 void PrintTo(const Endless& endless, std::ostream* out) { *out << endless.name; }
 
 class LongWork : public testing::TestWithParam<Endless> {
  protected:
+  void SetUp() override {
+    if (GetParam().reports && !reports_are_built(folder)) GTEST_SKIP() << "skipped: reports (NOLI_WITH_REPORT)";
+  }
+
   void expect_end(const Timed& timed, const std::string& why) const {
     const auto& [process, seconds] = timed;
     EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
@@ -150,7 +163,7 @@ const Endless long_work[] = {
      [](const Folder& folder) -> std::vector<std::string> {
        return {"report", pipe_in(folder, "result.json"), "-o", folder.path("page.html")};
      },
-     false},
+     false, true},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, LongWork, testing::ValuesIn(long_work),
@@ -191,16 +204,18 @@ TEST_F(Limits, ALimitThatIsNotReachedChangesNothing) {
   const auto a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(2));
   ASSERT_EQ(run_noli({"verify", a, b, "--proof", folder.path("p.noli"), "--json", folder.path("r.json")}).exit_code, 0);
   const std::string file = scene(hanging_sheet());
-  const std::vector<std::vector<std::string>> commands = {
+  std::vector<std::vector<std::string>> commands = {
       {"explain", file},
       {"explain", run},
       {"verify", a, b},
       {"check", folder.path("p.noli"), a, b},
       {"info", a, run, folder.path("p.noli")},
       {"export", run, "--fps", "10", "-o", folder.path("e/%d.ply"), "--force"},
-      {"report", folder.path("r.json"), a, b, "-o", folder.path("page.html"), "--force"},
       {"simulate", file, "-o", folder.path("sheet"), "--force"},
   };
+  if (reports_are_built(folder)) {
+    commands.push_back({"report", folder.path("r.json"), a, b, "-o", folder.path("page.html"), "--force"});
+  }
   for (auto command : commands) {
     const Process without = run_noli(command);
     command.insert(command.end(), {"--time-limit", "10m"});
