@@ -7,6 +7,7 @@
 
 #include "noli/app/ccd_run.h"
 #include "noli/app/commands.h"
+#include "noli/app/interrupt.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/trajectory/error.h"
@@ -122,6 +123,7 @@ Answer ccd_answer(const CcdOutcome& outcome) {
 }
 
 ExitCode run(CcdArguments& arguments) {
+  hear_stops_everywhere();
   CcdRequest& request = arguments.request;
   if (!arguments.kind.empty()) request.pair = kinds.at(arguments.kind);
   const Output output(arguments.results, request.files);

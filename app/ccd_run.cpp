@@ -120,7 +120,7 @@ std::vector<std::vector<QueryRecord>> read_all(CcdOutcome& outcome) {
   std::vector<std::vector<QueryRecord>> records;
   try {
     for (const CcdFile& file : outcome.files) records.push_back(read_query_csv(file.path, audit::file_kind(file.pair)));
-  } catch (const ReadInterrupted&) {
+  } catch (const Stopped&) {
     outcome.complete = false;
   }
   return records;

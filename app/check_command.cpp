@@ -12,6 +12,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/run_log_facts.h"
+#include "noli/app/time_limit.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/text.h"
@@ -39,7 +40,9 @@ constexpr const char* footer =
     "  --require empty             fewer than two cells that could touch\n"
     "or all at once by the file that `noli verify --claim-out CLAIM.json` writes. proofs/FORMAT.md, section 6, has the "
     "order.\n"
-    "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 3 anything else.\n"
+    "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
+    "answer\n"
+    "(--time-limit, Ctrl-C); 3 anything else.\n"
     "Examples:\n"
     "  noli check proof.noli before.ply after.ply\n"
     "  noli check proof.noli rest.ply --require motion=rest\n"
@@ -53,6 +56,7 @@ struct CheckArguments {
   std::optional<fs::path> claim;
   bool verified = false;
   FrameOrder order = FrameOrder::checked;
+  std::string time_limit;
   OutputOptions results;
 };
 
@@ -132,6 +136,7 @@ Answer check_answer(const CheckerVersion& checker, const CheckerVerdict& verdict
 }
 
 ExitCode run(const CheckArguments& arguments) {
+  begin_work(arguments.time_limit);
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
   if (!folder && arguments.files.size() < 2) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
@@ -152,7 +157,7 @@ ExitCode run(const CheckArguments& arguments) {
   std::vector<std::string> asked = asked_by(arguments);
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) ask_for_all_windows(trajectory[0], asked);
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
-  CheckerProcess checker(which, proof, trajectory_for_checker(trajectory), std::nullopt, asked);
+  CheckerProcess checker(which, proof, trajectory_for_checker(trajectory), asked);
   const auto said = checker.finish();
   if (!said) throw ReadInterrupted(proof.string());
   const CheckerVerdict& verdict = *said;
@@ -184,6 +189,7 @@ Command add_check(CLI::App& app) {
       ->type_name("CLAIM.json");
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
   add_order_option(*command, arguments->order);
+  add_time_limit_option(*command, arguments->time_limit);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -35,14 +35,6 @@ std::string name_of_file(const fs::path& path) {
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-int wait_for(pid_t pid) {
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0) {
-    if (errno != EINTR) fail("waiting for the checker");
-  }
-  return status;
-}
-
 }  // namespace
 
 CheckerVersion version_of(Checker checker) {
@@ -57,9 +49,8 @@ CheckerVersion version_of(Checker checker) {
 }
 
 CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
-                               const std::vector<fs::path>& trajectory, Deadline deadline,
-                               const std::vector<std::string>& asked)
-    : checker_(checker), deadline_(deadline), words_(std::make_unique<audit::Pipe>()) {
+                               const std::vector<fs::path>& trajectory, const std::vector<std::string>& asked)
+    : checker_(checker), words_(std::make_unique<audit::Pipe>()) {
   std::vector<std::string> arguments = {beside_this_program(name_of(checker)).string()};
   for (const std::string& field : asked) arguments.insert(arguments.end(), {"--require", field});
   arguments.push_back(proof ? name_of_file(*proof) : "-");
@@ -90,8 +81,7 @@ void CheckerProcess::end_it() {
 bool CheckerProcess::ready(int end, short event) const {
   constexpr int milliseconds = 100;  // an interruption that came before poll() does not end it
   for (;;) {
-    if (interrupted().load(std::memory_order_relaxed)) return false;
-    if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) return false;
+    if (stop_requested()) return false;
     pollfd one{end, event, 0};
     const int there = ::poll(&one, 1, milliseconds);
     if (there > 0) return true;
@@ -124,21 +114,27 @@ std::string CheckerProcess::why() {
 std::optional<CheckerVerdict> CheckerProcess::finish() {
   if (proof_) proof_->close(1);
   CheckerVerdict verdict;
-  for (std::array<char, 4096> part;;) {
+  for (std::array<char, 65536> part;;) {
     if (!ready(words_->end(0), POLLIN)) {
       end_it();
       return std::nullopt;
     }
     const ssize_t got = ::read(words_->end(0), part.data(), part.size());
-    if (got > 0) verdict.words.append(part.data(), static_cast<std::size_t>(got));
+    if (got > 0) audit::take_words(verdict.words, {part.data(), static_cast<std::size_t>(got)});
     if (got == 0) break;
     if (got < 0 && errno != EINTR && errno != EAGAIN) fail("the checker's words");
   }
-  const int status = wait_for(std::exchange(pid_, -1));
-  if (WIFSIGNALED(status)) {
-    throw std::runtime_error(fmt::format("{} was ended by signal {}", name_of(checker_), WTERMSIG(status)));
+  const std::optional<int> status = audit::wait_for_end(pid_, audit::time_to_stay, stop_requested);
+  if (!status) {
+    end_it();
+    if (stop_requested()) return std::nullopt;
+    throw std::runtime_error(fmt::format("{} closed its output, but did not end", name_of(checker_)));
   }
-  verdict.code = WEXITSTATUS(status);
+  pid_ = -1;
+  if (WIFSIGNALED(*status)) {
+    throw std::runtime_error(fmt::format("{} was ended by signal {}", name_of(checker_), WTERMSIG(*status)));
+  }
+  verdict.code = WEXITSTATUS(*status);
   if (verdict.code != 0 && verdict.code != 1 && verdict.code != 3) {
     throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker_), verdict.code));
   }

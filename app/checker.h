@@ -5,7 +5,6 @@
 
 #include <sys/types.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,8 +18,6 @@
 namespace noli::app {
 
 enum class Checker { plain, verified };
-
-using Deadline = std::optional<std::chrono::steady_clock::time_point>;
 
 /// As it says itself: "noli_check", "0.1.0", the commit.
 struct CheckerVersion {
@@ -36,24 +33,24 @@ struct CheckerVerdict {
   std::string words;  ///< its standard output, lines
 };
 
-/// A checker at work. It does not share the signals of the terminal: who waits for it is interrupted, and ends it.
+/// A checker at work. It does not share the signals of the terminal: this process hears them, and ends it.
 class CheckerProcess {
  public:
   /// Starts it on a proof in a file, or, without one, on what is written to it. `asked`: fields as they follow its
   /// --require (proofs/FORMAT.md, section 6). Throws std::runtime_error when the checker is not there.
   CheckerProcess(Checker checker, const std::optional<std::filesystem::path>& proof,
-                 const std::vector<std::filesystem::path>& trajectory, Deadline deadline,
-                 const std::vector<std::string>& asked);
+                 const std::vector<std::filesystem::path>& trajectory, const std::vector<std::string>& asked);
   /// Ends it if it has not ended.
   ~CheckerProcess();
   CheckerProcess(const CheckerProcess&) = delete;
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
-  /// The next bytes of the proof. Nothing is written any more after an interruption or the deadline; finish() tells.
+  /// The next bytes of the proof. Nothing is written any more after a stop (app::stop_requested()); finish() tells.
   /// Throws std::runtime_error when the checker reads no more.
   void write(std::string_view bytes);
-  /// Waits until it has read all that was written and has ended; nothing if it was interrupted (app::interrupted()) or
-  /// the deadline came. Throws std::runtime_error when it was ended by a signal, or with another code than it may.
+  /// Waits until it has read all that was written and has ended; nothing after a stop: then it is killed. Throws
+  /// std::runtime_error when it was ended by a signal, ended with another code than it may, or closed its output and
+  /// stayed.
   std::optional<CheckerVerdict> finish();
 
  private:
@@ -63,7 +60,6 @@ class CheckerProcess {
   void end_it();
 
   Checker checker_;
-  Deadline deadline_;
   std::unique_ptr<audit::Pipe> proof_, words_;
   pid_t pid_ = -1;
 };

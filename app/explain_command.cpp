@@ -10,6 +10,7 @@
 #include "noli/app/output.h"
 #include "noli/app/run_explanation.h"
 #include "noli/app/run_folder.h"
+#include "noli/app/time_limit.h"
 #include "noli/integrator/scene/explain.h"
 #include "noli/integrator/scene/read_scene.h"
 
@@ -31,6 +32,7 @@ constexpr const char* footer =
 struct ExplainArguments {
   std::filesystem::path scene;
   bool brief = false;
+  std::string time_limit;
   OutputOptions results;
 };
 
@@ -43,6 +45,7 @@ ExitCode explain_folder(const ExplainArguments& arguments) {
 }
 
 ExitCode run(const ExplainArguments& arguments) {
+  begin_work(arguments.time_limit);
   if (std::filesystem::is_directory(arguments.scene)) return explain_folder(arguments);
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const Output output(arguments.results, {arguments.scene});
@@ -66,6 +69,7 @@ Command add_explain(CLI::App& app) {
       ->required()
       ->type_name("SCENE.json|RUN");
   command->add_flag("--short", arguments->brief, "The scene's short form");
+  add_time_limit_option(*command, arguments->time_limit);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }

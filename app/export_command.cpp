@@ -11,6 +11,7 @@
 #include "noli/app/output.h"
 #include "noli/app/run_figure.h"
 #include "noli/app/run_picture.h"
+#include "noli/app/time_limit.h"
 
 namespace noli::app {
 namespace {
@@ -31,6 +32,7 @@ struct ExportArguments {
   std::optional<std::string> figure;
   std::optional<double> at;
   std::optional<Position> from;
+  std::string time_limit;
 };
 
 ExitCode draw(const FigureRequest& request) {
@@ -51,6 +53,7 @@ ExitCode paint(const PictureRequest& request) {
 
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
+  begin_work(arguments.time_limit);
   if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern, request.force});
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern, request.force});
   const ExportOutcome outcome = run_export(request);
@@ -93,6 +96,7 @@ Command add_export(CLI::App& app) {
   command->add_option("--from", arguments->from, "Direction in which the eye is, for --at: x y z, or x,y,z")
       ->delimiter(',')
       ->needs(at);
+  add_time_limit_option(*command, arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h");
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -125,7 +125,7 @@ class Export {
   }
 
   bool is_interrupted() {
-    outcome_.interrupted = outcome_.interrupted || interrupted().load(std::memory_order_relaxed);
+    outcome_.interrupted = outcome_.interrupted || stop_requested();
     return outcome_.interrupted;
   }
 

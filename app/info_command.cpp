@@ -13,6 +13,7 @@
 #include "noli/app/proof_info.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_info.h"
+#include "noli/app/time_limit.h"
 #include "noli/audit/any_query.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/file_info.h"
@@ -33,6 +34,7 @@ constexpr const char* footer =
 
 struct InfoArguments {
   std::vector<std::filesystem::path> files;
+  std::string time_limit;
   OutputOptions results;
 };
 
@@ -110,6 +112,7 @@ Answer info_answer(const Json& files) {
 }
 
 ExitCode run(const InfoArguments& arguments) {
+  begin_work(arguments.time_limit);
   const Output output(arguments.results, arguments.files);
   Json files = Json::array();
   for (const auto& path : arguments.files) files.push_back(info_of(path));
@@ -126,6 +129,7 @@ Command add_info(CLI::App& app) {
   command->add_option("files", arguments->files, "PLY, OBJ or CSV files, proofs, or folders of runs")
       ->required()
       ->type_name("FILE");
+  add_time_limit_option(*command, arguments->time_limit);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }

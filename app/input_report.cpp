@@ -12,7 +12,10 @@ namespace noli::app {
 namespace {
 
 Json input_json(const FrameFacts& facts) {
-  Json json = {{"file", facts.file.string()}, {"bytes", nullptr}, {"sha256", nullptr}};
+  Json json;  // field by field: lists of fields are copied, and there may be 10,000 frames
+  json["file"] = facts.file;
+  json["bytes"] = nullptr;
+  json["sha256"] = nullptr;
   if (facts.looked_at) {
     json["bytes"] = facts.bytes;
     json["sha256"] = hex(facts.sha256);

@@ -3,44 +3,92 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <ctime>
+#include <system_error>
+
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 namespace {
 
-std::atomic<bool> stop_requested{false};
+std::atomic<bool> heard_everywhere{false};
+std::atomic<bool> user_asked{false};
 std::atomic<int> requests{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler may write it");
 
-/// Once a second: what begins to wait after the user asked is interrupted too, though it came a moment too late for the
-/// user's own signal.
+/// Once a second: what begins to wait after somebody asked is interrupted too, though it came a moment too late for the
+/// first signal.
 extern "C" void remind(int) { ::alarm(1); }
 
-extern "C" void request_stop(int) {
-  stop_requested.store(true, std::memory_order_relaxed);
+extern "C" void interrupt(int) {
+  user_asked.store(true);
+  if (heard_everywhere.load()) ask_to_stop(StopReason::interrupted);
   requests.fetch_add(1, std::memory_order_relaxed);
   ::alarm(1);
 }
 
-/// Without SA_RESTART, so that waiting for a pipe that nobody writes to ends too (ReadInterrupted).
+extern "C" void time_has_passed(int) {
+  ask_to_stop(StopReason::out_of_time);
+  ::alarm(1);
+}
+
+int signal_of_limit() { return SIGRTMIN; }
+
+/// Without SA_RESTART, so that waiting for a pipe that nobody writes to ends too.
 void on_signal(int signal, void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
   sigaction(signal, &action, nullptr);
 }
 
+/// Of this process; made when it is asked for first.
+timer_t timer_of_limit() {
+  static const timer_t timer = [] {
+    struct sigevent event = {};
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = signal_of_limit();
+    timer_t made = {};
+    if (::timer_create(CLOCK_MONOTONIC, &event, &made) != 0) {
+      throw std::system_error(errno, std::generic_category(), "a timer for the time limit");
+    }
+    return made;
+  }();
+  return timer;
+}
+
 }  // namespace
 
-const std::atomic<bool>& interrupted() { return stop_requested; }
+const std::atomic<bool>& interrupted() { return user_asked; }
 
 int interruptions() { return requests.load(std::memory_order_relaxed); }
 
+void hear_stops_everywhere() {
+  heard_everywhere.store(true);
+  if (user_asked.load()) ask_to_stop(StopReason::interrupted);  // a moment too early
+}
+
+bool stop_requested() { return stop_asked().has_value() || user_asked.load(std::memory_order_relaxed); }
+
+void stop_after(std::chrono::nanoseconds limit) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(limit);
+  struct itimerspec when = {};
+  when.it_value.tv_sec = static_cast<std::time_t>(seconds.count());
+  when.it_value.tv_nsec = static_cast<long>((limit - seconds).count());
+  if (limit.count() <= 0) when.it_value.tv_nsec = 1;  // 0 would mean never
+  if (::timer_settime(timer_of_limit(), 0, &when, nullptr) != 0) {
+    throw std::system_error(errno, std::generic_category(), "the time limit");
+  }
+}
+
 void install_signal_handlers() {
+  on_signal(signal_of_limit(), time_has_passed);
   on_signal(SIGALRM, remind);
-  on_signal(SIGINT, request_stop);
-  on_signal(SIGTERM, request_stop);
-  on_signal(SIGHUP, request_stop);
+  on_signal(SIGINT, interrupt);
+  on_signal(SIGTERM, interrupt);
+  on_signal(SIGHUP, interrupt);
   on_signal(SIGPIPE, SIG_IGN);
   on_signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is then an error of write
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ctrl-C and SIGTERM ask the work to stop; what was settled so far is then reported as usual, with exit code 2.
+// Ctrl-C, SIGTERM and --time-limit ask the work to stop. What was settled so far is then reported as usual, with exit
+// code 2.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 
 namespace noli::app {
 
@@ -13,8 +15,20 @@ const std::atomic<bool>& interrupted();
 /// How often the user has asked: what comes after the work may need to be asked again.
 int interruptions();
 
-/// SIGINT and SIGTERM set the flag from now on, and end a reader's wait for a pipe with ReadInterrupted, also one that
-/// begins later (within a second); a closed pipe is an error of writing instead of a signal.
+/// SIGINT and SIGTERM ask to stop from now on, and end system calls that wait, also those that begin later (within a
+/// second); a closed pipe is an error of writing instead of a signal.
 void install_signal_handlers();
+
+/// From now on whoever asks for stops (trajectory/stop.h) hears those of the user: readers, generators and the like
+/// throw Stopped. For commands that report nothing, or know how to report less, when that happens. Others look at
+/// interrupted() between two pieces of work, and lose none.
+void hear_stops_everywhere();
+
+/// Asks to stop (trajectory/stop.h) once this much time has passed from now. Precondition: install_signal_handlers()
+/// was called. A second call replaces the first. Throws std::system_error.
+void stop_after(std::chrono::nanoseconds limit);
+
+/// Whether work has to end, whoever asked for it.
+bool stop_requested();
 
 }  // namespace noli::app

@@ -15,6 +15,7 @@
 #include "noli/app/version.h"
 #include "noli/audit/not_saved.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 namespace {
@@ -98,7 +99,7 @@ ExitCode guarded(int argc, char** argv) {
     return parse_and_run(argc, argv);
   } catch (const InputError& error) {
     return complain(ExitCode::bad_input, error.what());
-  } catch (const ReadInterrupted& error) {
+  } catch (const Stopped& error) {
     return complain(ExitCode::undecided, error.what());
   } catch (const UsageError& error) {
     return complain(ExitCode::bad_input, error.what());

@@ -148,13 +148,13 @@ std::string Output::words(const Answer& answer) const {
   return options_.porcelain ? answer.porcelain() : answer.words(options_.verbose);
 }
 
-void Output::write(std::string_view schema, const Answer& answer, const Json& json) const {
+void Output::write(std::string_view schema, const Answer& answer, Json json) const {
   const std::optional<std::string>& path = options_.json;
   if (!path) return write_standard_output(words(answer));
   Json document = {{"schema", fmt::format("noli-{}", schema)},
                    {"version", result_version},
                    {"noli", {{"version", version_number()}, {"commit", version_commit()}}}};
-  for (const auto& [key, value] : json.items()) document[key] = value;
+  for (const auto& item : json.items()) document[item.key()] = std::move(item.value());
   if (*path == "-") return write_standard_output(to_text(document));
   if (!write_file(*path, to_text(document))) throw WriteError(*path + ": cannot be written: " + reason());
   write_standard_output(words(answer));

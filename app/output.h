@@ -36,7 +36,7 @@ class Output {
   /// the owner and permissions of the one that it replaces. A file that may be written but not replaced (in a folder
   /// without write permission, say) is written in place. It comes before the text, so that no verdict is printed by a
   /// run that fails. Throws WriteError.
-  void write(std::string_view schema, const Answer& answer, const Json& json) const;
+  void write(std::string_view schema, const Answer& answer, Json json) const;
 
  private:
   std::string words(const Answer& answer) const;

@@ -13,6 +13,7 @@
 #include "noli/trajectory/block_file.h"
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 namespace {
@@ -26,7 +27,10 @@ std::string place(const Block& block) { return fmt::format("byte {}", block.payl
 class Contents {
  public:
   explicit Contents(const std::filesystem::path& path) : path_(path.string()), reader_(path, proof_content) {
-    while (auto block = reader_.next()) add(*block);
+    while (auto block = reader_.next()) {
+      end_if_stopped();
+      add(*block);
+    }
     if (!claim_) throw InputError(path_, "", "ends before its claim is committed");
   }
 
@@ -92,6 +96,8 @@ class Contents {
 }  // namespace
 
 bool is_proof(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;  // a look would take its beginning from a pipe
   std::array<char, block_format::file_header_size> begin{};
   std::ifstream file(path, std::ios::binary);
   if (!file.read(begin.data(), begin.size())) return false;

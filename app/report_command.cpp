@@ -20,6 +20,7 @@
 #include "noli/app/report_run.h"
 #include "noli/app/report_verdict.h"
 #include "noli/app/run_folder.h"
+#include "noli/app/time_limit.h"
 #include "noli/app/version.h"
 #include "noli/trajectory/base64.h"
 #include "noli/trajectory/error.h"
@@ -54,6 +55,7 @@ struct ReportArguments {
   bool force = false;
   FrameOrder order = FrameOrder::checked;
   std::optional<std::string> title;
+  std::string time_limit;
 };
 
 /// What was given, by kind.
@@ -231,6 +233,7 @@ CLI::Validator is_rate() {
 }
 
 ExitCode run(const ReportArguments& arguments) {
+  begin_work(arguments.time_limit);
   if (!has_report_page())
     throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
   require_output_files({{"-o", arguments.output, true}}, arguments.inputs, arguments.force);
@@ -261,6 +264,7 @@ Command add_report(CLI::App& app) {
       ->check(is_rate())
       ->capture_default_str();
   command->add_flag("--force", arguments->force, "Replace a page that is there");
+  add_time_limit_option(*command, arguments->time_limit, "Stop after this time, without a page: 500ms, 60s, 5m, 1h");
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -43,19 +43,19 @@ void ResultInputs::require_frame(std::size_t k, const FrameFacts& read) const {
   if (expected == found) return;
   if (expected.empty()) refuse(fmt::format("has no SHA-256 of frame {}, which it did not read{}", k + 1, advice));
   refuse(fmt::format("is about other frames: frame {} was {} with SHA-256 {}, but {} has {}{}", k + 1,
-                     member(input, "file"), shortened(expected), read.file.string(), shortened(found), advice));
+                     member(input, "file"), shortened(expected), read.file, shortened(found), advice));
 }
 
 void ResultInputs::require_run(const std::filesystem::path& run) const {
-  for (const FrameFacts& facts : run_facts(run, [] { return interrupted().load(std::memory_order_relaxed); })) {
-    const std::string name = facts.file.filename().string(), found = hex(facts.sha256);
+  for (const FrameFacts& facts : run_facts(run, stop_requested)) {
+    const std::string name = std::filesystem::path(facts.file).filename().string(), found = hex(facts.sha256);
     const auto input = std::ranges::find_if(
         inputs_, [&](const Json& of) { return std::filesystem::path(member(of, "file")).filename() == name; });
     const std::string expected = input == inputs_.end() ? "" : member(*input, "sha256");
     if (expected.empty()) refuse(fmt::format("has no SHA-256 of {}{}", name, advice));
     if (expected == found) continue;
     refuse(fmt::format("is about another run, or about less of this one: its {} had SHA-256 {}, but {} has {}{}", name,
-                       shortened(expected), facts.file.string(), shortened(found), advice));
+                       shortened(expected), facts.file, shortened(found), advice));
   }
 }
 

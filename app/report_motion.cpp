@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "noli/app/report_page.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 
@@ -43,6 +44,7 @@ std::string MotionPacker::bytes() const {
   std::string out(2 * size * frames_.size(), '\0');
   std::vector<std::uint16_t> before(size, 0);
   for (std::size_t f = 0; f < frames_.size(); ++f) {
+    end_if_stopped();
     char* const low = out.data() + 2 * size * f;
     char* const high = low + size;
     for (std::size_t k = 0; k < 3; ++k) {

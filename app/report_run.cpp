@@ -29,7 +29,7 @@ namespace {
 constexpr double most_samples = 1e6;
 
 void stop_if_interrupted(const std::filesystem::path& what) {
-  if (interrupted().load(std::memory_order_relaxed)) throw ReadInterrupted(what.string());
+  if (stop_requested()) throw ReadInterrupted(what.string());
 }
 
 class Run {
@@ -72,7 +72,7 @@ class Run {
     const double rate = std::min(limits_.fps, most_samples / reader_.header().window_length);
     for_each_frame_time(window.index, window.begin, window.end, rate, [&](double t) {
       if (!packer_.skip()) packer_.add(t, sample(*window.lines, t));
-      return !interrupted().load(std::memory_order_relaxed);
+      return !stop_requested();
     });
   }
 

@@ -8,6 +8,7 @@
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::app {
@@ -25,6 +26,7 @@ Found<Dim> find_window(const ReproduceRequest& request) {
   RunReader reader(request.run);
   Found<Dim> found;
   while (auto window = reader.next_window()) {
+    end_if_stopped();
     if (window->index + 1 == request.window) {
       found.window = std::move(*window);
       return found;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "noli/app/run_folder.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 namespace {
@@ -20,7 +21,10 @@ class Explaining {
   }
 
   RunExplanation operator()() {
-    while (auto window = reader_.next_window()) add(std::move(*window));
+    while (auto window = reader_.next_window()) {
+      end_if_stopped();
+      add(std::move(*window));
+    }
     require_all_windows(run_, result_.log, result_.windows);
     result_.open_window = reader_.open_window().has_value();
     if (nearest_lines_) {

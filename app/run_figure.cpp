@@ -12,6 +12,7 @@
 #include "noli/app/output_files.h"
 #include "noli/app/run_folder.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::app {
@@ -35,7 +36,10 @@ bool is_picture(const std::string& output) {
 
 FigureData read(const std::filesystem::path& run, RunReader& reader) {
   FigureData data{title_of(run), reader.header().dimension, {}};
-  while (const auto window = reader.next_window()) data.windows.push_back({window->begin, row_of(*window, run)});
+  while (const auto window = reader.next_window()) {
+    end_if_stopped();
+    data.windows.push_back({window->begin, row_of(*window, run)});
+  }
   if (data.windows.empty()) {
     throw InputError(run.string(), "", "the run has no windows; expected at least one to draw");
   }

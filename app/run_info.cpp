@@ -5,6 +5,7 @@
 
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_manifest.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 namespace {
@@ -33,7 +34,10 @@ Json versions_of(const std::filesystem::path& folder) {
 Json run_info(const std::filesystem::path& folder) {
   RunReader reader(folder);
   Totals totals;
-  while (const auto window = reader.next_window()) totals.add(*window);
+  while (const auto window = reader.next_window()) {
+    end_if_stopped();
+    totals.add(*window);
+  }
   const RunHeader& header = reader.header();
   const Mesh& mesh = reader.mesh();
   return {{"file", folder.string()},

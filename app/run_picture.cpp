@@ -15,6 +15,7 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/write_file.h"
 
 namespace noli::app {
@@ -70,6 +71,7 @@ RunFrame frame_at(RunReader& reader, const PictureRequest& request) {
   Nearest nearest(request.time);
   double end = 0;
   while (const auto window = reader.next_window()) {
+    end_if_stopped();
     end = window->end;
     nearest.add(*window);
     if (nearest.is_passed(*window)) break;

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "noli/app/commands.h"
-#include "noli/app/duration.h"
 #include "noli/app/notes.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
@@ -14,6 +13,7 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/simulate_report.h"
 #include "noli/app/simulate_run.h"
+#include "noli/app/time_limit.h"
 #include "noli/trajectory/error.h"
 
 namespace noli::app {
@@ -70,8 +70,8 @@ ExitCode reproduce(const SimulateArguments& arguments) {
 
 ExitCode run(SimulateArguments& arguments) {
   SimulateRequest& request = arguments.request;
+  request.deadline = begin_work(arguments.time_limit);
   if (arguments.reproduce) return reproduce(arguments);
-  if (!arguments.time_limit.empty()) request.time_limit = parse_duration(arguments.time_limit, "--time-limit");
   const Output output(arguments.results, {request.scene, request.run});
   request.force = arguments.results.force;
   request.begun = [&arguments, &request](const integrator::Scene& scene, const integrator::Explanation& explanation,
@@ -124,12 +124,10 @@ Command add_simulate(CLI::App& app) {
       ->check(whole_number(1, std::numeric_limits<std::uint64_t>::max()))
       ->needs(again)
       ->type_name("K");
-  command
-      ->add_option(
-          "--time-limit", arguments->time_limit,
-          "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped. To write series.h5 "
-          "comes on top, and Ctrl-C ends that too")
-      ->type_name("TIME");
+  add_time_limit_option(
+      *command, arguments->time_limit,
+      "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped. To write series.h5 "
+      "comes on top, and Ctrl-C ends that too");
   add_output_options(*command, arguments->results);
   command->get_option("--force")->description(
       "Replace the run that is in the folder (not with --resume), and outputs that exist");

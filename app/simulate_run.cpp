@@ -34,6 +34,7 @@
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/series_file.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 
@@ -69,6 +70,7 @@ class Run {
         names_(names_of(built_.bodies)),
         labels_(labels_of<Dim>(built_.model)),
         exclusions_(exclusions_of<Dim>(built_.model)),
+        deadline_(request.deadline),
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
         record_(scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames),
@@ -82,7 +84,6 @@ class Run {
     outcome_.windows_total = windows_of(request, scene);
     require_cells();
     require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
-    if (request.time_limit) deadline_ = std::chrono::steady_clock::now() + *request.time_limit;
     refuse_contact_at_start();
     const integrator::Explanation explanation = integrator::explain(scene);
     if (wants_watch(scene, explanation)) watch_energy();
@@ -129,7 +130,8 @@ class Run {
 
   bool stopped() {
     if (interrupted().load(std::memory_order_relaxed)) outcome_.end = RunEnd::interrupted;
-    if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) outcome_.end = RunEnd::out_of_time;
+    const bool late = deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+    if (late || stop_asked() == StopReason::out_of_time) outcome_.end = RunEnd::out_of_time;
     return outcome_.end != RunEnd::done;
   }
 
@@ -164,6 +166,7 @@ class Run {
     const std::string found =
         contact_at_start(verifier_, built_.model.mesh, positions_of<Dim>(built_.model.x), window_options(), names_);
     if (!found.empty()) throw InputError(request_.scene.string(), "/bodies", "the scene begins in contact: " + found);
+    end_if_stopped();
   }
 
   /// Returns what is said of the bytes to come. Throws WriteError when the disk will not hold them, before anything is
@@ -222,6 +225,7 @@ class Run {
   void open(const Scene& scene) {
     const bool go_on = request_.resume && folder_.has_begun();
     if (!go_on) {
+      Simulation<double, Dim> simulation(built_.model);  // which may be stopped; then nothing is written
       folder_.make(request_.force || request_.resume);
       writer_.emplace(folder_.path(), run_scene(scene));
       folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
@@ -230,7 +234,7 @@ class Run {
             std::make_unique<RunProof>(std::make_unique<FileSink>(proof_path(folder_.path()), FileSink::Open::create),
                                        run_scene(scene), positions_of<Dim>(built_.model.x), RunProof::Claim{});
       }
-      go_on_with(Simulation<double, Dim>(built_.model));
+      go_on_with(std::move(simulation));
       return;
     }
     folder_.go_on(scene.document, hash_of<Dim>(built_.model));
@@ -286,6 +290,9 @@ class Run {
     Books<double, Dim> books;
     try {
       if (!simulation_->run_window(recording_, books, [this] { return stopped(); })) return std::nullopt;
+    } catch (const Stopped&) {
+      stopped();
+      return std::nullopt;
     } catch (const integrator::ContactLimit& limit) {
       finite_ = simulation_->finite();
       if (finite_) limit_ = limit;
@@ -381,7 +388,11 @@ class Run {
     }
     folder_.log(entry);
     outcome_.certificates += simulation_->certificates();
-    go_on_with(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
+    try {
+      go_on_with(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
+    } catch (const Stopped&) {
+      stopped();
+    }
     return true;
   }
 
@@ -428,8 +439,13 @@ class Run {
       if (before_.windows == 0) outcome_.start_gap = start_gap(limit_->pair);
       outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "and");
     } else if (!finite_) {
-      outcome_.not_finite =
-          simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] { return stopped(); });
+      try {
+        outcome_.not_finite = simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] {
+          return stopped();
+        });
+      } catch (const Stopped&) {
+        stopped();
+      }
       if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
     } else if (energy_ && energy_->astray()) {
       outcome_.energy_astray = energy_->astray();
@@ -487,6 +503,7 @@ class Run {
   BodyNames names_;
   std::vector<std::uint8_t> labels_;
   Exclusions exclusions_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
   WindowVerifier verifier_;
   RunFolder folder_;
   RecordMode record_;
@@ -495,7 +512,6 @@ class Run {
   std::unique_ptr<RunProof> proof_;  ///< with record full
   integrator::Activity activity_;
   std::optional<Simulation<double, Dim>> simulation_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
   Recording<double, Dim> recording_;
   std::optional<Candidate<Dim>> candidate_;
@@ -506,12 +522,35 @@ class Run {
   SimulateOutcome outcome_;
 };
 
+/// Of a run that was stopped before its first window, while its model was built.
+SimulateOutcome stopped_early(const SimulateRequest& request, const Scene& scene, StopReason reason) {
+  SimulateOutcome outcome;
+  outcome.end = reason == StopReason::interrupted ? RunEnd::interrupted : RunEnd::out_of_time;
+  outcome.title = scene.title;
+  outcome.dimension = scene.dimension;
+  outcome.window_length = scene.window;
+  outcome.windows_total = windows_of(request, scene);
+  return outcome;
+}
+
+template <int Dim>
+SimulateOutcome run_in(const SimulateRequest& request, const Scene& scene) {
+  std::optional<Run<Dim>> run;
+  try {
+    run.emplace(request, scene);
+  } catch (const Stopped& stop) {
+    if (request.resume) throw;  // what the run has already is not known
+    return stopped_early(request, scene, stop.reason());
+  }
+  return (*run)();
+}
+
 }  // namespace
 
 SimulateOutcome run_simulate(const SimulateRequest& request) {
   const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
   const Scene scene = integrator::read_scene(request.scene, form);
-  return scene.dimension == 2 ? Run<2>(request, scene)() : Run<3>(request, scene)();
+  return scene.dimension == 2 ? run_in<2>(request, scene) : run_in<3>(request, scene);
 }
 
 }  // namespace noli::app

@@ -45,7 +45,7 @@ struct SimulateRequest {
   bool past_duration = false;   ///< it may lie beyond the scene's duration
   bool ignore_space = false;    ///< begin though the disk is predicted not to hold the run
   int threads = 0;              ///< 0: all there are
-  std::optional<std::chrono::nanoseconds> time_limit;
+  std::optional<std::chrono::steady_clock::time_point> deadline;
   /// Called once nothing stands against the run any more, before anything is integrated. The text says how many bytes
   /// the run is about to write (run_space.h).
   std::function<void(const integrator::Scene&, const integrator::Explanation&, const std::string& space)> begun;
@@ -100,10 +100,10 @@ struct SimulateOutcome {
 };
 
 /// Runs it. Ends at the last committed window when app::interrupted() or at the time limit: the one that is being
-/// integrated or verified then is dropped. A run of which all windows are committed is done, whenever that came. After
-/// that series.h5 is written still, unless the user asks once more to stop. Throws InputError (scene), ReadInterrupted
-/// (while a run to go on with is read), UsageError (a run that is there, or is not), WriteError (the disk will not hold
-/// the run), std::system_error (disk), std::bad_alloc.
+/// integrated or verified then is dropped. A stop before the run begins leaves no folder. A run of which all windows
+/// are committed is done, whenever the stop came. After that series.h5 is written still, unless the user asks once more
+/// to stop. Throws InputError (scene), Stopped (while the scene, or a run to go on with, is read), UsageError (a run
+/// that is there, or is not), WriteError (the disk will not hold the run), std::system_error (disk), std::bad_alloc.
 SimulateOutcome run_simulate(const SimulateRequest& request);
 
 }  // namespace noli::app

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "noli/trajectory/stop.h"
+
 namespace noli::app {
 
 namespace {
@@ -20,10 +22,9 @@ std::string cell_name(const Mesh& mesh, std::size_t cell, const BodyNames& names
 std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, const std::vector<Position>& x,
                              WindowOptions options, const BodyNames& names) {
   options.initial = true;
-  options.stop = nullptr;
-  options.deadline.reset();
   options.max_reports = 3;
   const WindowResult result = verifier.verify(WorldLines::from_frames(x, x), options);
+  if (!result.complete) throw Stopped(stop_asked().value_or(StopReason::out_of_time), "the start of the scene");
   if (result.contact_count() + result.initial_intersections == 0) return "";
   std::string pairs;
   for (const auto& contact : result.reports) {

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "noli/app/checker.h"
 #include "noli/app/commands.h"
-#include "noli/app/duration.h"
 #include "noli/app/frame_options.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/lines_pipe.h"
@@ -17,6 +17,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/run_folder.h"
+#include "noli/app/time_limit.h"
 #include "noli/app/verify_report.h"
 #include "noli/app/verify_run.h"
 #include "noli/audit/scratch_folder.h"
@@ -115,7 +116,7 @@ class ProofRoute {
     const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);
     if (!request_.check || outcome.not_checked || !whole) return;
     const Stopwatch watch;
-    if (!checker_) checker_.emplace(Checker::plain, file_, trajectory(), request_.deadline, fields_of(outcome.claim));
+    if (!checker_) checker_.emplace(Checker::plain, file_, trajectory(), fields_of(outcome.claim));
     if (lines_) lines_->close();
     const auto verdict = checker_->finish();
     outcome.check_seconds = watch.seconds();
@@ -159,7 +160,7 @@ class ProofRoute {
     return std::make_unique<FileSink>(*file_, FileSink::Open::create);
   }
   std::unique_ptr<Sink> to_checker(const Claim& claim) {
-    checker_.emplace(Checker::plain, std::nullopt, trajectory(), request_.deadline, fields_of(claim));
+    checker_.emplace(Checker::plain, std::nullopt, trajectory(), fields_of(claim));
     return std::make_unique<CheckerSink>(*checker_);
   }
 
@@ -221,9 +222,7 @@ void prepare_to_reproduce(VerifyRequest& request) {
 
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
-  if (!arguments.time_limit.empty()) {
-    request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
-  }
+  request.deadline = begin_work(arguments.time_limit);
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   if (!request.run) {
@@ -238,6 +237,7 @@ ExitCode run(VerifyArguments& arguments) {
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
+  inputs = {};  // paths of 10,000 frames are megabytes
   if (request.merge_identical) require_files(request.frames);
   ProofRoute route(request);
   VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
@@ -247,7 +247,9 @@ ExitCode run(VerifyArguments& arguments) {
   } else if (arguments.claim_out) {
     write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
   }
-  output.write("verify", verify_answer(request, outcome), verify_json(request, outcome));
+  // The JSON of 10,000 frames takes more memory than all else.
+  Json json = arguments.results.json ? verify_json(request, outcome) : Json::object();
+  output.write("verify", verify_answer(request, outcome), std::move(json));
   return exit_code(outcome.verdict);
 }
 
@@ -264,8 +266,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
-  command.add_option("--time-limit", arguments.time_limit, "Stop after this time, undecided: 500ms, 60s, 5m, 1h")
-      ->type_name("TIME");
+  add_time_limit_option(command, arguments.time_limit);
   command.add_option("--min-distance", request.min_distance, "Features have to be more than this apart")
       ->check(is_positive())
       ->type_name("DISTANCE");

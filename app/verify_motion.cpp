@@ -19,6 +19,7 @@
 #include "noli/proofs/prover/window_verifier.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 namespace {
@@ -57,22 +58,17 @@ class MotionRun {
     if (mesh.cell_count() == 0) {
       throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
     }
-    if (request.reproduce) {
-      again_ = WindowsAgain::of(request.frames[0], request.scene_folder, reader_.scene(), [this] { return stopped(); });
-      outcome_.reproduced = true;
-    }
+    outcome_.reproduced = request.reproduce;
     set_claim();
   }
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
     look_at_files();
-    while (outcome_.complete) {
-      auto window = read_next();
-      // A stop after the last window changes nothing.
-      if (!window || stopped() || !reproduce(*window)) break;
-      verify(*window);
-      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+    try {
+      verify_windows();
+    } catch (const Stopped&) {
+      outcome_.complete = false;
     }
     conclude();
     outcome_.seconds = watch.seconds() - outcome_.read_seconds - outcome_.reproduce_seconds;
@@ -82,11 +78,23 @@ class MotionRun {
  private:
   bool stopped() { return outcome_.stop_at(request_.deadline); }
 
+  void verify_windows() {
+    if (request_.reproduce) make_again();
+    while (outcome_.complete) {
+      auto window = read_next();
+      // A stop after the last window changes nothing.
+      if (!window || stopped() || !reproduce(*window)) break;
+      verify(*window);
+      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+    }
+  }
+
   void look_at_files() {
     const Stopwatch watch;
     try {
       outcome_.inputs = run_facts(request_.frames[0], [this] { return stopped(); });
-    } catch (const ReadInterrupted&) {  // outcome_ knows why
+    } catch (const Stopped&) {
+      stopped();
     }
     outcome_.read_seconds += watch.seconds();
   }
@@ -117,6 +125,11 @@ class MotionRun {
         "only frames were recorded (\"record\": \"frames\"); expected world lines, which are what can be verified: "
         "pass --reproduce to integrate the windows again, or put \"record\": \"full\" into the scene and run `noli "
         "simulate SCENE.json -o RUN`");
+  }
+
+  /// The model of the scene, to integrate its windows again.
+  void make_again() {
+    again_ = WindowsAgain::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
   }
 
   /// Gives the window the world lines that it comes to when it is integrated again. False if it was stopped.

@@ -114,7 +114,10 @@ Json initial_reports_json(const VerifyOutcome& outcome) {
 Json steps_json(const VerifyOutcome& outcome) {
   Json json = Json::array();
   for (const StepCounts& step : outcome.steps) {
-    json.push_back({{"contacts", counts_json(step.contacts)}, {"initial_intersections", step.initial_intersections}});
+    Json counts;
+    counts["contacts"] = counts_json(step.contacts);
+    counts["initial_intersections"] = step.initial_intersections;
+    json.push_back(std::move(counts));
   }
   return json;
 }
@@ -357,7 +360,7 @@ class Words {
     }
     for (const FrameFacts& facts : outcome_.inputs) {
       if (!facts.looked_at) continue;
-      detail("  {}: {} bytes, {}SHA-256 {}", on_one_line(facts.file.string()), facts.bytes,
+      detail("  {}: {} bytes, {}SHA-256 {}", on_one_line(facts.file), facts.bytes,
              facts.numbers.empty() ? "" : facts.numbers + ", ", hex(facts.sha256));
     }
   }

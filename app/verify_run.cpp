@@ -23,6 +23,7 @@
 #include "noli/trajectory/frame_inputs.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/merge.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::app {
 namespace {
@@ -53,13 +54,10 @@ class Run {
   VerifyOutcome operator()() {
     const Stopwatch watch;
     look_at_all();
-    if (request_.merge_identical) find_classes();
-    while (!stopped() && outcome_.complete && read_next(sequence_)) {
-      if (sequence_.step() == 0) begin();
-      require_plane();
-      note_rest();
-      verify();
-      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+    try {
+      verify_steps();
+    } catch (const Stopped&) {
+      outcome_.complete = false;
     }
     conclude();
     outcome_.seconds = watch.seconds() - outcome_.read_seconds;
@@ -68,6 +66,17 @@ class Run {
 
  private:
   bool stopped() { return outcome_.stop_at(request_.deadline); }
+
+  void verify_steps() {
+    if (request_.merge_identical) find_classes();
+    while (!stopped() && outcome_.complete && read_next(sequence_)) {
+      if (sequence_.step() == 0) begin();
+      require_plane();
+      note_rest();
+      verify();
+      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+    }
+  }
 
   /// A frame of another mesh is noticed before the first step is decided.
   void look_at_all() {
@@ -78,8 +87,8 @@ class Run {
         inputs_.look_at(k);
         progress.show(static_cast<double>(k + 1) / static_cast<double>(request_.frames.size()));
       }
-    } catch (const ReadInterrupted&) {
-      outcome_.interrupted = true;
+    } catch (const Stopped&) {
+      stopped();
     }
     outcome_.read_seconds += watch.seconds();
   }
@@ -90,8 +99,9 @@ class Run {
     bool read = false;
     try {
       read = sequence.next();
-    } catch (const ReadInterrupted&) {
-      outcome_.interrupted = true;
+    } catch (const Stopped&) {
+      outcome_.complete = false;
+      stopped();
     }
     outcome_.read_seconds += watch.seconds();
     return read;
@@ -324,8 +334,8 @@ class Run {
     const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
     const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
     outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
-    outcome_.inputs = inputs_.facts();
     put_notes();
+    outcome_.inputs = inputs_.take_facts();
   }
 
   void put_notes() {
@@ -379,6 +389,7 @@ void VerifyRequest::put_in_order() {
 
 bool VerifyOutcome::stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline) {
   interrupted |= app::interrupted().load(std::memory_order_relaxed);
+  out_of_time |= stop_asked() == StopReason::out_of_time;
   out_of_time |= deadline && std::chrono::steady_clock::now() >= *deadline;
   return interrupted || out_of_time;
 }

@@ -38,13 +38,14 @@ class Buffer {
   std::string text() const {
     std::string all;
     std::array<char, 65536> part;
-    for (;;) {
+    while (all.size() <= most_words) {
       const ssize_t got = ::pread(descriptor_, part.data(), part.size(), static_cast<off_t>(all.size()));
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) fail("a program's output");
-      if (got == 0) return all;
-      all.append(part.data(), static_cast<std::size_t>(got));
+      if (got == 0) break;
+      take_words(all, {part.data(), static_cast<std::size_t>(got)});
     }
+    return all;
   }
 
  private:

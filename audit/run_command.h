@@ -25,7 +25,7 @@ struct CommandRun {
 
   End end = End::exited;
   int code = -1;         ///< exit code, or the number of the signal
-  std::string out, err;  ///< whole, also of what was ended
+  std::string out, err;  ///< also of what was ended; at most audit::most_words of each, then a note
   double seconds = 0;    ///< by the wall clock
 
   bool exited(int with) const { return end == End::exited && code == with; }

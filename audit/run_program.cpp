@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <system_error>
+#include <optional>
 #include <utility>
 
 #include "noli/audit/pipe.h"
@@ -66,31 +66,25 @@ class Running {
       if (ends[0].revents != 0) take(out_, end.out);
       if (ends[1].revents != 0) take(err_, end.err);
     }
-    const int status = wait();
-    end.kind = WIFSIGNALED(status) ? ProgramEnd::Kind::signalled : ProgramEnd::Kind::exited;
-    end.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+    const auto stopped = [&] { return limits.stop && limits.stop->load(std::memory_order_relaxed); };
+    const std::optional<int> status = wait_for_end(pid_, time_to_stay, [&] { return stopped() || patience.is_over(); });
+    if (!status) return give_up(end, stopped() ? ProgramEnd::Kind::stopped : ProgramEnd::Kind::hung);
+    pid_ = -1;
+    end.kind = WIFSIGNALED(*status) ? ProgramEnd::Kind::signalled : ProgramEnd::Kind::exited;
+    end.code = WIFSIGNALED(*status) ? WTERMSIG(*status) : WEXITSTATUS(*status);
   }
 
  private:
   static void take(Pipe& pipe, std::string& text) {
     std::array<char, 65536> part;
     const ssize_t got = ::read(pipe.end(0), part.data(), part.size());
-    if (got > 0) text.append(part.data(), static_cast<std::size_t>(got));
+    if (got > 0) take_words(text, {part.data(), static_cast<std::size_t>(got)});
     if (got == 0 || (got < 0 && errno != EINTR)) pipe.close(0);
   }
 
   void give_up(ProgramEnd& end, ProgramEnd::Kind kind) {
     end_it();
     end.kind = kind;
-  }
-
-  int wait() {
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0) {
-      if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for a program");
-    }
-    pid_ = -1;
-    return status;
   }
 
   void end_it() {

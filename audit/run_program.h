@@ -3,6 +3,8 @@
 // Runs a program to its end, with a limit of time, and keeps what it says: how the fuzzers see a crash or a hang of the
 // programs that they test.
 //
+// A program that closes both outputs and does not end within audit::time_to_stay counts as hanging.
+//
 // What this does not do: it gives the program nothing to read. The programs that lie beside this one say what their
 // exit codes mean; here they are just numbers.
 #pragma once
@@ -23,8 +25,8 @@ struct ProgramLimits {
 /// How a program ended.
 struct ProgramEnd {
   enum class Kind { exited, signalled, hung, stopped } kind = Kind::exited;
-  int code = 0;  ///< the exit code, or the signal
-  std::string out, err;
+  int code = 0;          ///< the exit code, or the signal
+  std::string out, err;  ///< at most audit::most_words of each, then a note
 
   bool exited_with(int expected) const { return kind == Kind::exited && code == expected; }
   /// "exit code 3", "signal 11 (Segmentation fault)", "no end within its limit of time", "stopped".

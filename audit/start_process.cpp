@@ -14,6 +14,18 @@
 extern char** environ;
 
 namespace noli::audit {
+namespace {
+
+/// Waits for it.
+int status_of(pid_t pid) {
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0) {
+    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for a program");
+  }
+  return status;
+}
+
+}  // namespace
 
 void require_startable(const std::string& program) {
   if (::access(program.c_str(), X_OK) == 0) return;
@@ -53,6 +65,22 @@ bool has_ended(pid_t pid) {
   return error == 0 && info.si_pid == pid;
 }
 
+std::optional<int> wait_for_end(pid_t pid, std::chrono::milliseconds patience, const std::function<bool()>& stop) {
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (!has_ended(pid)) {
+    if (std::chrono::steady_clock::now() >= deadline || stop()) return std::nullopt;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return status_of(pid);
+}
+
+void take_words(std::string& words, std::string_view next) {
+  if (words.size() > most_words) return;  // the note is there
+  words.append(next.substr(0, most_words - words.size()));
+  if (words.size() < most_words) return;
+  words += "\n[cut off after 1 MB]\n";
+}
+
 int end_process(pid_t pid, std::chrono::milliseconds patience) {
   const auto signal = [pid](int number) {
     ::kill(-pid, number);
@@ -63,11 +91,7 @@ int end_process(pid_t pid, std::chrono::milliseconds patience) {
   while (std::chrono::steady_clock::now() < deadline && !has_ended(pid))
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   signal(SIGKILL);
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0) {
-    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for a program");
-  }
-  return status;
+  return status_of(pid);
 }
 
 }  // namespace noli::audit

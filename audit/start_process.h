@@ -6,8 +6,12 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace noli::audit {
@@ -27,6 +31,19 @@ pid_t start_process(std::vector<std::string> words, std::span<const GivenDescrip
 
 /// Whether it has ended; it can still be waited for, and its number is not another's yet.
 bool has_ended(pid_t pid);
+
+/// Waits for it to end, for at most `patience`, and returns its status; nothing when it is still there, or `stop` said
+/// so.
+std::optional<int> wait_for_end(pid_t pid, std::chrono::milliseconds patience, const std::function<bool()>& stop);
+
+/// How long a program may stay once it has closed its output. It has freed its memory by then.
+constexpr std::chrono::seconds time_to_stay{2};
+
+/// What is kept of the words of a program.
+constexpr std::size_t most_words = std::size_t{1} << 20;  ///< bytes
+
+/// Appends to the words of a program what it says next, up to most_words and a note on what is cut off there.
+void take_words(std::string& words, std::string_view next);
 
 /// What a program has to clean up after itself when it is asked to end.
 constexpr std::chrono::seconds time_to_end{3};

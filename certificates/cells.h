@@ -50,6 +50,7 @@
 #include "noli/certificates/near_pairs.h"
 #include "noli/certificates/pen.h"
 #include "noli/certificates/plan.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::certificates {
 
@@ -72,6 +73,7 @@ class Cells {
     std::vector<Vector<Dim>> centres;
     std::vector<bool> fixed;
     for (const auto& cell : features_.cells()) {
+      end_if_stopped();
       centres.push_back(x[cell.vertices[0]]);
       fixed.push_back(std::all_of(cell.vertices.begin(), cell.vertices.begin() + cell.size,
                                   [this](VertexId v) { return host_.immovable(v); }));
@@ -160,6 +162,7 @@ class Cells {
       if (sizes_[i] == never) sizes_[i] = 2 * (own > 0 ? own : widest_of_all);
     }
     for (const auto& cell : features_.cells()) {
+      end_if_stopped();
       double widest = 0;
       for (std::uint8_t k = 0; k < cell.size; ++k) {
         widest = std::max(widest, host_.greatest_thickness(cell.vertices[k]));
@@ -177,7 +180,10 @@ class Cells {
     slice_end_ = slice_due_ = t + length_;
     retubed_ = 0;
     margin_ = 0;
-    for (std::size_t i = 0; i < tubes_.size(); ++i) begin_tube(static_cast<VertexId>(i), before, t);
+    for (std::size_t i = 0; i < tubes_.size(); ++i) {
+      end_if_stopped();
+      begin_tube(static_cast<VertexId>(i), before, t);
+    }
     length_before_ = next_before;
     std::fill(due_.begin(), due_.end(), never);
     events_ = {};
@@ -255,6 +261,7 @@ class Cells {
     });
     swept_ = 0;
     for (std::uint32_t n = 0; n < nears_.size(); ++n) {
+      end_if_stopped();
       const double distance = put_up_slab(n, t);
       const Stencil& s = nears_[n].stencil;
       const double room = sizes_[s.vertices[0]] + sizes_[s.vertices[s.first()]];

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "noli/certificates/vector.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::certificates {
 
@@ -58,7 +59,8 @@ class Hierarchy {
  public:
   using Box = MovingBox<Dim>;
 
-  /// Over cells with these centres. Pairs of cells of which `fixed` says that they never move are left out.
+  /// Over cells with these centres. Pairs of cells of which `fixed` says that they never move are left out. Throws
+  /// Stopped, as do refit() and for_each_pair().
   explicit Hierarchy(std::span<const Vector<Dim>> centres = {}, const std::vector<bool>& fixed = {}) {
     if (centres.empty()) return;
     order_.resize(centres.size());
@@ -68,6 +70,7 @@ class Hierarchy {
     nodes_.resize(boxes_.size());
     build(0, 0, static_cast<std::uint32_t>(centres.size()), none, centres);
     for (std::size_t n = nodes_.size(); n-- > 0;) {
+      end_if_stopped();
       nodes_[n].fixed =
           is_leaf(n) ? fixed[order_[nodes_[n].begin]] : nodes_[left(n)].fixed && nodes_[nodes_[n].right].fixed;
     }
@@ -77,6 +80,7 @@ class Hierarchy {
   template <class BoxOf>
   void refit(const BoxOf& box_of) {
     for (std::size_t n = nodes_.size(); n-- > 0;) {
+      end_if_stopped();
       if (is_leaf(n)) {
         boxes_[n] = box_of(order_[nodes_[n].begin]);
       } else {
@@ -117,6 +121,7 @@ class Hierarchy {
 
   std::uint32_t build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::uint32_t parent,
                       std::span<const Vector<Dim>> centres) {
+    end_if_stopped();
     nodes_[node] = {begin, end, none, parent, false};
     if (end - begin == 1) {
       place_[order_[begin]] = node;
@@ -157,6 +162,7 @@ class Hierarchy {
   template <class Each>
   void between(std::size_t a, std::size_t b, Each&& each) const {
     if (boxes_[a].apart(boxes_[b]) || (nodes_[a].fixed && nodes_[b].fixed)) return;
+    end_if_stopped();
     if (is_leaf(a) && is_leaf(b)) return each(order_[nodes_[a].begin], order_[nodes_[b].begin]);
     if (nodes_[a].end - nodes_[a].begin >= nodes_[b].end - nodes_[b].begin) {
       between(left(a), b, each);

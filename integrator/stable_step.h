@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "noli/integrator/model.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 
@@ -56,6 +57,7 @@ std::vector<double> stable_steps(const ForceList<F>& list, const std::vector<Vec
                                  const std::vector<S>& inverse_mass, double factor = 0.5) {
   std::vector<S> half_omega(x.size(), S(0));
   for (const F& force : list.forces) {
+    end_if_stopped();
     const auto kappa = squared_frequencies(force, x, inverse_mass);
     for (std::size_t i = 0; i < F::size; ++i) half_omega[force.vertices[i]] += kappa[i];
   }

@@ -8,8 +8,11 @@
 #include <array>
 #include <atomic>
 #include <exception>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #ifdef NOLI_PARALLEL_TBB
@@ -83,6 +86,37 @@ void run_std(std::size_t count, int threads, const Task& task) {
 }
 
 #ifdef NOLI_PARALLEL_TBB
+/// Arenas that no loop is in. TBB frees one only once all its threads have looked away, so on a busy machine new ones
+/// for each loop would pile up: 7 KB for each step of a sequence.
+class Arenas {
+ public:
+  using Arena = std::unique_ptr<tbb::task_arena>;
+
+  Arena take(int lanes) {
+    const std::scoped_lock lock(mutex_);
+    std::vector<Arena>& free = free_[lanes];
+    if (free.empty()) return std::make_unique<tbb::task_arena>(lanes);
+    Arena arena = std::move(free.back());
+    free.pop_back();
+    return arena;
+  }
+
+  void give_back(int lanes, Arena arena) {
+    const std::scoped_lock lock(mutex_);
+    free_[lanes].push_back(std::move(arena));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<int, std::vector<Arena>> free_;  ///< by their number of lanes
+};
+
+/// Never destroyed: TBB may be gone before.
+Arenas& arenas() {
+  static Arenas& all = *new Arenas;
+  return all;
+}
+
 void run_tbb(std::size_t count, int threads, const Task& task) {
   const int lanes = lane_count(count, threads);
   Loop loop(count, task);
@@ -94,11 +128,12 @@ void run_tbb(std::size_t count, int threads, const Task& task) {
     // arena is what limits this one.
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(std::max(wanted(threads), hardware_threads())));
-    tbb::task_arena arena(lanes);
-    arena.execute([&] {
+    Arenas::Arena arena = arenas().take(lanes);
+    arena->execute([&] {
       tbb::parallel_for(
           0, lanes, [&loop](int) { loop.lane(); }, tbb::simple_partitioner());
     });
+    arenas().give_back(lanes, std::move(arena));
   }
   loop.rethrow();
 }

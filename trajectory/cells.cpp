@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/trajectory/cells.h"
+#include "noli/trajectory/stop.h"
 
 #include <algorithm>
 #include <iterator>
@@ -14,7 +15,10 @@ std::uint64_t edge_key(VertexId a, VertexId b) { return std::uint64_t{std::min(a
 void drop_redundant_edges(Mesh& mesh) {
   std::unordered_set<std::uint64_t> known;
   known.reserve(2 * mesh.faces.size() + mesh.edges.size());
-  for (const auto& [a, b, c] : mesh.faces) known.insert({edge_key(a, b), edge_key(b, c), edge_key(c, a)});
+  for (const auto& [a, b, c] : mesh.faces) {
+    end_if_stopped();
+    known.insert({edge_key(a, b), edge_key(b, c), edge_key(c, a)});
+  }
   std::erase_if(mesh.edges, [&](const auto& edge) { return !known.insert(edge_key(edge[0], edge[1])).second; });
 }
 

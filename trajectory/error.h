@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "noli/trajectory/stop.h"
+
 namespace noli {
 
 /// The text on one line: control characters, which names of files may contain, as \n, \t or \x1b. All else stays.
@@ -20,12 +22,18 @@ class InputError : public std::runtime_error {
       : std::runtime_error(on_one_line(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem)) {}
 };
 
-/// A signal was handled while a reader waited for its file, a pipe for example, and the handler was installed without
-/// SA_RESTART: whoever did that wants the wait to end. what() is one line.
-class ReadInterrupted : public std::runtime_error {
+/// The process was asked to stop (trajectory/stop.h) while a reader read its file or waited for it, a pipe for example.
+/// what() is one line.
+class ReadInterrupted : public Stopped {
  public:
   explicit ReadInterrupted(const std::string& file)
-      : std::runtime_error(on_one_line(file + ": interrupted while it was read")) {}
+      : ReadInterrupted(file, stop_asked().value_or(StopReason::interrupted)) {}
+
+ private:
+  ReadInterrupted(const std::string& file, StopReason reason)
+      : Stopped(reason, Words{on_one_line(file + (reason == StopReason::interrupted
+                                                      ? ": interrupted while it was read"
+                                                      : ": the time limit has passed while it was read"))}) {}
 };
 
 }  // namespace noli

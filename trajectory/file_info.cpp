@@ -7,6 +7,7 @@
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/merge.h"
 #include "noli/trajectory/ply_header.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/zero_area.h"
 
@@ -29,7 +30,10 @@ std::size_t count_mesh_edges(const Mesh& mesh) {
     for (std::size_t i = 0; i < 3; ++i)
       edges.push_back({std::min(f[i], f[(i + 1) % 3]), std::max(f[i], f[(i + 1) % 3])});
   }
-  std::sort(edges.begin(), edges.end());
+  std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
+    end_if_stopped();
+    return a < b;
+  });
   const auto end = std::unique(edges.begin(), edges.end());
   return static_cast<std::size_t>(end - edges.begin()) + mesh.edges.size();
 }
@@ -49,6 +53,7 @@ std::optional<BoundingBox> bounding_box(const std::vector<Position>& positions) 
 std::size_t count_degenerate_faces(const Frame& frame) {
   const auto& x = frame.positions;
   return static_cast<std::size_t>(std::count_if(frame.mesh.faces.begin(), frame.mesh.faces.end(), [&](const auto& f) {
+    end_if_stopped();
     return has_zero_area(x[f[0]], x[f[1]], x[f[2]]);
   }));
 }

@@ -16,11 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The same fault, and which frame it is in.
-InputError of_frame(const InputError& error, const fs::path& path, std::size_t k, std::size_t count) {
+InputError of_frame(const InputError& error, const std::string& path, std::size_t k, std::size_t count) {
   std::string problem = error.what();
-  const std::string begin = on_one_line(path.string()) + ": ";
+  const std::string begin = on_one_line(path) + ": ";
   if (problem.starts_with(begin)) problem.erase(0, begin.size());
-  return {path.string(), "", fmt::format("{} (frame {} of {})", problem, k + 1, count)};
+  return {path, "", fmt::format("{} (frame {} of {})", problem, k + 1, count)};
 }
 
 /// 5e-07 for k = -6: half of 10^k.
@@ -28,27 +28,27 @@ std::string half_of(int k) { return fmt::format("5e{:+03}", k - 1); }
 
 }  // namespace
 
-FrameInputs::FrameInputs(std::vector<fs::path> frames, PolygonRule rule)
+FrameInputs::FrameInputs(const std::vector<fs::path>& frames, PolygonRule rule)
     : rule_(rule), facts_(frames.size()), read_(frames.size(), false) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     try {
       mesh_format(frames[k]);
     } catch (const InputError& error) {
-      throw of_frame(error, frames[k], k, frames.size());
+      throw of_frame(error, frames[k].string(), k, frames.size());
     }
-    facts_[k].file = std::move(frames[k]);
+    facts_[k].file = frames[k].string();
   }
 }
 
 void FrameInputs::look_at(std::size_t k) {
-  const fs::path& path = facts_[k].file;
+  const fs::path path = facts_[k].file;
   try {
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;
     const std::string bytes = read_whole_file(path);
     look_at(k, bytes);
   } catch (const InputError& error) {
-    throw of_frame(error, path, k, facts_.size());
+    throw of_frame(error, facts_[k].file, k, facts_.size());
   }
 }
 
@@ -81,8 +81,8 @@ Frame FrameInputs::parse(std::size_t k, std::string_view bytes, Polygons& polygo
 
 Frame FrameInputs::read(std::size_t k) {
   const std::string bytes = read_whole_file(facts_[k].file);
-  if (facts_[k].looked_at && sha256(bytes) != facts_[k].sha256) {
-    throw InputError(facts_[k].file.string(), "",
+  if (facts_[k].looked_at && frame_hash(bytes) != facts_[k].sha256) {
+    throw InputError(facts_[k].file, "",
                      "has changed since it was looked at; verify the frames again once they are complete");
   }
   Polygons polygons{rule_};

@@ -31,7 +31,7 @@ namespace noli {
 class FrameInputs {
  public:
   /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; it ends with "(frame 11 of 12)".
-  explicit FrameInputs(std::vector<std::filesystem::path> frames, PolygonRule rule = PolygonRule::fan);
+  explicit FrameInputs(const std::vector<std::filesystem::path>& frames, PolygonRule rule = PolygonRule::fan);
 
   /// Looks at frame k, if it is a regular file: header, counts, and that its cells are those of the first frame that
   /// was looked at. Throws InputError, which ends as above; ReadInterrupted.
@@ -45,6 +45,8 @@ class FrameInputs {
 
   /// One per frame.
   const std::vector<FrameFacts>& facts() const { return facts_; }
+  /// Gives them away; this is of no more use.
+  std::vector<FrameFacts> take_facts() { return std::move(facts_); }
   /// How many polygons of more than three corners a frame has at most, and their largest non-planarity (polygons.h) in
   /// all frames that were read.
   std::size_t polygons() const { return polygons_; }

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <fstream>
 #include <functional>
 #include <vector>
 
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/frame_formats.h"
+#include "noli/trajectory/input_file.h"
 #include "noli/trajectory/ply_header.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/text_digits.h"
 
@@ -57,6 +58,7 @@ std::optional<std::uint64_t> look_at_obj(std::string_view bytes, FrameFacts& fac
   bool continued = false;
   Lines lines(bytes);
   for (std::string_view line; lines.next(line);) {
+    end_if_stopped();
     continued |= line.ends_with('\\');
     while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
     if (line.size() < 2 || !is_blank(line[1])) continue;
@@ -155,6 +157,7 @@ class PlyLook {
     std::uint64_t entry = 0;
     Lines lines(body_);
     for (std::string_view line; lines.next(line);) {
+      end_if_stopped();
       if (Words(line).at_end()) continue;
       if (entry >= first && entry - first < vertex.count) {
         add_digits(line, wanted, digits);
@@ -192,13 +195,23 @@ class PlyLook {
 
 }  // namespace
 
+Sha256Digest frame_hash(std::string_view bytes) {
+  constexpr std::size_t part = std::size_t{1} << 24;
+  Sha256 hash;
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(part, bytes.size()))) {
+    end_if_stopped();
+    hash.update(bytes.substr(0, part));
+  }
+  return hash.digest();
+}
+
 FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& path) {
   FrameLook look;
   const MeshFormat format = mesh_format(path);
-  look.facts.file = path;
+  look.facts.file = path.string();
   look.facts.looked_at = true;
   look.facts.bytes = bytes.size();
-  look.facts.sha256 = sha256(bytes);
+  look.facts.sha256 = frame_hash(bytes);
   look.cells =
       format == MeshFormat::ply ? PlyLook(bytes, path.string(), look.facts).cells() : look_at_obj(bytes, look.facts);
   return look;
@@ -206,19 +219,15 @@ FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& pat
 
 FrameFacts file_facts(const std::filesystem::path& path, const std::function<bool()>& stop) {
   FrameFacts facts;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string(), "", "cannot be opened");
+  InputFile file(path);
   Sha256 hash;
   std::vector<char> part(std::size_t{1} << 20);
-  while (file) {
+  while (const std::size_t got = file.read(part.data(), part.size())) {
     if (stop && stop()) throw ReadInterrupted(path.string());
-    file.read(part.data(), static_cast<std::streamsize>(part.size()));
-    const auto got = static_cast<std::size_t>(file.gcount());
     hash.update({part.data(), got});
     facts.bytes += got;
   }
-  if (file.bad()) throw InputError(path.string(), "", "cannot be read to its end");
-  facts.file = path;
+  facts.file = path.string();
   facts.looked_at = true;
   facts.sha256 = hash.digest();
   return facts;

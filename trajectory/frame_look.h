@@ -24,11 +24,11 @@ namespace noli {
 
 /// What was read of a frame.
 struct FrameFacts {
-  std::filesystem::path file;  ///< as given
-  bool looked_at = false;      ///< else only the name is known
-  std::uint64_t bytes = 0;     ///< of the file
-  Sha256Digest sha256{};       ///< of its bytes
-  std::string numbers;         ///< of coordinates: "float64", "float32/float64", "text with 9 digits, 6 decimals"
+  std::string file;         ///< its name, as given; a path would take several times the memory
+  bool looked_at = false;   ///< else only the name is known
+  std::uint64_t bytes = 0;  ///< of the file
+  Sha256Digest sha256{};    ///< of its bytes
+  std::string numbers;      ///< of coordinates: "float64", "float32/float64", "text with 9 digits, 6 decimals"
   std::uint64_t vertices = 0;
   std::optional<std::uint64_t> cells;  ///< once a frame of the mesh has been parsed
   std::optional<int> rounded_at;       ///< k: text that may have been rounded to multiples of 10^k (text_digits.h)
@@ -42,7 +42,10 @@ struct FrameLook {
   std::optional<std::uint64_t> cells;
 };
 
-/// Throws InputError for a header of a PLY file that is not as it has to be, and for other extensions.
+/// The hash of the bytes of a file. Throws Stopped.
+Sha256Digest frame_hash(std::string_view bytes);
+
+/// Throws InputError for a header of a PLY file that is not as it has to be, and for other extensions; Stopped.
 FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& path);
 
 /// Of any file: bytes and hash alone. It is read part by part, until `stop` says true. Throws InputError,

@@ -6,6 +6,7 @@
 
 #include "noli/trajectory/cells.h"
 #include "noli/trajectory/frames.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli {
 namespace {
@@ -54,7 +55,10 @@ class Classes {
 void IdenticalVertices::refine(std::span<const Position> positions) {
   Classes classes(representative_, positions);
   std::vector<VertexId> refined(representative_.size());
-  for (std::size_t v = 0; v < refined.size(); ++v) refined[v] = classes.find_or_insert(static_cast<VertexId>(v));
+  for (std::size_t v = 0; v < refined.size(); ++v) {
+    end_if_stopped();
+    refined[v] = classes.find_or_insert(static_cast<VertexId>(v));
+  }
   representative_ = std::move(refined);
 }
 

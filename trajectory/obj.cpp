@@ -9,6 +9,7 @@
 
 #include "noli/trajectory/cells.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/text.h"
 
 namespace noli {
@@ -25,7 +26,10 @@ class ObjParser {
 
   Frame parse() {
     std::string_view statement;
-    while (next_statement(statement)) parse_statement(statement);
+    while (next_statement(statement)) {
+      end_if_stopped();
+      parse_statement(statement);
+    }
     frame_.mesh.vertex_count = frame_.positions.size();
     check_largest_index();
     drop_redundant_cells(frame_.mesh);

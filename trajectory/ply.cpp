@@ -9,6 +9,7 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/ply_header.h"
 #include "noli/trajectory/ply_source.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/text.h"
 
 namespace noli {
@@ -91,6 +92,7 @@ class BodyReader {
   template <class ReadProperty, class EndOfEntry>
   void read_entries(const PlyElement& element, ReadProperty&& read_property, EndOfEntry&& end_of_entry) {
     for (std::uint64_t entry = 0; entry < element.count; ++entry) {
+      end_if_stopped();
       source_.begin_entry(element, entry);
       for (std::size_t p = 0; p < element.properties.size(); ++p) read_property(p, element.properties[p]);
       end_of_entry();

@@ -11,6 +11,7 @@
 
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/exact_rational.h"
+#include "noli/trajectory/stop.h"
 #include "noli/trajectory/text.h"
 
 namespace noli {
@@ -63,6 +64,7 @@ class CsvParser {
   std::size_t row_of_query() const { return rows_ % (2 * points_); }
 
   void parse_row(std::string_view line) {
+    end_if_stopped();
     split(line);
     if (row_of_query() == 0) records_.emplace_back();
     QueryRecord& record = records_.back();

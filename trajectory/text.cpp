@@ -3,49 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/input_file.h"
 
 namespace noli {
 namespace {
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
-
-/// Size of a regular file; a guess for anything else (a pipe has none).
-std::size_t expected_size(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  return error ? std::size_t{1} << 16 : static_cast<std::size_t>(size);
-}
-
-/// `error`: what errno said.
-[[noreturn]] void fail(const std::string& name, int error, const std::string& problem) {
-  if (error == EINTR) throw ReadInterrupted(name);
-  throw InputError(name, "", problem);
-}
-
-/// Reads to the end of the file, whatever size was expected.
-std::string read_to_end(std::FILE* file, std::size_t expected, const std::string& name) {
-  std::string bytes(expected + 1, '\0');
-  std::size_t used = 0;
-  while (const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file)) {
-    if (std::ferror(file) != 0) break;  // another attempt might wait for more
-    used += got;
-    if (used == bytes.size()) bytes.resize(2 * used);
-  }
-  if (std::ferror(file) != 0) fail(name, errno, "cannot be read to its end");
-  bytes.resize(used);
-  return bytes;
-}
 
 template <class T>
 std::string parse_finite_as(std::string_view word, T& value) {
@@ -61,13 +25,9 @@ std::string parse_finite_as(std::string_view word, T& value) {
 }  // namespace
 
 std::string read_whole_file(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw InputError(name, "", "is a folder, expected a file");
-  const OpenFile file(std::fopen(name.c_str(), "rb"));
-  if (!file) fail(name, errno, fmt::format("cannot be opened: {}", std::strerror(errno)));
-  std::string bytes = read_to_end(file.get(), expected_size(path), name);
-  if (bytes.empty()) throw InputError(name, "", "is empty");
+  InputFile file(path);
+  std::string bytes = file.read_to_end();
+  if (bytes.empty()) throw InputError(path.string(), "", "is empty");
   return bytes;
 }
 

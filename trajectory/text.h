@@ -15,8 +15,7 @@
 
 namespace noli {
 
-/// The bytes of a file. Throws InputError without a place when it is missing, is a folder, cannot be read, or is empty;
-/// ReadInterrupted.
+/// The bytes of a file. Throws as InputFile does, and InputError when it is empty.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// "line 12", "byte 345": the places that InputError names.

@@ -8,6 +8,7 @@
 
 #include "noli/integrator/scene/connectivity.h"
 #include "noli/integrator/scene/curve.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -76,6 +77,7 @@ template <int Dim>
 void stretch_curves(Work<Dim>& work) {
   const auto& edges = work.mesh.shape.mesh.edges;
   for (std::size_t e = 0; e < edges.size(); ++e) {
+    end_if_stopped();
     double constant = 0;
     if (const ElasticMaterial* m = work.elastic()) {
       const auto x = work.rest(edges[e]);
@@ -102,6 +104,7 @@ void bend_curves(Work<2>& work) {
   if (!(rigidity > 0)) return;
   const auto& edges = work.mesh.shape.mesh.edges;
   for (const Joint& joint : found.joints) {
+    end_if_stopped();
     const double factor = in_series(work.factor(edges[joint.edges[0]]), work.factor(edges[joint.edges[1]]));
     const auto make = [&] {
       return Turning<double>::from_rest(work.in_scene(joint.vertices), work.rest(joint.vertices), factor * rigidity,
@@ -114,6 +117,7 @@ void bend_curves(Work<2>& work) {
 void stretch_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
   if (const SpringMaterial* springs = work.springs()) {
     for (const FaceEdge& edge : edges) {
+      end_if_stopped();
       if (springs->edge_stiffness > 0) add_spring(work, edge.ends, springs->edge_stiffness * work.factor(edge.ends));
     }
     return;
@@ -121,6 +125,7 @@ void stretch_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
   const ElasticMaterial& m = *work.elastic();
   const auto& faces = work.mesh.shape.mesh.faces;
   for (std::size_t f = 0; f < faces.size(); ++f) {
+    end_if_stopped();
     const auto make = [&] {
       const SheetMaterial<double> sheet{m.young * work.factor(faces[f]), m.poisson, m.thickness};
       return Membrane<double>::from_rest(work.in_scene(faces[f]), work.rest(faces[f]), sheet,
@@ -143,6 +148,7 @@ void bend_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
   if (!(rigidity > 0)) return;
   const auto& faces = work.mesh.shape.mesh.faces;
   for (const FaceEdge& edge : edges) {
+    end_if_stopped();
     if (!bends(edge)) continue;
     const double factor = in_series(work.factor(faces[edge.faces[0]]), work.factor(faces[edge.faces[1]]));
     const std::array ids{edge.ends[0], edge.ends[1], edge.opposite[0], edge.opposite[1]};

@@ -12,6 +12,7 @@
 #include "noli/integrator/scene/select.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/frames.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -81,6 +82,7 @@ void repeat(BodyMesh& made, const Array& array) {
     const std::array<std::size_t, 3> at{copy % array.counts[0], copy / array.counts[0] % array.counts[1],
                                         copy / array.counts[0] / array.counts[1]};
     for (std::size_t i = 0; i < n; ++i) {
+      end_if_stopped();
       Position x = made.start[i];
       for (std::size_t axis = 0; axis < 3; ++axis) x[axis] += static_cast<double>(at[axis]) * array.spacing[axis];
       made.start.push_back(x);
@@ -138,10 +140,12 @@ std::vector<double> lumped_masses(const Body& body, const BodyMesh& made) {
   std::vector<double> mass(mesh.vertex_count);
   for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = density.vertex * density_factor(body, made.start[i]);
   for (const auto& face : mesh.faces) {
+    end_if_stopped();
     const double part = density.area * density_factor(body, centre(made.start, face)) * face_area(made.rest, face) / 3;
     for (const VertexId i : face) mass[i] += part;
   }
   for (const auto& edge : mesh.edges) {
+    end_if_stopped();
     const double part =
         density.length * density_factor(body, centre(made.start, edge)) * edge_length(made.rest, edge) / 2;
     for (const VertexId i : edge) mass[i] += part;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "noli/integrator/scene/curve.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -59,6 +60,7 @@ std::vector<double> heights_of(const BodyMesh& body) {
   std::vector<double> heights(body.mass.size(), infinity);
   const auto look = [&](const auto& cells) {
     for (const auto& cell : cells) {
+      end_if_stopped();
       for (const VertexId i : cell) heights[i] = std::min(heights[i], least_height(body.rest, cell));
     }
   };
@@ -105,6 +107,7 @@ Parts parts_of(const BodyMesh& body, const BuiltBody& built, const std::vector<d
   };
   const auto look = [&](const auto& cells) {
     for (const auto& cell : cells) {
+      end_if_stopped();
       if (std::none_of(cell.begin(), cell.end(), is_free)) continue;
       for (const VertexId i : cell) add(i, Free{least_height(body.rest, cell), infinity, 0});
     }

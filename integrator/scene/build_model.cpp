@@ -15,6 +15,7 @@
 #include "noli/integrator/scene/place.h"
 #include "noli/integrator/scene/select.h"
 #include "noli/integrator/stable_step.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -38,6 +39,7 @@ template <std::size_t N>
 void append(std::vector<std::array<VertexId, N>>& cells, const std::vector<std::array<VertexId, N>>& more,
             VertexId first) {
   for (std::array<VertexId, N> cell : more) {
+    end_if_stopped();
     for (VertexId& i : cell) i += first;
     cells.push_back(cell);
   }
@@ -57,6 +59,7 @@ void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, Built
   perturb(x, body.perturb, scene.seed, index, scene.dimension);
   const Vec3 centre = centre_of_mass(x, made.mass), spin = to_vec(body.spin);
   for (std::size_t i = 0; i < x.size(); ++i) {
+    end_if_stopped();
     model.x.push_back(cut<Dim>(to_vec(x[i])));
     model.v.push_back(cut<Dim>(to_vec(body.velocity) + cross(spin, to_vec(x[i]) - centre)));
     if (!model.v.back().allFinite()) field_of_body(scene, index).fail("expected velocities in the range of double");
@@ -120,6 +123,7 @@ ForceList<F> with_steps(const Scene& scene, Sourced<F>&& sourced, const std::vec
   ForceList<F> list;
   std::vector<Origin> origins;
   for (std::size_t i = 0; i < sourced.forces.size(); ++i) {
+    end_if_stopped();
     const auto& ids = sourced.forces[i].vertices;
     const bool idle = std::all_of(ids.begin(), ids.end(), [&](VertexId v) { return inverse_mass[v] == 0; });
     if (idle) {
@@ -132,6 +136,7 @@ ForceList<F> with_steps(const Scene& scene, Sourced<F>&& sourced, const std::vec
   const std::vector<double> limits = stability_limits(list, x, inverse_mass);
   const auto which = bends(F::kind) ? &GivenSteps::bend : &GivenSteps::stretch;
   for (std::size_t i = 0; i < limits.size(); ++i) {
+    end_if_stopped();
     if (!(limits[i] * 0x1p50 > scene.duration)) refuse_stiffness(scene, origins[i].body, F::kind, limits[i]);
     const Given given = given_step(scene.bodies[origins[i].body], origins[i].centre, which);
     if (given.step > limits[i] && !scene.allow_unstable) refuse_step(scene, origins[i].body, given, F::kind, limits[i]);

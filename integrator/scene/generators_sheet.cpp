@@ -6,6 +6,7 @@
 #include "noli/integrator/scene/generators.h"
 #include "noli/integrator/scene/refine.h"
 #include "noli/integrator/scene/turn.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 /// Two triangles for each cell of a lattice of (columns + 1) x (rows + 1) vertices that are numbered row by row.
 void add_lattice_faces(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, Diagonals diagonals) {
   for (std::uint32_t j = 0; j < rows; ++j) {
+    end_if_stopped();
     for (std::uint32_t i = 0; i < columns; ++i) {
       const VertexId a = j * (columns + 1) + i, b = a + 1, d = a + columns + 1, c = d + 1;  // counterclockwise a b c d
       const bool other = diagonals == Diagonals::alternating && (i + j) % 2 == 1;
@@ -125,6 +127,7 @@ Shape make_shape(const Disc& disc) {
       shape.add({r * at.cos, r * at.sin, 0});
     }
     for (std::uint32_t sector = 0; sector < 6; ++sector) {
+      end_if_stopped();
       for (std::uint32_t j = 0; j < k; ++j) {
         const VertexId inner = disc_vertex(k - 1, sector * (k - 1) + j), outer = disc_vertex(k, sector * k + j);
         const VertexId next_outer = disc_vertex(k, sector * k + j + 1);

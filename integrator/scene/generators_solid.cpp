@@ -6,6 +6,7 @@
 #include "noli/integrator/scene/curve.h"
 #include "noli/integrator/scene/generators.h"
 #include "noli/integrator/scene/turn.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -51,6 +52,7 @@ void subdivide(Shape& shape) {
   };
   std::vector<std::array<VertexId, 3>> finer;
   for (const auto& [a, b, c] : shape.mesh.faces) {
+    end_if_stopped();
     const VertexId ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
     finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
   }
@@ -94,6 +96,7 @@ class BoxLattice {
   }
 
   VertexId vertex(const std::array<std::uint32_t, 3>& at) {
+    end_if_stopped();
     const auto [found, is_new] = ids_.try_emplace(at, 0);
     if (is_new) found->second = shape.add(position(at));
     return found->second;
@@ -127,6 +130,7 @@ Shape make_shape(const Rod& rod) {
   const VertexId first = shape.add({-rod.length / 2, 0, 0}), last = shape.add({rod.length / 2, 0, 0});
   const auto vertex = [sides](std::uint32_t k, std::uint32_t j) { return k * sides + j % sides; };
   for (std::uint32_t k = 0; k < n; ++k) {
+    end_if_stopped();
     for (std::uint32_t j = 0; j < sides; ++j) {
       const VertexId a = vertex(k, j), b = vertex(k + 1, j), c = vertex(k + 1, j + 1), d = vertex(k, j + 1);
       const bool other = (k + j) % 2 == 1;
@@ -168,6 +172,7 @@ Shape make_shape(const Torus& torus) {
   }
   const auto vertex = [n, sides](std::uint32_t k, std::uint32_t j) { return (k % n) * sides + j % sides; };
   for (std::uint32_t k = 0; k < n; ++k) {
+    end_if_stopped();
     for (std::uint32_t j = 0; j < sides; ++j) {
       const VertexId a = vertex(k, j), b = vertex(k + 1, j), c = vertex(k + 1, j + 1), d = vertex(k, j + 1);
       const bool other = (k + j) % 2 == 1;

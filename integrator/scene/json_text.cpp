@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -61,6 +62,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
  private:
   Json& insert(Json value) {
+    end_if_stopped();
     if (open_.empty()) return result = std::move(value);
     if (open_.back()->is_array()) return open_.back()->emplace_back(std::move(value));
     return (*open_.back())[key_of_.back()] = std::move(value);

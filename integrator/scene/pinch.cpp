@@ -10,6 +10,7 @@
 #include "noli/kernel/contact.h"
 #include "noli/kernel/first_contact.h"
 #include "noli/kernel/static_predicates.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -140,8 +141,10 @@ class Search {
   template <std::size_t N, std::size_t M>
   bool any_intersect(const Simplices<N>& as, const Simplices<M>& bs) const {
     for (const auto& a : as) {
+      end_if_stopped();
       const auto at_a = at(a, 0);
       for (const auto& b : bs) {
+        end_if_stopped();
         const auto at_b = at(b, 0);
         if (Around<Dim>(at_a).meets(Around<Dim>(at_b)) && intersects(at_a, at_b)) return true;
       }
@@ -168,6 +171,7 @@ class Search {
   std::vector<Moving<N>> moving(const Simplices<N>& cells, double begin, double end) const {
     std::vector<Moving<N>> result;
     for (const auto& cell : cells) {
+      end_if_stopped();
       const auto x = at(cell, begin), y = at(cell, end);
       std::array<Point<Dim>, 2 * N> both;
       std::copy(x.begin(), x.end(), both.begin());
@@ -181,7 +185,9 @@ class Search {
   template <FeaturePair Pair, std::size_t N, std::size_t M>
   void look(const std::vector<Moving<N>>& as, const std::vector<Moving<M>>& bs, std::optional<double>& earliest) const {
     for (const Moving<N>& a : as) {
+      end_if_stopped();
       for (const Moving<M>& b : bs) {
+        end_if_stopped();
         if (!a.around.meets(b.around)) continue;
         Query<Pair, Dim> query;
         std::copy(a.begin.begin(), a.begin.end(), query.x_t0.begin());

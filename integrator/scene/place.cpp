@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "noli/integrator/scene/turn.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -70,6 +71,7 @@ Placed place(const Shape& shape, const Deform& deform, const Transform& transfor
   const Matrix rotation = std::visit([](const auto& r) { return matrix(r); }, transform.rotate);
   const bool rotated = !std::holds_alternative<std::monostate>(transform.rotate);
   for (const Position& p : shape.positions) {
+    end_if_stopped();
     const Position rest{transform.scale * p[0], transform.scale * p[1], transform.scale * p[2]};
     const Position bent = deformed(rest, deform), turned = rotated ? apply(rotation, bent) : bent;
     placed.rest.push_back(rest);
@@ -83,6 +85,7 @@ void perturb(std::vector<Position>& positions, double amplitude, std::uint64_t s
   if (amplitude == 0) return;
   const std::uint64_t of_body = mix(mix(seed) ^ body);
   for (std::size_t i = 0; i < positions.size(); ++i) {
+    end_if_stopped();
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis) {
       positions[i][axis] += amplitude * even(mix(of_body ^ (3 * i + axis)));
     }

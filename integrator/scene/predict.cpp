@@ -10,6 +10,7 @@
 
 #include "noli/integrator/groups.h"
 #include "noli/integrator/scene/window_count.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -41,6 +42,7 @@ AtVertices<Dim> free_vertices(const Model<double, Dim>& model) {
 
 template <class F, int Dim>
 void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtVertices<Dim>& at) {
+  end_if_stopped();
   Stencil<double, Dim, F::size> x;
   for (std::size_t i = 0; i < F::size; ++i) x[i] = model.x[force.vertices[i]];
   const auto gradients = force.measure_gradients(x);
@@ -107,6 +109,7 @@ template <int Dim>
 std::vector<ResonanceWarning> find_resonances(const AtVertices<Dim>& at, Clocks clocks) {
   Warnings warnings(clocks);
   for (VertexId v = 0; v < at.pulls.size(); ++v) {
+    end_if_stopped();
     for (const Pull<Dim>& fast : at.pulls[v]) {
       const Axes<Dim> axes(fast.squared_frequencies);
       for (const Pull<Dim>& slow : at.pulls[v]) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "noli/integrator/scene/curve.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
@@ -116,6 +117,7 @@ void refine(Shape& shape, const std::array<double, 2>& at, double radius, double
   for (bool halved = true; halved;) {
     halved = false;
     for (std::size_t f = 0; f < bisection.size(); ++f) {
+      end_if_stopped();
       if (!too_large(f)) continue;
       bisection.halve(f);
       halved = true;

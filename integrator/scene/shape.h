@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "noli/trajectory/mesh.h"
+#include "noli/trajectory/stop.h"
 
 namespace noli::integrator {
 
@@ -16,7 +17,9 @@ struct Shape {
   std::vector<Position> positions;
   std::map<std::string, std::vector<VertexId>> sets;  ///< vertices by the name of a set, ascending
 
+  /// Throws Stopped: generators add many.
   VertexId add(const Position& x) {
+    end_if_stopped();
     positions.push_back(x);
     return static_cast<VertexId>(mesh.vertex_count++);
   }

@@ -269,7 +269,8 @@ TEST(FileFacts, OfAnyFile) {
   const auto file = folder.write("large", bytes);
   EXPECT_EQ(file_facts(file).bytes, bytes.size());
   EXPECT_EQ(file_facts(file).sha256, sha256(bytes));
-  EXPECT_EQ(input_error([&] { file_facts(folder / "none"); }), (folder / "none").string() + ": cannot be opened");
+  EXPECT_EQ(input_error([&] { file_facts(folder / "none"); }),
+            (folder / "none").string() + ": cannot be opened: No such file or directory");
   EXPECT_THROW(file_facts(file, [] { return true; }), ReadInterrupted);
 }
 

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Time limits and interruptions: every command hears them soon, wherever it is, and a limit that is not reached changes
+// nothing.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <functional>
+
+#include "noli/tests/app/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+/// Every input here takes many times as long.
+constexpr double soon = 3;  ///< seconds; loaded machines are slow
+
+struct Timed {
+  Process process;
+  double seconds;
+};
+
+Timed timed(const std::vector<std::string>& arguments, const ProcessOptions& options = {}) {
+  const auto begin = std::chrono::steady_clock::now();
+  Process process = run_noli(arguments, options);
+  return {std::move(process), std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+}
+
+std::string pipe_in(const Folder& folder, const std::string& name) {
+  const std::string path = folder.path(name);
+  if (::mkfifo(path.c_str(), 0600) != 0) ADD_FAILURE() << "no pipe";
+  return path;
+}
+
+/// Its generator makes 4 million vertices, and its forces many times as much.
+Json large_scene() {
+  Json json = Json::parse(R"({
+      "noli_scene": 1, "duration": 1, "window": 0.01, "gravity": [0, 0, -9.81],
+      "bodies": [{"name": "sheet", "mesh": {"grid": {"size": [1, 1], "cells": [2000, 2000]}},
+                  "material": {"young": 2e4, "poisson": 0.3, "density": 200, "thickness": 0.001, "bending": 100}}],
+      "contact": {"thickness": 1e-5}})");
+  return json;
+}
+
+/// A script moves one of two tools of many cells each: whether they pinch is looked for among all pairs.
+Json scene_of_tools() {
+  const Json mesh = {{"grid", {{"size", {1, 1}}, {"cells", {150, 150}}}}};
+  const Json material = {{"young", 2e4}, {"density", 200}, {"thickness", 0.001}};
+  Json json = {{"noli_scene", 1}, {"duration", 1}, {"window", 0.01}};
+  json["bodies"] = {
+      {{"name", "low"}, {"mesh", mesh}, {"material", material}, {"pin", {"all"}}},
+      {{"name", "high"}, {"mesh", mesh}, {"material", material}, {"transform", {{"translate", {0, 0, 1}}}}},
+      {{"name", "free"},
+       {"mesh", {{"grid", {{"size", {1, 1}}, {"cells", {2, 2}}}}}},
+       {"material", material},
+       {"transform", {{"translate", {0, 0, 5}}}}}};
+  json["scripts"] = {
+      {{"body", "high"}, {"path", {{{"t", 0}, {"move", {0, 0, 0}}}, {{"t", 1}, {"move", {0, 0, -0.5}}}}}}};
+  json["contact"] = {{"thickness", 1e-4}, {"stiffness", 100}};
+  return json;
+}
+
+/// A run of one window whose frames can be sampled as densely as anybody likes.
+std::string small_run(const Folder& folder) {
+  const std::string scene = folder.write("bar.json", resting_bar(1, 1).dump()), run = folder.path("bar");
+  EXPECT_EQ(run_noli({"simulate", scene, "-o", run}).exit_code, 0);
+  return run;
+}
+
+/// Whether this noli writes pages; says so when a test has to go without them.
+bool reports_are_built(const Folder& folder) {
+  const Process process = run_noli({"report", "nothing.json", "-o", folder.path("probe.html")});
+  const bool built = process.err.find("was built without reports") == std::string::npos;
+  if (!built) std::fputs("skipped: reports, which are not built (NOLI_WITH_REPORT)\n", stderr);
+  return built;
+}
+
+/// What takes longer than anybody waits.
+struct Endless {
+  const char* name;
+  std::function<std::vector<std::string>(const Folder&)> arguments;
+  bool tells = true;     ///< ends with a verdict; else with a message alone
+  bool reports = false;  ///< asks for a page
+};
+
+void PrintTo(const Endless& endless, std::ostream* out) { *out << endless.name; }
+
+class LongWork : public testing::TestWithParam<Endless> {
+ protected:
+  void SetUp() override {
+    if (GetParam().reports && !reports_are_built(folder)) GTEST_SKIP() << "skipped: reports (NOLI_WITH_REPORT)";
+  }
+
+  void expect_end(const Timed& timed, const std::string& why) const {
+    const auto& [process, seconds] = timed;
+    EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+    EXPECT_LT(seconds, soon);
+    if (GetParam().tells) {
+      EXPECT_NE(process.out.find("UNDECIDED"), std::string::npos) << process.out;
+    } else {
+      EXPECT_NE(process.err.find(why), std::string::npos) << process.err;
+    }
+  }
+
+  Folder folder;
+};
+
+TEST_P(LongWork, EndsAtItsTimeLimit) {
+  auto arguments = GetParam().arguments(folder);
+  arguments.insert(arguments.end(), {"--time-limit", "200ms"});
+  expect_end(timed(arguments), "the time limit has passed");
+}
+
+TEST_P(LongWork, EndsWhenItIsInterrupted) {
+  expect_end(timed(GetParam().arguments(folder), interrupt_after(200)), "interrupted");
+}
+
+const Endless long_work[] = {
+    {"SimulateALargeScene",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"simulate", folder.write("s.json", large_scene().dump()), "-o", folder.path("run"), "--ignore-space"};
+     }},
+    {"SimulateTools",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"simulate", folder.write("s.json", scene_of_tools().dump()), "-o", folder.path("run")};
+     }},
+    {"SimulateAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"simulate", pipe_in(folder, "s.json"), "-o", folder.path("run")};
+     },
+     false},
+    {"ExplainALargeScene",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"explain", folder.write("s.json", large_scene().dump())};
+     },
+     false},
+    {"ExplainTools",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"explain", folder.write("s.json", scene_of_tools().dump())};
+     },
+     false},
+    {"ExplainAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"explain", pipe_in(folder, "s.json")};
+     },
+     false},
+    {"VerifyAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"verify", folder.write("a.ply", two_triangles(1)), pipe_in(folder, "b.ply")};
+     }},
+    {"CheckAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"check", pipe_in(folder, "proof.noli"), folder.write("a.ply", two_triangles(1))};
+     },
+     false},
+    {"InfoOfAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"info", pipe_in(folder, "a.ply")};
+     },
+     false},
+    {"ReportOfAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"report", pipe_in(folder, "result.json"), "-o", folder.path("page.html")};
+     },
+     false, true},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, LongWork, testing::ValuesIn(long_work),
+                         [](const auto& of) { return std::string(of.param.name); });
+
+class Limits : public Simulate {};
+
+TEST_F(Limits, AnExportEndsAndSaysSo) {
+  const std::string run = small_run(folder);
+  const std::vector<std::string> arguments = {"export", run, "--fps", "1e6", "-o", folder.path("f/%06d.ply")};
+  auto limited = arguments;
+  limited.insert(limited.end(), {"--time-limit", "200ms"});
+  for (const Timed& end : {timed(limited), timed(
+                                               [&] {
+                                                 auto again = arguments;
+                                                 again.emplace_back("--force");
+                                                 return again;
+                                               }(),
+                                               interrupt_after(200))}) {
+    EXPECT_EQ(end.process.exit_code, 2) << end.process.err;
+    EXPECT_NE(end.process.out.find("complete false"), std::string::npos) << end.process.out;
+    EXPECT_LT(end.seconds, soon);
+  }
+}
+
+TEST_F(Limits, ARunThatIsStoppedBeforeItBeginsLeavesNothing) {
+  const std::string file = scene(large_scene());
+  const Json json = json_of({"simulate", file, "-o", run_path("run"), "--ignore-space", "--time-limit", "100ms"}, 2);
+  EXPECT_EQ(json["verdict"], "undecided");
+  EXPECT_EQ(json["end"], "time_limit");
+  EXPECT_EQ(json["windows"], 0);
+  EXPECT_EQ(json["windows_total"], 100);
+  EXPECT_FALSE(fs::exists(run_path("run")));
+}
+
+TEST_F(Limits, ALimitThatIsNotReachedChangesNothing) {
+  const std::string run = small_run(folder);
+  const auto a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(2));
+  ASSERT_EQ(run_noli({"verify", a, b, "--proof", folder.path("p.noli"), "--json", folder.path("r.json")}).exit_code, 0);
+  const std::string file = scene(hanging_sheet());
+  std::vector<std::vector<std::string>> commands = {
+      {"explain", file},
+      {"explain", run},
+      {"verify", a, b},
+      {"check", folder.path("p.noli"), a, b},
+      {"info", a, run, folder.path("p.noli")},
+      {"export", run, "--fps", "10", "-o", folder.path("e/%d.ply"), "--force"},
+      {"simulate", file, "-o", folder.path("sheet"), "--force"},
+  };
+  if (reports_are_built(folder)) {
+    commands.push_back({"report", folder.path("r.json"), a, b, "-o", folder.path("page.html"), "--force"});
+  }
+  for (auto command : commands) {
+    const Process without = run_noli(command);
+    command.insert(command.end(), {"--time-limit", "10m"});
+    const Process with = run_noli(command);
+    EXPECT_EQ(without.exit_code, 0) << command[0] << without.err;
+    EXPECT_EQ(with.exit_code, 0) << command[0] << with.err;
+    EXPECT_EQ(with.verdict_line(), without.verdict_line()) << command[0];
+  }
+}
+
+TEST_F(Limits, ALimitHasToBeADuration) {
+  const auto a = folder.write("a.ply", two_triangles(1));
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"explain", a},
+                                                  {"check", a, a},
+                                                  {"info", a},
+                                                  {"report", a, "-o", folder.path("p.html")},
+                                                  {"export", folder.path("run"), "-o", folder.path("%d.ply")}}) {
+    auto arguments = command;
+    arguments.insert(arguments.end(), {"--time-limit", "soon"});
+    const Process process = run_noli(arguments);
+    EXPECT_EQ(process.exit_code, 3) << command[0];
+    EXPECT_NE(process.err.find("--time-limit: 'soon' is no duration"), std::string::npos) << process.err;
+  }
+}
+
+TEST_F(Limits, AFileWithoutAnEndIsRefused) {
+  const auto link = folder.path("zeros.ply");
+  fs::create_symlink("/dev/zero", link);
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"info", "/dev/zero"},
+                                                  {"info", link},
+                                                  {"verify", link, link},
+                                                  {"explain", "/dev/zero"}}) {
+    const auto [process, seconds] = timed(command);
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_LT(seconds, soon);
+    EXPECT_LT(process.peak_bytes, 1'000'000'000u);
+  }
+  // A file that is larger than memory, of nothing.
+  const auto huge = folder.write("huge.ply", two_triangles(1));
+  fs::resize_file(huge, std::uintmax_t{1} << 42);
+  const auto [process, seconds] = timed({"info", huge});
+  EXPECT_EQ(process.exit_code, 3) << process.out;
+  EXPECT_NE(process.err.find("half of this machine's memory"), std::string::npos) << process.err;
+  EXPECT_LT(seconds, soon);
+}
+
+/// `noli` with a checker that is a script.
+class OtherChecker : public Limits {
+ protected:
+  ProcessOptions with(const std::string& script) const {
+    ProcessOptions options;
+    options.program = folder.path("noli");
+    if (!fs::exists(options.program)) fs::copy_file(NOLI_COMMAND, options.program);
+    fs::permissions(folder.write("noli_check", "#!/bin/sh\n" + script + "\n"), fs::perms::owner_all);
+    return options;
+  }
+  std::vector<std::string> verify(const std::string& limit) const {
+    return {"verify", folder.write("a.ply", two_triangles(1)), folder.write("b.ply", two_triangles(2)), "--time-limit",
+            limit};
+  }
+};
+
+TEST_F(OtherChecker, ThatSaysNothingIsEndedAtTheLimit) {
+  const auto [process, seconds] = timed(verify("300ms"), with("exec sleep 60"));
+  EXPECT_EQ(process.exit_code, 2) << process.err;
+  EXPECT_NE(process.out.find("UNDECIDED"), std::string::npos) << process.out;
+  EXPECT_LT(seconds, soon);
+}
+
+TEST_F(OtherChecker, ThatClosesItsOutputAndStaysIsEnded) {
+  const std::string closes = "cat >/dev/null; exec >&- 2>&-; exec sleep 60";
+  const auto [limited, seconds] = timed(verify("500ms"), with(closes));
+  EXPECT_EQ(limited.exit_code, 2) << limited.err;
+  EXPECT_LT(seconds, soon);
+  const auto [patient, longer] = timed(verify("10m"), with(closes));
+  EXPECT_EQ(patient.exit_code, 4) << patient.out;
+  EXPECT_NE(patient.err.find("closed its output, but did not end"), std::string::npos) << patient.err;
+  EXPECT_LT(longer, 10);
+}
+
+TEST_F(OtherChecker, ThatSaysTooMuchTakesNoMemory) {
+  const auto [process, seconds] = timed(verify("10m"), with("cat >/dev/null; head -c 500000000 /dev/zero"));
+  EXPECT_EQ(process.exit_code, 4) << process.out;
+#if !defined(__SANITIZE_ADDRESS__)
+  EXPECT_LT(process.peak_bytes, 100'000'000u);
+#endif
+}
+
+TEST_F(Limits, ManyTinyFramesTakeLittleMemory) {
+  std::vector<std::string> few = {"verify"}, many = {"verify"};
+  for (int k = 0; k < 10'000; ++k) {
+    const std::string frame = folder.write(std::to_string(100'000 + k) + ".obj",
+                                           "v 0 0 0\nv 1 0 0\nv 0 1 " + std::to_string(k) + "\nf 1 2 3\n");
+    if (k < 10) few.push_back(frame);
+    many.push_back(frame);
+  }
+  const Process small = run_noli(few), large = run_noli(many);
+  ASSERT_EQ(small.exit_code, 0) << small.err;
+  ASSERT_EQ(large.exit_code, 0) << large.err;
+#if !defined(__SANITIZE_ADDRESS__)
+  EXPECT_LT(large.peak_bytes, small.peak_bytes + 20'000'000u);
+#endif
+}
+
+}  // namespace
+}  // namespace noli::app_tests

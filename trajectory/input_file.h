@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A file or pipe that is read from beginning to end, and hears a request to stop (stop.h) while it waits.
+//
+// Opening does not block: a named pipe that nobody writes to is waited for in read(). What has no end is refused:
+// devices other than terminals at once, anything else where it would fill the memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace noli {
+
+class InputFile {
+ public:
+  /// Throws InputError without a place when it is missing, is a folder or a device, or cannot be opened.
+  explicit InputFile(const std::filesystem::path& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// Reads the next bytes, at most `size`; 0 at the end. Throws InputError when that fails, ReadInterrupted.
+  std::size_t read(char* to, std::size_t size);
+  /// All that is left. Throws as read() does, and InputError when it is more than half of this machine's memory.
+  std::string read_to_end();
+
+ private:
+  void wait() const;
+
+  std::string name_;
+  int descriptor_ = -1;
+  bool regular_ = false;
+  std::uint64_t size_ = 0;   ///< bytes of a regular file
+  std::uint64_t taken_ = 0;  ///< bytes that were read
+};
+
+}  // namespace noli
