@@ -10,6 +10,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/run_figure.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/run_picture.h"
 
 namespace noli::app {
@@ -51,6 +52,7 @@ ExitCode paint(const PictureRequest& request) {
 
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
+  note_if_being_written(request.run);
   if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern, request.force});
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern, request.force});
   const ExportOutcome outcome = run_export(request);

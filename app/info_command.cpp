@@ -112,7 +112,10 @@ Answer info_answer(const Json& files) {
 ExitCode run(const InfoArguments& arguments) {
   const Output output(arguments.results, with_files_of_runs(arguments.files));
   Json files = Json::array();
-  for (const auto& path : arguments.files) files.push_back(info_of(path));
+  for (const auto& path : arguments.files) {
+    if (!arguments.results.quiet) note_if_being_written(path);
+    files.push_back(info_of(path));
+  }
   output.write("info", info_answer(files), {{"verdict", "described"}, {"files", files}});
   return ExitCode::holds;
 }

@@ -180,7 +180,7 @@ TEST(BlockFileErrors, OfTheFileSystem) {
   EXPECT_EQ(input_error([&] { read("absent"); }),
             (folder / "absent").string() + ": cannot be opened: No such file or directory");
   EXPECT_EQ(input_error([&] { BlockReader(folder.path(), content).next(); }),
-            folder.path().string() + ": is no regular file, as a block file must be");
+            folder.path().string() + ": is no regular file; expected one");
 }
 
 TEST(FileSink, AFullDiskIsAnError) {
