@@ -89,6 +89,8 @@ void RunFolder::lock() {
     lock_.emplace(path_);
   } catch (const FolderLocked& locked) {
     throw UsageError("-o " + std::string(locked.what()) + "; expected another folder, or to wait for its end");
+  } catch (const std::system_error& closed) {
+    throw UsageError("-o " + std::string(closed.what()) + "; expected a folder that may be read and written to");
   }
 }
 
