@@ -176,8 +176,8 @@ class RunReader {
   std::string open_window_message() const;
 
   /// From now on next_window() throws InputError, too, when the file ends before it has these windows, or has another
-  /// hash behind the last of them. To be called before that one is read.
-  void expect(const KnownWindows& known) { known_ = known; }
+  /// hash behind the last of them; so does this, when that one has just been read.
+  void expect(const KnownWindows& known);
   /// Throws what next_window() would as far as a quick look tells, which reads no window and checks no checksum.
   void look_for_expected();
 

@@ -138,7 +138,6 @@ std::optional<RunWindow> RunReader::next_window() {
   std::optional<std::vector<Block>> blocks = window_blocks();
   if (!blocks) {
     require_count(windows());
-    if (windows() == known_.count) require_hash(running_hash());
     return std::nullopt;
   }
   const run_block::WindowTimes times = run_block::decode_window({blocks_.name(), blocks->front()});
@@ -159,6 +158,11 @@ std::optional<RunWindow> RunReader::next_window() {
   last_ = WindowEnd{window.end, window.positions};
   if (windows() == known_.count) require_hash(running_hash());
   return window;
+}
+
+void RunReader::expect(const KnownWindows& known) {
+  known_ = known;
+  if (windows() == known_.count) require_hash(running_hash());
 }
 
 void RunReader::require_count(std::uint64_t count) const {
