@@ -11,6 +11,7 @@
 #include "noli/app/input_report.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/time_limit.h"
 #include "noli/trajectory/error.h"
@@ -77,15 +78,19 @@ std::vector<std::string> asked_by(const CheckArguments& arguments) {
 }
 
 /// All windows that the log of a run tells of are asked where some are missing. What cannot be read is the checker's to
-/// say.
+/// say. Throws InputError when the log is damaged, or has another hash of what is there.
 void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words) {
-  if (asks(words, "steps")) return;
+  const LogFacts log = read_log(run);
+  std::optional<RunReader> reader;
+  std::uint64_t windows = 0;
   try {
-    const std::uint64_t logged = read_log(run).windows_told;
-    if (RunReader(run).count_windows() < logged) words.push_back("steps=" + std::to_string(logged));
+    reader.emplace(open_run(run, log));
+    windows = reader->count_windows();
   } catch (const InputError&) {
     return;
   }
+  if (windows >= log.known.count) return reader->look_for_expected();
+  if (!asks(words, "steps")) words.push_back("steps=" + std::to_string(log.known.count));
 }
 
 Json asked_json(const std::vector<std::string>& words) {
@@ -155,7 +160,10 @@ ExitCode run(const CheckArguments& arguments) {
   if (arguments.claim) inputs.push_back(*arguments.claim);
   const Output output(arguments.results, inputs);
   std::vector<std::string> asked = asked_by(arguments);
-  if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) ask_for_all_windows(trajectory[0], asked);
+  if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
+    if (!arguments.results.quiet) note_if_being_written(trajectory[0]);
+    ask_for_all_windows(trajectory[0], asked);
+  }
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
   CheckerProcess checker(which, proof, trajectory_for_checker(trajectory), asked);
   const auto said = checker.finish();

@@ -10,6 +10,7 @@
 #include "noli/app/options.h"
 #include "noli/app/output.h"
 #include "noli/app/run_figure.h"
+#include "noli/app/run_folder.h"
 #include "noli/app/run_picture.h"
 #include "noli/app/time_limit.h"
 
@@ -54,6 +55,7 @@ ExitCode paint(const PictureRequest& request) {
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   begin_work(arguments.time_limit);
+  note_if_being_written(request.run);
   if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern, request.force});
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern, request.force});
   const ExportOutcome outcome = run_export(request);

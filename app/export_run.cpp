@@ -11,6 +11,7 @@
 #include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/output.h"
+#include "noli/app/run_log_facts.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/write_obj.h"
@@ -68,7 +69,7 @@ Pattern parse_pattern(const std::string& text) {
 class Export {
  public:
   explicit Export(const ExportRequest& request)
-      : request_(request), pattern_(parse_pattern(request.pattern)), reader_(request.run) {
+      : request_(request), pattern_(parse_pattern(request.pattern)), reader_(open_run(request.run)) {
     find_earlier();
     make_writable_folder(pattern_.folder(), "-o");
   }

@@ -115,7 +115,10 @@ ExitCode run(const InfoArguments& arguments) {
   begin_work(arguments.time_limit);
   const Output output(arguments.results, arguments.files);
   Json files = Json::array();
-  for (const auto& path : arguments.files) files.push_back(info_of(path));
+  for (const auto& path : arguments.files) {
+    if (!arguments.results.quiet) note_if_being_written(path);
+    files.push_back(info_of(path));
+  }
   output.write("info", info_answer(files), {{"verdict", "described"}, {"files", files}});
   return ExitCode::holds;
 }

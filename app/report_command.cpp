@@ -119,6 +119,7 @@ class Report {
 
   const ReportPage& operator()() {
     read_results();
+    if (inputs_.run) note_if_being_written(*inputs_.run);
     if (inputs_.run) report_run(*inputs_.run, arguments_.limits, report_);
     if (!inputs_.frames.empty()) put_frames();
     if (verified_) put_verdict_of_verify();

@@ -35,15 +35,18 @@ void stop_if_interrupted(const std::filesystem::path& what) {
 class Run {
  public:
   Run(const std::filesystem::path& path, const ReportLimits& limits)
-      : path_(path), limits_(limits), reader_(path), packer_(reader_.mesh().vertex_count, limits.most_bytes) {}
+      : path_(path),
+        limits_(limits),
+        log_(read_log(path)),
+        reader_(open_run(path, log_)),
+        packer_(reader_.mesh().vertex_count, limits.most_bytes) {}
 
   void put(ReportPage& report) {
     while (const auto window = reader_.next_window()) {
       add(*window);
       stop_if_interrupted(path_);
     }
-    const LogFacts log = read_log(path_);
-    require_all_windows(path_, log, rows_.size());
+    const LogFacts& log = log_;
     report.page["title"] = title_of(path_);
     // Without a window nothing was decided, however the run ended.
     take_word(rows_.empty() && log.last_end == "done" ? "undecided" : word_of_end(log.last_end, log.going_on), report);
@@ -172,6 +175,7 @@ class Run {
 
   const std::filesystem::path& path_;
   const ReportLimits& limits_;
+  LogFacts log_;
   RunReader reader_;
   MotionPacker packer_;
   std::vector<SeriesRow> rows_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "noli/app/model_run.h"
+#include "noli/app/run_log_facts.h"
 #include "noli/app/run_series.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
@@ -23,7 +24,7 @@ struct Found {
 
 template <int Dim>
 Found<Dim> find_window(const ReproduceRequest& request) {
-  RunReader reader(request.run);
+  RunReader reader = open_run(request.run);
   Found<Dim> found;
   while (auto window = reader.next_window()) {
     end_if_stopped();

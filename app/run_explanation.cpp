@@ -13,11 +13,10 @@ constexpr std::size_t most_worst = 5;
 
 class Explaining {
  public:
-  explicit Explaining(const std::filesystem::path& run) : run_(run), reader_(run) {
+  explicit Explaining(const std::filesystem::path& run) : run_(run), log_(read_log(run)), reader_(open_run(run, log_)) {
     result_.title = title_of(run);
     result_.dimension = reader_.header().dimension;
     result_.full = reader_.header().record == RecordMode::full;
-    result_.log = read_log(run);
   }
 
   RunExplanation operator()() {
@@ -25,7 +24,7 @@ class Explaining {
       end_if_stopped();
       add(std::move(*window));
     }
-    require_all_windows(run_, result_.log, result_.windows);
+    result_.log = std::move(log_);
     result_.open_window = reader_.open_window().has_value();
     if (nearest_lines_) {
       const ActingLayer& nearest = result_.nearest->action;
@@ -78,6 +77,7 @@ class Explaining {
   }
 
   const std::filesystem::path& run_;
+  LogFacts log_;
   RunReader reader_;
   std::optional<WorldLines> nearest_lines_;  ///< of the window in which things came nearest
   RunExplanation result_;

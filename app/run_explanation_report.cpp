@@ -161,7 +161,7 @@ std::string time_text(const RunExplanation& e) {
     text += fmt::format("{} of {} part(s) of the run did not end by themselves; their time is not known.\n",
                         e.log.parts - e.log.parts_ended, e.log.parts);
   }
-  if (e.log.bad_lines > 0) text += fmt::format("{} line(s) of the log are damaged.\n", e.log.bad_lines);
+  if (e.log.bad_lines > 0) text += fmt::format("{} line(s) of the log say nothing that is known.\n", e.log.bad_lines);
   return text;
 }
 

@@ -11,6 +11,7 @@
 #include "noli/app/output.h"
 #include "noli/app/output_files.h"
 #include "noli/app/run_folder.h"
+#include "noli/app/run_log_facts.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/stop.h"
 #include "noli/trajectory/write_file.h"
@@ -51,7 +52,7 @@ FigureData read(const std::filesystem::path& run, RunReader& reader) {
 FigureOutcome run_figure(const FigureRequest& request) {
   const std::size_t figure = number_of(request.figure);
   const bool picture = is_picture(request.output);
-  RunReader reader(request.run);
+  RunReader reader = open_run(request.run);
   require_output_files({{"-o", request.output, true}}, {request.run}, request.force);
   const FigureData data = read(request.run, reader);
   replace_file(request.output, (picture ? svg_writers() : csv_writers())[figure](data));

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/run_folder.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
 #include "noli/app/exit_code.h"
+#include "noli/app/notes.h"
 #include "noli/app/output.h"
+#include "noli/app/run_log_facts.h"
 #include "noli/app/version.h"
+#include "noli/trajectory/block_sink.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/frame_look.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_manifest.h"
 
@@ -18,22 +23,39 @@ namespace fs = std::filesystem;
 
 std::string text_of(const Json& scene) { return scene.dump(2) + "\n"; }
 
-/// Whether a folder holds nothing but what a run is made of, or nothing at all: what may be removed with --force. What
-/// a run begins with is trajectory.blocks; a lonely scene.json is somebody's scene.
-bool is_run(const fs::path& folder) {
+/// Whether a run may have made it: also what a kill leaves of a file that was about to be one, or with which it was
+/// tried whether one may write.
+bool is_own_file(const fs::path& name) {
   static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks",
                                               "proof.blocks",  "log.jsonl",  "series.h5"};
+  if (name.string().starts_with(".noli-")) return true;
+  return names.count((name.extension() == ".part" ? name.stem() : name).string()) > 0;
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  return files;
+}
+
+bool is_scrap(const fs::path& file) { return file.filename().string().starts_with(".noli-"); }
+
+/// Whether a folder holds a run, or nothing at all. What a run begins with is trajectory.blocks; a lonely scene.json is
+/// somebody's scene.
+bool is_run(const fs::path& folder) {
   std::error_code error;
-  fs::directory_iterator entries(folder, error);
-  if (error) return false;
-  bool begun = false, other = false;
-  for (const auto& entry : entries) {
-    const fs::path name = entry.path().filename();
-    if (name.string().starts_with(".noli-")) continue;  // left by a kill while it was tried whether one may write
-    if (names.count((name.extension() == ".part" ? name.stem() : name).string()) == 0) return false;
-    (name == "trajectory.blocks" ? begun : other) = true;
+  if (!fs::is_directory(folder, error)) return false;
+  if (fs::is_regular_file(trajectory_path(folder), error)) return true;
+  const std::vector<fs::path> files = files_in(folder);
+  return std::all_of(files.begin(), files.end(), is_scrap);
+}
+
+/// Whoever made the folder may have put a link where the run will write: its target may be anybody's.
+void require_no_links(const fs::path& folder) {
+  for (const fs::path& file : files_in(folder)) {
+    if (!is_own_file(file.filename()) || !fs::is_symlink(fs::symlink_status(file))) continue;
+    throw UsageError("--resume: " + file.string() + " is a link, which is not written to; expected a file of the run");
   }
-  return begun || !other;
 }
 
 /// A scene without what a run's bytes do not depend on.
@@ -43,26 +65,14 @@ Json essential(Json scene) {
   return scene;
 }
 
-/// Nobody else may be writing to a run that is replaced.
-void require_idle(const fs::path& folder) {
-  if (!fs::exists(folder / "log.jsonl")) return;
-  try {
-    const RunLog log(folder);
-  } catch (const std::system_error& error) {
-    throw UsageError("--force: " + folder.string() + " cannot be replaced: " + error.what());
-  }
-}
-
-/// What is in a folder, but not the folder: it may be the current one. What tells that it is a run goes last, so it
-/// is one still if this is cut short.
+/// The files of a run, but not the folder: it may be the current one. What tells that it is a run goes last, so it is one
+/// still if this is cut short. A link is removed, and its target stays.
 void clear(const fs::path& folder) {
   const fs::path last = trajectory_path(folder);
-  std::vector<fs::path> entries;
-  for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
-  for (const fs::path& entry : entries) {
-    if (entry != last) fs::remove_all(entry);
+  for (const fs::path& file : files_in(folder)) {
+    if (file != last && is_own_file(file.filename()) && !fs::is_directory(fs::symlink_status(file))) fs::remove(file);
   }
-  fs::remove_all(last);
+  fs::remove(last);
 }
 
 }  // namespace
@@ -72,26 +82,39 @@ RunFolder::RunFolder(const fs::path& path) : path_(path.lexically_normal()) {
   if (!path_.has_filename() && path_.has_relative_path()) path_ = path_.parent_path();
 }
 
+void RunFolder::lock() {
+  std::error_code error;
+  if (lock_ || !fs::is_directory(path_, error)) return;
+  try {
+    lock_.emplace(path_);
+  } catch (const FolderLocked& locked) {
+    throw UsageError("-o " + std::string(locked.what()) + "; expected another folder, or to wait for its end");
+  } catch (const std::system_error& closed) {
+    throw UsageError("-o " + std::string(closed.what()) + "; expected a folder that may be read and written to");
+  }
+}
+
 void RunFolder::make(bool force) {
   std::error_code error;
-  if (fs::exists(fs::symlink_status(path_, error))) {
-    const bool empty = fs::is_directory(path_, error) && fs::is_empty(path_, error);
-    if (!empty && !force) {
-      throw UsageError("-o " + path_.string() + ": is there already; expected a new folder, --resume or --force");
-    }
-    if (!is_run(path_))
-      throw UsageError("-o " + path_.string() + ": is no run; expected a folder that may be replaced");
-    require_writable_folder(path_.string(), "-o");
-    require_idle(path_);
-    clear(path_);
+  if (!fs::exists(fs::symlink_status(path_, error))) make_writable_folder(path_, "-o");
+  lock();
+  const bool empty = fs::is_directory(path_, error) && fs::is_empty(path_, error);
+  if (!empty && !force) {
+    throw UsageError("-o " + path_.string() + ": is there already; expected a new folder, --resume or --force");
   }
-  make_writable_folder(path_, "-o");
+  if (!is_run(path_)) throw UsageError("-o " + path_.string() + ": is no run; expected a folder that may be replaced");
+  require_writable_folder(path_.string(), "-o");
+  clear(path_);
 }
 
 void RunFolder::begin(const Json& scene, const Sha256Digest& model, const Json& facts) {
   write_manifest(path_, text_of(scene), {{"noli", version_number()}}, model);
   log_.emplace(path_);
-  Json entry = {{"event", "begin"}};
+  log_begin(facts);
+}
+
+void RunFolder::log_begin(const Json& facts) {
+  Json entry = {{"event", "begin"}, {"version", log_version}, {"manifest_sha256", hex(manifest_hash(path_))}};
   entry.update(facts);
   log(entry);
 }
@@ -99,6 +122,7 @@ void RunFolder::begin(const Json& scene, const Sha256Digest& model, const Json& 
 bool RunFolder::has_begun() const {
   if (!is_run(path_)) throw UsageError("--resume: " + path_.string() + " is no run; expected the folder of one");
   require_writable_folder(path_.string(), "--resume");
+  require_no_links(path_);
   const fs::path trajectory = trajectory_path(path_);
   if (fs::exists(trajectory)) require_writable_file(trajectory, "--resume");
   if (fs::exists(path_ / "manifest.json")) return true;
@@ -107,7 +131,8 @@ bool RunFolder::has_begun() const {
   throw UsageError("--resume: " + path_.string() + " has lost its manifest.json; expected a whole run");
 }
 
-void RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
+KnownWindows RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
+  const LogFacts told = read_log(path_);
   const RunManifest manifest = read_manifest(path_);
   const Json there = Json::parse(read_scene(path_, manifest), nullptr, false);
   if (!there.is_object() || essential(there) != essential(scene)) {
@@ -123,7 +148,17 @@ void RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
   } catch (const std::system_error& lock) {
     throw UsageError("--resume: " + std::string(lock.what()) + "; expected a run that may be written to");
   }
-  log({{"event", "resume"}});
+  log_has_begun_ = told.parts > 0;
+  KnownWindows known = told.known;
+  known.made_again = true;
+  return known;
+}
+
+void RunFolder::resumed(const CommittedWindows& committed, const Json& facts) {
+  if (!log_has_begun_) log_begin(facts);
+  Json entry = {{"event", "resume"}};
+  committed.tell(entry);
+  log(entry);
 }
 
 std::string title_of(const fs::path& run) {
@@ -142,16 +177,33 @@ std::optional<double> duration_of(const fs::path& run) {
   return std::nullopt;
 }
 
-void RunFolder::log(std::uint64_t window, const SeriesRow& row, std::uint32_t deepest) {
+Sha256Digest RunFolder::keep_series() const {
+  const fs::path series = path_ / "series.h5";
+  FileSink(series, FileSink::Open::existing).sync();
+  sync_folder(path_);
+  return file_facts(series).sha256;
+}
+
+void CommittedWindows::tell(Json& entry) const {
+  entry["windows"] = count;
+  entry["running"] = hex(running);
+}
+
+void RunFolder::log(const CommittedWindows& committed, const SeriesRow& row, std::uint32_t deepest) {
   log({{"event", "window"},
-       {"window", window},
+       {"window", committed.count - 1},
        {"time", row.time},
        {"verdict", "no_contact"},
        {"events", row.events_in_all()},
        {"breakpoints", row.breakpoints},
+       {"running", hex(committed.running)},
        {"timing", {{"deepest", deepest}}}});
 }
 
 void RunFolder::log(const Json& entry) { log_->append(entry); }
+
+void note_if_being_written(const fs::path& run) {
+  if (is_locked(run)) tell_note(run.string() + " is being written: this is about what is committed so far");
+}
 
 }  // namespace noli::app

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "noli/app/run_log_facts.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_manifest.h"
 #include "noli/trajectory/stop.h"
@@ -32,12 +33,14 @@ Json versions_of(const std::filesystem::path& folder) {
 }  // namespace
 
 Json run_info(const std::filesystem::path& folder) {
-  RunReader reader(folder);
+  const LogFacts log = read_log(folder);
+  RunReader reader = open_run(folder, log);
   Totals totals;
   while (const auto window = reader.next_window()) {
     end_if_stopped();
     totals.add(*window);
   }
+  require_series(folder, log);
   const RunHeader& header = reader.header();
   const Mesh& mesh = reader.mesh();
   return {{"file", folder.string()},

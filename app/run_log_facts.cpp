@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <string>
-#include <system_error>
 
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/frame_look.h"
+#include "noli/trajectory/run_log.h"
+#include "noli/trajectory/run_manifest.h"
 
 namespace noli::app {
 namespace {
@@ -27,10 +27,14 @@ const Json& member(const Json& json, const char* key) {
   return json.is_object() && found != json.end() ? *found : nothing;
 }
 
+std::optional<Sha256Digest> digest(const Json& json, const char* key) {
+  const Json& text = member(json, key);
+  return text.is_string() ? digest_of_hex(text.get_ref<const std::string&>()) : std::nullopt;
+}
+
 class Reader {
  public:
-  void take(const std::string& line) {
-    const Json entry = Json::parse(line, nullptr, false);
+  void take(const Json& entry) {
     const Json& event = member(entry, "event");
     if (!event.is_string()) {
       ++facts_.bad_lines;
@@ -41,7 +45,9 @@ class Reader {
     if (is("begin") || is("resume")) {
       ++facts_.parts;
       facts_.going_on = true;
+      facts_.series.reset();
     }
+    if (is("resume")) tell(entry, "windows", 0);
     if (is("window")) window(entry);
     if (is("roll_back")) roll_back(entry);
     if (is("end")) end(entry);
@@ -52,6 +58,7 @@ class Reader {
  private:
   void begin(const Json& entry) {
     facts_.names = BodyNames::from_json(member(entry, "bodies"));
+    facts_.manifest = digest(entry, "manifest_sha256");
     const Json& contact = member(entry, "contact");
     if (!contact.is_object()) return;
     facts_.has_contact = true;
@@ -66,14 +73,16 @@ class Reader {
     }
   }
 
-  /// Lines may be damaged; what one of them tells of was there.
-  void tell(std::uint64_t windows) {
+  /// Whoever resumes may have found fewer windows than the part before had told of, and makes the others again.
+  void tell(const Json& entry, const char* windows, std::uint64_t more) {
     constexpr std::uint64_t most = std::uint64_t{1} << 53;
-    if (windows <= most) facts_.windows_told = std::max(facts_.windows_told, windows);
+    if (!member(entry, windows).is_number_unsigned()) return;
+    const auto count = number<std::uint64_t>(entry, windows);
+    if (count <= most) facts_.known = {count + more, digest(entry, "running"), false};
   }
 
   void window(const Json& entry) {
-    if (member(entry, "window").is_number_unsigned()) tell(number<std::uint64_t>(entry, "window") + 1);
+    tell(entry, "window", 1);
     const Json& timing = member(entry, "timing");
     if (!member(timing, "deepest").is_number()) return;  // what it does not say is not known
     const auto window = number<std::uint64_t>(entry, "window");
@@ -91,8 +100,9 @@ class Reader {
 
   void end(const Json& entry) {
     ++facts_.parts_ended;
-    if (member(entry, "windows").is_number_unsigned()) tell(number<std::uint64_t>(entry, "windows"));
+    tell(entry, "windows", 0);
     facts_.going_on = false;
+    facts_.series = digest(entry, "series_sha256");
     const Json& why = member(entry, "end");
     facts_.last_end = why.is_string() ? why.get<std::string>() : "";
     facts_.last_end_line = entry;
@@ -119,24 +129,46 @@ class Reader {
   std::uint64_t next_ = 0;  ///< window; one may be logged twice, by a part that was killed and by the next
 };
 
+/// Those that are there: whoever has no scene can do without it, and without a log nothing can be compared.
+void require_manifest(const std::filesystem::path& run, const LogFacts& log) {
+  const std::filesystem::path path = run / "manifest.json";
+  if (!std::filesystem::exists(path)) return;
+  const Sha256Digest found = manifest_hash(run);
+  if (log.manifest && found != *log.manifest) {
+    throw InputError(
+        path.string(), "",
+        fmt::format("is damaged: it has SHA-256 {}; expected {}, which the log has", hex(found), hex(*log.manifest)));
+  }
+  if (std::filesystem::exists(run / "scene.json")) read_scene(run, read_manifest(run));
+}
+
 }  // namespace
 
 LogFacts read_log(const std::filesystem::path& run) {
-  const std::filesystem::path path = run / "log.jsonl";
   Reader reader;
-  if (!std::filesystem::exists(path)) return reader.finish();
-  std::ifstream in(path, std::ios::binary);
-  for (std::string line; std::getline(in, line);) {
-    if (!in.eof()) reader.take(line);  // a last line without an end was cut off
-  }
-  if (in.bad() || !in.eof()) throw std::system_error(errno, std::generic_category(), path.string());
-  return reader.finish();
+  read_log_lines(run, [&reader](const Json& entry) { reader.take(entry); });
+  LogFacts facts = reader.finish();
+  require_manifest(run, facts);
+  return facts;
 }
 
-void require_all_windows(const std::filesystem::path& run, const LogFacts& log, std::uint64_t windows) {
-  if (log.windows_told <= windows) return;
-  throw InputError((run / "trajectory.blocks").string(), "",
-                   fmt::format("windows are missing: it has {}, the log tells of {}", windows, log.windows_told));
+RunReader open_run(const std::filesystem::path& run, const LogFacts& log) {
+  RunReader reader(run);
+  reader.expect(log.known);
+  return reader;
+}
+
+RunReader open_run(const std::filesystem::path& run) { return open_run(run, read_log(run)); }
+
+void require_series(const std::filesystem::path& run, const LogFacts& log) {
+  const std::filesystem::path path = run / "series.h5";
+  if (!log.series || !std::filesystem::exists(path)) return;
+  const Sha256Digest found = file_facts(path).sha256;
+  if (found == *log.series) return;
+  throw InputError(path.string(), "",
+                   fmt::format("is damaged: it has SHA-256 {}; expected {}, which the log has (`noli simulate ... "
+                               "--resume` writes it again)",
+                               hex(found), hex(*log.series)));
 }
 
 }  // namespace noli::app

@@ -12,6 +12,7 @@
 #include "noli/app/picture.h"
 #include "noli/app/png.h"
 #include "noli/app/run_folder.h"
+#include "noli/app/run_log_facts.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
@@ -85,7 +86,7 @@ RunFrame frame_at(RunReader& reader, const PictureRequest& request) {
 
 PictureOutcome run_picture(const PictureRequest& request) {
   check(request);
-  RunReader reader(request.run);
+  RunReader reader = open_run(request.run);
   const RunFrame frame = frame_at(reader, request);
   std::vector<bool> fixed;
   for (const std::uint8_t label : reader.scene().labels) fixed.push_back(label == scripted_vertex);

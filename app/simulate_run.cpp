@@ -75,6 +75,7 @@ class Run {
         folder_(request.run),
         record_(scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames),
         frame_rate_(scene.frame_rate) {
+    folder_.lock();
     outcome_.title = scene.title;
     outcome_.dimension = Dim;
     outcome_.vertices = built_.model.x.size();
@@ -217,12 +218,15 @@ class Run {
     return json;
   }
 
+  CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
+
   void go_on_with(Simulation<double, Dim> simulation) {
     simulation_.emplace(std::move(simulation));
     simulation_->show(activity_);
   }
 
   void open(const Scene& scene) {
+    folder_.lock();  // another process may have made it since
     const bool go_on = request_.resume && folder_.has_begun();
     if (!go_on) {
       Simulation<double, Dim> simulation(built_.model);  // which may be stopped; then nothing is written
@@ -237,8 +241,9 @@ class Run {
       go_on_with(std::move(simulation));
       return;
     }
-    folder_.go_on(scene.document, hash_of<Dim>(built_.model));
+    const KnownWindows known = folder_.go_on(scene.document, hash_of<Dim>(built_.model));
     RunReader reader(folder_.path());
+    reader.expect(known);
     if (reader.scene() != run_scene(scene)) {
       throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
     }
@@ -257,6 +262,7 @@ class Run {
                                    last.windows, last.windows - outcome_.windows_total));
     }
     writer_.emplace(folder_.path(), reader);
+    folder_.resumed(committed(), facts());
     const bool proved = std::filesystem::exists(proof_path(folder_.path())) || last.windows == 0;
     if (record_ == RecordMode::full && request_.prove && proved) {
       try {
@@ -414,7 +420,7 @@ class Run {
     outcome_.events += window.row.events_in_all();
     outcome_.breakpoints += window.row.breakpoints;
     if (energy_) energy_->add(window.row);
-    folder_.log(window.index, window.row, window.deepest);
+    folder_.log(committed(), window.row, window.deepest);
     if (retries_.committed()) ++outcome_.certificate_defects;
   }
 
@@ -482,8 +488,10 @@ class Run {
   }
 
   void log_end() {
-    Json entry = {{"event", "end"}, {"end", name(outcome_.end)}, {"windows", outcome_.windows}};
+    Json entry = {{"event", "end"}, {"end", name(outcome_.end)}};
+    committed().tell(entry);
     entry["series"] = name(outcome_.series);
+    if (outcome_.series == SeriesEnd::written) entry["series_sha256"] = hex(folder_.keep_series());
     if (outcome_.contact && outcome_.contact->first) {
       entry["first"] = contact_json(outcome_.contact->first->contact);
       entry["first"]["kind"] = noli::name(outcome_.contact->first->kind);

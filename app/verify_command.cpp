@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,6 +25,7 @@
 #include "noli/app/verify_run.h"
 #include "noli/audit/scratch_folder.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/folder_lock.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
@@ -48,6 +52,7 @@ constexpr const char* footer =
     "b.ply\n"
     "  noli verify a.ply b.ply --time-limit 10s --threads 1\n"
     "  noli verify runs/cloth                        a run of `noli simulate` again, from its files alone\n"
+    "  noli verify runs/cloth --follow               one that is being written, window by window to its end\n"
     "  noli verify runs/ring --reproduce             one that recorded frames: its windows are integrated again";
 
 struct VerifyArguments {
@@ -90,7 +95,8 @@ class NoSink : public Sink {
 };
 
 /// The proof on its way: to a file, or to the checker at once. With a least distance it goes through a file in any case,
-/// because of a step that is nearer the proof is begun before that is known, and has to be taken back.
+/// because of a step that is nearer the proof is begun before that is known, and has to be taken back; and of a run that
+/// is being written, because how many windows there are is known at the end.
 class ProofRoute {
  public:
   explicit ProofRoute(VerifyRequest& request) : request_(request) {
@@ -99,7 +105,8 @@ class ProofRoute {
     }
     can_check_ = request.check && can_be_read_again();
     file_ = request.proof;
-    if (!file_ && can_check_ && request.min_distance > 0) file_ = folder_.emplace().path() / "proof.noli";
+    const bool later = request.min_distance > 0 || request.follow || request.live;
+    if (!file_ && can_check_ && later) file_ = folder_.emplace().path() / "proof.noli";
     if (file_) {
       request.open_proof = [this](const Claim&) { return to_file(); };
     } else if (can_check_) {
@@ -213,10 +220,51 @@ void prepare_to_reproduce(VerifyRequest& request) {
     throw UsageError("--reproduce: is for a run of `noli simulate`; expected its folder, found frames");
   }
   request.lines_in_no_file = request.reproduce && RunReader(request.frames[0]).header().record == RecordMode::frames;
+  if (request.lines_in_no_file && request.follow) {
+    throw UsageError(
+        "--follow: the run recorded frames alone, whose windows are integrated again only when all are there; expected "
+        "a run with \"record\": \"full\", or no --follow");
+  }
   if (request.lines_in_no_file && request.proof) {
     throw UsageError(
         "--proof: is about world lines in a file, and the run recorded frames alone; expected a run with \"record\": "
         "\"full\", or no --proof");
+  }
+}
+
+/// The motion of a run, kept open: whoever replaces the run while it is read makes another file.
+class MotionFile {
+ public:
+  explicit MotionFile(const VerifyRequest& request) {
+    if (request.run) path_ = trajectory_path(request.frames[0]);
+    if (request.run) descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  }
+  ~MotionFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  MotionFile(const MotionFile&) = delete;
+  MotionFile& operator=(const MotionFile&) = delete;
+
+  bool was_replaced() const {
+    struct stat opened = {}, named = {};
+    if (descriptor_ < 0 || ::fstat(descriptor_, &opened) != 0) return false;
+    return ::stat(path_.c_str(), &named) != 0 || opened.st_dev != named.st_dev || opened.st_ino != named.st_ino;
+  }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
+  const MotionFile motion(request);
+  try {
+    VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
+    route.check(outcome);
+    return outcome;
+  } catch (const std::exception&) {
+    if (!motion.was_replaced()) throw;
+    throw InputError(request.frames[0].string(), "", "was replaced while it was read; expected a run that stays");
   }
 }
 
@@ -230,6 +278,10 @@ ExitCode run(VerifyArguments& arguments) {
   } else if (request.order != FrameOrder::checked || request.polygons != PolygonRule::fan) {
     throw UsageError("--order, --polygons: are for frames; expected none of them with a run");
   }
+  if (request.follow && !request.run) {
+    throw UsageError("--follow: is for a run of `noli simulate`; expected its folder, found frames");
+  }
+  request.live = request.run && is_locked(request.frames[0]);
   prepare_to_reproduce(request);
   auto inputs = request.frames;
   if (request.ignore) inputs.push_back(*request.ignore);
@@ -240,8 +292,7 @@ ExitCode run(VerifyArguments& arguments) {
   inputs = {};  // paths of 10,000 frames are megabytes
   if (request.merge_identical) require_files(request.frames);
   ProofRoute route(request);
-  VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
-  route.check(outcome);
+  const VerifyOutcome outcome = verify(request, route);
   if (arguments.claim_out && outcome.claim.cells.empty()) {
     std::fputs("noli: note: no claim was written: no step was looked at\n", stderr);
   } else if (arguments.claim_out) {
@@ -295,7 +346,9 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("2|3");
 }
 
-void add_reproduce(CLI::App& command, VerifyRequest& request) {
+void add_run_options(CLI::App& command, VerifyRequest& request) {
+  command.add_flag("--follow", request.follow,
+                   "Of a run that is being written: verify each further window once it is committed, to the run's end");
   auto* const again = command.add_flag("--reproduce", request.reproduce,
                                        "Integrate the windows of a run again, one after another, and verify them when "
                                        "their world lines have the run's hashes; nothing is kept");
@@ -326,7 +379,7 @@ Command add_verify(CLI::App& app) {
   command->footer(footer);
   const auto arguments = std::make_shared<VerifyArguments>();
   add_options(*command, *arguments);
-  add_reproduce(*command, arguments->request);
+  add_run_options(*command, arguments->request);
   add_flags(*command, arguments->request);
   return {command, [arguments] { return run(*arguments); }};
 }

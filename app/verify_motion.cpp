@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `noli verify RUN`: the windows of a run again, from its files alone.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "noli/app/exit_code.h"
 #include "noli/app/input_report.h"
@@ -18,6 +22,7 @@
 #include "noli/integrator/scene/window_count.h"
 #include "noli/proofs/prover/window_verifier.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/folder_lock.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/stop.h"
 
@@ -36,7 +41,12 @@ RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log, doubl
 
 class MotionRun {
  public:
-  explicit MotionRun(const VerifyRequest& request) : request_(request), reader_(request.frames.at(0)) {
+  explicit MotionRun(const VerifyRequest& request)
+      : request_(request),
+        run_(request.frames.at(0)),
+        live_(request.live),
+        log_(read_log(run_)),
+        reader_(open_run(run_, log_)) {
     if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore) {
       throw UsageError(
           "--static, --merge-identical, --points, --dimension, --ignore: are for frames; expected none of them with a "
@@ -45,16 +55,15 @@ class MotionRun {
     require_world_lines();
     const Mesh& mesh = reader_.mesh();
     outcome_.steps_total = reader_.count_windows();
-    const LogFacts log = read_log(request.frames[0]);
-    require_all_windows(request.frames[0], log, outcome_.steps_total);
-    outcome_.ending = ending_of(request.frames[0], log, reader_.header().window_length);
+    reader_.look_for_expected();
+    outcome_.ending = ending_of(run_, log_, reader_.header().window_length);
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
     for (const std::uint8_t label : reader_.scene().labels) scripted_.push_back(label & scripted_vertex);
-    outcome_.not_compared = not_compared(mesh, scripted_, reader_.scene().exclusions, log.names);
+    outcome_.not_compared = not_compared(mesh, scripted_, reader_.scene().exclusions, log_.names);
     if (mesh.cell_count() == 0) {
       throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
     }
@@ -64,12 +73,13 @@ class MotionRun {
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
-    look_at_files();
+    if (!request_.follow) look_at_files();
     try {
       verify_windows();
     } catch (const Stopped&) {
       outcome_.complete = false;
     }
+    if (request_.follow) look_at_files();
     conclude();
     outcome_.seconds = watch.seconds() - outcome_.read_seconds - outcome_.reproduce_seconds;
     return std::move(outcome_);
@@ -101,8 +111,55 @@ class MotionRun {
 
   std::optional<RunWindow> read_next() {
     const Stopwatch watch;
-    auto window = reader_.next_window();
+    auto window = request_.follow ? wait_for_next() : next_of_those_there();
     outcome_.read_seconds += watch.seconds();
+    return window;
+  }
+
+  /// Of a run that is being written: up to where it was when it was opened.
+  std::optional<RunWindow> next_of_those_there() {
+    const bool enough = live_ && reader_.windows() >= outcome_.steps_total;
+    auto window = enough ? std::nullopt : next_committed();
+    ended_ = !window;
+    return window;
+  }
+
+  /// Whether it is still written is asked before it is looked at: what comes with the end is seen then.
+  std::optional<RunWindow> wait_for_next() {
+    constexpr auto pause = std::chrono::milliseconds(50);
+    while (!stopped()) {
+      live_ = is_locked(run_);
+      reader_.look_again();
+      if (auto window = next_committed()) return window;
+      if (!live_) return next_behind_the_last();
+      std::this_thread::sleep_for(pause);
+    }
+    return std::nullopt;
+  }
+
+  /// What is not committed yet may be taken back while it is read.
+  std::optional<RunWindow> next_committed() {
+    constexpr auto pause = std::chrono::milliseconds(20);
+    for (int more = 20;; --more) {
+      const std::uint64_t before = reader_.windows();
+      try {
+        return reader_.next_window();
+      } catch (const InputError&) {
+        live_ = live_ || is_locked(run_);
+        if (more == 0 || !live_ || reader_.windows() != before) throw;
+      }
+      std::this_thread::sleep_for(pause);
+      reader_.look_again();
+    }
+  }
+
+  /// There is none, once nobody writes to the run any more and its log tells of no more.
+  std::optional<RunWindow> next_behind_the_last() {
+    log_ = read_log(run_);
+    outcome_.ending = ending_of(run_, log_, reader_.header().window_length);
+    reader_.expect(log_.known);
+    reader_.look_again();
+    auto window = next_committed();
     ended_ = !window;
     return window;
   }
@@ -270,10 +327,11 @@ class MotionRun {
   void conclude() {
     stopped();
     const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
-    if (ended_) outcome_.steps_total = reader_.windows();
+    outcome_.steps_total = ended_ ? reader_.windows() : std::max(outcome_.steps_total, outcome_.steps.size());
     outcome_.claim.steps = outcome_.steps_total;
     outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
-    outcome_.open_window = ended_ && reader_.open_window().has_value();
+    outcome_.open_window = ended_ && !live_ && reader_.open_window().has_value();
+    if (live_) say_that_it_is_written();
     outcome_.complete = outcome_.complete && (ended_ || enough);
     // A run of which nothing was committed yet proves nothing.
     if (outcome_.steps.empty()) outcome_.complete = false;
@@ -282,7 +340,18 @@ class MotionRun {
     outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
   }
 
+  /// Not of a run that was killed while it was verified.
+  void say_that_it_is_written() {
+    outcome_.ending->being_written = is_locked(run_);
+    outcome_.notes.push_back(
+        fmt::format("another process writes to the run: this is about the {} windows that were committed so far{}",
+                    outcome_.steps_total, request_.follow ? "" : "; --follow waits for the others"));
+  }
+
   const VerifyRequest& request_;
+  const std::filesystem::path& run_;
+  bool live_;  ///< another process writes to it
+  LogFacts log_;
   RunReader reader_;
   std::vector<std::uint8_t> scripted_;
   std::optional<WindowVerifier> verifier_;  ///< made where the run begins

@@ -160,6 +160,7 @@ Json run_json(const RunEnding& ending) {
 
 /// Why a run has not come to the end of its scene.
 std::string why_ended(const RunEnding& ending) {
+  if (ending.being_written) return "it is being written";
   if (ending.going_on) return "it may still be going on, or was killed";
   if (!ending.why) return "its log does not say why";
   if (*ending.why == "done") return "no more was asked for";

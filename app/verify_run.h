@@ -53,6 +53,8 @@ struct VerifyRequest {
   std::optional<std::filesystem::path> ignore;        ///< groups of vertices that are not compared (groups.h)
   double min_distance = 0;                            ///< features have to be more than this apart
   std::uint32_t ring = 1;                             ///< features fewer mesh edges apart may be nearer
+  bool follow = false;                                ///< of a run: wait for windows that are still to come
+  bool live = false;                                  ///< of a run: another process writes to it
   bool reproduce = false;                             ///< of a run: integrate its windows again (windows_again.h)
   std::optional<std::filesystem::path> scene_folder;  ///< in which the file of its scene was; nothing: its own
   bool lines_in_no_file = false;                      ///< of a run that is reproduced: it recorded frames alone
@@ -125,6 +127,7 @@ struct StepCounts {
 struct RunEnding {
   std::optional<std::string> why;  ///< of the last part that ended, if none began after it: "done", "contact", ...
   bool going_on = false;           ///< the last part has not ended, or was killed
+  bool being_written = false;      ///< it has not ended: another process writes to it
   double time = 0;                 ///< of the last window [s]
   std::optional<double> duration;  ///< of the scene [s]
   std::optional<std::uint64_t> windows_total;  ///< that the scene's duration asks for

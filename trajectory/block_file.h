@@ -106,6 +106,12 @@ class BlockWriter {
   std::uint64_t size_ = 0;  ///< of the file
 };
 
+/// What the headers of blocks say.
+struct CommitLook {
+  std::uint64_t count = 0;              ///< of commits
+  std::optional<Sha256Digest> running;  ///< as one of them has it
+};
+
 struct Block {
   FourLetters kind = 0;
   std::uint64_t offset = 0;  ///< of the block's first byte in the file
@@ -129,8 +135,13 @@ class BlockReader {
   /// it closes, or a block is damaged although commits follow it. After an error the reader must not be used.
   std::optional<Block> next();
 
-  /// How many commit blocks the file has, by the headers of its blocks alone: no payload is read, nothing is checked.
-  std::uint64_t count_commits();
+  /// How many commit blocks the file has, by the headers of its blocks alone, and the running hash that the one which
+  /// closes this group, counted from 1, has. Nothing is checked.
+  CommitLook look_at_commits(std::uint64_t group = 0);
+
+  /// Whoever waits for more: the file as it is now, behind the last commit that next() passed; also after an error.
+  /// Precondition: there was a commit. Throws InputError when the file has become shorter than that.
+  void look_again();
 
   /// The end of the last commit that next() passed.
   const CommitPoint& committed() const { return committed_; }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -11,23 +10,14 @@
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/crc32c.h"
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/regular_file.h"
 #include "noli/trajectory/text.h"
 
 namespace noli {
 namespace {
 
-std::unique_ptr<std::istream> open_stream(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
-    throw InputError(path.string(), "", "is no regular file, as a block file must be");
-  }
-  errno = 0;
-  auto stream = std::make_unique<std::ifstream>(path, std::ios::binary);
-  if (!*stream) throw InputError(path.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)));
-  return stream;
-}
-
 std::uint64_t size_of(std::istream& stream, const std::string& name) {
+  stream.clear();
   stream.seekg(0, std::ios::end);
   const auto size = static_cast<std::streamoff>(stream.tellg());
   if (!stream || size < 0) throw InputError(name, "", "cannot be read at any place; expected a regular file");
@@ -55,7 +45,7 @@ Sha256Digest digest_at(const std::string& payload, std::size_t offset) {
 }  // namespace
 
 BlockReader::BlockReader(const std::filesystem::path& path, FourLetters content)
-    : name_(path.string()), stream_(open_stream(path)) {
+    : name_(path.string()), stream_(std::make_unique<std::ifstream>(open_regular_file(path))) {
   open(content);
 }
 
@@ -173,18 +163,27 @@ std::optional<Block> BlockReader::next() {
   return block;
 }
 
-std::uint64_t BlockReader::count_commits() {
+CommitLook BlockReader::look_at_commits(std::uint64_t group) {
   using namespace block_format;
-  std::uint64_t count = 0;
+  CommitLook look;
   for (std::uint64_t at = file_header_size; size_ - at >= block_header_size + checksum_size;) {
     const std::string header = read(at, block_header_size);
     const std::uint64_t left = size_ - at - block_header_size - checksum_size;
     const auto length = get<std::uint64_t>(header.data() + 4);
     if (length > left) break;
-    count += get<FourLetters>(header.data()) == commit;
+    if (get<FourLetters>(header.data()) == commit && ++look.count == group && length == commit_payload_size) {
+      look.running = digest_at(read(at + block_header_size, length), 40);
+    }
     at += block_header_size + length + checksum_size;
   }
-  return count;
+  return look;
+}
+
+void BlockReader::look_again() {
+  size_ = size_of(*stream_, name_);
+  if (size_ < committed_.offset) fail(size_, "the file has lost what was committed to it");
+  at_ = committed_.offset;
+  hash_ = {};
 }
 
 std::optional<std::uint64_t> BlockReader::open_group() const {

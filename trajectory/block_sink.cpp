@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,14 +16,23 @@ namespace {
   throw std::system_error(errno, std::generic_category(), name);
 }
 
+bool is_regular(int descriptor) {
+  struct stat status = {};
+  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/// Without waiting for the reader of a pipe.
 int open_file(const std::string& name, FileSink::Open how) {
   const int flags = how == FileSink::Open::create ? O_CREAT | O_EXCL : 0;
-  const int descriptor = ::open(name.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+  const int descriptor = ::open(name.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags, 0666);
+  if (descriptor < 0 && errno == ELOOP) throw_errno(name + ": is a link, which is not followed; expected a file");
   if (descriptor < 0) throw_errno(name);
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  const int error = errno;
+  const bool regular = is_regular(descriptor);
+  if (regular && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  const int error = regular ? errno : EINVAL;
   ::close(descriptor);
-  throw std::system_error(error, std::generic_category(), name + ": is being written by another process");
+  throw std::system_error(error, std::generic_category(),
+                          name + (regular ? ": is being written by another process" : ": is no regular file"));
 }
 
 }  // namespace

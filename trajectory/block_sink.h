@@ -31,8 +31,9 @@ class FileSink : public Sink {
  public:
   enum class Open { create, existing };
 
-  /// create: the file must not be there yet; its folder is synced, so that the name survives too. Throws
-  /// std::system_error, naming the file.
+  /// create: the file must not be there yet; its folder is synced, so that the name survives too. A link is never
+  /// followed: its target may be anybody's. Throws std::system_error, naming the file; also when it is a link or no
+  /// regular file.
   FileSink(const std::filesystem::path& path, Open how);
   ~FileSink() override;
 

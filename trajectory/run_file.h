@@ -96,6 +96,13 @@ std::filesystem::path trajectory_path(const std::filesystem::path& run_folder);
 void put_lines_block(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer);
 Sha256Digest lines_hash(std::uint32_t dimension, const WorldLines& lines);
 
+/// What somebody else, as the log of a run, knows of its windows.
+struct KnownWindows {
+  std::uint64_t count = 0;
+  std::optional<Sha256Digest> running;  ///< the running hash behind the last of them
+  bool made_again = false;              ///< whoever reads makes those that are missing again
+};
+
 class RunReader;
 
 /// Writes a run. In memory: the positions at the end of one window.
@@ -159,7 +166,7 @@ class RunReader {
 
   /// The next committed window; nothing when there is none. Throws InputError, with the place in the file, when
   /// anything in it is not as FORMAT.md says, or it does not begin where the one before ended. After an error the
-  /// reader must not be used.
+  /// reader must not be used but for look_again().
   std::optional<RunWindow> next_window();
 
   /// Once next_window() gave nothing: where the file goes on with a window that was never committed, if it does. That
@@ -167,6 +174,16 @@ class RunReader {
   std::optional<std::uint64_t> open_window() const { return blocks_.open_group(); }
   /// "FILE: ends in an open window at byte N". Precondition: open_window().
   std::string open_window_message() const;
+
+  /// From now on next_window() throws InputError, too, when the file ends before it has these windows, or has another
+  /// hash behind the last of them; so does this, when that one has just been read.
+  void expect(const KnownWindows& known);
+  /// Throws what next_window() would as far as a quick look tells, which reads no window and checks no checksum.
+  void look_for_expected();
+
+  /// Once next_window() gave nothing, or an error while the run was written: goes on with the file as it is now. Throws
+  /// InputError when it has become shorter than what was read.
+  void look_again() { blocks_.look_again(); }
 
   /// How many windows have been read.
   std::uint64_t windows() const { return blocks_.committed().groups - 1; }
@@ -182,9 +199,12 @@ class RunReader {
   void decode_full(const std::vector<Block>& blocks, RunWindow& window) const;
   void decode_frames(const std::vector<Block>& blocks, RunWindow& window) const;
   void fail(const Block& block, const std::string& problem) const;
+  void require_count(std::uint64_t count) const;
+  void require_hash(const Sha256Digest& running) const;
 
   BlockReader blocks_;
   RunScene scene_;
+  KnownWindows known_;
   std::optional<WindowEnd> last_;  ///< of the last window that was read
 };
 

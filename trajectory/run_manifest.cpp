@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "noli/trajectory/error.h"
+#include "noli/trajectory/regular_file.h"
 #include "noli/trajectory/text.h"
 #include "noli/trajectory/write_file.h"
 
@@ -51,41 +52,41 @@ void check_format(const Json& json, const std::string& file) {
   }
 }
 
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+Sha256Digest digest_at(const Json& json, const std::string& pointer, const std::string& file) {
+  const auto digest = digest_of_hex(text_at(json, pointer, file));
+  if (!digest) throw InputError(file, pointer, "expected 64 hexadecimal digits in lower case");
+  return *digest;
 }
 
-Sha256Digest digest_at(const Json& json, const std::string& pointer, const std::string& file) {
-  const std::string text = text_at(json, pointer, file);
-  Sha256Digest digest{};
-  bool good = text.size() == 2 * digest.size();
-  for (std::size_t i = 0; good && i < digest.size(); ++i) {
-    const int high = hex_digit(text[2 * i]), low = hex_digit(text[2 * i + 1]);
-    good = high >= 0 && low >= 0;
-    digest[i] = static_cast<std::uint8_t>(16 * high + low);
-  }
-  if (!good) throw InputError(file, pointer, "expected 64 hexadecimal digits in lower case");
-  return digest;
+std::string read_file_of_run(const std::filesystem::path& path) {
+  require_regular_file(path);
+  return read_whole_file(path);
 }
 
 }  // namespace
 
-void write_manifest(const std::filesystem::path& folder, std::string_view scene,
-                    const std::map<std::string, std::string>& versions, const std::optional<Sha256Digest>& model) {
+Sha256Digest write_manifest(const std::filesystem::path& folder, std::string_view scene,
+                            const std::map<std::string, std::string>& versions,
+                            const std::optional<Sha256Digest>& model) {
   Json manifest = {{"format", format_name},
                    {"version", format_version},
                    {"scene", {{"file", scene_name}, {"sha256", hex(sha256(scene))}}},
                    {"versions", versions}};
   if (model) manifest["model"] = {{"sha256", hex(*model)}};
   replace_file(folder / scene_name, scene);
-  replace_file(folder / manifest_name, manifest.dump(2) + "\n");
+  const std::string text = manifest.dump(2) + "\n";
+  replace_file(folder / manifest_name, text);
+  return sha256(text);
+}
+
+Sha256Digest manifest_hash(const std::filesystem::path& folder) {
+  return sha256(read_file_of_run(folder / manifest_name));
 }
 
 RunManifest read_manifest(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / manifest_name;
   const std::string file = path.string();
-  const Json json = parse(read_whole_file(path), file);
+  const Json json = parse(read_file_of_run(path), file);
   check_format(json, file);
   RunManifest manifest;
   manifest.scene_sha256 = digest_at(json, "/scene/sha256", file);
@@ -100,7 +101,7 @@ RunManifest read_manifest(const std::filesystem::path& folder) {
 }
 
 std::string read_scene(const std::filesystem::path& folder, const RunManifest& manifest) {
-  std::string scene = read_whole_file(folder / scene_name);
+  std::string scene = read_file_of_run(folder / scene_name);
   if (sha256(scene) == manifest.scene_sha256) return scene;
   throw InputError((folder / scene_name).string(), "",
                    "is not the scene of this run: its SHA-256 is not that in the manifest");

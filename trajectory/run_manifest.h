@@ -24,10 +24,14 @@ struct RunManifest {
   friend bool operator==(const RunManifest&, const RunManifest&) = default;
 };
 
-/// Writes scene.json and then manifest.json; each is there whole or not at all. Throws std::system_error.
-void write_manifest(const std::filesystem::path& folder, std::string_view scene,
-                    const std::map<std::string, std::string>& versions,
-                    const std::optional<Sha256Digest>& model = std::nullopt);
+/// Writes scene.json and then manifest.json; each is there whole or not at all. Returns the hash of the manifest. Throws
+/// std::system_error.
+Sha256Digest write_manifest(const std::filesystem::path& folder, std::string_view scene,
+                            const std::map<std::string, std::string>& versions,
+                            const std::optional<Sha256Digest>& model = std::nullopt);
+
+/// Of the bytes of manifest.json. Throws InputError when it cannot be read.
+Sha256Digest manifest_hash(const std::filesystem::path& folder);
 
 /// Throws InputError: no manifest, not JSON, of another format or version, a member that is missing or of another type.
 /// Members that are not known are ignored.

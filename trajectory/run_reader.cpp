@@ -136,7 +136,10 @@ void RunReader::decode_frames(const std::vector<Block>& blocks, RunWindow& windo
 
 std::optional<RunWindow> RunReader::next_window() {
   std::optional<std::vector<Block>> blocks = window_blocks();
-  if (!blocks) return std::nullopt;
+  if (!blocks) {
+    require_count(windows());
+    return std::nullopt;
+  }
   const run_block::WindowTimes times = run_block::decode_window({blocks_.name(), blocks->front()});
   RunWindow window;
   window.index = times.index;
@@ -153,10 +156,35 @@ std::optional<RunWindow> RunReader::next_window() {
   window.state = std::move(blocks->back().payload);
   window.group_hash = blocks_.committed().group;
   last_ = WindowEnd{window.end, window.positions};
+  if (windows() == known_.count) require_hash(running_hash());
   return window;
 }
 
-std::uint64_t RunReader::count_windows() { return std::max<std::uint64_t>(blocks_.count_commits(), 1) - 1; }
+void RunReader::expect(const KnownWindows& known) {
+  known_ = known;
+  if (windows() == known_.count) require_hash(running_hash());
+}
+
+void RunReader::require_count(std::uint64_t count) const {
+  if (count >= known_.count || known_.made_again) return;
+  throw InputError(blocks_.name(), "",
+                   fmt::format("windows are missing: it has {}, the log tells of {}", count, known_.count));
+}
+
+void RunReader::require_hash(const Sha256Digest& running) const {
+  if (!known_.running || running == *known_.running) return;
+  throw InputError(
+      blocks_.name(), fmt::format("window {}", known_.count),
+      fmt::format("has running hash {}; expected {}, which the log has", hex(running), hex(*known_.running)));
+}
+
+void RunReader::look_for_expected() {
+  const CommitLook look = blocks_.look_at_commits(known_.count + 1);
+  require_count(std::max<std::uint64_t>(look.count, 1) - 1);
+  if (look.running) require_hash(*look.running);
+}
+
+std::uint64_t RunReader::count_windows() { return std::max<std::uint64_t>(blocks_.look_at_commits().count, 1) - 1; }
 
 std::string RunReader::open_window_message() const {
   return fmt::format("{}: ends in an open window at {}", blocks_.name(), byte_place(open_window().value()));

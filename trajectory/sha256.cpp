@@ -21,6 +21,11 @@ std::string padding(std::uint64_t size) {
   return bytes;
 }
 
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
 }  // namespace
 
 void Sha256::update(std::string_view bytes) {
@@ -58,6 +63,17 @@ std::string hex(const Sha256Digest& digest) {
   std::string text;
   for (const std::uint8_t byte : digest) text += fmt::format("{:02x}", byte);
   return text;
+}
+
+std::optional<Sha256Digest> digest_of_hex(std::string_view text) {
+  Sha256Digest digest{};
+  bool good = text.size() == 2 * digest.size();
+  for (std::size_t i = 0; good && i < digest.size(); ++i) {
+    const int high = hex_digit(text[2 * i]), low = hex_digit(text[2 * i + 1]);
+    good = high >= 0 && low >= 0;
+    digest[i] = static_cast<std::uint8_t>(16 * high + low);
+  }
+  return good ? std::optional(digest) : std::nullopt;
 }
 
 }  // namespace noli

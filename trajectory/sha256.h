@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,9 @@ Sha256Digest sha256(std::string_view bytes);
 
 /// 64 hexadecimal digits in lower case.
 std::string hex(const Sha256Digest& digest);
+
+/// What hex() wrote; nothing for any other text.
+std::optional<Sha256Digest> digest_of_hex(std::string_view text);
 
 /// The bytes of a digest, for writing and hashing.
 inline std::string_view bytes_of(const Sha256Digest& digest) {

@@ -124,8 +124,9 @@ TEST_F(Simulate, ExplainOfARunWithoutContact) {
 TEST_F(Simulate, ExplainDoesWithoutALog) {
   ASSERT_EQ(run_noli({"simulate", scene(bouncing_point()), "-o", run_path("run")}).exit_code, 0);
   const Json before = json_of({"explain", run_path("run")}, 0);
-  std::ofstream(run_path("run/log.jsonl"), std::ios::app)
-      << "{\"event\": \n[1]\n{\"event\": \"begin\", \"bodies\": 3}\n";
+  add_entry(run_path("run"), {{"what", "is this"}});
+  add_entry(run_path("run"), {{"event", 1}});
+  add_entry(run_path("run"), {{"event", "begin"}, {"bodies", 3}});
   const Json damaged = json_of({"explain", run_path("run")}, 0);
   EXPECT_EQ(damaged["timing"]["bad_lines"], 2);
   EXPECT_EQ(damaged["timing"]["parts"], 2);
@@ -141,8 +142,7 @@ TEST_F(Simulate, ExplainDoesWithoutALog) {
 TEST_F(Simulate, ExplainTellsOfWindowsThatWereRolledBack) {
   ASSERT_EQ(run_noli({"simulate", scene(bouncing_point()), "-o", run_path("run")}).exit_code, 0);
   EXPECT_EQ(json_of({"explain", run_path("run")}, 0)["roll_backs"], Json::array());
-  std::ofstream(run_path("run/log.jsonl"), std::ios::app) << R"({"event": "roll_back", "window": 3, "try": 1})"
-                                                          << "\n";
+  add_entry(run_path("run"), {{"event", "roll_back"}, {"window", 3}, {"try", 1}});
   const Json json = json_of({"explain", run_path("run")}, 0);
   EXPECT_EQ(json["roll_backs"].size(), 1);
   EXPECT_EQ(json["roll_backs"][0]["window"], 4);  // the log counts from 0

@@ -62,7 +62,8 @@ class Report : public Simulate {
     const std::string before = bytes_of(log);
     Json end = last_entry(run);
     end.update(changes);
-    std::ofstream(log, std::ios::binary) << before.substr(0, before.rfind('\n', before.size() - 2) + 1) << end << "\n";
+    std::ofstream(log, std::ios::binary) << before.substr(0, before.rfind('\n', before.size() - 2) + 1)
+                                         << log_line(end);
   }
   void expect_verdict(const std::vector<std::string>& inputs, const std::string& word, const std::string& tone) {
     const Json verdict = page(inputs)["verdict"];
@@ -154,8 +155,7 @@ TEST_F(Report, ARunThatGoesOnIsNotGreen) {
   const std::vector<std::string> both = run_with_contact();
   change_end(both[0], {{"end", "done"}});
   expect_verdict({both[0]}, "no_contact", "good");
-  std::ofstream(fs::path(both[0]) / "log.jsonl", std::ios::app) << R"({"event": "resume"})"
-                                                                << "\n";
+  add_entry(both[0], {{"event", "resume"}});
   expect_verdict(both, "undecided", "open");
 }
 

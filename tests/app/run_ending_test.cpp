@@ -50,8 +50,7 @@ TEST_F(Simulate, VerifySaysThatARunWasInterruptedOrMayGoOn) {
   const Json run = json_of({"verify", run_path("run")}, 0)["run"];
   EXPECT_EQ(run["end"], "interrupted");
   EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 10000 s (interrupted).\n"), std::string::npos);
-  std::ofstream(run_path("run/log.jsonl"), std::ios::app) << R"({"event": "resume"})"
-                                                          << "\n";
+  add_entry(run_path("run"), {{"event", "resume"}});
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["run"]["end"], nullptr);
   const std::string out = run_noli({"verify", run_path("run")}).out;
   EXPECT_NE(out.find("(it may still be going on, or was killed).\n"), std::string::npos) << out;

@@ -12,6 +12,7 @@
 
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
+#include "noli/trajectory/run_log.h"
 
 namespace noli::app_tests {
 
@@ -91,9 +92,13 @@ inline Json two_cloths() {
 }
 
 inline Json last_entry(const std::string& run) {
-  const std::string log = bytes_of(fs::path(run) / "log.jsonl");
-  return Json::parse(log.substr(log.rfind('\n', log.size() - 2) + 1));
+  Json last;
+  read_log_lines(run, [&last](const nlohmann::ordered_json& entry) { last = entry; });
+  return last;
 }
+
+/// Adds a line to the log of a run.
+inline void add_entry(const std::string& run, const nlohmann::ordered_json& entry) { RunLog(run).append(entry); }
 
 inline ProcessOptions interrupt_after(int milliseconds) {
   ProcessOptions options;

@@ -9,6 +9,7 @@
 #include "noli/tests/app/killer.h"
 #include "noli/tests/app/simulate_fixture.h"
 #include "noli/tests/kernel/random_numbers.h"
+#include "noli/trajectory/folder_lock.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_log.h"
@@ -42,8 +43,7 @@ TEST_F(Simulate, EndsAtTheFirstContactAndNamesIt) {
   EXPECT_EQ(json["first"]["features"], Json::parse("[[3], [0, 1, 2]]"));
   EXPECT_EQ(json["first"]["names"], "vertex upright[0] meets face level[0]-level[1]-level[2]");
   EXPECT_EQ(json["windows"], 39);  // 39 * 2^-7 < 0.3125 <= 40 * 2^-7
-  const std::string log = bytes_of(run_path("run/log.jsonl"));
-  const Json last = Json::parse(log.substr(log.rfind('\n', log.size() - 2) + 1));
+  const Json last = last_entry(run_path("run"));
   EXPECT_EQ(last["event"], "end");
   EXPECT_EQ(last["end"], "contact");
   EXPECT_EQ(last["first_time"], 0.3125);
@@ -474,10 +474,10 @@ TEST_F(Simulate, ARunThatIsBeingWrittenIsNotReplaced) {
   const std::string file = scene(hanging_sheet());
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.05"}).exit_code, 0);
   {
-    const RunLog writer(run_path("run"));
+    const FolderLock writer(run_path("run"));
     const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--force"});
     EXPECT_EQ(process.exit_code, 3);
-    EXPECT_NE(process.err.find("cannot be replaced"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("is being written by"), std::string::npos) << process.err;
   }
   EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--force", "--until", "0.05"}).exit_code, 0);
 }

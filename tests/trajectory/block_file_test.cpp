@@ -2,8 +2,11 @@
 #include "noli/trajectory/block_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <stdexcept>
+#include <system_error>
 
 #include "noli/trajectory/bytes.h"
 #include "noli/trajectory/crc32c.h"
@@ -180,21 +183,35 @@ TEST(BlockFileErrors, OfTheFileSystem) {
   EXPECT_EQ(input_error([&] { read("absent"); }),
             (folder / "absent").string() + ": cannot be opened: No such file or directory");
   EXPECT_EQ(input_error([&] { BlockReader(folder.path(), content).next(); }),
-            folder.path().string() + ": is no regular file, as a block file must be");
+            folder.path().string() + ": is no regular file; expected one");
 }
 
+/// A disk that takes one byte more.
 TEST(FileSink, AFullDiskIsAnError) {
-  if (!std::filesystem::exists("/dev/full")) {
-    std::puts("skipped: a full disk, there is no /dev/full");
-    GTEST_SKIP();
-  }
-  FileSink sink("/dev/full", FileSink::Open::existing);
+  const test::TemporaryFolder folder;
+  FileSink sink(folder / "file", FileSink::Open::create);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  struct rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const struct rlimit one = {1, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &one), 0);
+  std::string error;
   try {
-    sink.write("x");
-    ADD_FAILURE() << "the disk took it";
+    sink.write("xy");
+  } catch (const std::system_error& full) {
+    error = full.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(error, (folder / "file").string() + ": File too large");
+}
+
+TEST(FileSink, WritesToFilesOnly) {
+  try {
+    FileSink("/dev/null", FileSink::Open::existing).write("x");
+    ADD_FAILURE();
   } catch (const std::system_error& error) {
-    EXPECT_EQ(error.code(), std::errc::no_space_on_device);
-    EXPECT_STREQ(error.what(), "/dev/full: No space left on device");
+    EXPECT_STREQ(error.what(), "/dev/null: is no regular file: Invalid argument");
   }
 }
 

@@ -157,6 +157,75 @@ TEST(RunFileInAFolder, IsWrittenReadAndResumed) {
   EXPECT_EQ(test::read_text(trajectory_path(folder.path())), write_run(run).bytes);
 }
 
+/// What is not committed may be taken back while it is read.
+TEST(RunFileInAFolder, IsReadWhileItGrows) {
+  const test::TemporaryFolder folder;
+  const SampleRun run = sample_run(3, RecordMode::full, 3);
+  RunWriter writer(folder.path(), run.scene);
+  RunReader reader(folder.path());
+  for (const OwnWindow& window : run.windows) {
+    writer.append_window(window.to_write());
+    reader.look_again();
+    EXPECT_FALSE(reader.next_window());
+    writer.discard_window();
+    append(writer, window);
+    reader.look_again();
+    const auto read = reader.next_window();
+    ASSERT_TRUE(read);
+    expect_same(window, *read, run.scene.header);
+    EXPECT_EQ(reader.running_hash(), writer.running_hash());
+    EXPECT_FALSE(reader.next_window());
+  }
+  std::filesystem::resize_file(trajectory_path(folder.path()), 100);
+  EXPECT_NE(input_error([&] { reader.look_again(); }).find("has lost what was committed"), std::string::npos);
+}
+
+std::string error_of_reading(const std::string& bytes, const KnownWindows& known) {
+  return input_error([&] {
+    RunReader reader(bytes, "run");
+    reader.expect(known);
+    while (reader.next_window()) {
+    }
+  });
+}
+
+std::string error_of_a_look(const std::string& bytes, const KnownWindows& known) {
+  return input_error([&] {
+    RunReader reader(bytes, "run");
+    reader.expect(known);
+    reader.look_for_expected();
+  });
+}
+
+bool reads(const std::string& bytes, const KnownWindows& known) {
+  RunReader reader(bytes, "run");
+  reader.expect(known);
+  reader.look_for_expected();
+  while (reader.next_window()) {
+  }
+  return reader.windows() <= 3;
+}
+
+TEST(RunFileInAFolder, HasWhatIsKnownOfIt) {
+  const SampleRun run = sample_run(3, RecordMode::full, 3);
+  const std::string bytes = write_run(run).bytes;
+  RunReader reader(bytes, "run");
+  for (std::uint64_t count = 0; count <= 3; ++count) {
+    const Sha256Digest running = reader.running_hash();
+    EXPECT_TRUE(reads(bytes, {count, running, false}));
+    EXPECT_TRUE(reads(bytes, {count, std::nullopt, false}));
+    const std::string other = "has running hash " + hex(running) + "; expected " + hex(sha256("other"));
+    const KnownWindows wrong{count, sha256("other"), true};
+    EXPECT_NE(error_of_reading(bytes, wrong).find(other), std::string::npos) << count;
+    EXPECT_NE(error_of_a_look(bytes, wrong).find(other), std::string::npos) << count;
+    EXPECT_EQ(reader.next_window().has_value(), count < 3);
+  }
+  const std::string missing = "run: windows are missing: it has 3, the log tells of 4";
+  EXPECT_EQ(error_of_reading(bytes, {4, std::nullopt, false}), missing);
+  EXPECT_EQ(error_of_a_look(bytes, {4, std::nullopt, false}), missing);
+  EXPECT_TRUE(reads(bytes, {4, sha256("other"), true})) << "it is made again";
+}
+
 TEST(RunFileInAFolder, IsNotMadeTwice) {
   const test::TemporaryFolder folder;
   const SampleRun run = sample_run(3, RecordMode::full, 1);

@@ -3,10 +3,15 @@
 // What is in the folder of a run beside its motion: manifest, copy of the scene, log.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 
+#include "noli/trajectory/block_sink.h"
+#include "noli/trajectory/folder_lock.h"
 #include "noli/trajectory/run_log.h"
 #include "noli/trajectory/run_manifest.h"
 #include "noli/trajectory/write_file.h"
@@ -90,27 +95,122 @@ TEST_P(RunManifestErrors, SayWhatAndWhere) {
   EXPECT_EQ(input_error([&] { read_manifest(folder.path()); }), file + ": " + GetParam().message);
 }
 
+/// Of a log: its entries.
+std::vector<Json> entries(const test::TemporaryFolder& folder) {
+  std::vector<Json> list;
+  read_log_lines(folder.path(), [&list](const Json& entry) { list.push_back(entry); });
+  return list;
+}
+
+/// A line and, made by another program, the CRC-32C of what is before ",\"crc32c\"".
+constexpr const char* begin_line = "{\"event\":\"begin\",\"window\":0,\"crc32c\":\"ffad3c79\"}\n";
+
 TEST(RunLog, HasALineForEachEntryAcrossResumptions) {
   const test::TemporaryFolder folder;
+  EXPECT_TRUE(entries(folder).empty());
   RunLog(folder.path()).append({{"event", "begin"}, {"window", 0}});
+  EXPECT_EQ(test::read_text(folder / "log.jsonl"), begin_line);
   RunLog(folder.path()).append({{"event", "line\nend"}, {"timing", {{"seconds", 0.5}}}});
-  EXPECT_EQ(test::read_text(folder / "log.jsonl"),
-            "{\"event\":\"begin\",\"window\":0}\n{\"event\":\"line\\nend\",\"timing\":{\"seconds\":0.5}}\n");
+  EXPECT_EQ(entries(folder), (std::vector<Json>{{{"event", "begin"}, {"window", 0}},
+                                                {{"event", "line\nend"}, {"timing", {{"seconds", 0.5}}}}}));
 }
 
 TEST(RunLog, ALastLineThatWasCutOffIsRemoved) {
-  const test::TemporaryFolder folder;
-  for (const std::string before : {"", "{\"event\":\"a\"}\n"}) {
-    folder.write("log.jsonl", before + "{\"event\":\"cut o");
-    RunLog(folder.path()).append({{"event", "b"}});
-    EXPECT_EQ(test::read_text(folder / "log.jsonl"), before + "{\"event\":\"b\"}\n");
+  const std::string before = log_line({{"event", "a"}}), last = log_line({{"event", "b"}, {"text", "\"crc32c\":\""}});
+  for (std::size_t size = 0; size <= last.size(); ++size) {
+    const test::TemporaryFolder folder;
+    folder.write("log.jsonl", before + last.substr(0, size));
+    const bool whole = size + 1 >= last.size();  // but for its end, perhaps
+    EXPECT_EQ(entries(folder).size(), whole ? 2 : 1) << size;
+    RunLog(folder.path()).append({{"event", "c"}});
+    EXPECT_EQ(test::read_text(folder / "log.jsonl"), before + (whole ? last : "") + log_line({{"event", "c"}}));
   }
+}
+
+/// Also the last byte, the end of the last line, is noticed.
+TEST(RunLog, AnyBitThatIsFlippedIsNoticed) {
+  const std::string first = log_line({{"event", "begin"}, {"a", 1}}), last = log_line({{"event", "end"}, {"b", 2}});
+  const std::string log = first + log_line({{"event", "window"}}) + last;
+  for (std::size_t at = 0; at < 8 * log.size(); ++at) {
+    const test::TemporaryFolder folder;
+    std::string flipped = log;
+    flipped[at / 8] = static_cast<char>(flipped[at / 8] ^ 1 << at % 8);
+    folder.write("log.jsonl", flipped);
+    const std::string line = at / 8 < first.size() ? "1" : at / 8 < log.size() - last.size() ? "2" : "3";
+    const std::string error = input_error([&] { entries(folder); });
+    EXPECT_NE(error.find("log.jsonl: line " + line + ": "), std::string::npos) << at << ": " << error;
+  }
+}
+
+TEST(RunLog, WantsChecksumsAndAFile) {
+  const test::TemporaryFolder folder;
+  folder.write("log.jsonl", "{\"event\":\"begin\"}\n");
+  EXPECT_NE(input_error([&] { entries(folder); }).find("line 1: expected a line that ends in its checksum"),
+            std::string::npos);
+  std::filesystem::remove(folder / "log.jsonl");
+  ASSERT_EQ(::mkfifo((folder / "log.jsonl").c_str(), 0600), 0);
+  EXPECT_NE(input_error([&] { entries(folder); }).find("is no regular file"), std::string::npos);
+  EXPECT_THROW(FileSink(folder / "log.jsonl", FileSink::Open::existing), std::system_error);
 }
 
 TEST(RunLog, BytesThatAreNoTextAreReplaced) {
   const test::TemporaryFolder folder;
   RunLog(folder.path()).append({{"file", "a\xff"}});
-  EXPECT_EQ(test::read_text(folder / "log.jsonl"), "{\"file\":\"a\xEF\xBF\xBD\"}\n");
+  EXPECT_EQ(entries(folder).at(0)["file"], "a\xEF\xBF\xBD");
+}
+
+TEST(RunLog, FollowsNoLink) {
+  const test::TemporaryFolder folder, elsewhere;
+  elsewhere.write("mine", "");
+  for (const char* const target : {"mine", "absent"}) {
+    std::filesystem::create_symlink(elsewhere / target, folder / "log.jsonl");
+    try {
+      RunLog(folder.path()).append({{"event", "a"}});
+      ADD_FAILURE() << target;
+    } catch (const std::system_error& error) {
+      EXPECT_NE(std::string(error.what()).find("log.jsonl: is a link"), std::string::npos) << error.what();
+    }
+    std::filesystem::remove(folder / "log.jsonl");
+  }
+  EXPECT_EQ(test::read_text(elsewhere / "mine"), "");
+  EXPECT_EQ(elsewhere.names(), std::vector<std::string>{"mine"});
+}
+
+TEST(FolderLock, IsHadByOneAtATime) {
+  const test::TemporaryFolder folder;
+  EXPECT_FALSE(is_locked(folder.path()));
+  {
+    const FolderLock lock(folder.path());
+    EXPECT_TRUE(is_locked(folder.path()));
+    try {
+      FolderLock(folder.path());
+      ADD_FAILURE();
+    } catch (const FolderLocked& locked) {
+      const std::string by = folder.path().string() + ": is being written by ";
+      const std::string what = locked.what();
+      EXPECT_TRUE(what == by + "process " + std::to_string(::getpid()) || what == by + "another process") << what;
+    }
+  }
+  EXPECT_FALSE(is_locked(folder.path()));
+  const FolderLock again(folder.path());
+  EXPECT_TRUE(folder.names().empty()) << "no file is left";
+  EXPECT_FALSE(is_locked(folder / "absent"));
+  EXPECT_THROW(FolderLock(folder / "absent"), std::system_error);
+}
+
+/// Whoever asks has the lock himself for a moment.
+TEST(FolderLock, WaitsForThoseWhoOnlyAsk) {
+  const test::TemporaryFolder folder;
+  std::atomic<bool> done = false;
+  std::vector<std::thread> asking;
+  for (int i = 0; i < 2; ++i) {
+    asking.emplace_back([&] {
+      while (!done) is_locked(folder.path());
+    });
+  }
+  for (int i = 0; i < 200; ++i) EXPECT_NO_THROW(FolderLock(folder.path()));
+  done = true;
+  for (std::thread& thread : asking) thread.join();
 }
 
 TEST(RunLog, IsWrittenByOneAtATime) {
