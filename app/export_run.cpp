@@ -11,6 +11,7 @@
 #include "noli/app/frame_times.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/output.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/write_obj.h"
@@ -165,7 +166,7 @@ class Export {
 
   const ExportRequest& request_;
   Pattern pattern_;
-  RunReader reader_;
+  SeriesReader reader_;
   std::vector<std::filesystem::path> earlier_;
   std::vector<double> times_;
   ExportOutcome outcome_;

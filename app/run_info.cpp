@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_manifest.h"
 
@@ -31,7 +32,7 @@ Json versions_of(const std::filesystem::path& folder) {
 }  // namespace
 
 Json run_info(const std::filesystem::path& folder) {
-  RunReader reader(folder);
+  SeriesReader reader(folder);
   Totals totals;
   while (const auto window = reader.next_window()) totals.add(*window);
   const RunHeader& header = reader.header();

@@ -11,8 +11,8 @@
 #include "noli/app/picture.h"
 #include "noli/app/png.h"
 #include "noli/app/run_folder.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/error.h"
-#include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/write_file.h"
 
@@ -65,7 +65,7 @@ class Nearest {
   bool found_ = false;
 };
 
-RunFrame frame_at(RunReader& reader, const PictureRequest& request) {
+RunFrame frame_at(SeriesReader& reader, const PictureRequest& request) {
   Nearest nearest(request.time);
   double end = 0;
   while (const auto window = reader.next_window()) {
@@ -82,7 +82,7 @@ RunFrame frame_at(RunReader& reader, const PictureRequest& request) {
 
 PictureOutcome run_picture(const PictureRequest& request) {
   check(request);
-  RunReader reader(request.run);
+  SeriesReader reader(request.run);
   const RunFrame frame = frame_at(reader, request);
   std::vector<bool> fixed;
   for (const std::uint8_t label : reader.scene().labels) fixed.push_back(label == scripted_vertex);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "noli/app/frame_times.h"
-#include "noli/app/run_series.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
@@ -47,11 +47,11 @@ std::uint64_t frames_in(const RunWindow& window, double rate, const Stop& stop) 
 
 /// Nothing when it was stopped.
 std::optional<Extent> measure(const std::filesystem::path& run, double rate, const Stop& stop) {
-  RunReader reader(run);
+  SeriesReader reader(run);
   Extent extent;
   while (const auto window = reader.next_window()) {
     ++extent.windows;
-    extent.add(row_of(*window, run).steps);
+    extent.add(reader.row().steps);
     extent.frames += frames_in(*window, rate, stop);
     if (stop()) return std::nullopt;
   }
@@ -100,7 +100,7 @@ class Series {
   /// Whether it was not stopped.
   bool write() {
     while (const auto window = reader_.next_window()) {
-      write(row_of(*window, run_));
+      write(reader_.row());
       if (!write_frames(*window)) return false;
     }
     for (auto& [name, column] : columns_) column.flush();
@@ -203,7 +203,7 @@ class Series {
   double rate_;
   const Stop& stop_;
   Extent extent_;
-  RunReader reader_;
+  SeriesReader reader_;
   SeriesFile file_;
   std::map<std::string, Column> columns_;
 };

@@ -24,6 +24,7 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/run_series.h"
 #include "noli/app/run_series_file.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/app/run_space.h"
 #include "noli/app/start_check.h"
 #include "noli/integrator/contact_limit.h"
@@ -234,14 +235,14 @@ class Run {
       return;
     }
     folder_.go_on(scene.document, hash_of<Dim>(built_.model));
-    RunReader reader(folder_.path());
+    SeriesReader reader(folder_.path());
     if (reader.scene() != run_scene(scene)) {
       throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
     }
     Snapshot<double, Dim> last;
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
-      const SeriesRow row = row_of(*window, folder_.path());
+      const SeriesRow& row = reader.row();
       retries_ = Retries(row.halvings);
       if (energy_) energy_->add(row);
       require_whole(*window);
