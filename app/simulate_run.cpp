@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <future>
 #include <memory>
 #include <stdexcept>
@@ -26,6 +27,7 @@
 #include "noli/app/run_series_file.h"
 #include "noli/app/run_series_reader.h"
 #include "noli/app/run_space.h"
+#include "noli/app/series_process.h"
 #include "noli/app/start_check.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/scene/build_model.h"
@@ -34,7 +36,6 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
-#include "noli/trajectory/series_file.h"
 
 namespace noli::app {
 
@@ -186,7 +187,7 @@ class Run {
     run.cells = outcome_.cells;
     run.windows = outcome_.windows_total;
     run.prove = request_.prove;
-    run.series = SeriesFile::available();
+    run.series = series_program().available();
     const bool there = std::filesystem::exists(trajectory_path(run.run));
     if (!request_.resume || !there || !folder_.has_begun()) return run;
     run.windows_there = RunReader(run.run).count_windows();
@@ -452,18 +453,26 @@ class Run {
     outcome_.windows = writer_->windows();
     outcome_.certificates += simulation_->certificates();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
-    write_series();
+    const std::exception_ptr lost = write_series();
     outcome_.phases = clock.seconds();
     log_end();
+    if (lost) std::rethrow_exception(lost);
   }
 
-  /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it.
-  void write_series() {
+  /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it. What keeps it from
+  /// being written is returned: the run has ended all the same.
+  std::exception_ptr write_series() {
     const Doing writing(activity_, Phase::writing);
     const int before = interruptions();
     Progress progress("series.h5");
     progress.show(0);
-    outcome_.series = write_series_file(folder_.path(), frame_rate_, [before] { return interruptions() > before; });
+    try {
+      outcome_.series = write_series_file(folder_.path(), frame_rate_, [before] { return interruptions() > before; });
+    } catch (const std::exception&) {
+      outcome_.series = SeriesEnd::failed;
+      return std::current_exception();
+    }
+    return nullptr;
   }
 
   void log_end() {
