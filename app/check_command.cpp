@@ -81,7 +81,7 @@ std::vector<std::string> asked_by(const CheckArguments& arguments) {
 /// say. Throws InputError when the log is damaged, or has another hash of what is there.
 void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words) {
   const LogFacts log = read_log(run);
-  std::optional<RunReader> reader;
+  std::optional<SeriesReader> reader;
   std::uint64_t windows = 0;
   try {
     reader.emplace(open_run(run, log));

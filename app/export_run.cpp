@@ -12,6 +12,7 @@
 #include "noli/app/interrupt.h"
 #include "noli/app/output.h"
 #include "noli/app/run_log_facts.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/write_obj.h"
@@ -166,7 +167,7 @@ class Export {
 
   const ExportRequest& request_;
   Pattern pattern_;
-  RunReader reader_;
+  SeriesReader reader_;
   std::vector<std::filesystem::path> earlier_;
   std::vector<double> times_;
   ExportOutcome outcome_;

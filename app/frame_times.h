@@ -11,8 +11,8 @@ namespace noli::app {
 /// begin. So each frame is in one window. each() says whether to go on.
 template <class Each>
 void for_each_frame_time(std::uint64_t index, double begin, double end, double rate, const Each& each) {
-  auto i = static_cast<std::uint64_t>(begin * rate);
-  i = i > 0 ? i - 1 : 0;
+  const double first = begin * rate - 1;
+  auto i = first > 0 ? static_cast<std::uint64_t>(first) : 0;
   for (;; ++i) {
     const double t = static_cast<double>(i) / rate;
     if (t > end) return;

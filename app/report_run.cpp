@@ -16,7 +16,7 @@
 #include "noli/app/report_verdict.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
-#include "noli/app/run_series.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/frames.h"
 #include "noli/trajectory/run_file.h"
@@ -62,7 +62,7 @@ class Run {
   bool full() const { return reader_.header().record == RecordMode::full; }
 
   void add(const RunWindow& window) {
-    rows_.push_back(row_of(window, path_));
+    rows_.push_back(reader_.row());
     ends_.push_back(window.end);
     if (window.index == 0) begin_ = window.begin;
     for (const RunFrame& frame : window.frames) {
@@ -176,7 +176,7 @@ class Run {
   const std::filesystem::path& path_;
   const ReportLimits& limits_;
   LogFacts log_;
-  RunReader reader_;
+  SeriesReader reader_;
   MotionPacker packer_;
   std::vector<SeriesRow> rows_;
   std::vector<double> ends_;

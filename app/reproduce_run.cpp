@@ -5,7 +5,7 @@
 
 #include "noli/app/model_run.h"
 #include "noli/app/run_log_facts.h"
-#include "noli/app/run_series.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/trajectory/error.h"
@@ -19,17 +19,19 @@ namespace {
 template <int Dim>
 struct Found {
   RunWindow window;
+  std::uint64_t halvings = 0;
   integrator::Snapshot<double, Dim> before;
 };
 
 template <int Dim>
 Found<Dim> find_window(const ReproduceRequest& request) {
-  RunReader reader = open_run(request.run);
+  SeriesReader reader = open_run(request.run);
   Found<Dim> found;
   while (auto window = reader.next_window()) {
     end_if_stopped();
     if (window->index + 1 == request.window) {
       found.window = std::move(*window);
+      found.halvings = reader.row().halvings;
       return found;
     }
     found.before = snapshot_of<Dim>(*window);
@@ -47,7 +49,7 @@ ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Sc
     throw InputError(request.run.string(), "",
                      "has another number of vertices than the scene; expected the run's scene");
   }
-  auto simulation = simulation_at<Dim>(built.model, found.before, row_of(found.window, request.run).halvings);
+  auto simulation = simulation_at<Dim>(built.model, found.before, found.halvings);
   integrator::Recording<double, Dim> recording;
   integrator::Books<double, Dim> books;
   simulation.run_window(recording, books);

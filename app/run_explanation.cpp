@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "noli/app/run_explanation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 #include "noli/app/run_folder.h"
+#include "noli/app/run_series_reader.h"
+#include "noli/trajectory/error.h"
 #include "noli/trajectory/stop.h"
 
 namespace noli::app {
@@ -26,16 +31,24 @@ class Explaining {
     }
     result_.log = std::move(log_);
     result_.open_window = reader_.open_window().has_value();
-    if (nearest_lines_) {
-      const ActingLayer& nearest = result_.nearest->action;
-      result_.gap = exact_gap(*nearest_lines_, static_cast<int>(result_.dimension), nearest.pair, nearest.vertices);
-    }
+    if (nearest_lines_) find_gap();
     return std::move(result_);
   }
 
  private:
+  void find_gap() {
+    const auto& [window, nearest] = *result_.nearest;
+    try {
+      result_.gap = exact_gap(*nearest_lines_, static_cast<int>(result_.dimension), nearest.pair, nearest.vertices);
+    } catch (const std::range_error&) {
+      throw InputError(
+          trajectory_path(run_).string(), "",
+          fmt::format("window {}: the pair that came nearest is farther apart than the greatest double", window));
+    }
+  }
+
   void add(RunWindow window) {
-    const SeriesRow row = row_of(window, run_);
+    const SeriesRow& row = reader_.row();
     ++result_.windows;
     result_.time = row.time;
     result_.breakpoints += row.breakpoints;
@@ -78,7 +91,7 @@ class Explaining {
 
   const std::filesystem::path& run_;
   LogFacts log_;
-  RunReader reader_;
+  SeriesReader reader_;
   std::optional<WorldLines> nearest_lines_;  ///< of the window in which things came nearest
   RunExplanation result_;
 };

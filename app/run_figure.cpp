@@ -12,6 +12,7 @@
 #include "noli/app/output_files.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/stop.h"
 #include "noli/trajectory/write_file.h"
@@ -35,11 +36,11 @@ bool is_picture(const std::string& output) {
   throw UsageError("-o " + output + ": expected a name that ends in .svg or .csv");
 }
 
-FigureData read(const std::filesystem::path& run, RunReader& reader) {
+FigureData read(const std::filesystem::path& run, SeriesReader& reader) {
   FigureData data{title_of(run), reader.header().dimension, {}};
   while (const auto window = reader.next_window()) {
     end_if_stopped();
-    data.windows.push_back({window->begin, row_of(*window, run)});
+    data.windows.push_back({window->begin, reader.row()});
   }
   if (data.windows.empty()) {
     throw InputError(run.string(), "", "the run has no windows; expected at least one to draw");
@@ -52,7 +53,7 @@ FigureData read(const std::filesystem::path& run, RunReader& reader) {
 FigureOutcome run_figure(const FigureRequest& request) {
   const std::size_t figure = number_of(request.figure);
   const bool picture = is_picture(request.output);
-  RunReader reader = open_run(request.run);
+  SeriesReader reader = open_run(request.run);
   require_output_files({{"-o", request.output, true}}, {request.run}, request.force);
   const FigureData data = read(request.run, reader);
   replace_file(request.output, (picture ? svg_writers() : csv_writers())[figure](data));

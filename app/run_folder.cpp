@@ -2,12 +2,12 @@
 #include "noli/app/run_folder.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 
 #include "noli/app/exit_code.h"
 #include "noli/app/notes.h"
 #include "noli/app/output.h"
+#include "noli/app/output_files.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/version.h"
 #include "noli/trajectory/block_sink.h"
@@ -22,15 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const Json& scene) { return scene.dump(2) + "\n"; }
-
-/// Whether a run may have made it: also what a kill leaves of a file that was about to be one, or with which it was
-/// tried whether one may write.
-bool is_own_file(const fs::path& name) {
-  static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks",
-                                              "proof.blocks",  "log.jsonl",  "series.h5"};
-  if (name.string().starts_with(".noli-")) return true;
-  return names.count((name.extension() == ".part" ? name.stem() : name).string()) > 0;
-}
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -53,7 +44,7 @@ bool is_run(const fs::path& folder) {
 /// Whoever made the folder may have put a link where the run will write: its target may be anybody's.
 void require_no_links(const fs::path& folder) {
   for (const fs::path& file : files_in(folder)) {
-    if (!is_own_file(file.filename()) || !fs::is_symlink(fs::symlink_status(file))) continue;
+    if (!is_file_of_run(file.filename()) || !fs::is_symlink(fs::symlink_status(file))) continue;
     throw UsageError("--resume: " + file.string() + " is a link, which is not written to; expected a file of the run");
   }
 }
@@ -70,7 +61,8 @@ Json essential(Json scene) {
 void clear(const fs::path& folder) {
   const fs::path last = trajectory_path(folder);
   for (const fs::path& file : files_in(folder)) {
-    if (file != last && is_own_file(file.filename()) && !fs::is_directory(fs::symlink_status(file))) fs::remove(file);
+    if (file != last && is_file_of_run(file.filename()) && !fs::is_directory(fs::symlink_status(file)))
+      fs::remove(file);
   }
   fs::remove(last);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "noli/app/run_log_facts.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/run_manifest.h"
 #include "noli/trajectory/stop.h"
@@ -34,7 +35,7 @@ Json versions_of(const std::filesystem::path& folder) {
 
 Json run_info(const std::filesystem::path& folder) {
   const LogFacts log = read_log(folder);
-  RunReader reader = open_run(folder, log);
+  SeriesReader reader = open_run(folder, log);
   Totals totals;
   while (const auto window = reader.next_window()) {
     end_if_stopped();

@@ -152,13 +152,13 @@ LogFacts read_log(const std::filesystem::path& run) {
   return facts;
 }
 
-RunReader open_run(const std::filesystem::path& run, const LogFacts& log) {
-  RunReader reader(run);
+SeriesReader open_run(const std::filesystem::path& run, const LogFacts& log) {
+  SeriesReader reader(run);
   reader.expect(log.known);
   return reader;
 }
 
-RunReader open_run(const std::filesystem::path& run) { return open_run(run, read_log(run)); }
+SeriesReader open_run(const std::filesystem::path& run) { return open_run(run, read_log(run)); }
 
 void require_series(const std::filesystem::path& run, const LogFacts& log) {
   const std::filesystem::path path = run / "series.h5";

@@ -15,6 +15,7 @@
 #include "noli/app/body_names.h"
 #include "noli/app/json.h"
 #include "noli/app/phase_clock.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/certificates/counts.h"
 #include "noli/integrator/contact_settings.h"
 #include "noli/trajectory/run_file.h"
@@ -52,9 +53,9 @@ LogFacts read_log(const std::filesystem::path& run);
 
 /// Opens a run whose log has been read: before, as windows are logged after they have been committed. The reader throws
 /// InputError, too, when windows that the log tells of are missing or have another hash.
-RunReader open_run(const std::filesystem::path& run, const LogFacts& log);
+SeriesReader open_run(const std::filesystem::path& run, const LogFacts& log);
 /// The same for those who want nothing else of its log.
-RunReader open_run(const std::filesystem::path& run);
+SeriesReader open_run(const std::filesystem::path& run);
 
 /// Throws InputError when series.h5 is there, but not as the log tells that it was written.
 void require_series(const std::filesystem::path& run, const LogFacts& log);

@@ -13,8 +13,8 @@
 #include "noli/app/png.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/trajectory/error.h"
-#include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
 #include "noli/trajectory/stop.h"
 #include "noli/trajectory/write_file.h"
@@ -68,7 +68,7 @@ class Nearest {
   bool found_ = false;
 };
 
-RunFrame frame_at(RunReader& reader, const PictureRequest& request) {
+RunFrame frame_at(SeriesReader& reader, const PictureRequest& request) {
   Nearest nearest(request.time);
   double end = 0;
   while (const auto window = reader.next_window()) {
@@ -86,7 +86,7 @@ RunFrame frame_at(RunReader& reader, const PictureRequest& request) {
 
 PictureOutcome run_picture(const PictureRequest& request) {
   check(request);
-  RunReader reader = open_run(request.run);
+  SeriesReader reader = open_run(request.run);
   const RunFrame frame = frame_at(reader, request);
   std::vector<bool> fixed;
   for (const std::uint8_t label : reader.scene().labels) fixed.push_back(label == scripted_vertex);

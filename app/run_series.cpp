@@ -4,13 +4,13 @@
 #include <stdexcept>
 
 #include "noli/trajectory/bytes.h"
-#include "noli/trajectory/error.h"
 
 namespace noli::app {
 namespace {
 
 constexpr std::string_view letters = "noli row";
 constexpr std::uint64_t version = 2;
+constexpr std::size_t beginning = letters.size() + sizeof(version);
 
 /// Calls f on each number of a layer, in order.
 template <class Layer, class F>
@@ -59,7 +59,7 @@ class Numbers {
  private:
   template <class T>
   T take() {
-    if (bytes_.size() < sizeof(T)) throw std::invalid_argument("a window's series ends too soon");
+    if (bytes_.size() < sizeof(T)) throw std::invalid_argument("it ends too soon");
     const T value = get<T>(bytes_.data());
     bytes_.remove_prefix(sizeof(T));
     return value;
@@ -67,7 +67,7 @@ class Numbers {
 
   std::uint64_t below(std::uint64_t end) {
     const auto n = take<std::uint64_t>();
-    if (n >= end) throw std::invalid_argument("a window's series names a pair of features that is none");
+    if (n >= end) throw std::invalid_argument("a vertex or a pair of features that is none");
     return n;
   }
 
@@ -79,7 +79,7 @@ StepHistogram take_steps(Numbers& take, double smallest) {
   std::uint64_t count = 0;
   take(count);
   if (count != take.left() / 16 || take.left() % 16 != 0) {
-    throw std::invalid_argument("a window's series has another size");
+    throw std::invalid_argument("it has another size than its bins take");
   }
   steps.bins.resize(count);
   for (auto& bin : steps.bins) {
@@ -87,7 +87,8 @@ StepHistogram take_steps(Numbers& take, double smallest) {
     take(bin.ticks);
   }
   for (std::size_t i = 1; i < count; ++i) {
-    if (steps.bins[i].number <= steps.bins[i - 1].number) throw std::invalid_argument("bins of steps do not ascend");
+    if (steps.bins[i].number <= steps.bins[i - 1].number)
+      throw std::invalid_argument("the bins of steps do not ascend");
   }
   return steps;
 }
@@ -112,30 +113,21 @@ std::string encode(const SeriesRow& row) {
   return bytes;
 }
 
+std::string not_a_row(std::string_view bytes) {
+  if (bytes.size() < beginning || !bytes.starts_with(letters)) {
+    return "its series is no row of version 2, as a run of an earlier Noli has it; expected a run of this version";
+  }
+  const auto found = get<std::uint64_t>(bytes.data() + letters.size());
+  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 2";
+}
+
 SeriesRow decode_row(std::string_view bytes) {
-  if (!bytes.starts_with(letters)) {
-    throw std::invalid_argument(
-        "its series is no row of version 2, as a run of an earlier Noli has it; expected a run of this version");
-  }
-  Numbers take(bytes.substr(letters.size()));
-  std::uint64_t found = 0;
-  take(found);
-  if (found != version) {
-    throw std::invalid_argument("its series is of version " + std::to_string(found) + "; expected version 2");
-  }
+  if (const std::string problem = not_a_row(bytes); !problem.empty()) throw std::invalid_argument(problem);
+  Numbers take(bytes.substr(beginning));
   SeriesRow row;
   each_number_of_row(row, take);
   row.steps = take_steps(take, row.steps.smallest);
   return row;
-}
-
-SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run) {
-  try {
-    return decode_row(window.state);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(trajectory_path(run).string(), "",
-                     "the state of window " + std::to_string(window.index + 1) + ": " + error.what());
-  }
 }
 
 ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action) {

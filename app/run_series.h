@@ -13,13 +13,12 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "noli/app/step_histogram.h"
 #include "noli/integrator/simulation.h"
-#include "noli/trajectory/run_file.h"
+#include "noli/trajectory/world_lines.h"
 
 namespace noli::app {
 
@@ -64,11 +63,10 @@ struct SeriesRow {
 
 /// Bytes of a row.
 std::string encode(const SeriesRow& row);
-/// Throws std::invalid_argument when the bytes are no row.
+/// Why bytes are no row of this version, as those of an earlier one or of another program are not; empty if they are.
+std::string not_a_row(std::string_view bytes);
+/// Throws std::invalid_argument when the bytes are no row. Its numbers are not checked: run_series_reader.h does.
 SeriesRow decode_row(std::string_view bytes);
-
-/// Of a window that was read from a run. Throws InputError.
-SeriesRow row_of(const RunWindow& window, const std::filesystem::path& run);
 
 ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action);
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "noli/app/frame_times.h"
-#include "noli/app/run_series.h"
+#include "noli/app/run_series_reader.h"
+#include "noli/app/series_file.h"
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
-#include "noli/trajectory/series_file.h"
 
 namespace noli::app {
 namespace {
@@ -47,11 +47,11 @@ std::uint64_t frames_in(const RunWindow& window, double rate, const Stop& stop) 
 
 /// Nothing when it was stopped.
 std::optional<Extent> measure(const std::filesystem::path& run, double rate, const Stop& stop) {
-  RunReader reader(run);
+  SeriesReader reader(run);
   Extent extent;
   while (const auto window = reader.next_window()) {
     ++extent.windows;
-    extent.add(row_of(*window, run).steps);
+    extent.add(reader.row().steps);
     extent.frames += frames_in(*window, rate, stop);
     if (stop()) return std::nullopt;
   }
@@ -90,17 +90,28 @@ class Column {
   std::uint64_t written_ = 0, rows_ = 0;
 };
 
+SeriesProgram program_that_stops(const Stop& stop) {
+  SeriesProgram program = series_program();
+  program.stop = stop;
+  return program;
+}
+
 class Series {
  public:
   Series(const std::filesystem::path& run, double rate, const Extent& extent, const Stop& stop)
-      : run_(run), rate_(rate), stop_(stop), extent_(extent), reader_(run), file_(run / "series.h5") {
+      : run_(run),
+        rate_(rate),
+        stop_(stop),
+        extent_(extent),
+        reader_(run),
+        file_(run / "series.h5", program_that_stops(stop)) {
     declare();
   }
 
   /// Whether it was not stopped.
   bool write() {
     while (const auto window = reader_.next_window()) {
-      write(row_of(*window, run_));
+      write(reader_.row());
       if (!write_frames(*window)) return false;
     }
     for (auto& [name, column] : columns_) column.flush();
@@ -203,7 +214,7 @@ class Series {
   double rate_;
   const Stop& stop_;
   Extent extent_;
-  RunReader reader_;
+  SeriesReader reader_;
   SeriesFile file_;
   std::map<std::string, Column> columns_;
 };
@@ -215,15 +226,20 @@ const char* name(SeriesEnd end) {
     case SeriesEnd::written: return "written";
     case SeriesEnd::unavailable: return "unavailable";
     case SeriesEnd::stopped: return "stopped";
+    case SeriesEnd::failed: return "failed";
   }
   return "";
 }
 
 SeriesEnd write_series_file(const std::filesystem::path& run, double frame_rate, const Stop& stop) {
-  if (!SeriesFile::available()) return SeriesEnd::unavailable;
+  if (!series_program().available()) return SeriesEnd::unavailable;
   const auto extent = measure(run, frame_rate, stop);
-  const bool written = extent && Series(run, frame_rate, *extent, stop).write();
-  return written ? SeriesEnd::written : SeriesEnd::stopped;
+  try {
+    const bool written = extent && Series(run, frame_rate, *extent, stop).write();
+    return written ? SeriesEnd::written : SeriesEnd::stopped;
+  } catch (const SeriesStopped&) {
+    return SeriesEnd::stopped;
+  }
 }
 
 }  // namespace noli::app

@@ -271,6 +271,11 @@ Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& ou
   if (outcome.series == SeriesEnd::stopped) {
     text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
   }
+  if (outcome.series == SeriesEnd::unavailable) {
+    text +=
+        "series.h5 was not written: noli_series is not beside noli. Build with NOLI_WITH_HDF5=ON; `--resume` writes "
+        "it.\n";
+  }
   answer.details += fmt::format(
       "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
       "beside it; {:.0f} MB.\n",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <future>
 #include <memory>
 #include <stdexcept>
@@ -24,7 +25,9 @@
 #include "noli/app/run_folder.h"
 #include "noli/app/run_series.h"
 #include "noli/app/run_series_file.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/app/run_space.h"
+#include "noli/app/series_process.h"
 #include "noli/app/start_check.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/scene/build_model.h"
@@ -33,7 +36,6 @@
 #include "noli/trajectory/error.h"
 #include "noli/trajectory/run_file.h"
 #include "noli/trajectory/sample.h"
-#include "noli/trajectory/series_file.h"
 #include "noli/trajectory/stop.h"
 
 namespace noli::app {
@@ -189,7 +191,7 @@ class Run {
     run.cells = outcome_.cells;
     run.windows = outcome_.windows_total;
     run.prove = request_.prove;
-    run.series = SeriesFile::available();
+    run.series = series_program().available();
     const bool there = std::filesystem::exists(trajectory_path(run.run));
     if (!request_.resume || !there || !folder_.has_begun()) return run;
     run.windows_there = RunReader(run.run).count_windows();
@@ -242,7 +244,7 @@ class Run {
       return;
     }
     const KnownWindows known = folder_.go_on(scene.document, hash_of<Dim>(built_.model));
-    RunReader reader(folder_.path());
+    SeriesReader reader(folder_.path());
     reader.expect(known);
     if (reader.scene() != run_scene(scene)) {
       throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
@@ -250,7 +252,7 @@ class Run {
     Snapshot<double, Dim> last;
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
-      const SeriesRow row = row_of(*window, folder_.path());
+      const SeriesRow& row = reader.row();
       retries_ = Retries(row.halvings);
       if (energy_) energy_->add(row);
       require_whole(*window);
@@ -473,18 +475,26 @@ class Run {
     outcome_.windows = writer_->windows();
     outcome_.certificates += simulation_->certificates();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
-    write_series();
+    const std::exception_ptr lost = write_series();
     outcome_.phases = clock.seconds();
     log_end();
+    if (lost) std::rethrow_exception(lost);
   }
 
-  /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it.
-  void write_series() {
+  /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it. What keeps it from
+  /// being written is returned: the run has ended all the same.
+  std::exception_ptr write_series() {
     const Doing writing(activity_, Phase::writing);
     const int before = interruptions();
     Progress progress("series.h5");
     progress.show(0);
-    outcome_.series = write_series_file(folder_.path(), frame_rate_, [before] { return interruptions() > before; });
+    try {
+      outcome_.series = write_series_file(folder_.path(), frame_rate_, [before] { return interruptions() > before; });
+    } catch (const std::exception&) {
+      outcome_.series = SeriesEnd::failed;
+      return std::current_exception();
+    }
+    return nullptr;
   }
 
   void log_end() {

@@ -10,10 +10,9 @@
 namespace noli::app {
 namespace {
 
-constexpr std::int64_t bias = 1023;
 constexpr std::size_t bin_count = 4 * 2048 + 1;
 
-/// Of the number of a bin that is not negative: bin b is at b + 4 bias.
+/// Of the number of a bin that is not negative: bin b is at b - least_step_bin.
 std::size_t place_of(double step) {
   // The leading digits of 2^(1/8), 2^(3/8), 2^(5/8), 2^(7/8).
   constexpr std::array<double, 4> ends = {0x1.172b83c7d517bp+0, 0x1.4bfdad5362a27p+0, 0x1.8ace5422aa0dbp+0,
@@ -40,9 +39,11 @@ class Ticks {
 
 }  // namespace
 
-std::int64_t step_bin(double step) { return static_cast<std::int64_t>(place_of(step)) - 4 * bias; }
+std::int64_t step_bin(double step) { return static_cast<std::int64_t>(place_of(step)) + least_step_bin; }
 
-double bin_begin(std::int64_t bin) { return std::exp2((2 * static_cast<double>(bin) - 1) / 8); }
+double bin_begin(std::int64_t bin) {
+  return std::min(std::exp2((2 * static_cast<double>(bin) - 1) / 8), std::numeric_limits<double>::max());
+}
 
 std::uint64_t StepHistogram::ticks() const {
   std::uint64_t sum = 0;
@@ -98,7 +99,7 @@ StepHistogram step_histogram(const WorldLines& lines, std::span<const std::uint8
   }
   StepHistogram result;
   for (std::size_t place = 0; place < counts.size(); ++place) {
-    if (counts[place] > 0) result.bins.push_back({static_cast<std::int64_t>(place) - 4 * bias, counts[place]});
+    if (counts[place] > 0) result.bins.push_back({static_cast<std::int64_t>(place) + least_step_bin, counts[place]});
   }
   if (!result.bins.empty()) result.smallest = smallest;
   return result;

@@ -17,6 +17,7 @@
 #include "noli/app/prove_run.h"
 #include "noli/app/run_folder.h"
 #include "noli/app/run_log_facts.h"
+#include "noli/app/run_series_reader.h"
 #include "noli/app/verify_run.h"
 #include "noli/app/windows_again.h"
 #include "noli/integrator/scene/window_count.h"
@@ -193,7 +194,7 @@ class MotionRun {
   bool reproduce(RunWindow& window) {
     if (!again_) return true;
     const Stopwatch watch;
-    auto lines = again_->next(window);
+    auto lines = again_->next(window, reader_.row().halvings);
     outcome_.reproduce_seconds += watch.seconds();
     if (lines) window.lines = std::move(lines);
     return window.lines.has_value() && !stopped();
@@ -352,7 +353,7 @@ class MotionRun {
   const std::filesystem::path& run_;
   bool live_;  ///< another process writes to it
   LogFacts log_;
-  RunReader reader_;
+  SeriesReader reader_;
   std::vector<std::uint8_t> scripted_;
   std::optional<WindowVerifier> verifier_;  ///< made where the run begins
   std::unique_ptr<RunProof> proof_;

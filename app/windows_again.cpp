@@ -9,7 +9,6 @@
 #include "noli/app/exit_code.h"
 #include "noli/app/model_facts.h"
 #include "noli/app/model_run.h"
-#include "noli/app/run_series.h"
 #include "noli/integrator/contact_limit.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
@@ -27,8 +26,7 @@ class Again : public WindowsAgain {
   Again(fs::path run, integrator::Model<double, Dim> model, std::function<bool()> stop)
       : run_(std::move(run)), model_(std::move(model)), stop_(std::move(stop)) {}
 
-  std::optional<WorldLines> next(const RunWindow& window) override {
-    const std::uint64_t halvings = row_of(window, run_).halvings;
+  std::optional<WorldLines> next(const RunWindow& window, std::uint64_t halvings) override {
     if (!simulation_ || halvings != halvings_) simulation_.emplace(simulation_at<Dim>(model_, before_, halvings));
     halvings_ = halvings;
     if (!integrate(window)) return std::nullopt;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # The C library of HDF5 as target noli_external::hdf5, if it is there; NOLI_HDF5_FOUND says whether. Only the library itself is
-# linked, not what it stands on. Included where Noli is built and where an installed Noli is found.
+# linked, not what it stands on.
 find_path(NOLI_HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial)
 find_library(NOLI_HDF5_LIBRARY NAMES hdf5_serial hdf5 PATH_SUFFIXES hdf5/serial)
 mark_as_advanced(NOLI_HDF5_INCLUDE_DIR NOLI_HDF5_LIBRARY)

@@ -19,19 +19,6 @@ double sum(const Json& numbers) {
   return total;
 }
 
-/// In the plane: a point falls onto a floor and bounces.
-Json bouncing_point() {
-  return Json::parse(R"({
-      "noli_scene": 1, "title": "bouncing point", "dimension": 2, "duration": 1, "window": 0.0625,
-      "gravity": [0, -9.81],
-      "bodies": [
-        {"name": "floor", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}},
-         "material": {"edge_stiffness": 0, "mass_per_length": 1}, "pin": ["all"]},
-        {"name": "ball", "mesh": {"points": {"at": [[0.1, 0.5]]}},
-         "material": {"edge_stiffness": 0, "mass_per_vertex": 1}}],
-      "contact": {"thickness": 0.1, "stiffness": 100, "most_layers": 400}})");
-}
-
 /// Its height is a broken line, so it is least at a breakpoint.
 double least_height(const std::string& run, VertexId point) {
   RunReader reader(run);

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <string>
 
+#include "noli/tests/app/bouncing_point.h"
 #include "noli/tests/app/process.h"
 #include "noli/tests/app/scene.h"
 #include "noli/trajectory/run_log.h"

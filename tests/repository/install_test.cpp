@@ -68,6 +68,9 @@ TEST(InstallSlow, WhatIsInstalledStandsOnItsOwn) {
   EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli"));
   EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli_ccd_host"));
   EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli_check_host"));
+#ifdef NOLI_SERIES
+  EXPECT_TRUE(fs::exists(folder.path() / "bin" / "noli_series"));
+#endif
 }
 
 }  // namespace

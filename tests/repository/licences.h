@@ -35,7 +35,11 @@ std::vector<std::filesystem::path> files_read(const CompileCommand& command, con
 std::vector<std::string> licence_violations(const std::vector<std::filesystem::path>& files);
 
 /// The libraries that `readelf -d` lists as needed and that are not among those THIRD_PARTY.md speaks of (nor the
-/// system's or a sanitizer's).
+/// system's or a sanitizer's). HDF5 is for noli_series alone: its package brings libraries of networks.
 std::vector<std::string> unexpected_libraries(std::string_view readelf_output);
+
+/// The libraries in what `ldd` lists that have no place in a program which decides geometry: HDF5, and those of
+/// networks, certificates and directories that its package brings.
+std::vector<std::string> network_libraries(std::string_view ldd_output);
 
 }  // namespace noli::repository

@@ -181,6 +181,47 @@ TEST(Licences, TheCommandNeedsTheStatedLibrariesOnly) {
   EXPECT_EQ(joined(unexpected_libraries(output)), "");
 }
 
+/// What it needs, and what that needs.
+std::string ldd(const std::string& program) {
+  const auto [exit_code, output] = run("ldd " + quoted(program));
+  EXPECT_EQ(exit_code, 0) << program;
+  EXPECT_NE(output.find("libgmp"), std::string::npos) << output;
+  return output;
+}
+
+TEST(Licences, NeitherHdf5NorWhatItsPackageBringsIsInTheCommand) {
+  EXPECT_EQ(joined(network_libraries(ldd(NOLI_COMMAND))), "");
+}
+
+TEST(Licences, APlantedNetworkIsFound) {
+  const auto found = network_libraries(
+      "\tlibgmp.so.10 => /lib/libgmp.so.10 (0x1)\n\tlibcurl-gnutls.so.4 => /lib/x (0x2)\n\tlibc.so.6 => /lib/c "
+      "(0x3)\n");
+  EXPECT_EQ(joined(found), "libcurl-gnutls.so.4\n");
+}
+
+#ifdef NOLI_SERIES
+TEST(Licences, Hdf5IsInTheProgramForSeries) {
+  const auto [exit_code, output] = run("readelf -d " + quoted(NOLI_SERIES));
+  ASSERT_EQ(exit_code, 0);
+  EXPECT_NE(output.find("libhdf5"), std::string::npos);
+}
+#endif
+
+/// A static library that refers to HDF5 would bring it to all who link it.
+TEST(Licences, NoLibraryOfOursRefersToHdf5) {
+  int seen = 0;
+  for (const char* const library :
+       {"kernel/libnoli_kernel.a", "trajectory/libnoli_trajectory.a", "audit/libnoli_audit.a"}) {
+    const auto [exit_code, output] =
+        run("nm -C --undefined-only " + quoted((fs::path(NOLI_BINARY_DIR) / library).string()));
+    EXPECT_EQ(exit_code, 0) << library;
+    EXPECT_EQ(output.find(" H5"), std::string::npos) << library;
+    seen += output.find(" U ") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(seen, 3);
+}
+
 TEST(Licences, APlantedLibraryIsFound) {
   const auto found = unexpected_libraries(
       " 0x1 (NEEDED)  Shared library: [libgmp.so.10]\n 0x1 (NEEDED)  Shared library: [libreadline.so.8]\n");

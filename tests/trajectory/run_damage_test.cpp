@@ -105,20 +105,6 @@ TEST(RunDamage, AHugeLengthAllocatesNothing) {
   EXPECT_EQ(read_run(file.bytes).open_window, committed);
 }
 
-/// The file with the blocks that `change` makes of its blocks, and with checksums and commits that fit.
-std::string changed(const std::string& bytes, const std::function<void(std::vector<Block>&)>& change) {
-  std::vector<Block> blocks;
-  BlockReader reader(bytes, "run", run_kind::content);
-  while (auto block = reader.next()) blocks.push_back(std::move(*block));
-  change(blocks);
-  MemoryFile file;
-  BlockWriter writer(sink_to(file), run_kind::content);
-  for (const Block& block : blocks) {
-    block.kind == block_format::commit ? writer.commit() : writer.append(block.kind, block.payload);
-  }
-  return file.bytes;
-}
-
 template <class T>
 void set(Block& block, std::size_t offset, T value) {
   std::string bytes;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -14,6 +15,7 @@
 
 #include "noli/trajectory/block_sink.h"
 #include "noli/trajectory/run_file.h"
+#include "noli/trajectory/run_payload.h"
 
 namespace noli::testing {
 
@@ -40,6 +42,20 @@ class MemorySink : public Sink {
 };
 
 inline std::unique_ptr<Sink> sink_to(MemoryFile& file) { return std::make_unique<MemorySink>(file); }
+
+/// The file with the blocks that `change` makes of its blocks, and with checksums and commits that fit.
+inline std::string changed(const std::string& bytes, const std::function<void(std::vector<Block>&)>& change) {
+  std::vector<Block> blocks;
+  BlockReader reader(bytes, "run", run_kind::content);
+  while (auto block = reader.next()) blocks.push_back(std::move(*block));
+  change(blocks);
+  MemoryFile file;
+  BlockWriter writer(sink_to(file), run_kind::content);
+  for (const Block& block : blocks) {
+    block.kind == block_format::commit ? writer.commit() : writer.append(block.kind, block.payload);
+  }
+  return file.bytes;
+}
 
 /// A window with what it refers to.
 struct OwnWindow {

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the commands do with the folder of a run: whatever numbers are in its motion and its states, under checksums that
+// fit, they end with an answer, or say what is wrong with the input.
+//
+// Input: changes of the blocks of a small run, as tests/trajectory/mutate_run.h has them.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "check_frame.h"
+#include "noli/app/exit_code.h"
+#include "noli/app/export_run.h"
+#include "noli/app/report_run.h"
+#include "noli/app/reproduce_run.h"
+#include "noli/app/run_explanation.h"
+#include "noli/app/run_figure.h"
+#include "noli/app/run_info.h"
+#include "noli/app/simulate_run.h"
+#include "noli/app/verify_run.h"
+#include "noli/tests/app/bouncing_point.h"
+#include "noli/tests/support/temporary_folder.h"
+#include "noli/tests/trajectory/mutate_run.h"
+#include "noli/trajectory/error.h"
+#include "noli/trajectory/write_file.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace noli::app;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A run that is whole, made once, and the place of one that is not.
+struct Runs {
+  noli::test::TemporaryFolder folder;
+  fs::path scene = folder / "scene.json", whole = folder / "whole", run = folder / "run";
+  std::string bytes;
+
+  Runs() {
+    nlohmann::json json = noli::app_tests::bouncing_point();
+    json["duration"] = 0.5;
+    noli::write_file(scene, json.dump());
+    SimulateRequest request = simulate(whole);
+    run_simulate(request);
+    bytes = bytes_of(noli::trajectory_path(whole));
+  }
+
+  SimulateRequest simulate(const fs::path& to) const {
+    SimulateRequest request;
+    request.scene = scene;
+    request.run = to;
+    request.threads = 1;
+    request.time_limit = std::chrono::seconds(5);
+    return request;
+  }
+
+  void make(std::string_view changes) const {
+    fs::remove_all(run);
+    fs::copy(whole, run, fs::copy_options::recursive);
+    noli::write_file(noli::trajectory_path(run), noli::testing::mutated_run(bytes, changes));
+  }
+};
+
+/// Any other exception is a finding.
+template <class Command>
+void ends(const Command& command) {
+  try {
+    command();
+  } catch (const noli::InputError& error) {
+    noli::fuzz::require(std::string_view(error.what()).find('\n') == std::string_view::npos);
+  } catch (const noli::ReadInterrupted&) {
+  } catch (const UsageError&) {
+  }
+}
+
+void verify(const fs::path& run) {
+  VerifyRequest request;
+  request.frames = {run};
+  request.run = true;
+  request.threads = 1;
+  request.deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  run_verify_motion(request);
+}
+
+void all_commands(const Runs& runs) {
+  const fs::path& run = runs.run;
+  ends([&] { verify(run); });
+  ends([&] {
+    const RunExplanation explanation = explain_run(run);
+    noli::fuzz::require(!answer_of(explanation).text.empty() && to_json(explanation).is_object());
+  });
+  ends([&] {
+    ReportPage page;
+    report_run(run, {}, page);
+  });
+  ends([&] { run_export({run, 20, (runs.folder / "frame%d.obj").string(), true}); });
+  for (const char* const figure : figure_names) {
+    ends([&] { run_figure({run, figure, (runs.folder / "figure.svg").string(), true}); });
+  }
+  ends([&] { run_info(run); });
+  ends([&] { run_reproduce({runs.scene, false, run, 6, runs.folder / "block"}); });
+  ends([&] {
+    SimulateRequest request = runs.simulate(run);
+    request.resume = true;
+    run_simulate(request);
+  });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Runs runs;
+  runs.make({reinterpret_cast<const char*>(data), size});
+  all_commands(runs);
+  return 0;
+}
