@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "noli/app/exit_code.h"
 #include "noli/app/interrupt.h"
 #include "noli/app/machine.h"
 #include "noli/audit/run_program.h"
@@ -44,7 +45,9 @@ CheckerVersion version_of(Checker checker) {
   const audit::ProgramEnd end = audit::run_program({beside_this_program(name).string(), "--version"}, limits);
   std::istringstream words(end.out);
   CheckerVersion said;
-  if (!end.exited_with(0) || !(words >> said.name >> said.version >> said.commit)) return {name, "unknown", "unknown"};
+  if (!end.exited_with(0) || !(words >> said.name >> said.version >> said.commit)) {
+    throw HelperError(name + " does not say its version; expected the program that was built with this noli");
+  }
   return said;
 }
 
@@ -132,9 +135,14 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
   }
   pid_ = -1;
   if (WIFSIGNALED(*status)) {
-    throw std::runtime_error(fmt::format("{} was ended by signal {}", name_of(checker_), WTERMSIG(*status)));
+    const char* const why = WTERMSIG(*status) == SIGKILL ? ", as when memory runs out" : "";
+    throw HelperError(fmt::format("{} was ended by signal {}{}", name_of(checker_), WTERMSIG(*status), why));
   }
   verdict.code = WEXITSTATUS(*status);
+  constexpr int machine_failed = 4;
+  if (verdict.code == machine_failed) {
+    throw HelperError(fmt::format("{} {}", name_of(checker_), first_line(verdict.words)));
+  }
   if (verdict.code != 0 && verdict.code != 1 && verdict.code != 3) {
     throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker_), verdict.code));
   }

@@ -24,7 +24,7 @@ struct CheckerVersion {
   std::string name, version, commit;
 };
 
-/// Throws std::runtime_error when it is not there.
+/// Throws HelperError when it does not say; std::runtime_error when it is not there.
 CheckerVersion version_of(Checker checker);
 
 /// What a checker said, and how it ended: 0 accepted, 1 refuted, 3 rejected.
@@ -49,8 +49,8 @@ class CheckerProcess {
   /// Throws std::runtime_error when the checker reads no more.
   void write(std::string_view bytes);
   /// Waits until it has read all that was written and has ended; nothing after a stop: then it is killed. Throws
-  /// std::runtime_error when it was ended by a signal, ended with another code than it may, or closed its output and
-  /// stayed.
+  /// HelperError when the machine failed it (memory, a signal); std::runtime_error when it ended with another code than
+  /// it may, or closed its output and stayed.
   std::optional<CheckerVerdict> finish();
 
  private:

@@ -82,7 +82,7 @@ std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, cons
   const fs::path proof = desk / "proof.noli";
   const std::vector<fs::path> files = audit::write_frames(motion, desk);
   std::vector<std::string> words = {
-      this_program_file().string(), "verify", "--threads", "1", "--no-check", "--proof", proof};
+      this_program_file().string(), "verify", "--threads", "1", "--no-check", "--force", "--proof", proof};
   if (motion.at_rest()) words.emplace_back("--static");
   words.insert(words.end(), claim.begin(), claim.end());
   for (const fs::path& file : files) words.push_back(file);

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <string_view>
 #include <system_error>
 
@@ -25,6 +26,17 @@ namespace {
 void* or_end(void* memory) {
   if (memory == nullptr) end_with("noli: out of memory\n");
   return memory;
+}
+
+/// An exception that nobody may catch, as one that leaves a destructor.
+[[noreturn]] void end_of_exception() {
+  try {
+    if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+    end_with("noli: out of memory\n");
+  } catch (...) {
+  }
+  end_with("noli: internal error: terminated\n");
 }
 
 void* gmp_allocate(std::size_t size) { return or_end(std::malloc(size)); }
@@ -57,7 +69,7 @@ std::filesystem::path beside_this_program(const std::string& name) { return this
 void prepare_for_the_worst() {
   hold_standard_descriptors();
   mp_set_memory_functions(gmp_allocate, gmp_reallocate, gmp_free);
-  std::set_terminate([] { end_with("noli: internal error: terminated\n"); });
+  std::set_terminate(end_of_exception);
 }
 
 }  // namespace noli::app

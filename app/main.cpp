@@ -105,6 +105,8 @@ ExitCode guarded(int argc, char** argv) {
     return complain(ExitCode::bad_input, error.what());
   } catch (const WriteError& error) {
     return complain(ExitCode::failure, error.what());
+  } catch (const HelperError& error) {
+    return complain(ExitCode::failure, error.what());
   } catch (const audit::NotSavedError& error) {
     return complain(ExitCode::failure, error.what());
   } catch (const std::system_error& error) {

@@ -7,8 +7,12 @@
 // Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What may be asked, what it says, and
 // its exit codes are in sections 6 and 7 there. A proof, or the block file of a run, that is named - is read from the
 // standard input.
+#include <unistd.h>
+
+#include <cstdlib>
 #include <exception>
 #include <map>
+#include <new>
 
 #include "check.h"
 
@@ -67,9 +71,31 @@ static int run(std::vector<std::string> words) {
 
 }  // namespace noli::checker
 
+/// Says nothing of the proof. Nothing is allocated any more.
+[[noreturn]] static void end_without_memory() {
+  constexpr std::string_view words = "failed: out of memory; nothing is said of the proof\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDOUT_FILENO, words.data(), words.size());
+  std::_Exit(4);
+}
+
+static void* or_end(void* memory) {
+  if (memory == nullptr) end_without_memory();
+  return memory;
+}
+
+/// GMP would end with a signal.
+static void watch_memory_of_gmp() {
+  mp_set_memory_functions([](std::size_t size) { return or_end(std::malloc(size)); },
+                          [](void* old, std::size_t, std::size_t size) { return or_end(std::realloc(old, size)); },
+                          [](void* memory, std::size_t) { std::free(memory); });
+}
+
 int main(int argc, char** argv) {
+  watch_memory_of_gmp();
   try {
     return noli::checker::run({argv + std::min(argc, 1), argv + argc});
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
   } catch (const noli::checker::Rejected& r) {
     std::printf("rejected: %s: %s\n", r.where.c_str(), r.why.c_str());
   } catch (const std::exception& e) {

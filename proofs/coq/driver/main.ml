@@ -260,4 +260,7 @@ let () =
     (match List.tl (Array.to_list Sys.argv) with
      | ["--version"] -> Printf.printf "noli_check_verified %s\n%!" Version.text; 0
      | words -> (
-       try check [] words with Rejected why -> reject why | e -> reject ("the checker: " ^ Printexc.to_string e)))
+       try check [] words with
+       | Rejected why -> reject why
+       | Out_of_memory -> print_string "failed: out of memory; nothing is said of the proof\n"; 4
+       | e -> reject ("the checker: " ^ Printexc.to_string e)))
