@@ -6,6 +6,7 @@
 #include "noli/app/model_run.h"
 #include "noli/app/run_log_facts.h"
 #include "noli/app/run_series_reader.h"
+#include "noli/integrator/contact_limit.h"
 #include "noli/integrator/scene/build_model.h"
 #include "noli/integrator/scene/read_scene.h"
 #include "noli/trajectory/error.h"
@@ -42,6 +43,20 @@ Found<Dim> find_window(const ReproduceRequest& request) {
 }
 
 template <int Dim>
+void run_window(integrator::Simulation<double, Dim>& simulation, integrator::Recording<double, Dim>& recording,
+                const ReproduceRequest& request) {
+  integrator::Books<double, Dim> books;
+  try {
+    simulation.run_window(recording, books);
+  } catch (const integrator::ContactLimit& limit) {
+    throw InputError(trajectory_path(request.run).string(), "",
+                     fmt::format("window {}: integrated again, a pair needs more layers than allowed at {:.17g} s: the "
+                                 "run has been changed, or another version of noli wrote it (`noli info` says which)",
+                                 request.window, limit.time));
+  }
+}
+
+template <int Dim>
 ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Scene& scene) {
   const Found<Dim> found = find_window<Dim>(request);
   const auto built = integrator::build_model<Dim>(scene);
@@ -51,8 +66,7 @@ ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Sc
   }
   auto simulation = simulation_at<Dim>(built.model, found.before, found.halvings);
   integrator::Recording<double, Dim> recording;
-  integrator::Books<double, Dim> books;
-  simulation.run_window(recording, books);
+  run_window(simulation, recording, request);
   const WorldLines lines = integrator::world_lines<Dim>(recording, built.model.x.size());
   ReproduceOutcome outcome;
   outcome.breakpoints = recording.stream().size();

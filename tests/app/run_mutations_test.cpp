@@ -61,6 +61,7 @@ class RunMutations : public Simulate {
             {"export", run, "-o", run_path("frames/%d.ply"), "--force", "--fps", "20"},
             {"export", run, "--figure", "step-histogram", "-o", run_path("steps.svg"), "--force"},
             {"info", run},
+            {"simulate", file, "--reproduce", run, "--window", "5", "-o", run_path("block")},
             {"simulate", file, "-o", run, "--resume", "--time-limit", "5s"}};
   }
 
@@ -88,6 +89,17 @@ Json frames_of_cloths() {
   json["duration"] = 0.06;
   json["record"] = "frames";
   return json;
+}
+
+/// Found by the fuzzer: the point is put onto the floor, which was an internal error.
+TEST_F(RunMutations, WhatContactDoesNotAllowIsNotReproduced) {
+  const std::string file = scene(short_bounce()), run = run_path("run");
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run}).exit_code, 0);
+  write_file(trajectory_path(run), testing::mutated_run(blocks("run"), "\xd6\x5f\x67\x7f\xdc\xdb"));
+  const Process process = run_noli({"simulate", file, "--reproduce", run, "--window", "6", "-o", run_path("block")});
+  EXPECT_EQ(process.exit_code, 3) << process.err;
+  EXPECT_NE(process.err.find("window 6: integrated again, a pair needs more layers than allowed"), std::string::npos)
+      << process.err;
 }
 
 TEST_F(RunMutations, EndByThemselves) { EXPECT_GT(expect_ends(short_bounce(), 60, 1), 100); }

@@ -14,6 +14,7 @@
 #include "check_frame.h"
 #include "noli/app/exit_code.h"
 #include "noli/app/export_run.h"
+#include "noli/app/report_assets.h"
 #include "noli/app/report_run.h"
 #include "noli/app/reproduce_run.h"
 #include "noli/app/run_explanation.h"
@@ -89,6 +90,13 @@ void verify(const fs::path& run) {
   run_verify_motion(request);
 }
 
+/// Into a page that says nothing yet.
+void report(const fs::path& run) {
+  ReportPage page;
+  page.page = {{"title", ""}, {"verdict", {{"word", "report"}, {"tone", "neutral"}, {"lines", Json::array()}}}};
+  report_run(run, {}, page);
+}
+
 void all_commands(const Runs& runs) {
   const fs::path& run = runs.run;
   ends([&] { verify(run); });
@@ -96,10 +104,7 @@ void all_commands(const Runs& runs) {
     const RunExplanation explanation = explain_run(run);
     noli::fuzz::require(!answer_of(explanation).text.empty() && to_json(explanation).is_object());
   });
-  ends([&] {
-    ReportPage page;
-    report_run(run, {}, page);
-  });
+  if (has_report_page()) ends([&] { report(run); });
   ends([&] { run_export({run, 20, (runs.folder / "frame%d.obj").string(), true}); });
   for (const char* const figure : figure_names) {
     ends([&] { run_figure({run, figure, (runs.folder / "figure.svg").string(), true}); });
