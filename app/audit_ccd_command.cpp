@@ -157,6 +157,7 @@ Command add_audit_ccd(CLI::App& audit) {
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
+  add_sandbox_option(*command, request.host.sandbox);
   command->add_option("--svg", arguments->svg, "Draw wrong answers against time per query")->type_name("OUT.svg");
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};

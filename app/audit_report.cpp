@@ -54,6 +54,7 @@ Json file_audit_json(const AuditOutcome& outcome, const FileAudit& file) {
 Json library_json(const AuditOutcome& outcome, const LibraryAudit& audit) {
   Json json = {{"library", audit.plugin.string()}, {"tolerance", audit.tolerance}};
   if (!audit.description.empty()) json["description"] = audit.description;
+  if (!audit.said.empty()) json["standard_error"] = audit.said;
   json.update(counts_json(audit.total));
   json["files"] = Json::array();
   for (const FileAudit& file : audit.files) json["files"].push_back(file_audit_json(outcome, file));
@@ -158,6 +159,12 @@ void append_descriptions(const AuditOutcome& outcome, std::string& text) {
   }
 }
 
+void append_said(const AuditOutcome& outcome, std::string& text) {
+  for (const LibraryAudit& audit : outcome.audits) {
+    if (!audit.said.empty()) text += said_text(audit_name(outcome, audit.plugin), audit.said);
+  }
+}
+
 void append_file(const AuditOutcome& outcome, std::size_t i, std::string& text) {
   const AuditedFile& file = outcome.files[i];
   const std::string path = on_one_line(file.path.string());
@@ -227,6 +234,13 @@ std::string audit_name(const AuditOutcome& outcome, const std::filesystem::path&
   return on_one_line(unique ? library.stem().string() : library.string());
 }
 
+std::string said_text(const std::string& who, const std::string& said) {
+  constexpr std::size_t most = 300;
+  const std::string end = said.size() > most ? "..." + said.substr(said.size() - most) : said;
+  return fmt::format("{} wrote to its standard error: {}\n", who,
+                     on_one_line(end.substr(0, end.find_last_not_of('\n') + 1)));
+}
+
 Answer audit_answer(const AuditOutcome& outcome) {
   const AuditCounts sum = sum_of(outcome);
   Answer answer(audit_verdict(outcome), {{"audits", outcome.audits.size()},
@@ -246,6 +260,7 @@ Answer audit_answer(const AuditOutcome& outcome) {
                                          {"complete", outcome.complete}});
   std::string& text = answer.text;
   append_descriptions(outcome, text);
+  append_said(outcome, text);
   if (outcome.files.size() > 1) text += "All files:\n" + table_of_libraries(outcome);
   for (std::size_t i = 0; i < outcome.files.size(); ++i) append_file(outcome, i, text);
   for (const LibraryAudit& audit : outcome.audits) append_findings(outcome, audit, text);

@@ -25,6 +25,9 @@ std::string audit_svg(const audit::AuditOutcome& outcome);
 /// How a library is called in tables: the name of its file, without folders unless two are then the same.
 std::string audit_name(const audit::AuditOutcome& outcome, const std::filesystem::path& library);
 
+/// A line with the end of what a library wrote to its standard error. `who`: the library, in words.
+std::string said_text(const std::string& who, const std::string& said);
+
 /// How far times are off, for JSON.
 Json errors_json(const audit::TimeErrors& errors);
 

@@ -10,6 +10,11 @@
 
 namespace noli::app {
 
+CLI::Option* add_sandbox_option(CLI::App& command, bool& sandbox) {
+  return command.add_flag("--sandbox", sandbox,
+                          "The library cannot write to files, touch other processes, or start programs");
+}
+
 void add_library_options(CLI::App& command, LibraryArguments& arguments, const std::string& instead) {
   audit::LibraryUnderTest& library = arguments.asked;
   CLI::Option* const path =
@@ -23,6 +28,7 @@ void add_library_options(CLI::App& command, LibraryArguments& arguments, const s
   command.add_flag("--exact", library.exact, "It claims to be exact: false positives and early times are findings too")
       ->needs(path);
   command.add_flag("--first-only", arguments.first_only, "Stop at the first finding")->needs(path);
+  add_sandbox_option(command, library.host.sandbox)->needs(path);
   command.add_option("--query-limit", arguments.query_limit, "A query that computes for longer hangs: 500ms, 10s")
       ->capture_default_str()
       ->type_name("TIME")

@@ -12,7 +12,7 @@
 
 namespace noli::app {
 
-/// --library, --tolerance, --exact, --query-limit, --memory-limit, --first-only.
+/// --library, --tolerance, --exact, --query-limit, --memory-limit, --sandbox, --first-only.
 struct LibraryArguments {
   audit::LibraryUnderTest asked;  ///< path empty: none
   std::uint64_t megabytes = 2000;
@@ -21,6 +21,9 @@ struct LibraryArguments {
 
   bool asks_a_library() const { return !asked.path.empty(); }
 };
+
+/// --sandbox, for all commands that load a library.
+CLI::Option* add_sandbox_option(CLI::App& command, bool& sandbox);
 
 /// `instead`: what is not asked then, "the kernel".
 void add_library_options(CLI::App& command, LibraryArguments& arguments, const std::string& instead);

@@ -44,20 +44,22 @@ Json reports_json(const PipelineAudit& audit) {
 }
 
 Json audit_json(const PipelineAudit& audit) {
-  return {{"library", audit.plugin.string()},
-          {"tolerance", audit.tolerance},
-          {"candidates", pair_json(audit.candidates)},
-          {"not_found", audit.not_found},
-          {"false_positives", pair_json(audit.false_positives)},
-          {"false_negatives", audit.false_negatives},
-          {"late", errors_json(audit.late)},
-          {"early", errors_json(audit.early)},
-          {"bad_times", audit.bad_times},
-          {"failures", audit.failures},
-          {"bad_pairs", audit.bad_pairs},
-          {"ending", ending(audit)},
-          {"words", audit.ending},
-          {"reports", reports_json(audit)}};
+  Json json = {{"library", audit.plugin.string()},
+               {"tolerance", audit.tolerance},
+               {"candidates", pair_json(audit.candidates)},
+               {"not_found", audit.not_found},
+               {"false_positives", pair_json(audit.false_positives)},
+               {"false_negatives", audit.false_negatives},
+               {"late", errors_json(audit.late)},
+               {"early", errors_json(audit.early)},
+               {"bad_times", audit.bad_times},
+               {"failures", audit.failures},
+               {"bad_pairs", audit.bad_pairs},
+               {"ending", ending(audit)},
+               {"words", audit.ending},
+               {"reports", reports_json(audit)}};
+  if (!audit.said.empty()) json["standard_error"] = audit.said;
+  return json;
 }
 
 TableRow row_of(const PipelineAudit& audit) {
@@ -81,6 +83,7 @@ TableRow row_of(const PipelineAudit& audit) {
 void append_findings(const PipelineAudit& audit, std::string& text) {
   const std::string name = fmt::format("{}, tolerance {:g}", on_one_line(audit.plugin.string()), audit.tolerance);
   if (!audit.ending.empty()) text += fmt::format("{}: {}: {}\n", name, ending(audit), audit.ending);
+  if (!audit.said.empty()) text += said_text(name, audit.said);
   for (const audit::PipelineFinding& finding : audit.reports) {
     text += fmt::format("{}: {}: {}: {}\n", name, finding.what, contact_text(finding.contact), finding.words);
   }

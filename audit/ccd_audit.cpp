@@ -183,6 +183,7 @@ class Audit {
       FileAudit marked = Marking(*exam, answers, request_.max_reports).run();
       marked.file = file;
       audit.description = answers.description;
+      if (!answers.said.empty()) audit.said = answers.said;
       marked.counts.unit_seconds = unit.ns_per_query * 1e-9 * static_cast<double>(exam->queries.size());
       outcome_.complete = outcome_.complete && marked.complete;
       audit.files.push_back(std::move(marked));

@@ -96,6 +96,7 @@ struct LibraryAudit {
   std::filesystem::path plugin;
   double tolerance = 0;
   std::string description;  ///< what it says that it is; "" if it says nothing
+  std::string said;         ///< the end of what it wrote last to its standard error
   std::vector<FileAudit> files;
   AuditCounts total;
 };

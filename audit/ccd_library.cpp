@@ -66,6 +66,7 @@ class Asking {
   bool one_host() {
     prepare();
     const Ending ending = HostProcess(library_, memory_, e_, options_, false).wait();
+    if (!ending.said.empty()) result_.said = ending.said;
     if (queries_.empty()) require_loaded(library_, e_, ending);  // else it has been loaded before, with none
     switch (ending.kind) {
       case Ending::Kind::finished: first_ = queries_.size(); return false;

@@ -31,6 +31,7 @@ struct LibraryAnswers {
   std::uint64_t repeated = 0;  ///< calls during which memory was watched
   std::int64_t growth = 0;     ///< of memory during these, bytes
   bool leaks = false;          ///< it grew in either half of them
+  std::string said;            ///< the end of what the last process that said something wrote to its standard error
   std::string description;     ///< what the library says that it is; "" if it says nothing
   bool complete = true;        ///< false: stopped, out of time, or given up
 };

@@ -28,6 +28,11 @@ using Clock = std::chrono::steady_clock;
 using Edge = std::array<VertexId, 2>;
 using Face = std::array<VertexId, 3>;
 
+/// Two features that meet, by their numbers as noli_ccd_candidates has them.
+struct MeshContact {
+  std::uint32_t kind = 0, first = 0, second = 0;
+};
+
 /// A step as libraries are told it: without vertices that nothing refers to, and with the edges of faces as a list.
 struct Step {
   std::vector<Position> x_t0, x_t1;
@@ -95,7 +100,10 @@ std::vector<Edge> edges_of(const Mesh& mesh) {
   return edges;
 }
 
-auto key(const MeshContact& c) { return std::array{c.kind, c.first, c.second}; }
+template <class Pair>
+auto key(const Pair& c) {
+  return std::array{c.kind, c.first, c.second};
+}
 
 /// The number of an edge. Nothing for one from a vertex to itself, as a face has that lists a vertex twice: libraries
 /// are told edges of two vertices.
@@ -163,14 +171,37 @@ FeatureContact named(const Step& step, const Pair& contact) {
   return result;
 }
 
+MeshSizes sizes_of(const Step& step) { return {step.x_t0.size(), step.edges.size(), step.faces.size()}; }
+
+template <class Pair>
+bool is_pair_of(const Step& step, const Pair& pair) {
+  return is_pair(
+      pair, sizes_of(step), [&](auto e) { return step.edges[e]; }, [&](auto f) { return step.faces[f]; });
+}
+
 /// Of a pair that the library had to do with, and so may have written over; nothing if it is none of the step.
 std::optional<FeatureContact> told(const Step& step, const MeshPair& pair) {
-  const std::size_t edges = step.edges.size(), vertices = step.number.size(), faces = step.faces.size();
-  const bool known =
-      pair.known != 0 && (pair.kind == NOLI_CCD_EDGE_EDGE
-                              ? pair.first < edges && pair.second < edges
-                              : pair.kind == NOLI_CCD_VERTEX_FACE && pair.first < vertices && pair.second < faces);
-  return known ? std::optional(named(step, pair)) : std::nullopt;
+  return pair.known != 0 && is_pair_of(step, pair) ? std::optional(named(step, pair)) : std::nullopt;
+}
+
+/// What the host left, as far as it is whole: the library may have written over it. `whole`: each candidate is there, and
+/// each that is a pair has been asked.
+struct Answers {
+  std::vector<PairAnswer> pairs;
+  bool whole = true;
+};
+
+Answers answers_in(const SharedMemory& memory, const Step& step, std::uint64_t said, std::uint64_t most) {
+  const std::size_t begin = exchange_bytes(sizes_of(step));
+  Answers answers;
+  answers.pairs.resize(std::min(std::min(said, most), memory.bytes_behind(begin) / sizeof(PairAnswer)));
+  answers.whole = memory.read(begin, std::as_writable_bytes(std::span(answers.pairs))) && answers.pairs.size() == said;
+  for (std::size_t i = 0; i < answers.pairs.size(); ++i) {
+    const PairAnswer& answer = answers.pairs[i];
+    const bool ascends = i == 0 || key(answers.pairs[i - 1]) < key(answer);
+    if (!ascends || (answer.answered != 1 && is_pair_of(step, answer))) answers.whole = false;
+  }
+  return answers;
 }
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -249,7 +280,7 @@ class PipelineRun {
   }
 
   void ask(const fs::path& library, double tolerance) {
-    const MeshSizes sizes{step_.x_t0.size(), step_.contacts.size(), step_.edges.size(), step_.faces.size()};
+    const MeshSizes sizes = sizes_of(step_);
     const SharedMemory memory(exchange_bytes(sizes));
     auto& exchange = *new (memory.begin()) PipelineExchange;
     exchange.sizes = sizes;
@@ -261,81 +292,114 @@ class PipelineRun {
       std::copy(step_.x_t0[v].begin(), step_.x_t0[v].end(), arrays.x_t0 + 3 * v);
       std::copy(step_.x_t1[v].begin(), step_.x_t1[v].end(), arrays.x_t1 + 3 * v);
     }
-    std::uninitialized_copy(step_.contacts.begin(), step_.contacts.end(), arrays.contacts);
     for (std::size_t e = 0; e < sizes.edges; ++e) std::copy_n(step_.edges[e].begin(), 2, arrays.edges + 2 * e);
     for (std::size_t f = 0; f < sizes.faces; ++f) std::copy_n(step_.faces[f].begin(), 3, arrays.faces + 3 * f);
-    const Ending ending = HostProcess(library, memory, exchange, request_.host, true).wait();
+    Ending ending = HostProcess(library, memory, exchange, request_.host, true).wait();
     const bool lacks_search = exchange.loaded == LoadResult::no_candidates && request_.needs_search;
     if (ending.kind == Ending::Kind::finished && lacks_search) require_loaded(library, exchange, ending);
+    const bool searched = exchange.search_code >= 0;
+    const Answers answers =
+        answers_in(memory, step_, exchange.candidates, request_.host.most_memory / sizeof(PairAnswer));
+    if (ending.kind == Ending::Kind::finished && searched && !answers.whole) {
+      ending.kind = Ending::Kind::crashed;
+      ending.words = "answers are missing: the library writes to memory that is not its own";
+    }
     outcome_.complete = outcome_.complete && ending.kind == Ending::Kind::finished;
     over_ = ending.kind == Ending::Kind::stopped;
-    outcome_.audits.push_back(marked(library, exchange, arrays, ending));
+    outcome_.audits.push_back(marked(library, tolerance, exchange, answers, ending));
   }
 
-  PipelineAudit marked(const fs::path& library, const PipelineExchange& exchange, const MeshArrays& arrays,
-                       const Ending& ending) const {
+  PipelineAudit marked(const fs::path& library, double tolerance, const PipelineExchange& exchange,
+                       const Answers& answers, const Ending& ending) const {
     PipelineAudit audit;
     audit.plugin = library;
-    audit.tolerance = exchange.tolerance;
-    audit.candidates = exchange.candidates;
-    audit.false_positives = exchange.false_positives;
-    audit.failures = exchange.failures + (exchange.search_code < 0 ? 1 : 0);
-    audit.bad_pairs = exchange.bad_pairs;
+    audit.tolerance = tolerance;
     audit.end = ending.kind;
     audit.ending = ending.words;
+    audit.said = ending.said;
     audit.search_seconds = exchange.search_seconds;
     audit.query_seconds = exchange.query_seconds;
+    const bool finished = ending.kind == Ending::Kind::finished;
     const HostPhase phase = exchange.phase.load();
     const bool again = phase == HostPhase::repeating && exchange.asked.known == 0;
-    audit.in_search = ending.kind != Ending::Kind::finished && (phase == HostPhase::searching || again);
+    audit.in_search = !finished && (phase == HostPhase::searching || again);
     audit.searched = exchange.search_code >= 0;
+    audit.failures = audit.searched ? 0 : 1;
     audit.leaks = grew(exchange.resident);
-    audit.failed = told(step_, exchange.failed);
-    if (ending.kind != Ending::Kind::finished) audit.asked = told(step_, exchange.asked);
-    if (ending.kind != Ending::Kind::finished || exchange.search_code < 0) return audit;
-    audit.through = outcome_.first_time && exchange.told > *outcome_.first_time;
-    for (std::size_t i = 0; i < step_.contacts.size(); ++i) {
-      MeshContact contact = step_.contacts[i];  // which it is; of what the library has to do with, what became of it
-      const MeshContact& given = arrays.contacts[i];
-      contact.found = given.found;
-      contact.hit = given.hit;
-      contact.failed = given.failed;
-      contact.time = given.time;
-      mark(contact, step_.times[i], audit);
-    }
-    const auto false_positive = request_.exact ? told(step_, exchange.false_positive) : std::nullopt;
-    if (false_positive && audit.reports.size() < request_.max_reports) {
-      audit.reports.push_back({*false_positive, "false_positive", "they stay apart", {}});
-    }
+    if (!finished) audit.asked = told(step_, exchange.asked);
+    const bool reports = finished && audit.searched;
+    compare(answers, reports, audit);
     return audit;
   }
 
-  void mark(const MeshContact& contact, double exact, PipelineAudit& audit) const {
+  /// The answers and the contacts both ascend.
+  void compare(const Answers& answers, bool reports, PipelineAudit& audit) const {
+    std::size_t next = 0;
+    double first_hit = 2;
+    std::optional<FeatureContact> false_positive;
+    for (const PairAnswer& answer : answers.pairs) {
+      if (!is_pair_of(step_, answer)) {
+        ++audit.bad_pairs;
+        continue;
+      }
+      ++audit.candidates[answer.kind];
+      for (; next < step_.contacts.size() && key(step_.contacts[next]) < key(answer); ++next) {
+        if (reports) mark(next, nullptr, audit);
+      }
+      const bool meets = next < step_.contacts.size() && key(step_.contacts[next]) == key(answer);
+      if (answer.answered != 0) add(answer, meets, first_hit, false_positive, audit);
+      if (meets && reports) mark(next, &answer, audit);
+      next += meets ? 1 : 0;
+    }
+    for (; next < step_.contacts.size() && reports; ++next) mark(next, nullptr, audit);
+    audit.through = reports && outcome_.first_time && first_hit > *outcome_.first_time;
+    if (!reports || !request_.exact || !false_positive || audit.reports.size() >= request_.max_reports) return;
+    audit.reports.push_back({*false_positive, "false_positive", "they stay apart", {}});
+  }
+
+  /// What an answer is, whether its pair meets or not. `first_hit`: the first time of impact; a hit without one is 0.
+  void add(const PairAnswer& answer, bool meets, double& first_hit, std::optional<FeatureContact>& false_positive,
+           PipelineAudit& audit) const {
+    if (answer.code != NOLI_CCD_HIT && answer.code != NOLI_CCD_NO_HIT) {
+      ++audit.failures;
+      if (!audit.failed) audit.failed = named(step_, answer);
+    }
+    if (answer.code != NOLI_CCD_HIT) return;
+    first_hit = std::min(first_hit, std::isnan(answer.time) ? 0 : answer.time);
+    if (meets) return;
+    ++audit.false_positives[answer.kind];
+    if (!false_positive) false_positive = named(step_, answer);
+  }
+
+  /// Of a contact, and what was answered; nothing where it was no candidate.
+  void mark(std::size_t i, const PairAnswer* answer, PipelineAudit& audit) const {
+    const MeshContact& contact = step_.contacts[i];
+    const double exact = step_.times[i];
+    const bool hit = answer != nullptr && answer->code == NOLI_CCD_HIT;
     const auto report = [&](const char* what) {
       if (audit.reports.size() >= request_.max_reports) return;
       const std::string truth = fmt::format("exact first time {:.17g}", exact);
-      const bool timed = contact.found != 0 && contact.hit != 0 && contact.failed == 0;
       audit.reports.push_back(
-          {named(step_, contact), what, timed ? fmt::format("{:.17g}, {}", contact.time, truth) : truth, exact});
+          {named(step_, contact), what, hit ? fmt::format("{:.17g}, {}", answer->time, truth) : truth, exact});
     };
-    if (contact.found == 0) {
+    if (answer == nullptr) {
       ++audit.not_found;
       return report("not_found");
     }
-    if (contact.failed != 0) return report("failure");
-    if (contact.hit == 0) {
+    if (!hit && answer->code != NOLI_CCD_NO_HIT) return report("failure");
+    if (!hit) {
       ++audit.false_negatives;
       return report("false_negative");
     }
-    if (std::isnan(contact.time)) {
+    if (std::isnan(answer->time)) {
       if (request_.knows_times) report("no_time");
       return;
     }
-    if (!(contact.time >= 0 && contact.time <= 1)) {
+    if (!(answer->time >= 0 && answer->time <= 1)) {
       ++audit.bad_times;
       return report("bad_time");
     }
-    const double error = exact - contact.time, relative = exact > 0 ? std::abs(error) / exact : 0;
+    const double error = exact - answer->time, relative = exact > 0 ? std::abs(error) / exact : 0;
     if (error >= 0) {
       audit.early.add(error, relative);
       if (request_.exact && error > 0) report("early");

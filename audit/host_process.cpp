@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <noli/ccd_plugin.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,18 +31,24 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
-/// With the memory as its descriptor 3, and no other input or output.
-pid_t start(std::vector<std::string> words, int memory) {
+/// With the memory as its descriptor 3, a pipe for what it says of errors, and no other input or output.
+pid_t start(std::vector<std::string> words, int memory, int errors) {
   constexpr int nothing = GivenDescriptor::nothing;
   return start_process(std::move(words),
-                       std::array<GivenDescriptor, 4>{{{3, memory}, {0, nothing}, {1, nothing}, {2, nothing}}});
+                       std::array<GivenDescriptor, 4>{{{3, memory}, {0, nothing}, {1, nothing}, {2, errors}}});
 }
 
-std::vector<std::string> words(const fs::path& host, const std::optional<fs::path>& library, bool pipeline) {
-  std::vector<std::string> result = {host.string()};
+std::vector<std::string> words(const HostOptions& options, const std::optional<fs::path>& library, bool pipeline) {
+  std::vector<std::string> result = {options.host.string()};
+  if (options.sandbox) result.emplace_back("--sandbox");
   if (pipeline) result.emplace_back("--frames");
   if (library) result.push_back(fs::absolute(*library).string());
   return result;
+}
+
+[[noreturn]] void throw_no_sandbox() {
+  throw InputError("--sandbox", "",
+                   "this machine filters no calls of the system (seccomp); expected a Linux that does");
 }
 
 double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
@@ -49,8 +56,10 @@ double seconds(nanoseconds time) { return std::chrono::duration<double>(time).co
 }  // namespace
 
 SharedMemory::SharedMemory(std::size_t size) : size_(size), memory_(MAP_FAILED) {
-  descriptor_ = ::memfd_create("noli_ccd", MFD_CLOEXEC);
-  if (descriptor_ >= 0 && ::ftruncate(descriptor_, static_cast<off_t>(size_)) == 0) {
+  descriptor_ = ::memfd_create("noli_ccd", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  // The other process cannot cut off what this one has mapped, which would end both.
+  if (descriptor_ >= 0 && ::ftruncate(descriptor_, static_cast<off_t>(size_)) == 0 &&
+      ::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK) == 0) {
     memory_ = ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
   }
   if (memory_ != MAP_FAILED) return;
@@ -64,14 +73,57 @@ SharedMemory::~SharedMemory() {
   ::close(descriptor_);
 }
 
+std::size_t SharedMemory::bytes_behind(std::size_t offset) const {
+  struct stat status = {};
+  if (::fstat(descriptor_, &status) != 0) return 0;
+  const auto size = static_cast<std::size_t>(std::max<off_t>(status.st_size, 0));
+  return size - std::min(size, offset);
+}
+
+bool SharedMemory::read(std::size_t offset, std::span<std::byte> target) const {
+  while (!target.empty()) {
+    const ssize_t got = ::pread(descriptor_, target.data(), target.size(), static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    offset += static_cast<std::size_t>(got);
+    target = target.subspan(static_cast<std::size_t>(got));
+  }
+  return true;
+}
+
 HostProcess::HostProcess(const std::optional<fs::path>& library, const SharedMemory& memory, const HostStatus& status,
                          const HostOptions& options, bool pipeline)
-    : options_(options), status_(status), pid_(start(words(options.host, library, pipeline), memory.descriptor())) {}
+    : options_(options),
+      status_(status),
+      pid_(start(words(options, library, pipeline), memory.descriptor(), said_.end(1))) {
+  said_.close(1);
+  said_.never_wait(0);
+}
+
+/// Keeps the end of what was said so far.
+void HostProcess::listen() {
+  std::array<char, 4096> part;
+  for (int parts = 0; parts < 64; ++parts) {
+    const ssize_t got = ::read(said_.end(0), part.data(), part.size());
+    if (got <= 0) return;
+    end_of_said_.append(part.data(), static_cast<std::size_t>(got));
+    if (end_of_said_.size() > 2 * most_said) end_of_said_.erase(0, end_of_said_.size() - most_said);
+  }
+}
 
 Ending HostProcess::wait() {
+  Ending ending = wait_for_end();
+  listen();
+  if (end_of_said_.size() > most_said) end_of_said_.erase(0, end_of_said_.size() - most_said);
+  ending.said = std::move(end_of_said_);
+  return ending;
+}
+
+Ending HostProcess::wait_for_end() {
   nanoseconds pause = std::chrono::microseconds(100);
   begin_call();
   for (;;) {
+    listen();
     if (const auto status = ended()) return ending(*status);
     if (stopped()) return ended_by_us(Ending::Kind::stopped, "stopped");
     if (hangs())
@@ -100,6 +152,7 @@ Ending HostProcess::ending(int status) const {
     const int signal = WTERMSIG(status);
     return {Ending::Kind::crashed, fmt::format("signal {} ({})", signal, ::strsignal(signal))};
   }
+  if (options_.sandbox && WEXITSTATUS(status) == no_sandbox) throw_no_sandbox();
   const bool done = status_.phase.load(std::memory_order_acquire) == HostPhase::done;
   if (done && WEXITSTATUS(status) == 0) return {};
   return {Ending::Kind::crashed, fmt::format("it ended the program, with code {}", WEXITSTATUS(status))};

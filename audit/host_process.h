@@ -11,9 +11,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "noli/audit/host/exchange.h"
+#include "noli/audit/host/sandbox.h"
+#include "noli/audit/pipe.h"
 
 namespace noli::audit {
 
@@ -26,6 +29,7 @@ struct HostOptions {
   double repeat_seconds = 0.2;             ///< about how long all queries are asked again
   std::uint64_t most_memory = 2'000'000'000;  ///< resident bytes of the process
   std::uint64_t most_hangs = 10;              ///< then the rest is not asked
+  bool sandbox = false;                       ///< the library may not touch other processes and files (host/sandbox.h)
   int search_limit = 600;                     ///< a search for candidates may take so many times as long as a query
   const std::atomic<bool>* stop = nullptr;
   Deadline deadline;
@@ -40,6 +44,10 @@ class SharedMemory {
   SharedMemory& operator=(const SharedMemory&) = delete;
 
   void* begin() const { return memory_; }
+  /// How many bytes there are behind an offset, with those that the other process has added.
+  std::size_t bytes_behind(std::size_t offset) const;
+  /// Copies what is there. False if there is less: the other process may cut it off at any time.
+  bool read(std::size_t offset, std::span<std::byte> target) const;
   int descriptor() const { return descriptor_; }
 
  private:
@@ -51,8 +59,11 @@ class SharedMemory {
 /// How a process came to its end.
 struct Ending {
   enum class Kind { finished, crashed, hung, too_much_memory, stopped } kind = Kind::finished;
-  std::string words;  ///< "signal 11 (Segmentation fault)"
+  std::string words;      ///< "signal 11 (Segmentation fault)"
+  std::string said = {};  ///< the end of what the library wrote to its standard error, at most most_said bytes
 };
+
+constexpr std::size_t most_said = 64 << 10;
 
 /// A host at work. Ended with the object.
 class HostProcess {
@@ -65,7 +76,8 @@ class HostProcess {
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
 
-  /// Waits, and ends it when it hangs, takes too much memory, or when `options` say so.
+  /// Waits, and ends it when it hangs, takes too much memory, or when `options` say so. Throws InputError when there is
+  /// no sandbox, though `options` ask for one.
   Ending wait();
 
  private:
@@ -81,8 +93,13 @@ class HostProcess {
   bool hangs();
   std::uint64_t resident_bytes() const;
 
+  Ending wait_for_end();
+  void listen();
+
   const HostOptions& options_;
   const HostStatus& status_;
+  Pipe said_;
+  std::string end_of_said_;
   pid_t pid_;
   std::uint64_t calls_ = 0;
   std::chrono::steady_clock::time_point begin_;

@@ -3,11 +3,15 @@
 // The memory that `noli audit` shares with the program that runs a library for it (host/main.cpp): what is to be asked,
 // the answers, and how far it has come, which is all there still when the program has crashed. Exchange, for queries: a
 // header, then `count` queries, then `count` answers. PipelineExchange, for a step of a whole mesh: a header, then
-// positions, contacts, edges and faces.
+// positions, edges and faces; behind them, in memory that the host adds, an answer for each candidate.
+//
+// What is right is in neither: a library may read and write all of it.
 //
 // What this does not do: protect itself. A library that writes all over its memory spoils its own answers; who waits for
 // them believes no number here that it has to count or to find its way by.
 #pragma once
+
+#include <noli/ccd_plugin.h>
 
 #include <array>
 #include <atomic>
@@ -107,13 +111,13 @@ inline GivenAnswer* answers_of(Exchange& exchange) {
 
 // --- a step of a mesh ------------------------------------------------------------------------------------------------
 
-/// Two features that meet, by their numbers as noli_ccd_candidates has them, and what became of them.
-struct MeshContact {
+/// A candidate, by its numbers as noli_ccd_candidates has them, and what the library answered.
+struct PairAnswer {
   double time = 0;  ///< of impact, if it was a hit
   std::uint32_t kind = 0, first = 0, second = 0;
-  std::uint32_t found = 0;  ///< among the candidates
-  std::uint32_t hit = 0;
-  std::uint32_t failed = 0;
+  std::int32_t code = 0;       ///< what noli_ccd_query returned
+  std::uint32_t answered = 0;  ///< it returned
+  std::uint32_t no_padding = 0;
 };
 
 /// The pair of features that something is about.
@@ -123,7 +127,7 @@ struct MeshPair {
 };
 
 struct MeshSizes {
-  std::uint64_t vertices = 0, contacts = 0, edges = 0, faces = 0;
+  std::uint64_t vertices = 0, edges = 0, faces = 0;
 };
 
 struct PipelineExchange : HostStatus {
@@ -132,39 +136,50 @@ struct PipelineExchange : HostStatus {
   std::uint32_t needs_search = 1;  ///< else a library without a search is asked about all pairs
   double repeat_seconds = 0;       ///< about how long to do it all again; 0: not at all
 
-  // What the host says; the pairs are [vertex-face, edge-edge].
-  std::array<std::uint64_t, 2> candidates{};
-  std::array<std::uint64_t, 2> false_positives{};
-  std::uint64_t failures = 0;   ///< of noli_ccd_query
-  std::uint64_t bad_pairs = 0;  ///< candidates that are no pair of features without a vertex in common
+  // What the host says.
+  std::uint64_t candidates = 0;  ///< answers that follow, ascending by kind, first, second
   std::int32_t search_code = 0;
-  MeshPair asked;           ///< the query under way, or the last one
-  MeshPair failed;          ///< the first one without an answer
-  MeshPair false_positive;  ///< the first one
+  MeshPair asked;  ///< the query under way, or the last one
   double search_seconds = 0, query_seconds = 0;
-  double told = 2;      ///< the first time of impact of all, if there was a hit; a hit without one counts as 0
   Resident resident{};  ///< while it is all done again; 0 if it is not
 };
 
 /// Where the arrays are.
 struct MeshArrays {
   double *x_t0, *x_t1;
-  MeshContact* contacts;  ///< sorted by kind, first, second
   std::uint32_t *edges, *faces;
 
   explicit MeshArrays(PipelineExchange& exchange) {
     const MeshSizes& n = exchange.sizes;
     x_t0 = reinterpret_cast<double*>(reinterpret_cast<char*>(&exchange) + after(sizeof(PipelineExchange)));
     x_t1 = x_t0 + 3 * n.vertices;
-    contacts = reinterpret_cast<MeshContact*>(x_t1 + 3 * n.vertices);
-    edges = reinterpret_cast<std::uint32_t*>(contacts + n.contacts);
+    edges = reinterpret_cast<std::uint32_t*>(x_t1 + 3 * n.vertices);
     faces = edges + 2 * n.edges;
   }
 };
 
 constexpr std::size_t exchange_bytes(const MeshSizes& n) {
-  return after(sizeof(PipelineExchange)) + n.vertices * 6 * sizeof(double) + n.contacts * sizeof(MeshContact) +
-         (2 * n.edges + 3 * n.faces) * sizeof(std::uint32_t);
+  return after(after(sizeof(PipelineExchange)) + n.vertices * 6 * sizeof(double) +
+               (2 * n.edges + 3 * n.faces) * sizeof(std::uint32_t));
+}
+
+/// Two features that are there and share no vertex. `edges`, `faces`: the vertices of each.
+template <class Pair, class Edges, class Faces>
+bool is_pair(const Pair& pair, const MeshSizes& n, const Edges& edges, const Faces& faces) {
+  const auto shared = [](const auto& a, std::size_t count_a, const auto& b, std::size_t count_b) {
+    for (std::size_t i = 0; i < count_a; ++i) {
+      for (std::size_t k = 0; k < count_b; ++k) {
+        if (a[i] == b[k]) return true;
+      }
+    }
+    return false;
+  };
+  if (pair.kind == NOLI_CCD_EDGE_EDGE) {
+    return pair.first < n.edges && pair.second < n.edges && !shared(edges(pair.first), 2, edges(pair.second), 2);
+  }
+  const std::array<std::uint32_t, 1> vertex = {pair.first};
+  return pair.kind == NOLI_CCD_VERTEX_FACE && pair.first < n.vertices && pair.second < n.faces &&
+         !shared(vertex, 1, faces(pair.second), 3);
 }
 
 }  // namespace noli::audit

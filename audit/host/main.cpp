@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// noli_ccd_host [LIBRARY]: asks a library the queries in the shared memory that its descriptor 3 is, and ends. Without
-// a library it asks the textbook method that is built in. noli_ccd_host --frames LIBRARY: the same for a step of a mesh
+// noli_ccd_host [--sandbox] [LIBRARY]: asks a library the queries in the shared memory that its descriptor 3 is, and ends. Without
+// a library it asks the textbook method that is built in. noli_ccd_host [--sandbox] --frames LIBRARY: the same for a step of a mesh
 // (host/pipeline.h). All of it for `noli audit ccd`: whatever a library does to a process, it does to this one.
 //
 // First each query once, its time taken by itself. Then all again and again, without a look at the clock in between but
@@ -23,6 +23,7 @@
 #include "noli/audit/host/library.h"
 #include "noli/audit/host/pipeline.h"
 #include "noli/audit/host/resident.h"
+#include "noli/audit/host/sandbox.h"
 #include "noli/audit/plugins/textbook.h"
 
 #if defined(__has_feature)
@@ -147,14 +148,14 @@ class Host {
   bool grown_ = false;
 };
 
+constexpr int descriptor = 3;  ///< of the shared memory
+
 /// Nothing where it is not there, or too small.
 void* shared_memory() {
-  constexpr int descriptor = 3;
   struct stat status = {};
   if (::fstat(descriptor, &status) != 0 || status.st_size < static_cast<off_t>(sizeof(HostStatus))) return nullptr;
   void* const memory =
       ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
-  ::close(descriptor);
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
@@ -167,7 +168,7 @@ void ask_queries(void* memory, const char* library) {
 void ask_pipeline(void* memory, const char* path) {
   auto& exchange = *static_cast<PipelineExchange*>(memory);
   const Library library = load(exchange, path, exchange.needs_search != 0);
-  if (library.ask != nullptr) Pipeline(exchange, library).run();
+  if (library.ask != nullptr) Pipeline(exchange, descriptor, library).run();
 }
 
 }  // namespace
@@ -178,11 +179,14 @@ int main(int argc, char** argv) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const struct rlimit none = {0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
+  const bool sandbox = argc > 1 && std::strcmp(argv[1], "--sandbox") == 0;
+  if (sandbox) --argc, ++argv;
   void* const memory = shared_memory();
   if (memory == nullptr) {
     std::fputs("noli_ccd_host: a part of noli; expected to be started by `noli audit`\n", stderr);
     return 3;
   }
+  if (sandbox && !enter_sandbox()) return no_sandbox;
   const bool pipeline = argc > 2 && std::strcmp(argv[1], "--frames") == 0;
   if (pipeline) {
     ask_pipeline(memory, argv[2]);

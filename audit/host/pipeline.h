@@ -5,12 +5,14 @@
 // whether memory grows.
 #pragma once
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
-#include <tuple>
 #include <vector>
 
 #include "noli/audit/host/library.h"
@@ -20,7 +22,9 @@ namespace noli::audit {
 
 class Pipeline {
  public:
-  Pipeline(PipelineExchange& exchange, const Library& library) : e_(exchange), mesh_(exchange), library_(library) {}
+  /// `memory`: the descriptor of the file in which the exchange is.
+  Pipeline(PipelineExchange& exchange, int memory, const Library& library)
+      : e_(exchange), memory_(memory), mesh_(exchange), library_(library) {}
 
   void run() {
     enter(e_, HostPhase::searching);
@@ -28,7 +32,9 @@ class Pipeline {
     enter(e_, HostPhase::answering);
     const double begin = seconds();
     if (e_.search_code >= 0) {
-      for (const Pair& pair : pairs_) ask(pair);
+      for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        if (is_pair(pairs_[i])) ask(i);
+      }
     }
     e_.query_seconds = seconds() - begin;
     if (e_.repeat_seconds > 0 && e_.search_code >= 0) repeat();
@@ -70,7 +76,7 @@ class Pipeline {
     }
     for (const Pair& pair : pairs_) {
       double ignored = 0;
-      call(pair, ignored);
+      if (is_pair(pair)) call(pair, ignored);
     }
   }
 
@@ -87,12 +93,7 @@ class Pipeline {
     e_.search_seconds = seconds() - begin;
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-    std::erase_if(pairs_, [&](const Pair& pair) {
-      const bool bad = !is_pair(pair);
-      e_.bad_pairs += bad ? 1 : 0;
-      return bad;
-    });
-    for (const Pair& pair : pairs_) ++e_.candidates[pair.kind];
+    make_room_for_answers();
   }
 
   void take_all() {
@@ -107,24 +108,31 @@ class Pipeline {
     }
   }
 
-  /// Two features that are there and share no vertex.
+  const std::uint32_t* edge(std::uint32_t e) const { return mesh_.edges + 2 * std::size_t{e}; }
+  const std::uint32_t* face(std::uint32_t f) const { return mesh_.faces + 3 * std::size_t{f}; }
   bool is_pair(const Pair& pair) const {
-    const bool edges = pair.kind == NOLI_CCD_EDGE_EDGE;
-    if (!edges && pair.kind != NOLI_CCD_VERTEX_FACE) return false;
-    if (pair.first >= (edges ? e_.sizes.edges : e_.sizes.vertices)) return false;
-    if (pair.second >= (edges ? e_.sizes.edges : e_.sizes.faces)) return false;
-    const std::array<std::uint32_t, 4> v = vertices(pair);
-    if (edges) return v[0] != v[2] && v[0] != v[3] && v[1] != v[2] && v[1] != v[3];
-    return v[0] != v[1] && v[0] != v[2] && v[0] != v[3];
+    return audit::is_pair(
+        pair, e_.sizes, [this](auto e) { return edge(e); }, [this](auto f) { return face(f); });
+  }
+
+  /// Behind what was asked.
+  void make_room_for_answers() {
+    const std::size_t begin = exchange_bytes(e_.sizes), size = begin + pairs_.size() * sizeof(PairAnswer);
+    if (::ftruncate(memory_, static_cast<off_t>(size)) != 0) std::_Exit(out_of_memory);
+    void* const all = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, memory_, 0);
+    if (all == MAP_FAILED) std::_Exit(out_of_memory);
+    answers_ = reinterpret_cast<PairAnswer*>(static_cast<char*>(all) + begin);
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      answers_[i] = {0, pairs_[i].kind, pairs_[i].first, pairs_[i].second};
+    e_.candidates = pairs_.size();
   }
 
   std::array<std::uint32_t, 4> vertices(const Pair& pair) const {
     if (pair.kind == NOLI_CCD_EDGE_EDGE) {
-      const std::uint32_t *const a = mesh_.edges + 2 * std::size_t{pair.first}, *const b = mesh_.edges +
-                                                                                           2 * std::size_t{pair.second};
+      const std::uint32_t *const a = edge(pair.first), *const b = edge(pair.second);
       return {a[0], a[1], b[0], b[1]};
     }
-    const std::uint32_t* const f = mesh_.faces + 3 * std::size_t{pair.second};
+    const std::uint32_t* const f = face(pair.second);
     return {pair.first, f[0], f[1], f[2]};
   }
 
@@ -144,39 +152,23 @@ class Pipeline {
 
   static MeshPair named(const Pair& pair) { return {pair.kind, pair.first, pair.second, 1}; }
 
-  void ask(const Pair& pair) {
+  void ask(std::size_t i) {
     double time = 0;
-    const int code = call(pair, time);
-    MeshContact* const contact = contact_of(pair);
-    if (contact != nullptr) contact->found = 1;
-    if (code != NOLI_CCD_HIT && code != NOLI_CCD_NO_HIT) {
-      if (e_.failures++ == 0) e_.failed = named(pair);
-      if (contact != nullptr) contact->failed = 1;
-    }
-    if (code != NOLI_CCD_HIT) return;
-    e_.told = std::min(e_.told, std::isnan(time) ? 0 : time);
-    if (contact == nullptr) {
-      if (e_.false_positive.known == 0) e_.false_positive = named(pair);
-      ++e_.false_positives[pair.kind];
-    } else {
-      contact->hit = 1;
-      contact->time = time;
-    }
+    const int code = call(pairs_[i], time);
+    answers_[i].code = code;
+    answers_[i].time = time;
+    answers_[i].answered = 1;
   }
 
-  /// Pairs come in the order of the contacts.
-  MeshContact* contact_of(const Pair& pair) {
-    const auto key = [](const MeshContact& c) { return Pair{c.kind, c.first, c.second}; };
-    while (next_ < e_.sizes.contacts && key(mesh_.contacts[next_]) < pair) ++next_;
-    const bool meets = next_ < e_.sizes.contacts && key(mesh_.contacts[next_]) == pair;
-    return meets ? mesh_.contacts + next_ : nullptr;
-  }
+  static constexpr int out_of_memory = 4;
 
   PipelineExchange& e_;
+  int memory_;
   MeshArrays mesh_;
   Library library_;
   std::vector<Pair> pairs_;
-  std::uint64_t calls_ = 0, next_ = 0;
+  PairAnswer* answers_ = nullptr;  ///< of pairs_
+  std::uint64_t calls_ = 0;
 };
 
 }  // namespace noli::audit

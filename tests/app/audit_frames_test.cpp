@@ -47,6 +47,46 @@ TEST_F(AuditFrames, FindsNothingInWhatIsRight) {
   EXPECT_EQ(without_timing(document), without_timing(json_of(command(plugin("noli"), {"--tolerance", "0"}), 0)));
 }
 
+/// What is right is not in the memory of the library's process, wherever it looks.
+TEST_F(AuditFrames, IsNotMisledByALibraryThatWritesBehindThePoints) {
+  const Json audit = json_of(command(faulty("marks_what_lies_behind")), 1)["audits"][0];
+  EXPECT_EQ(audit["not_found"], 3);
+  EXPECT_EQ(audit["ending"], "finished");
+}
+
+TEST_F(AuditFrames, KeepsWhatALibrarySaysBeforeItCrashes) {
+  const Process process = run_noli(command(faulty("says_why")));
+  EXPECT_EQ(process.exit_code, 1);
+  EXPECT_NE(process.out.find("wrote to its standard error: no memory for the \\x1b[31mtree\n"), std::string::npos)
+      << process.out;
+  const Json audit = json_of(command(faulty("says_why")), 1)["audits"][0];
+  EXPECT_EQ(audit["ending"], "crash");
+  EXPECT_EQ(audit["standard_error"], "no memory for the \x1b[31mtree\n");
+  EXPECT_FALSE(json_of(command(plugin("noli")), 0)["audits"][0].contains("standard_error"));
+}
+
+TEST_F(AuditFrames, ASandboxKeepsALibraryFromOthers) {
+  const std::string mine = folder.write("mine", "mine");
+  ProcessOptions options;
+  options.environment = {{"NOLI_TEST_FILE", mine}};
+  const Process process = run_noli(command(faulty("attacks_others"), {"--sandbox", "--json", "-"}), options);
+  if (process.err.find("filters no calls of the system") != std::string::npos) {
+    EXPECT_EQ(process.exit_code, 3);
+    GTEST_SKIP() << "this machine has no seccomp";
+  }
+  EXPECT_EQ(process.exit_code, 1) << process.err;
+  const Json audit = Json::parse(process.out)["audits"][0];
+  EXPECT_EQ(audit["ending"], "finished") << audit;
+  EXPECT_EQ(read_text(mine), "mine");
+  options.environment = {{"NOLI_TEST_FILE", folder.path("new")}};
+  EXPECT_EQ(run_noli(command(faulty("attacks_others"), {"--sandbox"}), options).exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("new")));
+  for (const char* library : {"noli", "textbook"}) {  // libraries do their work as before
+    EXPECT_EQ(without_timing(json_of(command(plugin(library), {"--sandbox"}), 0)),
+              without_timing(json_of(command(plugin(library)), 0)));
+  }
+}
+
 TEST_F(AuditFrames, FindsWhatTheSearchMisses) {
   const Json audit = json_of(command(faulty("finds_nothing")), 1)["audits"][0];
   EXPECT_EQ(audit["not_found"], 3);

@@ -69,8 +69,9 @@ class Damage : public Simulate {
     const Process process = run_noli(commands_[name]);
     flip(fs::path(run_) / damaged, bit);
     EXPECT_TRUE(process.exit_code == 0 || process.exit_code == 3) << what(name, damaged, bit) << process.err;
-    if (process.exit_code == 0) EXPECT_EQ(answer(name, process), truth_[name]) << what(name, damaged, bit);
-    return process.exit_code == 0;
+    if (process.exit_code != 0) return false;
+    EXPECT_EQ(answer(name, process), truth_[name]) << what(name, damaged, bit);
+    return true;
   }
 
   bool expect_resumption(const std::string& damaged, std::size_t bit) {

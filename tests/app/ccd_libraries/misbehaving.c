@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Libraries for the tests of `noli audit ccd`, one for each way to behave (MISBEHAVIOUR, below), in C99. */
 #define _DEFAULT_SOURCE
+#include <fcntl.h>
 #include <noli/ccd_plugin.h>
 #include <signal.h>
 #include <stdio.h>
@@ -36,7 +37,10 @@ enum behaviour {
   says_too_much,
   writes_behind_the_points, /* and misses contacts */
   writes_all_over,          /* what it shares with the audit, at queries whose first coordinate is above 0 */
-  writes_zeros_and_crashes  /* the same */
+  writes_zeros_and_crashes, /* the same */
+  marks_what_lies_behind,   /* finds nothing, and writes that all was found where something could be kept of it */
+  says_why,                 /* to its standard error; then it crashes */
+  attacks_others            /* ends its parent, writes to its memory and to the file that NOLI_TEST_FILE names */
 };
 
 #define IS(behaviour) (MISBEHAVIOUR == (behaviour))
@@ -99,6 +103,28 @@ static void write_behind(const double* points) {
   for (int i = 12; i < 16; ++i) ((double*)(uintptr_t)points)[i] = 0;
 }
 
+/* Between the positions and the edges, as records of a time, a pair and whether it was found, hit and failed. */
+static void mark(const double* positions_end, const uint32_t* edges) {
+  for (uint32_t* record = (uint32_t*)(uintptr_t)positions_end; record + 8 <= edges; record += 8) {
+    record[0] = record[1] = 0;
+    record[5] = record[6] = 1;
+    record[7] = 0;
+  }
+}
+
+/* Crashes when anything of that succeeds. */
+static void attack_others(void) {
+  char path[64];
+  const char* const name = getenv("NOLI_TEST_FILE");
+  if (name == NULL || fopen(name, "w") != NULL) crash();
+  snprintf(path, sizeof path, "/proc/%d/mem", (int)getppid());
+  if (open(path, O_RDWR) >= 0) crash();
+  if (kill(getppid(), SIGKILL) == 0 || unlink(name) == 0 || rename(name, "elsewhere") == 0) crash();
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  if (child > 0) crash();
+}
+
 static int is_asked_again(void) {
   static int calls = 0;
   return ++calls > 3;
@@ -114,6 +140,11 @@ int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], doubl
     return NOLI_CCD_NO_HIT;
   }
   if (IS(writes_all_over) && x_t0[0] > 0) write_all_over(0xff);
+  if (IS(attacks_others)) attack_others();
+  if (IS(says_why)) {
+    fputs("no memory for the \x1b[31mtree\n", stderr);
+    crash();
+  }
   if (IS(fails)) return NOLI_CCD_FAILED;
   if (IS(answers_two)) return 2;
   if (IS(crashes_when_asked_again) && is_asked_again()) crash();
@@ -131,6 +162,10 @@ int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1,
                         noli_ccd_candidate found, void* data) {
   (void)x_t0, (void)x_t1, (void)edges, (void)edge_vertices, (void)face_vertices, (void)distance;
   if (IS(crashes_when_searching)) crash();
+  if (IS(marks_what_lies_behind)) {
+    mark(x_t1 + 3 * vertices, edge_vertices);
+    return 0;
+  }
   for (uint32_t v = 0; !IS(finds_nothing) && v < vertices; ++v) {
     for (uint32_t f = 0; f < faces; ++f) found(data, NOLI_CCD_VERTEX_FACE, v, f);
   }
