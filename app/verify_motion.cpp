@@ -75,7 +75,7 @@ class MotionRun {
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
-    if (!request_.follow) look_at_files();
+    look_at_files();
     while (outcome_.complete) {
       auto window = read_next();
       // A stop after the last window changes nothing.
@@ -83,7 +83,7 @@ class MotionRun {
       verify(*window);
       if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
     }
-    if (request_.follow) look_at_files();
+    if (request_.follow && ended_) look_at_files();  // they have grown
     conclude();
     outcome_.seconds = watch.seconds() - outcome_.read_seconds - outcome_.reproduce_seconds;
     return std::move(outcome_);
