@@ -74,13 +74,13 @@ class MotionRun {
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
-    if (!request_.follow) look_at_files();
+    look_at_files();
     try {
       verify_windows();
     } catch (const Stopped&) {
       outcome_.complete = false;
     }
-    if (request_.follow) look_at_files();
+    if (request_.follow && ended_) look_at_files();  // they have grown
     conclude();
     outcome_.seconds = watch.seconds() - outcome_.read_seconds - outcome_.reproduce_seconds;
     return std::move(outcome_);

@@ -101,6 +101,14 @@ inline Json last_entry(const std::string& run) {
 /// Adds a line to the log of a run.
 inline void add_entry(const std::string& run, const nlohmann::ordered_json& entry) { RunLog(run).append(entry); }
 
+/// Whether `noli report` is built; says so when a test has to go without it.
+inline bool reports_are_there() {
+  const bool there =
+      run_noli({"report", "absent", "-o", "absent"}).err.find("built without reports") == std::string::npos;
+  if (!there) std::puts("reports are not built: not tested with them");
+  return there;
+}
+
 inline ProcessOptions interrupt_after(int milliseconds) {
   ProcessOptions options;
   options.signal = SIGINT;
