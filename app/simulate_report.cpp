@@ -96,6 +96,10 @@ std::string unstable_text(const SimulateOutcome& outcome) {
       digits17(energy.time));
 }
 
+std::string going_on_text(const SimulateOutcome& outcome) {
+  return outcome.begun ? "; `--resume` goes on behind the last window." : " before the run began; nothing was written.";
+}
+
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done:
@@ -121,8 +125,8 @@ std::string end_text(const SimulateOutcome& outcome) {
           refused_window(outcome), digits17(found.time), force, found.vertex);
     }
     case RunEnd::unstable: return unstable_text(outcome);
-    case RunEnd::interrupted: return "Interrupted; `--resume` goes on behind the last window.";
-    case RunEnd::out_of_time: return "Out of time; `--resume` goes on behind the last window.";
+    case RunEnd::interrupted: return "Interrupted" + going_on_text(outcome);
+    case RunEnd::out_of_time: return "Out of time" + going_on_text(outcome);
   }
   return "";
 }
@@ -180,7 +184,10 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
     case RunEnd::too_near: return fmt::format("noli explain {} tells how deep the layers went.", run);
     case RunEnd::interrupted:
     case RunEnd::out_of_time:
-      return fmt::format("noli simulate {}{} -o {} --resume", scene, request.brief ? " --short" : "", run);
+      return fmt::format("noli simulate {}{} -o {}{}", scene, request.brief ? " --short" : "", run,
+                         outcome.begun   ? " --resume"
+                         : request.force ? " --force"
+                                         : "");
     case RunEnd::done: return "";
   }
   return "";

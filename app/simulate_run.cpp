@@ -544,6 +544,7 @@ class Run {
 SimulateOutcome stopped_early(const SimulateRequest& request, const Scene& scene, StopReason reason) {
   SimulateOutcome outcome;
   outcome.end = reason == StopReason::interrupted ? RunEnd::interrupted : RunEnd::out_of_time;
+  outcome.begun = false;
   outcome.title = scene.title;
   outcome.dimension = scene.dimension;
   outcome.window_length = scene.window;

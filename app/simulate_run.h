@@ -73,6 +73,7 @@ struct StartGap {
 
 struct SimulateOutcome {
   RunEnd end = RunEnd::done;
+  bool begun = true;  ///< false: it was stopped before, and nothing was written
   std::string title;
   int dimension = 3;
   std::size_t vertices = 0, cells = 0;

@@ -197,6 +197,10 @@ TEST_F(Limits, ARunThatIsStoppedBeforeItBeginsLeavesNothing) {
   EXPECT_EQ(json["windows"], 0);
   EXPECT_EQ(json["windows_total"], 100);
   EXPECT_FALSE(fs::exists(run_path("run")));
+  const Process process =
+      run_noli({"simulate", file, "-o", run_path("run"), "--ignore-space", "--time-limit", "100ms"});
+  EXPECT_NE(process.out.find("Out of time before the run began; nothing was written."), std::string::npos);
+  EXPECT_EQ(process.out.find("--resume"), std::string::npos) << process.out;
 }
 
 TEST_F(Limits, ALimitThatIsNotReachedChangesNothing) {
