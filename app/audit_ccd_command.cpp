@@ -13,6 +13,7 @@
 #include "noli/app/duration.h"
 #include "noli/app/frame_options.h"
 #include "noli/app/interrupt.h"
+#include "noli/app/library_options.h"
 #include "noli/app/machine.h"
 #include "noli/app/options.h"
 #include "noli/app/output.h"
