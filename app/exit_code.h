@@ -26,7 +26,8 @@ struct WriteError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A process that helps could not do its work, because of memory or files. Ends in ExitCode::failure; what() is one line.
+/// A process that helps could not do its work, because of memory or files. Ends in ExitCode::failure; what() is one
+/// line.
 struct HelperError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -3,8 +3,8 @@
 // Where results go: words to standard output, and all of it as JSON to a file when asked for.
 //
 // Standard output carries one of: the words, with the verdict in the last line; with `--porcelain` one line
-// `verdict=WORD key=value ...`; with `-q` nothing; with `--json -` the JSON document. Each JSON document begins with the
-// name and version of its schema (`noli schema NAME` prints it) and with the program that wrote it.
+// `verdict=WORD key=value ...`; with `-q` nothing; with `--json -` the JSON document. Each JSON document begins with
+// the name and version of its schema (`noli schema NAME` prints it) and with the program that wrote it.
 #pragma once
 
 #include <filesystem>
@@ -32,10 +32,10 @@ class Output {
   /// Checks all outputs of the command, the JSON and `others`, by the rule of output_files.h. Throws UsageError.
   Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs, std::vector<OutputFile> others = {});
 
-  /// Writes the results. `schema` names that of the JSON, `noli schema NAME`: "verify". A file is written under another name first and then renamed: it is complete or absent, and has
-  /// the owner and permissions of the one that it replaces. A file that may be written but not replaced (in a folder
-  /// without write permission, say) is written in place. It comes before the text, so that no verdict is printed by a
-  /// run that fails. Throws WriteError.
+  /// Writes the results. `schema` names that of the JSON, `noli schema NAME`: "verify". A file is written under another
+  /// name first and then renamed: it is complete or absent, and has the owner and permissions of the one that it
+  /// replaces. A file that may be written but not replaced (in a folder without write permission, say) is written in
+  /// place. It comes before the text, so that no verdict is printed by a run that fails. Throws WriteError.
   void write(std::string_view schema, const Answer& answer, Json json) const;
 
  private:

@@ -56,8 +56,8 @@ Json essential(Json scene) {
   return scene;
 }
 
-/// The files of a run, but not the folder: it may be the current one. What tells that it is a run goes last, so it is one
-/// still if this is cut short. A link is removed, and its target stays.
+/// The files of a run, but not the folder: it may be the current one. What tells that it is a run goes last, so it is
+/// one still if this is cut short. A link is removed, and its target stays.
 void clear(const fs::path& folder) {
   const fs::path last = trajectory_path(folder);
   for (const fs::path& file : files_in(folder)) {

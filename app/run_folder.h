@@ -37,8 +37,8 @@ class RunFolder {
   /// Locks the folder for as long as this object lives, if it is there. Throws UsageError when another process has it.
   void lock();
 
-  /// Makes the folder, and locks it. Throws UsageError when there is something by that name; with `force` the files of a
-  /// run that is there are removed first, but nothing that is no run, and no run that another process writes to.
+  /// Makes the folder, and locks it. Throws UsageError when there is something by that name; with `force` the files of
+  /// a run that is there are removed first, but nothing that is no run, and no run that another process writes to.
   void make(bool force);
 
   /// Writes the manifest, with the scene as it was read: overrides applied, defaults filled in. From now on the run has
@@ -50,9 +50,9 @@ class RunFolder {
   /// UsageError when the folder is no run at all, or one that has lost its manifest.
   bool has_begun() const;
 
-  /// Goes on with it. Throws InputError when it is one of another scene, a file that the scene names has changed, or its
-  /// log or manifest is damaged. The duration, the title and what is only looked at may differ. Returns what its log
-  /// knows of its windows; those that are missing can be made again.
+  /// Goes on with it. Throws InputError when it is one of another scene, a file that the scene names has changed, or
+  /// its log or manifest is damaged. The duration, the title and what is only looked at may differ. Returns what its
+  /// log knows of its windows; those that are missing can be made again.
   KnownWindows go_on(const Json& scene, const Sha256Digest& model);
   /// The line of the log behind which the run goes on; `facts` as for begin(), for a log that was lost.
   void resumed(const CommittedWindows& committed, const Json& facts);

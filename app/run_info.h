@@ -9,8 +9,8 @@
 
 namespace noli::app {
 
-/// Reads the run from beginning to end, one window at a time, checking what its files say of themselves and what its log
-/// says of them. Throws InputError when it is no run or is damaged.
+/// Reads the run from beginning to end, one window at a time, checking what its files say of themselves and what its
+/// log says of them. Throws InputError when it is no run or is damaged.
 Json run_info(const std::filesystem::path& folder);
 
 }  // namespace noli::app

@@ -22,7 +22,8 @@ const char* name(SeriesEnd end);
 
 /// Writes RUN/series.h5, or replaces it. Frames are at the multiples of 1 / frame_rate; of a run that recorded frames
 /// alone, those that it has. `stop` is asked after each window and frame. In memory: a window. Throws InputError
-/// (damaged run, or its folder has a link where the file is written), WriteError (disk, noli_series), std::system_error.
+/// (damaged run, or its folder has a link where the file is written), WriteError (disk, noli_series),
+/// std::system_error.
 SeriesEnd write_series_file(const std::filesystem::path& run, double frame_rate, const std::function<bool()>& stop);
 
 }  // namespace noli::app

@@ -341,8 +341,8 @@ class Run {
     candidate_->verdict = std::async(aside ? std::launch::async : std::launch::deferred, look);
   }
 
-  /// A window in which nothing touches is one also if no proof of it is found; the proof of the run then ends before it,
-  /// and no checker accepts that for the whole. False if it was stopped.
+  /// A window in which nothing touches is one also if no proof of it is found; the proof of the run then ends before
+  /// it, and no checker accepts that for the whole. False if it was stopped.
   bool prove(std::uint64_t index, const WorldLines& lines) {
     try {
       return proof_->prove(index, lines, writer_->open_window_hash(), proof_options());

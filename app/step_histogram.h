@@ -29,7 +29,8 @@ inline constexpr std::int64_t least_step_bin = -4 * 1023;
 /// The number of the bin that a step is in. Precondition: positive and finite; what is subnormal is in the lowest.
 std::int64_t step_bin(double step);
 
-/// The lower end of a bin [s]; its upper end is that of the next, and that of the highest the greatest double. Not for results that have to be the same everywhere.
+/// The lower end of a bin [s]; its upper end is that of the next, and that of the highest the greatest double. Not for
+/// results that have to be the same everywhere.
 double bin_begin(std::int64_t bin);
 
 struct StepHistogram {

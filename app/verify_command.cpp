@@ -94,9 +94,9 @@ class NoSink : public Sink {
   void truncate(std::uint64_t /*size*/) override {}
 };
 
-/// The proof on its way: to a file, or to the checker at once. With a least distance it goes through a file in any case,
-/// because of a step that is nearer the proof is begun before that is known, and has to be taken back; and of a run that
-/// is being written, because how many windows there are is known at the end.
+/// The proof on its way: to a file, or to the checker at once. With a least distance it goes through a file in any
+/// case, because of a step that is nearer the proof is begun before that is known, and has to be taken back; and of a
+/// run that is being written, because how many windows there are is known at the end.
 class ProofRoute {
  public:
   explicit ProofRoute(VerifyRequest& request) : request_(request) {

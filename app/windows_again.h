@@ -26,8 +26,8 @@ class WindowsAgain {
                                           const std::function<bool()>& stop);
   virtual ~WindowsAgain() = default;
 
-  /// The world lines of the window behind the one before; nothing when `stop` said so. `halvings`: of its row. Throws InputError when their
-  /// hash, or the state that they end in, is not the one that the run has.
+  /// The world lines of the window behind the one before; nothing when `stop` said so. `halvings`: of its row. Throws
+  /// InputError when their hash, or the state that they end in, is not the one that the run has.
   virtual std::optional<WorldLines> next(const RunWindow& window, std::uint64_t halvings) = 0;
 };
 

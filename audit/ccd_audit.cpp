@@ -160,7 +160,8 @@ class Audit {
     for (const fs::path& file : request_.files) outcome_.files.push_back({file, kind_of(file), 0, 0, 0, {}, 0});
     for (const fs::path& library : request_.libraries) require_ccd_library(library, request_.host);
     for (const fs::path& library : request_.libraries) {
-      for (const double tolerance : request_.tolerances) outcome_.audits.push_back({library, tolerance, "", "", {}, {}});
+      for (const double tolerance : request_.tolerances)
+        outcome_.audits.push_back({library, tolerance, "", "", {}, {}});
     }
     for (std::size_t i = 0; i < outcome_.files.size() && !over_; ++i) examine(i);
     for (LibraryAudit& audit : outcome_.audits) {

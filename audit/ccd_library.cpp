@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The queries of one file, asked by as many hosts as it takes. A library may write anywhere in the memory that is shared
-/// with it: what is read there is looked at first, and nothing here counts by what is there.
+/// The queries of one file, asked by as many hosts as it takes. A library may write anywhere in the memory that is
+/// shared with it: what is read there is looked at first, and nothing here counts by what is there.
 class Asking {
  public:
   Asking(const std::optional<fs::path>& library, int kind, const std::vector<AskedQuery>& queries, double tolerance,

@@ -184,8 +184,8 @@ std::optional<FeatureContact> told(const Step& step, const MeshPair& pair) {
   return pair.known != 0 && is_pair_of(step, pair) ? std::optional(named(step, pair)) : std::nullopt;
 }
 
-/// What the host left, as far as it is whole: the library may have written over it. `whole`: each candidate is there, and
-/// each that is a pair has been asked.
+/// What the host left, as far as it is whole: the library may have written over it. `whole`: each candidate is there,
+/// and each that is a pair has been asked.
 struct Answers {
   std::vector<PairAnswer> pairs;
   bool whole = true;

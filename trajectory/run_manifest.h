@@ -24,8 +24,8 @@ struct RunManifest {
   friend bool operator==(const RunManifest&, const RunManifest&) = default;
 };
 
-/// Writes scene.json and then manifest.json; each is there whole or not at all. Returns the hash of the manifest. Throws
-/// std::system_error.
+/// Writes scene.json and then manifest.json; each is there whole or not at all. Returns the hash of the manifest.
+/// Throws std::system_error.
 Sha256Digest write_manifest(const std::filesystem::path& folder, std::string_view scene,
                             const std::map<std::string, std::string>& versions,
                             const std::optional<Sha256Digest>& model = std::nullopt);

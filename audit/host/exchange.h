@@ -7,8 +7,8 @@
 //
 // What is right is in neither: a library may read and write all of it.
 //
-// What this does not do: protect itself. A library that writes all over its memory spoils its own answers; who waits for
-// them believes no number here that it has to count or to find its way by.
+// What this does not do: protect itself. A library that writes all over its memory spoils its own answers; who waits
+// for them believes no number here that it has to count or to find its way by.
 #pragma once
 
 #include <noli/ccd_plugin.h>

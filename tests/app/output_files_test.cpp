@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rule for all outputs (app/output_files.h), command by command: what exists stays, unless --force; what is read, what
-// belongs to a run, and what another output goes to stays in any case.
+// The rule for all outputs (app/output_files.h), command by command: what exists stays, unless --force; what is read,
+// what belongs to a run, and what another output goes to stays in any case.
 #include <gtest/gtest.h>
 
 #include <algorithm>

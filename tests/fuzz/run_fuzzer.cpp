@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the commands do with the folder of a run: whatever numbers are in its motion and its states, under checksums that
-// fit, they end with an answer, or say what is wrong with the input.
+// What the commands do with the folder of a run: whatever numbers are in its motion and its states, under checksums
+// that fit, they end with an answer, or say what is wrong with the input.
 //
 // Input: changes of the blocks of a small run, as tests/trajectory/mutate_run.h has them.
 #include <unistd.h>

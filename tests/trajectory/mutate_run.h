@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Changes the payloads of a run's blocks as a string of bytes says, and puts all checksums and commits right again: what
-// no reader of checksums finds.
+// Changes the payloads of a run's blocks as a string of bytes says, and puts all checksums and commits right again:
+// what no reader of checksums finds.
 //
 //   changes  =  change*
 //   change   =  which block, two bytes; which change, one byte; where in it, two bytes; which number, one byte

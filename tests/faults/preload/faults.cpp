@@ -19,8 +19,8 @@
 //   rename    also link, unlink             EIO
 //   close     the descriptor is closed      EIO
 //
-// What this does not do: it does not see calls that the C library makes of itself (what printf() writes, say), nor those
-// of a program that is linked statically.
+// What this does not do: it does not see calls that the C library makes of itself (what printf() writes, say), nor
+// those of a program that is linked statically.
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A library that is loaded before all others (LD_PRELOAD) and records what a program does to the files of one folder, in
-// the order in which it does it: for disk_model.h, which says what a loss of power may leave of that.
+// A library that is loaded before all others (LD_PRELOAD) and records what a program does to the files of one folder,
+// in the order in which it does it: for disk_model.h, which says what a loss of power may leave of that.
 //
 // Environment
 //   NOLI_RECORD         the file that the records are added to
