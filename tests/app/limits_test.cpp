@@ -68,14 +68,6 @@ std::string small_run(const Folder& folder) {
   return run;
 }
 
-/// Whether this noli writes pages; says so when a test has to go without them.
-bool reports_are_built(const Folder& folder) {
-  const Process process = run_noli({"report", "nothing.json", "-o", folder.path("probe.html")});
-  const bool built = process.err.find("was built without reports") == std::string::npos;
-  if (!built) std::fputs("skipped: reports, which are not built (NOLI_WITH_REPORT)\n", stderr);
-  return built;
-}
-
 /// What takes longer than anybody waits.
 struct Endless {
   const char* name;
@@ -89,7 +81,7 @@ void PrintTo(const Endless& endless, std::ostream* out) { *out << endless.name; 
 class LongWork : public testing::TestWithParam<Endless> {
  protected:
   void SetUp() override {
-    if (GetParam().reports && !reports_are_built(folder)) GTEST_SKIP() << "skipped: reports (NOLI_WITH_REPORT)";
+    if (GetParam().reports && !reports_are_there()) GTEST_SKIP() << "skipped: reports (NOLI_WITH_REPORT)";
   }
 
   void expect_end(const Timed& timed, const std::string& why) const {
@@ -217,7 +209,7 @@ TEST_F(Limits, ALimitThatIsNotReachedChangesNothing) {
       {"export", run, "--fps", "10", "-o", folder.path("e/%d.ply"), "--force"},
       {"simulate", file, "-o", folder.path("sheet"), "--force"},
   };
-  if (reports_are_built(folder)) {
+  if (reports_are_there()) {
     commands.push_back({"report", folder.path("r.json"), a, b, "-o", folder.path("page.html"), "--force"});
   }
   for (auto command : commands) {
