@@ -275,7 +275,7 @@ Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& ou
   if (outcome.no_proof) {
     text += fmt::format("No proof was found: proof.blocks ends before {}.\n", on_one_line(*outcome.no_proof));
   }
-  if (outcome.series == SeriesEnd::stopped) {
+  if (outcome.begun && outcome.series == SeriesEnd::stopped) {
     text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
   }
   if (outcome.series == SeriesEnd::unavailable) {

@@ -33,7 +33,7 @@ class Claims : public Simulate {
   std::string proof() const { return folder.path("proof.noli"); }
 
   int prove(const Words& paths, const Words& options) const {
-    Words words = {"verify", "--proof", proof(), "--claim-out", folder.path("claim.json")};
+    Words words = {"verify", "--force", "--proof", proof(), "--claim-out", folder.path("claim.json")};
     words.insert(words.end(), options.begin(), options.end());
     words.insert(words.end(), paths.begin(), paths.end());
     return run_noli(words).exit_code;
@@ -341,7 +341,7 @@ TEST_F(Claims, VerifySaysWhatItAskedAndWhatWeakensIt) {
   EXPECT_EQ(empty["checker"]["name"], "noli_check");
   EXPECT_NE(run_noli(words).out.find("The claim is empty: fewer than two cells"), std::string::npos);
   const Words rest = triangles({1, -1});
-  Words at_rest = {"verify", "--static", "--proof", proof()};
+  Words at_rest = {"verify", "--static", "--force", "--proof", proof()};
   at_rest.insert(at_rest.end(), rest.begin(), rest.end());
   EXPECT_EQ(json_of(at_rest, 0)["claim"]["weaker"], Json::parse(R"(["frames at rest"])"));
   // The printed command checks the proof again.

@@ -92,7 +92,7 @@ TEST_F(Frames, CheckAndAuditAskForTheOrderToo) {
   EXPECT_EQ(run_noli(with({"check", proof, "--order", "given"}, shell)).exit_code, 0);
   EXPECT_EQ(run_noli(with({"check", proof, "--order", "natural"}, shell)).exit_code, 3) << "a proof of another motion";
   EXPECT_TRUE(has_note(json_of(with({"check", proof, "--order", "given"}, shell), 0), "against their numbers"));
-  ASSERT_EQ(run_noli(with({"verify", "--proof", proof, "--order", "natural"}, shell)).exit_code, 1);
+  ASSERT_EQ(run_noli(with({"verify", "--force", "--proof", proof, "--order", "natural"}, shell)).exit_code, 1);
   EXPECT_EQ(run_noli(with({"check", proof, "--order", "natural"}, shell)).exit_code, 1);
   EXPECT_EQ(run_noli(with({"check", proof}, time)).exit_code, 1);
 

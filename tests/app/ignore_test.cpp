@@ -52,7 +52,7 @@ TEST_F(Ignore, AGroupMayPassThroughItself) {
 TEST_F(Ignore, IsPartOfTheClaim) {
   const std::string proof = folder.path("proof.noli");
   ASSERT_EQ(verify(std::string(all) + R"([["falling", "upper"], ["lower", "falling"]]})",
-                   {"--proof", proof, "--claim-out", folder.path("claim.json")})
+                   {"--force", "--proof", proof, "--claim-out", folder.path("claim.json")})
                 .exit_code,
             0);
   std::vector<std::string> arguments = {"check", proof};
@@ -72,7 +72,7 @@ TEST_F(Ignore, IsPartOfTheClaim) {
 
 TEST_F(Ignore, WitnessesAreOfPairsThatCount) {
   const std::string proof = folder.path("proof.noli");
-  ASSERT_EQ(verify(std::string(all) + R"([["falling", "upper"]]})", {"--proof", proof}).exit_code, 1);
+  ASSERT_EQ(verify(std::string(all) + R"([["falling", "upper"]]})", {"--force", "--proof", proof}).exit_code, 1);
   std::vector<std::string> arguments = {"check", proof};
   for (const auto& frame : frames()) arguments.push_back(frame);
   const Process plain = run_noli(arguments);

@@ -53,7 +53,7 @@ TEST(Info, DescribesAProof) {
   EXPECT_EQ(apart["open_group"], false);
   EXPECT_EQ(apart["bytes"], std::filesystem::file_size(proof));
 
-  ASSERT_EQ(run_noli({"verify", a, b, c, "--proof", proof}).exit_code, 1);
+  ASSERT_EQ(run_noli({"verify", a, b, c, "--force", "--proof", proof}).exit_code, 1);
   const nlohmann::json refuted = told();
   EXPECT_EQ(refuted["strict"], false);
   EXPECT_EQ(refuted["steps"], 2);
@@ -69,7 +69,7 @@ TEST(Info, DescribesAProof) {
 TEST(Info, RefusesAProofThatIsNone) {
   const Folder folder;
   const std::string a = folder.write("a.ply", two_triangles(2)), proof = folder.path("proof.noli");
-  ASSERT_EQ(run_noli({"verify", "--static", a, "--proof", proof}).exit_code, 0);
+  ASSERT_EQ(run_noli({"verify", "--static", a, "--force", "--proof", proof}).exit_code, 0);
   const auto refused = [&](const std::string& words) {
     const Process process = run_noli({"info", proof});
     EXPECT_EQ(process.exit_code, 3) << process.out;

@@ -39,7 +39,7 @@ TEST(Version, NamesLibrariesAndTestsRounding) {
 
 class JsonOutput : public testing::Test {
  protected:
-  Process run(const std::string& out) const { return run_noli({"info", mesh, "--json", out}); }
+  Process run(const std::string& out) const { return run_noli({"info", mesh, "--force", "--json", out}); }
 
   Folder folder;
   std::string mesh = folder.write("a.ply", two_triangles(1));
@@ -104,7 +104,7 @@ TEST_F(JsonOutput, IsWrittenInPlaceWhereTheFolderMayNotChange) {
   ProcessOptions options;
   options.obey_permissions = true;
   const auto exit_code = [&](const std::string& out) {
-    return run_noli({"info", mesh, "--json", out}, options).exit_code;
+    return run_noli({"info", mesh, "--force", "--json", out}, options).exit_code;
   };
   EXPECT_EQ(exit_code(writable), 0);
   EXPECT_EQ(exit_code(readable), 3);

@@ -34,7 +34,7 @@ class Proof : public testing::Test {
     return run_noli(more);
   }
   Process prove(const std::vector<std::string>& frames, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> options = {"--proof", proof(), "--claim-out", claim()};
+    std::vector<std::string> options = {"--force", "--proof", proof(), "--claim-out", claim()};
     options.insert(options.end(), more.begin(), more.end());
     return verify(frames, options);
   }
@@ -319,7 +319,7 @@ TEST_F(Proof, AFullDiskIsNoVerdict) {
   const auto frames = write(large_sequence(4000));
   ProcessOptions limit;
   limit.file_size = 100'000;
-  std::vector<std::string> arguments = {"verify", "--proof", proof()};
+  std::vector<std::string> arguments = {"verify", "--force", "--proof", proof()};
   arguments.insert(arguments.end(), frames.begin(), frames.end());
   const Process process = run_noli(arguments, limit);
   EXPECT_EQ(process.exit_code, 4) << process.out << process.err;
@@ -335,7 +335,7 @@ TEST_F(Proof, SlowKilledItIsNeverAcceptedAsWhole) {
   ASSERT_EQ(prove(frames, {"--no-check"}).exit_code, 0);
   const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
   const std::string bytes = bytes_of(proof());
-  std::vector<std::string> arguments = {"verify", "--no-check", "--proof", proof()};
+  std::vector<std::string> arguments = {"verify", "--no-check", "--force", "--proof", proof()};
   arguments.insert(arguments.end(), frames.begin(), frames.end());
   int rejected = 0, accepted = 0;
   for (int i = 0; i < 200; ++i) {

@@ -43,7 +43,7 @@ class Report : public Simulate {
   }
   std::string verdict(const std::vector<std::string>& frames, int exit_code) {
     std::string json = folder.path("verdict.json");
-    std::vector<std::string> words = {"verify", "--json", json};
+    std::vector<std::string> words = {"verify", "--force", "--json", json};
     words.insert(words.end(), frames.begin(), frames.end());
     EXPECT_EQ(run_noli(words).exit_code, exit_code);
     return json;
@@ -53,7 +53,7 @@ class Report : public Simulate {
   std::vector<std::string> run_with_contact() {
     const std::string run = run_path("run"), result = folder.path("run.json");
     EXPECT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run}).exit_code, 1);
-    EXPECT_EQ(run_noli({"verify", run, "--json", result}).exit_code, 0);
+    EXPECT_EQ(run_noli({"verify", run, "--force", "--json", result}).exit_code, 0);
     return {run, result};
   }
   /// Changes the last line of the log of a run, the one of its end.

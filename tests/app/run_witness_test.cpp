@@ -74,7 +74,7 @@ class RunWitness : public Simulate {
  protected:
   std::string proof() const { return folder.path("proof.noli"); }
   Process verify(const std::string& run, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"verify", run, "--proof", proof()};
+    std::vector<std::string> arguments = {"verify", run, "--force", "--proof", proof()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_noli(arguments);
   }

@@ -95,7 +95,7 @@ TEST_F(Schema, OfCheckAndClaim) {
   EXPECT_EQ(complaint("claim", bytes_of(claim)), "");
   EXPECT_NE(complaint("claim", "{}"), "");
   expect_valid("check", {"check", proof, a, b});
-  ASSERT_EQ(run_noli({"verify", a, c, "--proof", proof}).exit_code, 1);
+  ASSERT_EQ(run_noli({"verify", a, c, "--force", "--proof", proof}).exit_code, 1);
   expect_valid("check", {"check", proof, a, c});
   const Process rejected = run_noli({"check", proof, a, b, "--json", "-"});
   EXPECT_EQ(rejected.exit_code, 3);

@@ -63,9 +63,11 @@ TEST_F(Reproduce, ItIsTheMotionThatARunInFullHas) {
   EXPECT_EQ(both["reproduced"], true);
 }
 
-/// Copies a run, with one bit changed in the last byte but seven of a window's block of this kind.
+/// Copies a run but for its log, which would tell that it is another motion, with one bit changed in the last byte but
+/// seven of a window's block of this kind.
 void copy_with_a_fault(const std::string& run, const std::string& to, int window, FourLetters kind) {
   fs::copy(run, to);
+  fs::remove(fs::path(to) / "log.jsonl");
   const fs::path file = fs::path(to) / "trajectory.blocks";
   fs::remove(file);
   constexpr FourLetters content = four_letters("TRAJ");

@@ -19,7 +19,7 @@ class ContactWitness : public testing::Test {
   /// There is a contact, with a witness that both checkers take.
   void expect_witness(const std::vector<std::string>& frames, const std::vector<std::string>& options = {}) const {
     const std::string proof = folder.path("proof.noli");
-    std::vector<std::string> words = {"verify", "--proof", proof};
+    std::vector<std::string> words = {"verify", "--force", "--proof", proof};
     words.insert(words.end(), options.begin(), options.end());
     words.insert(words.end(), frames.begin(), frames.end());
     const Json said = json_of(words, 1);
@@ -110,7 +110,7 @@ TEST_F(ContactWitness, OfTheLeastDistanceAtTheGreatestDoubles) {
   const std::string a =
       frame("a", "v -1e308 5e-324 1e307\nv 1e308 -1.5e-323 1e307\nv 2.5e-323 -1e308 0\nv 5e-324 1e308 0\n", cells);
   const std::string proof = folder.path("proof.noli");
-  const Process near = run_noli({"verify", "--proof", proof, "--min-distance", "2e307", a, a});
+  const Process near = run_noli({"verify", "--force", "--proof", proof, "--min-distance", "2e307", a, a});
   EXPECT_EQ(near.exit_code, 1) << near.out << near.err;
   EXPECT_EQ(run_noli({"check", proof, a, a, "--require", "distance=2e307"}).exit_code, 1);
 }

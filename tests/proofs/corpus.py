@@ -152,7 +152,7 @@ def written_by_noli(noli, folder):
             paths.append(f"{number}-{k}.{extension}")
             with open(os.path.join(folder, paths[-1]), "wb") as file:
                 file.write(data)
-        code = run_noli(noli, folder, "verify", "--proof", "p.noli", "--threads", "1", "--no-check", *options, *paths)
+        code = run_noli(noli, folder, "verify", "--force", "--proof", "p.noli", "--threads", "1", "--no-check", *options, *paths)
         yield Case(name, read(os.path.join(folder, "p.noli")), files, extension, code)
     for name, plane in (("run", False), ("run in the plane", True)):
         with open(os.path.join(folder, "scene.json"), "w", encoding="utf-8") as file:
