@@ -50,7 +50,8 @@ bool is_standard_output(const fs::path& path) {
 void require_file(const OutputFile& output) {
   std::error_code error;
   if (fs::is_directory(output.path, error)) refuse(output, "is a folder; expected a file");
-  if (output.only_files && !is_regular_or_nothing(output.path)) {
+  const bool regular = is_regular_or_nothing(output.path) && !fs::is_symlink(output.path, error);
+  if (output.only_files && !regular) {
     refuse(output, "is no regular file; expected the name of a file");
   }
   if (is_standard_output(output.path)) refuse(output, "standard output goes there; expected another file, or '-'");

@@ -14,7 +14,7 @@
 
 namespace noli::app {
 
-/// A file that an option names. A device or a pipe may stand in its place, except where `only_files`.
+/// A file that an option names. A device, a pipe or a link may stand in its place, except where `only_files`.
 struct OutputFile {
   std::string option;  ///< "--json"
   std::filesystem::path path;

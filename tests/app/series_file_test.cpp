@@ -73,6 +73,9 @@ Array<T> read_array(const std::filesystem::path& path, const std::string& name, 
 
 class Series : public ::testing::Test {
  protected:
+  /// As noli does at its start.
+  Series() { std::signal(SIGPIPE, SIG_IGN); }
+
   test::TemporaryFolder folder;
   std::filesystem::path path = folder / "series.h5";
 
