@@ -50,11 +50,13 @@ bool is_standard_output(const fs::path& path) {
 void require_file(const OutputFile& output) {
   std::error_code error;
   if (fs::is_directory(output.path, error)) refuse(output, "is a folder; expected a file");
-  const bool regular = is_regular_or_nothing(output.path) && !fs::is_symlink(output.path, error);
-  if (output.only_files && !regular) {
-    refuse(output, "is no regular file; expected the name of a file");
-  }
   if (is_standard_output(output.path)) refuse(output, "standard output goes there; expected another file, or '-'");
+}
+
+void require_regular(const OutputFile& output) {
+  std::error_code error;
+  const bool regular = is_regular_or_nothing(output.path) && !fs::is_symlink(output.path, error);
+  if (output.only_files && !regular) refuse(output, "is no regular file; expected the name of a file");
 }
 
 void require_not_read(const OutputFile& output, const fs::path& input) {
@@ -111,6 +113,7 @@ void require_output_files(const std::vector<OutputFile>& outputs, const std::vec
         refuse(output, "is where " + outputs[k].option + " goes; expected another file");
       }
     }
+    require_regular(output);
     require_new(output, force);
     require_writable_file(output.path, output.option);
   }

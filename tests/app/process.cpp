@@ -154,6 +154,10 @@ std::string without_timing(nlohmann::json document) {
   return document.dump(2);
 }
 
+std::uint64_t trials(std::uint64_t some, std::uint64_t all) {
+  return std::getenv("NOLI_EVERY_FAULT") != nullptr ? all : some;
+}
+
 bool verified_checker_is_there() {
   const bool there = std::filesystem::exists(std::filesystem::path(NOLI_COMMAND).parent_path() / "noli_check_verified");
   if (!there) std::fputs("skipped: the verified checker, which is not built\n", stderr);

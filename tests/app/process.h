@@ -55,6 +55,9 @@ nlohmann::json json_of(std::vector<std::string> arguments, int expected_exit_cod
 /// The document without what a clock or the machine decides, as text.
 std::string without_timing(nlohmann::json document);
 
+/// How often a slow test tries: `all` times with NOLI_EVERY_FAULT=1, which takes hours; else `some` times.
+std::uint64_t trials(std::uint64_t some, std::uint64_t all);
+
 /// Whether the verified checker is built; says so when a test has to go without it.
 bool verified_checker_is_there();
 

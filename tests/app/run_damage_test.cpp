@@ -171,10 +171,10 @@ TEST_F(Damage, SeriesThatAreDamagedAreWrittenAgain) {
   EXPECT_EQ(run_noli({"info", run_}).exit_code, 0);
 }
 
-/// All bytes of what is read, through everybody; of the rest those that --resume and info look at.
+/// Of what is read all bytes, or some, through everybody; of the rest those that --resume and info look at.
 TEST_F(Damage, SlowNobodyAnswersWithLessThanTheTruth) {
   for (const std::string file : run_files) {
-    const std::size_t step = file == "series.h5" ? 101 : 1;
+    const std::size_t step = file == "series.h5" ? 2001 : trials(301, 1);
     for (std::size_t byte = 0; byte < bytes(file); byte += step) {
       for (const std::string& name : names()) expect_truth(name, file, 8 * byte + byte % 8);
     }

@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -226,7 +225,7 @@ Folder* Faults::in_ = nullptr;
 
 TEST_P(Faults, AreNeverAFalseAnswer) { try_faults(4); }
 
-TEST_P(Faults, AreNeverAFalseAnswerSlow) { try_faults(std::getenv("NOLI_EVERY_FAULT") != nullptr ? ~0ull : 60); }
+TEST_P(Faults, AreNeverAFalseAnswerSlow) { try_faults(trials(8, ~std::uint64_t{0})); }
 
 INSTANTIATE_TEST_SUITE_P(Each, Faults, testing::Combine(testing::ValuesIn(commands()), testing::ValuesIn(kinds())),
                          [](const auto& one) {

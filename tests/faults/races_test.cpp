@@ -93,7 +93,7 @@ class Races : public Simulate {
 
 TEST_F(Races, OneWinsAndNothingIsLost) { race(12, whole()); }
 
-TEST_F(Races, OneWinsAndNothingIsLostSlow) { race(std::getenv("NOLI_EVERY_FAULT") != nullptr ? 5000 : 300, whole()); }
+TEST_F(Races, OneWinsAndNothingIsLostSlow) { race(static_cast<int>(trials(60, 5000)), whole()); }
 
 }  // namespace
 }  // namespace noli::app_tests
