@@ -79,8 +79,9 @@ std::vector<std::string> asked_by(const CheckArguments& arguments) {
 
 /// All windows that the log of a run tells of are asked where some are missing. What cannot be read is the checker's to
 /// say. Throws InputError when the log is damaged, or has another hash of what is there.
-void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words) {
+void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words, std::vector<std::string>& notes) {
   const LogFacts log = read_log(run);
+  if (const auto note = note_of_lost_log(log)) notes.push_back(*note);
   std::optional<SeriesReader> reader;
   std::uint64_t windows = 0;
   try {
@@ -159,10 +160,10 @@ ExitCode run(const CheckArguments& arguments) {
   std::vector<fs::path> inputs = arguments.files;
   if (arguments.claim) inputs.push_back(*arguments.claim);
   const Output output(arguments.results, inputs);
-  std::vector<std::string> asked = asked_by(arguments);
+  std::vector<std::string> asked = asked_by(arguments), notes = ordered.notes;
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
     if (!arguments.results.quiet) note_if_being_written(trajectory[0]);
-    ask_for_all_windows(trajectory[0], asked);
+    ask_for_all_windows(trajectory[0], asked, notes);
   }
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
   CheckerProcess checker(which, proof, trajectory_for_checker(trajectory), asked);
@@ -174,8 +175,8 @@ ExitCode run(const CheckArguments& arguments) {
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
   const CheckerVersion version = version_of(which);
   Json json = check_json(version, proof, asked, verdict, word);
-  json["notes"] = ordered.notes;
-  output.write("check", check_answer(version, verdict, word, ordered.notes), json);
+  json["notes"] = notes;
+  output.write("check", check_answer(version, verdict, word, notes), json);
   return static_cast<ExitCode>(verdict.code);
 }
 

@@ -160,6 +160,11 @@ SeriesReader open_run(const std::filesystem::path& run, const LogFacts& log) {
 
 SeriesReader open_run(const std::filesystem::path& run) { return open_run(run, read_log(run)); }
 
+std::optional<std::string> note_of_lost_log(const LogFacts& log) {
+  if (log.parts > 0) return std::nullopt;
+  return "the run has no log.jsonl: windows that are missing at its end would not be noticed";
+}
+
 void require_series(const std::filesystem::path& run, const LogFacts& log) {
   const std::filesystem::path path = run / "series.h5";
   if (!log.series || !std::filesystem::exists(path)) return;

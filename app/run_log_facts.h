@@ -57,6 +57,9 @@ SeriesReader open_run(const std::filesystem::path& run, const LogFacts& log);
 /// The same for those who want nothing else of its log.
 SeriesReader open_run(const std::filesystem::path& run);
 
+/// What to know of a run that has lost its log: nothing tells of windows that are missing at the end.
+std::optional<std::string> note_of_lost_log(const LogFacts& log);
+
 /// Throws InputError when series.h5 is there, but not as the log tells that it was written.
 void require_series(const std::filesystem::path& run, const LogFacts& log);
 

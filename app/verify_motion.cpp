@@ -58,6 +58,7 @@ class MotionRun {
     outcome_.steps_total = reader_.count_windows();
     reader_.look_for_expected();
     outcome_.ending = ending_of(run_, log_, reader_.header().window_length);
+    if (const auto note = note_of_lost_log(log_)) outcome_.notes.push_back(*note);
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();

@@ -19,6 +19,7 @@ class RunMutations : public Simulate {
   /// Returns how many of the commands refused their run.
   int expect_ends(const Json& json, int count, std::uint64_t seed) {
     const std::string file = scene(json), whole = run_path("whole"), run = run_path("run");
+    fs::remove_all(whole);
     EXPECT_EQ(run_noli({"simulate", file, "-o", whole}).exit_code, 0);
     const std::string bytes = blocks("whole");
     std::mt19937_64 random(seed);

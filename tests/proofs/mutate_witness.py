@@ -71,7 +71,7 @@ def witness_time(m):
     elif what == 2:
         w["u"] = number(rng, w["u"])
     elif what == 3:
-        more = rng.choice((1, 2, 30, 1024 - w["e"], 1025 - w["e"]))
+        more = rng.choice((1, 2, 30, 8192 - w["e"], 8193 - w["e"]))
         if more < 0:
             raise NoSuchThing
         w["e"], w["l"], w["u"] = w["e"] + more, w["l"] << more, w["u"] << more

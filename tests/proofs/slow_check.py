@@ -228,7 +228,7 @@ class Step:
             count = r.u8()
             need(1 <= count <= 3, "WITN: the number of vertices")
             sets.append([(r.u32(), r.poly()) for _ in range(count)])
-        g, e = r.poly(), r.uint(1025)
+        g, e = r.poly(), r.uint(8193)
         l, u = r.sint(), r.sint()
         r.end()
         need(i < len(self.cells) and j < len(self.cells), "WITN: there is no such cell")
