@@ -160,8 +160,10 @@ std::string title_of(const fs::path& run) {
 }
 
 std::optional<double> duration_of(const fs::path& run) {
-  std::error_code error;
-  if (fs::status(run / "manifest.json", error).type() == fs::file_type::not_found) return std::nullopt;
+  for (const char* file : {"manifest.json", "scene.json"}) {
+    std::error_code error;
+    if (fs::status(run / file, error).type() == fs::file_type::not_found) return std::nullopt;
+  }
   const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
   if (!scene.is_object() || !scene.contains("duration") || !scene["duration"].is_number()) return std::nullopt;
   return scene["duration"];

@@ -81,7 +81,8 @@ void note_if_being_written(const std::filesystem::path& run);
 /// Of the scene of a run. Throws InputError when its manifest or its scene is not there or damaged.
 std::string title_of(const std::filesystem::path& run);
 
-/// Of the scene of a run [s]; nothing where it has no manifest. Throws InputError when that or the scene is damaged.
+/// Of the scene of a run [s]; nothing where it has lost that or its manifest. Throws InputError when one of
+/// them is damaged.
 std::optional<double> duration_of(const std::filesystem::path& run);
 
 }  // namespace noli::app

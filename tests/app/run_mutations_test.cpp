@@ -108,8 +108,9 @@ TEST_F(RunMutations, EndByThemselves) { EXPECT_GT(expect_ends(short_bounce(), 60
 TEST_F(RunMutations, OfFramesEndByThemselves) { EXPECT_GT(expect_ends(frames_of_cloths(), 30, 2), 50); }
 
 TEST_F(RunMutations, SlowManyEndByThemselves) {
-  EXPECT_GT(expect_ends(short_bounce(), 1000, 3), 2000);
-  EXPECT_GT(expect_ends(frames_of_cloths(), 500, 4), 1000);
+  const auto bounces = static_cast<int>(trials(150, 1000)), cloths = static_cast<int>(trials(75, 500));
+  EXPECT_GT(expect_ends(short_bounce(), bounces, 3), 2 * bounces);
+  EXPECT_GT(expect_ends(frames_of_cloths(), cloths, 4), 2 * cloths);
 }
 
 }  // namespace
