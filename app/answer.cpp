@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/answer.h"
+#include "app/answer.h"
 
 #include <algorithm>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

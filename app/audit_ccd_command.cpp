@@ -8,20 +8,20 @@
 #include <optional>
 #include <string>
 
-#include "noli/app/audit_report.h"
-#include "noli/app/commands.h"
-#include "noli/app/duration.h"
-#include "noli/app/frame_options.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/library_options.h"
-#include "noli/app/machine.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/pipeline_report.h"
-#include "noli/app/progress.h"
-#include "noli/audit/ccd_audit.h"
-#include "noli/audit/ccd_pipeline.h"
-#include "noli/trajectory/write_file.h"
+#include "app/audit_report.h"
+#include "app/commands.h"
+#include "app/duration.h"
+#include "app/frame_options.h"
+#include "app/interrupt.h"
+#include "app/library_options.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/pipeline_report.h"
+#include "app/progress.h"
+#include "audit/ccd_audit.h"
+#include "audit/ccd_pipeline.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

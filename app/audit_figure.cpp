@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "noli/app/audit_report.h"
-#include "noli/app/figure_axes.h"
-#include "noli/app/svg.h"
+#include "app/audit_report.h"
+#include "app/figure_axes.h"
+#include "app/svg.h"
 
 namespace noli::app {
 namespace {

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/commands.h"
-#include "noli/app/integrator_report.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/notes.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/write_file.h"
+#include "app/commands.h"
+#include "app/integrator_report.h"
+#include "app/interrupt.h"
+#include "app/notes.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/error.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/commands.h"
-#include "noli/app/duration.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/notes.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/precision_report.h"
-#include "noli/app/progress.h"
-#include "noli/app/run_extent.h"
-#include "noli/audit/precision.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/write_file.h"
+#include "app/commands.h"
+#include "app/duration.h"
+#include "app/interrupt.h"
+#include "app/notes.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/precision_report.h"
+#include "app/progress.h"
+#include "app/run_extent.h"
+#include "audit/precision.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

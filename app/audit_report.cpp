@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/audit_report.h"
+#include "app/audit_report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

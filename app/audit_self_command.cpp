@@ -10,16 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/audit_report.h"
-#include "noli/app/commands.h"
-#include "noli/app/duration.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/machine.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/audit/self.h"
-#include "noli/kernel/parallel.h"
-#include "noli/trajectory/error.h"
+#include "app/audit_report.h"
+#include "app/commands.h"
+#include "app/duration.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "audit/self.h"
+#include "kernel/parallel.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

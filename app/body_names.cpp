@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/body_names.h"
+#include "app/body_names.h"
 
 #include <fmt/format.h>
 

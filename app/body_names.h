@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/json.h"
-#include "noli/kernel/query.h"
-#include "noli/trajectory/mesh.h"
+#include "app/json.h"
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app {
 

@@ -5,12 +5,12 @@
 #include <map>
 #include <memory>
 
-#include "noli/app/ccd_run.h"
-#include "noli/app/commands.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/trajectory/error.h"
+#include "app/ccd_run.h"
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/ccd_run.h"
+#include "app/ccd_run.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/machine.h"
-#include "noli/app/progress.h"
-#include "noli/audit/any_query.h"
-#include "noli/kernel/contact.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/query_csv.h"
+#include "app/exit_code.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/progress.h"
+#include "audit/any_query.h"
+#include "kernel/contact.h"
+#include "trajectory/error.h"
+#include "trajectory/query_csv.h"
 
 namespace noli::app {
 namespace {

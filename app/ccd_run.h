@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/query.h"
-#include "noli/kernel/stages.h"
+#include "kernel/first_contact.h"
+#include "kernel/query.h"
+#include "kernel/stages.h"
 
 namespace noli::app {
 

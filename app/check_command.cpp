@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <memory>
 
-#include "noli/app/checker.h"
-#include "noli/app/claim.h"
-#include "noli/app/commands.h"
-#include "noli/app/frame_options.h"
-#include "noli/app/input_report.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/time_limit.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/text.h"
+#include "app/checker.h"
+#include "app/claim.h"
+#include "app/commands.h"
+#include "app/frame_options.h"
+#include "app/input_report.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/run_folder.h"
+#include "app/run_log_facts.h"
+#include "app/time_limit.h"
+#include "trajectory/error.h"
+#include "trajectory/run_file.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {

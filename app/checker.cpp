@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/checker.h"
+#include "app/checker.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -14,13 +14,13 @@
 #include <system_error>
 #include <utility>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/machine.h"
-#include "noli/audit/run_program.h"
-#include "noli/audit/start_process.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/text.h"
+#include "app/exit_code.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "audit/run_program.h"
+#include "audit/start_process.h"
+#include "trajectory/run_file.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/audit/pipe.h"
-#include "noli/trajectory/block_sink.h"
+#include "audit/pipe.h"
+#include "trajectory/block_sink.h"
 
 namespace noli::app {
 

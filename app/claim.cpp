@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/claim.h"
+#include "app/claim.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
-#include "noli/integrator/scene/json_text.h"
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/proof_file.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
+#include "integrator/scene/json_text.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/proof_file.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {

@@ -15,9 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/app/json.h"
-#include "noli/proofs/prover/proof_walk.h"
-#include "noli/trajectory/mesh.h"
+#include "app/json.h"
+#include "proofs/prover/proof_walk.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app {
 

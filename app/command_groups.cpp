@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/commands.h"
+#include "app/commands.h"
 
 namespace noli::app {
 

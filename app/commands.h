@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "noli/app/exit_code.h"
+#include "app/exit_code.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/contact_report.h"
+#include "app/contact_report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "noli/app/json.h"
-#include "noli/certificates/counts.h"
-#include "noli/integrator/contact_settings.h"
-#include "noli/proofs/prover/verifier.h"
+#include "app/json.h"
+#include "certificates/counts.h"
+#include "integrator/contact_settings.h"
+#include "proofs/prover/verifier.h"
 
 namespace noli::app {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/duration.h"
+#include "app/duration.h"
 
 #include <charconv>
 #include <optional>
 #include <string_view>
 
-#include "noli/app/exit_code.h"
+#include "app/exit_code.h"
 
 namespace noli::app {
 namespace {

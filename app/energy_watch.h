@@ -20,10 +20,10 @@
 #include <array>
 #include <optional>
 
-#include "noli/app/json.h"
-#include "noli/app/run_series.h"
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/scene.h"
+#include "app/json.h"
+#include "app/run_series.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::app {
 

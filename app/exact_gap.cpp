@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/exact_gap.h"
+#include "app/exact_gap.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "noli/certificates/closest.h"
-#include "noli/kernel/thickness.h"
+#include "certificates/closest.h"
+#include "kernel/thickness.h"
 
 namespace noli::app {
 namespace {

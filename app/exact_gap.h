@@ -15,8 +15,8 @@
 
 #include <array>
 
-#include "noli/kernel/query.h"
-#include "noli/trajectory/world_lines.h"
+#include "kernel/query.h"
+#include "trajectory/world_lines.h"
 
 namespace noli::app {
 

@@ -4,15 +4,15 @@
 #include <optional>
 #include <string>
 
-#include "noli/app/commands.h"
-#include "noli/app/notes.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/run_explanation.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/time_limit.h"
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/read_scene.h"
+#include "app/commands.h"
+#include "app/notes.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/run_explanation.h"
+#include "app/run_folder.h"
+#include "app/time_limit.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/read_scene.h"
 
 namespace noli::app {
 namespace {

@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "noli/app/commands.h"
-#include "noli/app/export_run.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/run_figure.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/run_picture.h"
-#include "noli/app/time_limit.h"
+#include "app/commands.h"
+#include "app/export_run.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/run_figure.h"
+#include "app/run_folder.h"
+#include "app/run_picture.h"
+#include "app/time_limit.h"
 
 namespace noli::app {
 namespace {

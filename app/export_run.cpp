@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/export_run.h"
+#include "app/export_run.h"
 
 #include <fmt/format.h>
 
@@ -7,17 +7,17 @@
 #include <optional>
 #include <vector>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/frame_times.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/output.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/sample.h"
-#include "noli/trajectory/write_obj.h"
-#include "noli/trajectory/write_ply.h"
-#include "noli/trajectory/write_vtu.h"
+#include "app/exit_code.h"
+#include "app/frame_times.h"
+#include "app/interrupt.h"
+#include "app/output.h"
+#include "app/run_log_facts.h"
+#include "app/run_series_reader.h"
+#include "trajectory/run_file.h"
+#include "trajectory/sample.h"
+#include "trajectory/write_obj.h"
+#include "trajectory/write_ply.h"
+#include "trajectory/write_vtu.h"
 
 namespace noli::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/figure_axes.h"
+#include "app/figure_axes.h"
 
 #include <fmt/format.h>
 

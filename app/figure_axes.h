@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/svg.h"
+#include "app/svg.h"
 
 namespace noli::app {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "noli/app/json.h"
-#include "noli/app/run_figure.h"
+#include "app/json.h"
+#include "app/run_figure.h"
 
 namespace noli::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "noli/app/figure_axes.h"
-#include "noli/app/run_figure.h"
+#include "app/figure_axes.h"
+#include "app/run_figure.h"
 
 namespace noli::app {
 namespace {

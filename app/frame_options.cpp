@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/frame_options.h"
+#include "app/frame_options.h"
 
 #include <string>
 

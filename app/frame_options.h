@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "noli/trajectory/frame_order.h"
-#include "noli/trajectory/polygons.h"
+#include "trajectory/frame_order.h"
+#include "trajectory/polygons.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/fuzz_library_motions_run.h"
+#include "app/fuzz_library_motions_run.h"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/interrupt.h"
-#include "noli/app/json.h"
-#include "noli/app/machine.h"
-#include "noli/app/output.h"
-#include "noli/app/progress.h"
-#include "noli/audit/fuzz_library_motions.h"
-#include "noli/audit/run_program.h"
-#include "noli/audit/save_motion.h"
-#include "noli/trajectory/error.h"
+#include "app/interrupt.h"
+#include "app/json.h"
+#include "app/machine.h"
+#include "app/output.h"
+#include "app/progress.h"
+#include "audit/fuzz_library_motions.h"
+#include "audit/run_program.h"
+#include "audit/save_motion.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/fuzz_options.h"
+#include "app/fuzz_options.h"
 
 #include <limits>
 #include <system_error>
 
-#include "noli/app/duration.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/audit/finding_name.h"
+#include "app/duration.h"
+#include "app/interrupt.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "audit/finding_name.h"
 
 namespace noli::app {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/output.h"
-#include "noli/audit/fuzz_blocks.h"
+#include "app/exit_code.h"
+#include "app/output.h"
+#include "audit/fuzz_blocks.h"
 
 namespace noli::app {
 

@@ -7,22 +7,22 @@
 #include <memory>
 #include <utility>
 
-#include "noli/app/checker.h"
-#include "noli/app/commands.h"
-#include "noli/app/fuzz_options.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/json.h"
-#include "noli/app/machine.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/progress.h"
-#include "noli/audit/fuzz_proofs.h"
-#include "noli/audit/minimise_proof.h"
-#include "noli/audit/motion_generators.h"
-#include "noli/audit/scratch_folder.h"
-#include "noli/audit/shape_corpus.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
+#include "app/checker.h"
+#include "app/commands.h"
+#include "app/fuzz_options.h"
+#include "app/interrupt.h"
+#include "app/json.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/progress.h"
+#include "audit/fuzz_proofs.h"
+#include "audit/minimise_proof.h"
+#include "audit/motion_generators.h"
+#include "audit/scratch_folder.h"
+#include "audit/shape_corpus.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {

@@ -11,19 +11,19 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/commands.h"
-#include "noli/app/duration.h"
-#include "noli/app/fuzz_queries_report.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/library_options.h"
-#include "noli/app/machine.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/progress.h"
-#include "noli/audit/finding_name.h"
-#include "noli/audit/minimise_query.h"
-#include "noli/audit/saved_query.h"
-#include "noli/trajectory/error.h"
+#include "app/commands.h"
+#include "app/duration.h"
+#include "app/fuzz_queries_report.h"
+#include "app/interrupt.h"
+#include "app/library_options.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/progress.h"
+#include "audit/finding_name.h"
+#include "audit/minimise_query.h"
+#include "audit/saved_query.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/fuzz_queries_report.h"
+#include "app/fuzz_queries_report.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <iterator>
 
-#include "noli/audit/minimise_query.h"
-#include "noli/kernel/parallel.h"
-#include "noli/trajectory/error.h"
+#include "audit/minimise_query.h"
+#include "kernel/parallel.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

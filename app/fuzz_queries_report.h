@@ -5,11 +5,11 @@
 
 #include <string>
 
-#include "noli/app/answer.h"
-#include "noli/app/exit_code.h"
-#include "noli/app/json.h"
-#include "noli/audit/fuzz_library.h"
-#include "noli/audit/fuzz_queries.h"
+#include "app/answer.h"
+#include "app/exit_code.h"
+#include "app/json.h"
+#include "audit/fuzz_library.h"
+#include "audit/fuzz_queries.h"
 
 namespace noli::app {
 

@@ -4,21 +4,21 @@
 #include <iterator>
 #include <memory>
 
-#include "noli/app/commands.h"
-#include "noli/app/fuzz_options.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/json.h"
-#include "noli/app/machine.h"
-#include "noli/app/output.h"
-#include "noli/app/output_files.h"
-#include "noli/app/progress.h"
-#include "noli/audit/fuzz_scenes.h"
-#include "noli/audit/kind_of_difference.h"
-#include "noli/audit/scratch_folder.h"
-#include "noli/audit/start_process.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "app/commands.h"
+#include "app/fuzz_options.h"
+#include "app/interrupt.h"
+#include "app/json.h"
+#include "app/machine.h"
+#include "app/output.h"
+#include "app/output_files.h"
+#include "app/progress.h"
+#include "audit/fuzz_scenes.h"
+#include "audit/kind_of_difference.h"
+#include "audit/scratch_folder.h"
+#include "audit/start_process.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

@@ -5,21 +5,21 @@
 #include <iterator>
 #include <memory>
 
-#include "noli/app/commands.h"
-#include "noli/app/fuzz_library_motions_run.h"
-#include "noli/app/fuzz_options.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/json.h"
-#include "noli/app/machine.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/progress.h"
-#include "noli/app/verify_program.h"
-#include "noli/audit/kind_of_difference.h"
-#include "noli/audit/motion_generators.h"
-#include "noli/audit/save_motion.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/write_file.h"
+#include "app/commands.h"
+#include "app/fuzz_library_motions_run.h"
+#include "app/fuzz_options.h"
+#include "app/interrupt.h"
+#include "app/json.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/progress.h"
+#include "app/verify_program.h"
+#include "audit/kind_of_difference.h"
+#include "audit/motion_generators.h"
+#include "audit/save_motion.h"
+#include "trajectory/error.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/groups.h"
+#include "app/groups.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <iterator>
 #include <limits>
 
-#include "noli/app/json.h"
-#include "noli/integrator/scene/json_text.h"
-#include "noli/proofs/prover/features.h"
-#include "noli/trajectory/error.h"
+#include "app/json.h"
+#include "integrator/scene/json_text.h"
+#include "proofs/prover/features.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/exclusions.h"
-#include "noli/trajectory/mesh.h"
+#include "trajectory/exclusions.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app {
 

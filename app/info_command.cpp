@@ -6,18 +6,18 @@
 #include <iterator>
 #include <memory>
 
-#include "noli/app/ccd_run.h"
-#include "noli/app/commands.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/proof_info.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/run_info.h"
-#include "noli/app/time_limit.h"
-#include "noli/audit/any_query.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/file_info.h"
-#include "noli/trajectory/query_csv.h"
+#include "app/ccd_run.h"
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/proof_info.h"
+#include "app/run_folder.h"
+#include "app/run_info.h"
+#include "app/time_limit.h"
+#include "audit/any_query.h"
+#include "trajectory/error.h"
+#include "trajectory/file_info.h"
+#include "trajectory/query_csv.h"
 
 namespace noli::app {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/input_report.h"
+#include "app/input_report.h"
 
 #include <fmt/format.h>
 
 #include <system_error>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/run_file.h"
+#include "trajectory/error.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app {
 namespace {

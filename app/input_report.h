@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/json.h"
-#include "noli/trajectory/frame_look.h"
-#include "noli/trajectory/polygons.h"
+#include "app/json.h"
+#include "trajectory/frame_look.h"
+#include "trajectory/polygons.h"
 
 namespace noli::app {
 

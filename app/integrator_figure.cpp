@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/figure_axes.h"
-#include "noli/app/integrator_report.h"
-#include "noli/app/svg.h"
-#include "noli/trajectory/error.h"
+#include "app/figure_axes.h"
+#include "app/integrator_report.h"
+#include "app/svg.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

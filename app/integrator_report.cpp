@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/integrator_report.h"
+#include "app/integrator_report.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "noli/app/audit_report.h"
-#include "noli/trajectory/error.h"
+#include "app/audit_report.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

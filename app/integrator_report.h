@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/answer.h"
-#include "noli/app/json.h"
-#include "noli/audit/integrator_audit.h"
+#include "app/answer.h"
+#include "app/json.h"
+#include "audit/integrator_audit.h"
 
 namespace noli::app {
 

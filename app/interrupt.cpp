@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/interrupt.h"
+#include "app/interrupt.h"
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <ctime>
 #include <system_error>
 
-#include "noli/trajectory/stop.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {

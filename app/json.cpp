@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/json.h"
+#include "app/json.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "noli/kernel/stages.h"
+#include "kernel/stages.h"
 
 namespace noli::app {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/largest_distance.h"
+#include "app/largest_distance.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "noli/app/exact_gap.h"
-#include "noli/proofs/prover/feature_sides.h"
-#include "noli/proofs/prover/mesh_paths.h"
-#include "noli/proofs/prover/too_near.h"
+#include "app/exact_gap.h"
+#include "proofs/prover/feature_sides.h"
+#include "proofs/prover/mesh_paths.h"
+#include "proofs/prover/too_near.h"
 
 namespace noli::app {
 namespace {

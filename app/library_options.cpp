@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/library_options.h"
+#include "app/library_options.h"
 
 #include <fmt/format.h>
 
-#include "noli/app/duration.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/machine.h"
-#include "noli/app/options.h"
+#include "app/duration.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/options.h"
 
 namespace noli::app {
 

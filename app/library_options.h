@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/library_answers.h"
+#include "audit/library_answers.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/lines_pipe.h"
+#include "app/lines_pipe.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "noli/app/interrupt.h"
+#include "app/interrupt.h"
 
 namespace noli::app {
 namespace {

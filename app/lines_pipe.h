@@ -17,8 +17,8 @@
 #include <string_view>
 #include <thread>
 
-#include "noli/audit/scratch_folder.h"
-#include "noli/trajectory/block_sink.h"
+#include "audit/scratch_folder.h"
+#include "trajectory/block_sink.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/machine.h"
+#include "app/machine.h"
 
 #include <fcntl.h>
 #include <gmp.h>
@@ -12,7 +12,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "noli/app/exit_code.h"
+#include "app/exit_code.h"
 
 namespace noli::app {
 namespace {

@@ -8,14 +8,14 @@
 #include <system_error>
 #include <vector>
 
-#include "noli/app/commands.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/machine.h"
-#include "noli/app/output.h"
-#include "noli/app/version.h"
-#include "noli/audit/not_saved.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/machine.h"
+#include "app/output.h"
+#include "app/version.h"
+#include "audit/not_saved.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/model.h"
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/sha256.h"
+#include "integrator/model.h"
+#include "trajectory/bytes.h"
+#include "trajectory/run_file.h"
+#include "trajectory/sha256.h"
 
 namespace noli::app {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "noli/integrator/simulation.h"
-#include "noli/trajectory/run_file.h"
+#include "integrator/simulation.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/not_compared.h"
+#include "app/not_compared.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/error.h"
+#include "trajectory/cells.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/body_names.h"
-#include "noli/app/json.h"
-#include "noli/trajectory/exclusions.h"
-#include "noli/trajectory/mesh.h"
+#include "app/body_names.h"
+#include "app/json.h"
+#include "trajectory/exclusions.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app {
 

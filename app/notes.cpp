@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/notes.h"
+#include "app/notes.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

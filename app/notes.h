@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "noli/integrator/scene/explain.h"
+#include "integrator/scene/explain.h"
 
 namespace noli::app {
 

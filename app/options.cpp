@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/options.h"
+#include "app/options.h"
 
 #include <fmt/format.h>
 

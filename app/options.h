@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "noli/app/output.h"
+#include "app/output.h"
 
 namespace noli::app {
 

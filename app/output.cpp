@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/output.h"
+#include "app/output.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/version.h"
+#include "app/exit_code.h"
+#include "app/version.h"
 
 namespace noli::app {
 namespace {

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/app/answer.h"
-#include "noli/app/json.h"
-#include "noli/app/output_files.h"
+#include "app/answer.h"
+#include "app/json.h"
+#include "app/output_files.h"
 
 namespace noli::app {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/output_files.h"
+#include "app/output_files.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <set>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/output.h"
+#include "app/exit_code.h"
+#include "app/output.h"
 
 namespace noli::app {
 namespace {

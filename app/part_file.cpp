@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/part_file.h"
+#include "app/part_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

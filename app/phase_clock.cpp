@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/phase_clock.h"
+#include "app/phase_clock.h"
 
 #include <fmt/format.h>
 

@@ -11,8 +11,8 @@
 #include <mutex>
 #include <thread>
 
-#include "noli/app/json.h"
-#include "noli/integrator/phase.h"
+#include "app/json.h"
+#include "integrator/phase.h"
 
 namespace noli::app {
 

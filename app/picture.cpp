@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/picture.h"
+#include "app/picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "noli/integrator/scene/curve.h"
+#include "integrator/scene/curve.h"
 
 namespace noli::app {
 namespace {

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app {
 

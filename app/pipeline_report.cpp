@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/pipeline_report.h"
+#include "app/pipeline_report.h"
 
 #include <fmt/format.h>
 
-#include "noli/app/audit_report.h"
-#include "noli/app/contact_report.h"
-#include "noli/app/input_report.h"
-#include "noli/trajectory/error.h"
+#include "app/audit_report.h"
+#include "app/contact_report.h"
+#include "app/input_report.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

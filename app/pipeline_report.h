@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "noli/app/answer.h"
-#include "noli/app/json.h"
-#include "noli/audit/ccd_pipeline.h"
+#include "app/answer.h"
+#include "app/json.h"
+#include "audit/ccd_pipeline.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/png.h"
+#include "app/png.h"
 
 #include <stdexcept>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "noli/app/picture.h"
+#include "app/picture.h"
 
 namespace noli::app {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noli/app/figure_axes.h"
-#include "noli/app/precision_report.h"
-#include "noli/app/svg.h"
+#include "app/figure_axes.h"
+#include "app/precision_report.h"
+#include "app/svg.h"
 
 namespace noli::app {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "noli/app/answer.h"
-#include "noli/app/exit_code.h"
-#include "noli/app/json.h"
-#include "noli/audit/precision.h"
+#include "app/answer.h"
+#include "app/exit_code.h"
+#include "app/json.h"
+#include "audit/precision.h"
 
 namespace noli::app {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "noli/app/machine.h"
+#include "app/machine.h"
 
 namespace noli::app {
 

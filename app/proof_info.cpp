@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/proof_info.h"
+#include "app/proof_info.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <optional>
 #include <string>
 
-#include "noli/audit/parsed_claim.h"
-#include "noli/trajectory/block_file.h"
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
+#include "audit/parsed_claim.h"
+#include "trajectory/block_file.h"
+#include "trajectory/bytes.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "noli/app/json.h"
+#include "app/json.h"
 
 namespace noli::app {
 

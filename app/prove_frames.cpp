@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/prove_frames.h"
+#include "app/prove_frames.h"
 
 #include <algorithm>
 #include <set>
 
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/hierarchy.h"
-#include "noli/proofs/prover/witness.h"
-#include "noli/proofs/prover/write_tokens.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/hierarchy.h"
+#include "proofs/prover/witness.h"
+#include "proofs/prover/write_tokens.h"
 
 namespace noli::app {
 namespace {

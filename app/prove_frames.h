@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "noli/app/verify_run.h"
-#include "noli/proofs/prover/proof_file.h"
-#include "noli/proofs/prover/step_prover.h"
-#include "noli/trajectory/merge.h"
+#include "app/verify_run.h"
+#include "proofs/prover/proof_file.h"
+#include "proofs/prover/step_prover.h"
+#include "trajectory/merge.h"
 
 namespace noli::app {
 

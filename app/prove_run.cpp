@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/prove_run.h"
+#include "app/prove_run.h"
 
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/forest.h"
-#include "noli/proofs/prover/write_tokens.h"
-#include "noli/trajectory/error.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/forest.h"
+#include "proofs/prover/write_tokens.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -8,12 +8,12 @@
 #include <memory>
 #include <vector>
 
-#include "noli/app/claim.h"
-#include "noli/proofs/prover/proof_file.h"
-#include "noli/proofs/prover/step_prover.h"
-#include "noli/proofs/prover/window_verifier.h"
-#include "noli/proofs/prover/witness.h"
-#include "noli/trajectory/run_file.h"
+#include "app/claim.h"
+#include "proofs/prover/proof_file.h"
+#include "proofs/prover/step_prover.h"
+#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/witness.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app {
 

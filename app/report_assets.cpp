@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_assets.h"
+#include "app/report_assets.h"
 
 #ifdef NOLI_WITH_REPORT
 

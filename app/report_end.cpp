@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_end.h"
+#include "app/report_end.h"
 
 #include <fmt/format.h>
 
 #include <vector>
 
-#include "noli/app/json.h"
+#include "app/json.h"
 
 namespace noli::app {
 namespace {

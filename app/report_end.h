@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "noli/app/run_log_facts.h"
+#include "app/run_log_facts.h"
 
 namespace noli::app {
 

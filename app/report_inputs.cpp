@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_inputs.h"
+#include "app/report_inputs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
-#include "noli/app/input_report.h"
-#include "noli/app/interrupt.h"
-#include "noli/trajectory/error.h"
+#include "app/input_report.h"
+#include "app/interrupt.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

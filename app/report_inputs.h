@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "noli/app/json.h"
-#include "noli/trajectory/frame_look.h"
+#include "app/json.h"
+#include "trajectory/frame_look.h"
 
 namespace noli::app {
 

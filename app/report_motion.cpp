@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_motion.h"
+#include "app/report_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "noli/app/report_page.h"
-#include "noli/trajectory/stop.h"
+#include "app/report_page.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_page.h"
+#include "app/report_page.h"
 
 #include <array>
 #include <stdexcept>
 #include <utility>
 
-#include "noli/app/report_assets.h"
-#include "noli/trajectory/base64.h"
+#include "app/report_assets.h"
+#include "trajectory/base64.h"
 
 #ifdef NOLI_WITH_REPORT
 #include <zlib.h>

@@ -20,7 +20,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/app/json.h"
+#include "app/json.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_plots.h"
+#include "app/report_plots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/force.h"
+#include "integrator/force.h"
 
 namespace noli::app {
 namespace {

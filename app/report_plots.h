@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "noli/app/json.h"
-#include "noli/app/run_series.h"
+#include "app/json.h"
+#include "app/run_series.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_results.h"
+#include "app/report_results.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "noli/app/report_statement.h"
-#include "noli/app/report_verdict.h"
-#include "noli/integrator/scene/json_text.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
+#include "app/report_statement.h"
+#include "app/report_verdict.h"
+#include "integrator/scene/json_text.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {

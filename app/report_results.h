@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "noli/app/report_page.h"
+#include "app/report_page.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_run.h"
+#include "app/report_run.h"
 
 #include <fmt/format.h>
 
@@ -7,20 +7,20 @@
 #include <utility>
 #include <vector>
 
-#include "noli/app/frame_times.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/not_compared.h"
-#include "noli/app/report_end.h"
-#include "noli/app/report_plots.h"
-#include "noli/app/report_scene.h"
-#include "noli/app/report_verdict.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/sample.h"
+#include "app/frame_times.h"
+#include "app/interrupt.h"
+#include "app/not_compared.h"
+#include "app/report_end.h"
+#include "app/report_plots.h"
+#include "app/report_scene.h"
+#include "app/report_verdict.h"
+#include "app/run_folder.h"
+#include "app/run_log_facts.h"
+#include "app/run_series_reader.h"
+#include "trajectory/error.h"
+#include "trajectory/frames.h"
+#include "trajectory/run_file.h"
+#include "trajectory/sample.h"
 
 namespace noli::app {
 namespace {

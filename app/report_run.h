@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "noli/app/report_page.h"
-#include "noli/trajectory/frames.h"
+#include "app/report_page.h"
+#include "trajectory/frames.h"
 
 namespace noli::app {
 

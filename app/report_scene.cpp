@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_scene.h"
+#include "app/report_scene.h"
 
 #include <span>
 #include <utility>
 
-#include "noli/trajectory/bytes.h"
+#include "trajectory/bytes.h"
 
 namespace noli::app {
 namespace {

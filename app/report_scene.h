@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/report_motion.h"
-#include "noli/app/report_page.h"
+#include "app/report_motion.h"
+#include "app/report_page.h"
 
 namespace noli::app {
 

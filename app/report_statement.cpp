@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_statement.h"
+#include "app/report_statement.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "noli/app/report_verdict.h"
+#include "app/report_verdict.h"
 
 namespace noli::app {
 namespace {

@@ -4,7 +4,7 @@
 // condition of what was found.
 #pragma once
 
-#include "noli/app/json.h"
+#include "app/json.h"
 
 namespace noli::app {
 

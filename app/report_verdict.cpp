@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/report_verdict.h"
+#include "app/report_verdict.h"
 
 #include <algorithm>
 #include <iterator>

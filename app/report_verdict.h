@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/app/report_page.h"
+#include "app/report_page.h"
 
 namespace noli::app {
 

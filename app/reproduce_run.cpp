@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/reproduce_run.h"
+#include "app/reproduce_run.h"
 
 #include <fmt/format.h>
 
-#include "noli/app/model_run.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/integrator/contact_limit.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/write_file.h"
+#include "app/model_run.h"
+#include "app/run_log_facts.h"
+#include "app/run_series_reader.h"
+#include "integrator/contact_limit.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "noli/trajectory/sha256.h"
+#include "trajectory/sha256.h"
 
 namespace noli::app {
 

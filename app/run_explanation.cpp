@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_explanation.h"
+#include "app/run_explanation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "noli/app/run_folder.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
+#include "app/run_folder.h"
+#include "app/run_series_reader.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {

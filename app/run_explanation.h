@@ -22,11 +22,11 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/answer.h"
-#include "noli/app/exact_gap.h"
-#include "noli/app/phase_clock.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/run_series.h"
+#include "app/answer.h"
+#include "app/exact_gap.h"
+#include "app/phase_clock.h"
+#include "app/run_log_facts.h"
+#include "app/run_series.h"
 
 namespace noli::app {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "noli/app/contact_report.h"
-#include "noli/app/run_explanation.h"
-#include "noli/trajectory/error.h"
+#include "app/contact_report.h"
+#include "app/run_explanation.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

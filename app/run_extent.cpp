@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_extent.h"
+#include "app/run_extent.h"
 
 #include <fmt/format.h>
 
-#include "noli/app/exit_code.h"
-#include "noli/integrator/scene/window_count.h"
-#include "noli/trajectory/error.h"
+#include "app/exit_code.h"
+#include "integrator/scene/window_count.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 

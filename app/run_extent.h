@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "noli/app/simulate_run.h"
-#include "noli/integrator/scene/scene.h"
+#include "app/simulate_run.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_figure.h"
+#include "app/run_figure.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <optional>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/output.h"
-#include "noli/app/output_files.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/write_file.h"
+#include "app/exit_code.h"
+#include "app/output.h"
+#include "app/output_files.h"
+#include "app/run_folder.h"
+#include "app/run_log_facts.h"
+#include "app/run_series_reader.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/run_series.h"
+#include "app/run_series.h"
 
 namespace noli::app {
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_folder.h"
+#include "app/run_folder.h"
 
 #include <algorithm>
 #include <string>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/notes.h"
-#include "noli/app/output.h"
-#include "noli/app/output_files.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/version.h"
-#include "noli/trajectory/block_sink.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frame_look.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/run_manifest.h"
+#include "app/exit_code.h"
+#include "app/notes.h"
+#include "app/output.h"
+#include "app/output_files.h"
+#include "app/run_log_facts.h"
+#include "app/version.h"
+#include "trajectory/block_sink.h"
+#include "trajectory/error.h"
+#include "trajectory/frame_look.h"
+#include "trajectory/run_file.h"
+#include "trajectory/run_manifest.h"
 
 namespace noli::app {
 namespace {

@@ -10,12 +10,12 @@
 #include <optional>
 #include <vector>
 
-#include "noli/app/json.h"
-#include "noli/app/run_series.h"
-#include "noli/trajectory/folder_lock.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/run_log.h"
-#include "noli/trajectory/sha256.h"
+#include "app/json.h"
+#include "app/run_series.h"
+#include "trajectory/folder_lock.h"
+#include "trajectory/run_file.h"
+#include "trajectory/run_log.h"
+#include "trajectory/sha256.h"
 
 namespace noli::app {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_info.h"
+#include "app/run_info.h"
 
 #include <algorithm>
 
-#include "noli/app/run_log_facts.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/run_manifest.h"
-#include "noli/trajectory/stop.h"
+#include "app/run_log_facts.h"
+#include "app/run_series_reader.h"
+#include "trajectory/run_file.h"
+#include "trajectory/run_manifest.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_log_facts.h"
+#include "app/run_log_facts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frame_look.h"
-#include "noli/trajectory/run_log.h"
-#include "noli/trajectory/run_manifest.h"
+#include "trajectory/error.h"
+#include "trajectory/frame_look.h"
+#include "trajectory/run_log.h"
+#include "trajectory/run_manifest.h"
 
 namespace noli::app {
 namespace {

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/body_names.h"
-#include "noli/app/json.h"
-#include "noli/app/phase_clock.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/certificates/counts.h"
-#include "noli/integrator/contact_settings.h"
-#include "noli/trajectory/run_file.h"
+#include "app/body_names.h"
+#include "app/json.h"
+#include "app/phase_clock.h"
+#include "app/run_series_reader.h"
+#include "certificates/counts.h"
+#include "integrator/contact_settings.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app {
 

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_picture.h"
+#include "app/run_picture.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/output.h"
-#include "noli/app/output_files.h"
-#include "noli/app/picture.h"
-#include "noli/app/png.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/run_log_facts.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/sample.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/write_file.h"
+#include "app/exit_code.h"
+#include "app/output.h"
+#include "app/output_files.h"
+#include "app/picture.h"
+#include "app/png.h"
+#include "app/run_folder.h"
+#include "app/run_log_facts.h"
+#include "app/run_series_reader.h"
+#include "trajectory/error.h"
+#include "trajectory/sample.h"
+#include "trajectory/stop.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app {
 

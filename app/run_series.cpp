@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_series.h"
+#include "app/run_series.h"
 
 #include <stdexcept>
 
-#include "noli/trajectory/bytes.h"
+#include "trajectory/bytes.h"
 
 namespace noli::app {
 namespace {

@@ -16,9 +16,9 @@
 #include <string>
 #include <string_view>
 
-#include "noli/app/step_histogram.h"
-#include "noli/integrator/simulation.h"
-#include "noli/trajectory/world_lines.h"
+#include "app/step_histogram.h"
+#include "integrator/simulation.h"
+#include "trajectory/world_lines.h"
 
 namespace noli::app {
 

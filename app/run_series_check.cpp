@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_series_check.h"
+#include "app/run_series_check.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "noli/app/retries.h"
+#include "app/retries.h"
 
 namespace noli::app {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <cstdint>
 
-#include "noli/app/run_series.h"
-#include "noli/trajectory/run_file.h"
+#include "app/run_series.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app {
 

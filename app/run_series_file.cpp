@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_series_file.h"
+#include "app/run_series_file.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/frame_times.h"
-#include "noli/app/run_series_reader.h"
-#include "noli/app/series_file.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/sample.h"
+#include "app/frame_times.h"
+#include "app/run_series_reader.h"
+#include "app/series_file.h"
+#include "trajectory/error.h"
+#include "trajectory/run_file.h"
+#include "trajectory/sample.h"
 
 namespace noli::app {
 namespace {

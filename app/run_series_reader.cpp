@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_series_reader.h"
+#include "app/run_series_reader.h"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 
-#include "noli/app/run_series_check.h"
-#include "noli/trajectory/error.h"
+#include "app/run_series_check.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "noli/app/run_series.h"
-#include "noli/trajectory/run_file.h"
+#include "app/run_series.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app {
 

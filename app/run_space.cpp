@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/run_space.h"
+#include "app/run_space.h"
 
 #include <fmt/format.h>
 

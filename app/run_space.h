@@ -13,8 +13,8 @@
 #include <optional>
 #include <string>
 
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/scene.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::app {
 

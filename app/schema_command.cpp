@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "noli/app/commands.h"
-#include "noli/app/output.h"
-#include "noli/app/schema_texts.h"
-#include "noli/trajectory/error.h"
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/schema_texts.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

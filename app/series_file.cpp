@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/series_file.h"
+#include "app/series_file.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "noli/app/exit_code.h"
+#include "app/exit_code.h"
 
 namespace noli::app {
 namespace {

@@ -14,9 +14,9 @@
 #include <span>
 #include <string>
 
-#include "noli/app/part_file.h"
-#include "noli/app/series/stream.h"
-#include "noli/app/series_process.h"
+#include "app/part_file.h"
+#include "app/series/stream.h"
+#include "app/series_process.h"
 
 namespace noli::app {
 

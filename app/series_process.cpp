@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/series_process.h"
+#include "app/series_process.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -13,9 +13,9 @@
 #include <system_error>
 #include <utility>
 
-#include "noli/app/machine.h"
-#include "noli/audit/start_process.h"
-#include "noli/trajectory/text.h"
+#include "app/machine.h"
+#include "audit/start_process.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {

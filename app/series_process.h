@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/audit/pipe.h"
+#include "audit/pipe.h"
 
 namespace noli::app {
 

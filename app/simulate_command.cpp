@@ -5,16 +5,16 @@
 #include <memory>
 #include <string>
 
-#include "noli/app/commands.h"
-#include "noli/app/notes.h"
-#include "noli/app/options.h"
-#include "noli/app/output.h"
-#include "noli/app/reproduce_run.h"
-#include "noli/app/run_folder.h"
-#include "noli/app/simulate_report.h"
-#include "noli/app/simulate_run.h"
-#include "noli/app/time_limit.h"
-#include "noli/trajectory/error.h"
+#include "app/commands.h"
+#include "app/notes.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/reproduce_run.h"
+#include "app/run_folder.h"
+#include "app/simulate_report.h"
+#include "app/simulate_run.h"
+#include "app/time_limit.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/simulate_report.h"
+#include "app/simulate_report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "noli/app/contact_report.h"
-#include "noli/app/machine.h"
-#include "noli/kernel/parallel.h"
-#include "noli/trajectory/error.h"
+#include "app/contact_report.h"
+#include "app/machine.h"
+#include "kernel/parallel.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "noli/app/answer.h"
-#include "noli/app/exit_code.h"
-#include "noli/app/json.h"
-#include "noli/app/simulate_run.h"
+#include "app/answer.h"
+#include "app/exit_code.h"
+#include "app/json.h"
+#include "app/simulate_run.h"
 
 namespace noli::app {
 

@@ -22,15 +22,15 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/energy_watch.h"
-#include "noli/app/not_compared.h"
-#include "noli/app/phase_clock.h"
-#include "noli/app/run_series_file.h"
-#include "noli/integrator/contact_limit.h"
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/scene.h"
-#include "noli/integrator/simulation.h"
-#include "noli/proofs/prover/window_verifier.h"
+#include "app/energy_watch.h"
+#include "app/not_compared.h"
+#include "app/phase_clock.h"
+#include "app/run_series_file.h"
+#include "integrator/contact_limit.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/scene.h"
+#include "integrator/simulation.h"
+#include "proofs/prover/window_verifier.h"
 
 namespace noli::app {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/start_check.h"
+#include "app/start_check.h"
 
 #include <fmt/format.h>
 
-#include "noli/trajectory/stop.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/body_names.h"
-#include "noli/proofs/prover/window_verifier.h"
+#include "app/body_names.h"
+#include "proofs/prover/window_verifier.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/step_histogram.h"
+#include "app/step_histogram.h"
 
 #include <algorithm>
 #include <array>

@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/trajectory/world_lines.h"
+#include "trajectory/world_lines.h"
 
 namespace noli::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/svg.h"
+#include "app/svg.h"
 
 #include <fmt/format.h>
 

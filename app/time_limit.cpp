@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/time_limit.h"
+#include "app/time_limit.h"
 
-#include "noli/app/duration.h"
-#include "noli/app/interrupt.h"
+#include "app/duration.h"
+#include "app/interrupt.h"
 
 namespace noli::app {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/verify_program.h"
+#include "app/verify_program.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <exception>
 
-#include "noli/app/interrupt.h"
-#include "noli/app/json.h"
-#include "noli/app/machine.h"
-#include "noli/audit/run_program.h"
-#include "noli/trajectory/text.h"
+#include "app/interrupt.h"
+#include "app/json.h"
+#include "app/machine.h"
+#include "audit/run_program.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "noli/audit/fuzz_trajectories.h"
-#include "noli/audit/scratch_folder.h"
+#include "audit/fuzz_trajectories.h"
+#include "audit/scratch_folder.h"
 
 namespace noli::app {
 

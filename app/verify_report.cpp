@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/verify_report.h"
+#include "app/verify_report.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "noli/app/contact_report.h"
-#include "noli/app/input_report.h"
-#include "noli/app/machine.h"
-#include "noli/app/version.h"
-#include "noli/audit/run_program.h"
-#include "noli/kernel/parallel.h"
-#include "noli/trajectory/error.h"
+#include "app/contact_report.h"
+#include "app/input_report.h"
+#include "app/machine.h"
+#include "app/version.h"
+#include "audit/run_program.h"
+#include "kernel/parallel.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "noli/app/answer.h"
-#include "noli/app/json.h"
-#include "noli/app/verify_run.h"
+#include "app/answer.h"
+#include "app/json.h"
+#include "app/verify_run.h"
 
 namespace noli::app {
 

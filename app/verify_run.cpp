@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/verify_run.h"
+#include "app/verify_run.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,21 +9,21 @@
 #include <system_error>
 #include <utility>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/groups.h"
-#include "noli/app/interrupt.h"
-#include "noli/app/largest_distance.h"
-#include "noli/app/machine.h"
-#include "noli/app/progress.h"
-#include "noli/app/prove_frames.h"
-#include "noli/audit/any_query.h"
-#include "noli/proofs/prover/window_verifier.h"
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frame_inputs.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/merge.h"
-#include "noli/trajectory/stop.h"
+#include "app/exit_code.h"
+#include "app/groups.h"
+#include "app/interrupt.h"
+#include "app/largest_distance.h"
+#include "app/machine.h"
+#include "app/progress.h"
+#include "app/prove_frames.h"
+#include "audit/any_query.h"
+#include "proofs/prover/window_verifier.h"
+#include "trajectory/cells.h"
+#include "trajectory/error.h"
+#include "trajectory/frame_inputs.h"
+#include "trajectory/frames.h"
+#include "trajectory/merge.h"
+#include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {

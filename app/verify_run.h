@@ -17,18 +17,18 @@
 #include <string>
 #include <vector>
 
-#include "noli/app/checker.h"
-#include "noli/app/claim.h"
-#include "noli/app/contact_report.h"
-#include "noli/app/largest_distance.h"
-#include "noli/app/not_compared.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/proofs/prover/too_near.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/block_sink.h"
-#include "noli/trajectory/frame_look.h"
-#include "noli/trajectory/frame_order.h"
-#include "noli/trajectory/polygons.h"
+#include "app/checker.h"
+#include "app/claim.h"
+#include "app/contact_report.h"
+#include "app/largest_distance.h"
+#include "app/not_compared.h"
+#include "kernel/first_contact.h"
+#include "proofs/prover/too_near.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/block_sink.h"
+#include "trajectory/frame_look.h"
+#include "trajectory/frame_order.h"
+#include "trajectory/polygons.h"
 
 namespace noli::app {
 

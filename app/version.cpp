@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/version.h"
+#include "app/version.h"
 
 #include <CGAL/version.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 #include <boost/version.hpp>
 
-#include "noli/kernel/rounding.h"
+#include "kernel/rounding.h"
 
 namespace noli::app {
 

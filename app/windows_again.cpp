@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/windows_again.h"
+#include "app/windows_again.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 #include <variant>
 
-#include "noli/app/exit_code.h"
-#include "noli/app/model_facts.h"
-#include "noli/app/model_run.h"
-#include "noli/integrator/contact_limit.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/run_manifest.h"
+#include "app/exit_code.h"
+#include "app/model_facts.h"
+#include "app/model_run.h"
+#include "integrator/contact_limit.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/error.h"
+#include "trajectory/run_manifest.h"
 
 namespace noli::app {
 namespace {

@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-#include "noli/trajectory/run_file.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app {
 

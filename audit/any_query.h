@@ -8,8 +8,8 @@
 #include <array>
 #include <cstddef>
 
-#include "noli/kernel/query.h"
-#include "noli/trajectory/query_csv.h"
+#include "kernel/query.h"
+#include "trajectory/query_csv.h"
 
 namespace noli::audit {
 

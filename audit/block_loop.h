@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 
 namespace noli::audit {
 

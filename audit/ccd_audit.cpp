@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/ccd_audit.h"
+#include "audit/ccd_audit.h"
 
 #include <fmt/format.h>
 #include <noli/ccd_plugin.h>
@@ -9,9 +9,9 @@
 #include <optional>
 #include <span>
 
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/query.h"
-#include "noli/trajectory/error.h"
+#include "kernel/first_contact.h"
+#include "kernel/query.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/ccd_library.h"
-#include "noli/trajectory/query_csv.h"
+#include "audit/ccd_library.h"
+#include "trajectory/query_csv.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/ccd_library.h"
+#include "audit/ccd_library.h"
 
 #include <noli/ccd_plugin.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 #include <new>
 
-#include "noli/audit/elf_header.h"
+#include "audit/elf_header.h"
 
 namespace noli::audit {
 namespace {

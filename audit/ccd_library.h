@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/host/exchange.h"
-#include "noli/audit/host_process.h"
+#include "audit/host/exchange.h"
+#include "audit/host_process.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/ccd_pipeline.h"
+#include "audit/ccd_pipeline.h"
 
 #include <fmt/format.h>
 #include <noli/ccd_plugin.h>
@@ -14,11 +14,11 @@
 #include <span>
 #include <utility>
 
-#include "noli/audit/ccd_library.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/frame_inputs.h"
-#include "noli/trajectory/frames.h"
+#include "audit/ccd_library.h"
+#include "kernel/first_contact.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/frame_inputs.h"
+#include "trajectory/frames.h"
 
 namespace noli::audit {
 namespace {

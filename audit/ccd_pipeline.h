@@ -22,10 +22,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/ccd_audit.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/frame_look.h"
-#include "noli/trajectory/polygons.h"
+#include "audit/ccd_audit.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/frame_look.h"
+#include "trajectory/polygons.h"
 
 namespace noli::audit {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/claim_oracle.h"
+#include "audit/claim_oracle.h"
 
 #include <algorithm>
 #include <map>
 
-#include "noli/audit/motion_oracle.h"
+#include "audit/motion_oracle.h"
 
 namespace noli::audit {
 

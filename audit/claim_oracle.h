@@ -7,8 +7,8 @@
 // What this does not do: runs; a mutant of a run is compared with what it was made of, or not judged.
 #pragma once
 
-#include "noli/audit/frame_motion.h"
-#include "noli/audit/parsed_claim.h"
+#include "audit/frame_motion.h"
+#include "audit/parsed_claim.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/delicate_motions.h"
+#include "audit/delicate_motions.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "noli/audit/recipes.h"
-#include "noli/trajectory/cells.h"
+#include "audit/recipes.h"
+#include "trajectory/cells.h"
 
 namespace noli::audit {
 

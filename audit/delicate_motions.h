@@ -4,8 +4,8 @@
 // The oracle judges them; nothing is planted.
 #pragma once
 
-#include "noli/audit/random.h"
-#include "noli/audit/whole_motion.h"
+#include "audit/random.h"
+#include "audit/whole_motion.h"
 
 namespace noli::audit {
 

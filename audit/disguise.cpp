@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/disguise.h"
+#include "audit/disguise.h"
 
 #include <cmath>
 #include <stdexcept>

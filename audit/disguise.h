@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "noli/audit/recipes.h"
+#include "audit/recipes.h"
 
 namespace noli::audit {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "noli/certificates/stencil.h"
+#include "certificates/stencil.h"
 
 namespace noli::audit {
 

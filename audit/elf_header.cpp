@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/elf_header.h"
+#include "audit/elf_header.h"
 
 #include <elf.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <optional>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "noli/integrator/contact.h"
-#include "noli/integrator/recording.h"
+#include "integrator/contact.h"
+#include "integrator/recording.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/floor_motion.h"
+#include "audit/floor_motion.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -12,8 +12,8 @@
 // audit/meeting.h arranges. All numbers are whole but t*, whose n is a power of two, so t* is a double.
 #pragma once
 
-#include "noli/audit/meeting.h"
-#include "noli/audit/whole_motion.h"
+#include "audit/meeting.h"
+#include "audit/whole_motion.h"
 
 namespace noli::audit {
 

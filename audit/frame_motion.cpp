@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/frame_motion.h"
+#include "audit/frame_motion.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <string_view>
 #include <system_error>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
-#include "noli/trajectory/write_obj.h"
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/error.h"
+#include "trajectory/frames.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
+#include "trajectory/write_obj.h"
+#include "trajectory/write_ply.h"
 
 namespace noli::audit {
 

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_library.h"
+#include "audit/fuzz_library.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include <span>
 #include <utility>
 
-#include "noli/audit/finding_name.h"
-#include "noli/audit/judge.h"
-#include "noli/audit/minimise_query.h"
-#include "noli/audit/query_generators.h"
-#include "noli/audit/saved_query.h"
-#include "noli/kernel/contact.h"
+#include "audit/finding_name.h"
+#include "audit/judge.h"
+#include "audit/minimise_query.h"
+#include "audit/query_generators.h"
+#include "audit/saved_query.h"
+#include "kernel/contact.h"
 
 namespace noli::audit {
 

@@ -25,10 +25,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/block_loop.h"
-#include "noli/audit/fuzz_queries.h"
-#include "noli/audit/library_answers.h"
-#include "noli/audit/query_corpus.h"
+#include "audit/block_loop.h"
+#include "audit/fuzz_queries.h"
+#include "audit/library_answers.h"
+#include "audit/query_corpus.h"
 
 namespace noli::audit {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_library_motions.h"
+#include "audit/fuzz_library_motions.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "noli/audit/finding_name.h"
-#include "noli/audit/fuzz_trajectories.h"
-#include "noli/audit/motion_generators.h"
-#include "noli/audit/save_motion.h"
-#include "noli/audit/shape_corpus.h"
-#include "noli/kernel/parallel.h"
+#include "audit/finding_name.h"
+#include "audit/fuzz_trajectories.h"
+#include "audit/motion_generators.h"
+#include "audit/save_motion.h"
+#include "audit/shape_corpus.h"
+#include "kernel/parallel.h"
 
 namespace noli::audit {
 

@@ -23,9 +23,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/fuzz_blocks.h"
-#include "noli/audit/library_motion.h"
-#include "noli/audit/not_saved.h"
+#include "audit/fuzz_blocks.h"
+#include "audit/library_motion.h"
+#include "audit/not_saved.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_proofs.h"
+#include "audit/fuzz_proofs.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <set>
 #include <utility>
 
-#include "noli/audit/finding_name.h"
-#include "noli/audit/minimise_mutant.h"
-#include "noli/audit/save_whole.h"
-#include "noli/audit/shape_corpus.h"
-#include "noli/trajectory/write_file.h"
+#include "audit/finding_name.h"
+#include "audit/minimise_mutant.h"
+#include "audit/save_whole.h"
+#include "audit/shape_corpus.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 

@@ -25,10 +25,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/fuzz_blocks.h"
-#include "noli/audit/not_saved.h"
-#include "noli/audit/proof_judge.h"
-#include "noli/audit/proof_mutations.h"
+#include "audit/fuzz_blocks.h"
+#include "audit/not_saved.h"
+#include "audit/proof_judge.h"
+#include "audit/proof_mutations.h"
 
 namespace noli::audit {
 

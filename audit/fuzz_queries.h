@@ -26,14 +26,14 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/any_query.h"
-#include "noli/audit/block_loop.h"
-#include "noli/audit/not_saved.h"
-#include "noli/audit/probe.h"
-#include "noli/audit/query_corpus.h"
-#include "noli/kernel/contact.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/stages.h"
+#include "audit/any_query.h"
+#include "audit/block_loop.h"
+#include "audit/not_saved.h"
+#include "audit/probe.h"
+#include "audit/query_corpus.h"
+#include "kernel/contact.h"
+#include "kernel/first_contact.h"
+#include "kernel/stages.h"
 
 namespace noli::audit {
 

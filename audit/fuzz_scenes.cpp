@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_scenes.h"
+#include "audit/fuzz_scenes.h"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 #include <cctype>
 #include <utility>
 
-#include "noli/audit/finding_name.h"
-#include "noli/audit/kind_of_difference.h"
-#include "noli/audit/save_whole.h"
-#include "noli/audit/shape_corpus.h"
-#include "noli/integrator/scene/json_text.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/sha256.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "audit/finding_name.h"
+#include "audit/kind_of_difference.h"
+#include "audit/save_whole.h"
+#include "audit/shape_corpus.h"
+#include "integrator/scene/json_text.h"
+#include "trajectory/error.h"
+#include "trajectory/sha256.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 

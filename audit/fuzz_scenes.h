@@ -23,10 +23,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/fuzz_blocks.h"
-#include "noli/audit/not_saved.h"
-#include "noli/audit/run_program.h"
-#include "noli/audit/scene_generators.h"
+#include "audit/fuzz_blocks.h"
+#include "audit/not_saved.h"
+#include "audit/run_program.h"
+#include "audit/scene_generators.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_trajectories.h"
+#include "audit/fuzz_trajectories.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <system_error>
 #include <utility>
 
-#include "noli/audit/finding_name.h"
-#include "noli/audit/kind_of_difference.h"
-#include "noli/audit/motion_generators.h"
-#include "noli/audit/save_motion.h"
-#include "noli/audit/shape_corpus.h"
-#include "noli/trajectory/text.h"
+#include "audit/finding_name.h"
+#include "audit/kind_of_difference.h"
+#include "audit/motion_generators.h"
+#include "audit/save_motion.h"
+#include "audit/shape_corpus.h"
+#include "trajectory/text.h"
 
 namespace noli::audit {
 

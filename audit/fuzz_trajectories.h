@@ -26,11 +26,11 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/frame_motion.h"
-#include "noli/audit/fuzz_blocks.h"
-#include "noli/audit/motion_oracle.h"
-#include "noli/audit/not_saved.h"
-#include "noli/audit/whole_motion.h"
+#include "audit/frame_motion.h"
+#include "audit/fuzz_blocks.h"
+#include "audit/motion_oracle.h"
+#include "audit/not_saved.h"
+#include "audit/whole_motion.h"
 
 namespace noli::audit {
 

@@ -3,7 +3,7 @@
 // Families whose motions are special.
 #include <algorithm>
 
-#include "noli/audit/query_generators.h"
+#include "audit/query_generators.h"
 
 namespace noli::audit {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "noli/audit/query_generators.h"
+#include "audit/query_generators.h"
 
 namespace noli::audit {
 

@@ -3,7 +3,7 @@
 // Families whose features are in special positions when they meet.
 #include <algorithm>
 
-#include "noli/audit/query_generators.h"
+#include "audit/query_generators.h"
 
 namespace noli::audit {
 

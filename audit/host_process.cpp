@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/host_process.h"
+#include "audit/host_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/audit/start_process.h"
-#include "noli/trajectory/error.h"
+#include "audit/start_process.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -14,9 +14,9 @@
 #include <span>
 #include <string>
 
-#include "noli/audit/host/exchange.h"
-#include "noli/audit/host/sandbox.h"
-#include "noli/audit/pipe.h"
+#include "audit/host/exchange.h"
+#include "audit/host/sandbox.h"
+#include "audit/pipe.h"
 
 namespace noli::audit {
 

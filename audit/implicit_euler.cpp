@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/implicit_euler.h"
+#include "audit/implicit_euler.h"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>

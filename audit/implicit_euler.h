@@ -15,7 +15,7 @@
 // sizes here. What its times say is their order of magnitude.
 #pragma once
 
-#include "noli/audit/sampled_run.h"
+#include "audit/sampled_run.h"
 
 namespace noli::audit {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/integrator_audit.h"
+#include "audit/integrator_audit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "noli/audit/implicit_euler.h"
-#include "noli/audit/one_step.h"
-#include "noli/audit/sampled_run.h"
-#include "noli/integrator/scene/build_model.h"
+#include "audit/implicit_euler.h"
+#include "audit/one_step.h"
+#include "audit/sampled_run.h"
+#include "integrator/scene/build_model.h"
 
 namespace noli::audit {
 namespace {

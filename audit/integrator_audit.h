@@ -32,7 +32,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/scene/scene.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::audit {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/judge.h"
+#include "audit/judge.h"
 
 #include <fmt/format.h>
 
 #include <exception>
 #include <utility>
 
-#include "noli/audit/oracle_bridge.h"
-#include "noli/kernel/failure_time.h"
-#include "noli/kernel/thickness.h"
-#include "noli/tests/oracle/certificate.h"
+#include "audit/oracle_bridge.h"
+#include "kernel/failure_time.h"
+#include "kernel/thickness.h"
+#include "tests/oracle/certificate.h"
 
 namespace noli::audit {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "noli/audit/fuzz_queries.h"
-#include "noli/tests/oracle/oracle.h"
+#include "audit/fuzz_queries.h"
+#include "tests/oracle/oracle.h"
 
 namespace noli::audit {
 

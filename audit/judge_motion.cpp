@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "noli/audit/fuzz_trajectories.h"
+#include "audit/fuzz_trajectories.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/library_answers.h"
+#include "audit/library_answers.h"
 
 #include <fmt/format.h>
 #include <noli/ccd_plugin.h>

@@ -27,9 +27,9 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/audit/any_query.h"
-#include "noli/audit/ccd_library.h"
-#include "noli/kernel/first_contact.h"
+#include "audit/any_query.h"
+#include "audit/ccd_library.h"
+#include "kernel/first_contact.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/library_motion.h"
+#include "audit/library_motion.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "noli/audit/motion_oracle.h"
+#include "audit/motion_oracle.h"
 
 namespace noli::audit {
 

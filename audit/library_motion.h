@@ -28,9 +28,9 @@
 #include <string>
 #include <string_view>
 
-#include "noli/audit/ccd_pipeline.h"
-#include "noli/audit/library_answers.h"
-#include "noli/audit/whole_motion.h"
+#include "audit/ccd_pipeline.h"
+#include "audit/library_answers.h"
+#include "audit/whole_motion.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/meeting.h"
+#include "audit/meeting.h"
 
 #include <algorithm>
 

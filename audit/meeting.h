@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "noli/audit/whole_query.h"
+#include "audit/whole_query.h"
 
 namespace noli::audit {
 

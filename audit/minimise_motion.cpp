@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "noli/audit/fuzz_trajectories.h"
-#include "noli/audit/minimise_query.h"
-#include "noli/trajectory/cells.h"
+#include "audit/fuzz_trajectories.h"
+#include "audit/minimise_query.h"
+#include "trajectory/cells.h"
 
 namespace noli::audit {
 

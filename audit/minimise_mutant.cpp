@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/minimise_mutant.h"
+#include "audit/minimise_mutant.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 

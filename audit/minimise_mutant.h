@@ -8,7 +8,7 @@
 
 #include <functional>
 
-#include "noli/audit/proof_mutations.h"
+#include "audit/proof_mutations.h"
 
 namespace noli::audit {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/minimise_proof.h"
+#include "audit/minimise_proof.h"
 
 #include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "noli/audit/proof_blocks.h"
-#include "noli/trajectory/error.h"
+#include "audit/proof_blocks.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 

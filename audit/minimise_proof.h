@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <functional>
 
-#include "noli/audit/proof_checkers.h"
-#include "noli/audit/proof_judge.h"
+#include "audit/proof_checkers.h"
+#include "audit/proof_judge.h"
 
 namespace noli::audit {
 

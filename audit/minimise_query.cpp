@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/minimise_query.h"
+#include "audit/minimise_query.h"
 
 #include <algorithm>
 #include <cmath>

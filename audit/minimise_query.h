@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/audit/any_query.h"
+#include "audit/any_query.h"
 
 namespace noli::audit {
 

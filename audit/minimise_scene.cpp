@@ -3,7 +3,7 @@
 // Makes a scene that fails simpler: members and items left out, numbers shortened.
 #include <cmath>
 
-#include "noli/audit/fuzz_scenes.h"
+#include "audit/fuzz_scenes.h"
 
 namespace noli::audit {
 

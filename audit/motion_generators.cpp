@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/motion_generators.h"
+#include "audit/motion_generators.h"
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <utility>
 
-#include "noli/audit/delicate_motions.h"
-#include "noli/audit/floor_motion.h"
-#include "noli/audit/query_generators.h"
-#include "noli/trajectory/cells.h"
+#include "audit/delicate_motions.h"
+#include "audit/floor_motion.h"
+#include "audit/query_generators.h"
+#include "trajectory/cells.h"
 
 namespace noli::audit {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/audit/whole_motion.h"
+#include "audit/whole_motion.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/motion_oracle.h"
+#include "audit/motion_oracle.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -22,9 +22,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/frame_motion.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/tests/oracle/oracle.h"
+#include "audit/frame_motion.h"
+#include "kernel/first_contact.h"
+#include "tests/oracle/oracle.h"
 
 namespace noli::audit {
 

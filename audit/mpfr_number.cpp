@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/mpfr_number.h"
+#include "audit/mpfr_number.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -3,7 +3,7 @@
 // Mutations of a proof's claim, steps and tree, and of its blocks as a whole (proofs/FORMAT.md, section 2).
 #include <array>
 
-#include "noli/audit/mutating.h"
+#include "audit/mutating.h"
 
 namespace noli::audit {
 

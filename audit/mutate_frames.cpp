@@ -4,9 +4,9 @@
 #include <array>
 #include <exception>
 
-#include "noli/audit/mutating.h"
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/frames.h"
+#include "audit/mutating.h"
+#include "trajectory/cells.h"
+#include "trajectory/frames.h"
 
 namespace noli::audit {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-#include "noli/audit/mutating.h"
+#include "audit/mutating.h"
 
 namespace noli::audit {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "noli/audit/mutating.h"
+#include "audit/mutating.h"
 
 namespace noli::audit {
 

@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-#include "noli/audit/proof_mutations.h"
-#include "noli/trajectory/bytes.h"
+#include "audit/proof_mutations.h"
+#include "trajectory/bytes.h"
 
 namespace noli::audit::mutating {
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <tuple>
 
-#include "noli/integrator/groups.h"
-#include "noli/integrator/model.h"
+#include "integrator/groups.h"
+#include "integrator/model.h"
 
 namespace noli::audit {
 

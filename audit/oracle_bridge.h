@@ -3,9 +3,9 @@
 // Queries as the oracle wants them, and its answers in the kernel's words.
 #pragma once
 
-#include "noli/audit/any_query.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/tests/oracle/oracle.h"
+#include "audit/any_query.h"
+#include "kernel/first_contact.h"
+#include "tests/oracle/oracle.h"
 
 namespace noli::audit {
 

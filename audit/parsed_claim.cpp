@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/parsed_claim.h"
+#include "audit/parsed_claim.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/cells.h"
+#include "trajectory/bytes.h"
+#include "trajectory/cells.h"
 
 namespace noli::audit {
 

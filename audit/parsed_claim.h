@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "noli/audit/proof_blocks.h"
-#include "noli/trajectory/mesh.h"
+#include "audit/proof_blocks.h"
+#include "trajectory/mesh.h"
 
 namespace noli::audit {
 

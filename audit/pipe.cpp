@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/pipe.h"
+#include "audit/pipe.h"
 
 #include <fcntl.h>
 #include <unistd.h>

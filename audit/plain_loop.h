@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "noli/integrator/model.h"
+#include "integrator/model.h"
 
 namespace noli::audit {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "noli/integrator/model.h"
+#include "integrator/model.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/precision.h"
+#include "audit/precision.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "noli/audit/replay.h"
-#include "noli/kernel/parallel.h"
+#include "audit/replay.h"
+#include "kernel/parallel.h"
 
 namespace noli::audit {
 namespace {

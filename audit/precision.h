@@ -25,10 +25,10 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/divergence.h"
-#include "noli/audit/mpfr_number.h"
-#include "noli/audit/time_order.h"
-#include "noli/integrator/model.h"
+#include "audit/divergence.h"
+#include "audit/mpfr_number.h"
+#include "audit/time_order.h"
+#include "integrator/model.h"
 
 namespace noli::audit {
 

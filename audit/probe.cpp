@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/probe.h"
+#include "audit/probe.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "noli/trajectory/text.h"
+#include "trajectory/text.h"
 
 namespace noli::audit {
 

@@ -16,8 +16,8 @@
 #include <string>
 #include <string_view>
 
-#include "noli/audit/any_query.h"
-#include "noli/audit/random.h"
+#include "audit/any_query.h"
+#include "audit/random.h"
 
 namespace noli::audit {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/proof_blocks.h"
+#include "audit/proof_blocks.h"
 
-#include "noli/proofs/prover/proof_file.h"
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/error.h"
+#include "proofs/prover/proof_file.h"
+#include "trajectory/bytes.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/trajectory/block_file.h"
+#include "trajectory/block_file.h"
 
 namespace noli::audit {
 

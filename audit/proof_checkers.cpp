@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/proof_checkers.h"
+#include "audit/proof_checkers.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -15,13 +15,13 @@
 #include <optional>
 #include <utility>
 
-#include "noli/audit/frame_motion.h"
-#include "noli/audit/pipe.h"
-#include "noli/audit/start_process.h"
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "audit/frame_motion.h"
+#include "audit/pipe.h"
+#include "audit/start_process.h"
+#include "trajectory/bytes.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/run_program.h"
+#include "audit/run_program.h"
 
 namespace noli::audit {
 

@@ -2,13 +2,13 @@
 //
 // The hashes are those that the prover writes: a proof file of the changed claim and frames is begun in memory, and
 // they are taken from there.
-#include "noli/audit/proof_fit.h"
+#include "audit/proof_fit.h"
 
-#include "noli/audit/mutating.h"
-#include "noli/audit/parsed_claim.h"
-#include "noli/proofs/prover/proof_file.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frames.h"
+#include "audit/mutating.h"
+#include "audit/parsed_claim.h"
+#include "proofs/prover/proof_file.h"
+#include "trajectory/error.h"
+#include "trajectory/frames.h"
 
 namespace noli::audit {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "noli/audit/proof_mutations.h"
+#include "audit/proof_mutations.h"
 
 namespace noli::audit {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/proof_judge.h"
+#include "audit/proof_judge.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "noli/audit/claim_oracle.h"
-#include "noli/audit/parsed_claim.h"
-#include "noli/audit/shape_corpus.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frames.h"
+#include "audit/claim_oracle.h"
+#include "audit/parsed_claim.h"
+#include "audit/shape_corpus.h"
+#include "trajectory/error.h"
+#include "trajectory/frames.h"
 
 namespace noli::audit {
 

@@ -15,8 +15,8 @@
 #include <optional>
 #include <string>
 
-#include "noli/audit/proof_checkers.h"
-#include "noli/audit/proof_mutations.h"
+#include "audit/proof_checkers.h"
+#include "audit/proof_mutations.h"
 
 namespace noli::audit {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/proof_mutations.h"
+#include "audit/proof_mutations.h"
 
 #include <algorithm>
 #include <exception>
 #include <numeric>
 #include <utility>
 
-#include "noli/audit/mutating.h"
-#include "noli/audit/proof_fit.h"
+#include "audit/mutating.h"
+#include "audit/proof_fit.h"
 
 namespace noli::audit {
 

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/audit/frame_motion.h"
-#include "noli/audit/proof_blocks.h"
-#include "noli/audit/random.h"
+#include "audit/frame_motion.h"
+#include "audit/proof_blocks.h"
+#include "audit/random.h"
 
 namespace noli::audit {
 

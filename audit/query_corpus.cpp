@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/query_corpus.h"
+#include "audit/query_corpus.h"
 
 #include <fmt/format.h>
 #include <noli/ccd_plugin.h>
@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
-#include "noli/audit/oracle_bridge.h"
-#include "noli/tests/oracle/features.h"
-#include "noli/tests/oracle/integer_path.h"
+#include "audit/oracle_bridge.h"
+#include "tests/oracle/features.h"
+#include "tests/oracle/integer_path.h"
 
 namespace noli::audit {
 

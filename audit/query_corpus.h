@@ -24,11 +24,11 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/any_query.h"
-#include "noli/audit/library_answers.h"
-#include "noli/audit/saved_query.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/stages.h"
+#include "audit/any_query.h"
+#include "audit/library_answers.h"
+#include "audit/saved_query.h"
+#include "kernel/first_contact.h"
+#include "kernel/stages.h"
 
 namespace noli::audit {
 

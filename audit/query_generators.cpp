@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/query_generators.h"
+#include "audit/query_generators.h"
 
 namespace noli::audit {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/audit/disguise.h"
+#include "audit/disguise.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/recipes.h"
+#include "audit/recipes.h"
 
 #include <algorithm>
 

@@ -13,9 +13,9 @@
 
 #include <optional>
 
-#include "noli/audit/meeting.h"
-#include "noli/audit/whole_query.h"
-#include "noli/kernel/first_contact.h"
+#include "audit/meeting.h"
+#include "audit/whole_query.h"
+#include "kernel/first_contact.h"
 
 namespace noli::audit {
 

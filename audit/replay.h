@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/divergence.h"
-#include "noli/audit/event_log.h"
-#include "noli/audit/mpfr_number.h"
-#include "noli/audit/precise_model.h"
-#include "noli/audit/replayed_contact.h"
-#include "noli/integrator/energy.h"
-#include "noli/integrator/engine.h"
+#include "audit/divergence.h"
+#include "audit/event_log.h"
+#include "audit/mpfr_number.h"
+#include "audit/precise_model.h"
+#include "audit/replayed_contact.h"
+#include "integrator/energy.h"
+#include "integrator/engine.h"
 
 namespace noli::audit {
 

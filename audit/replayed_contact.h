@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "noli/audit/event_log.h"
-#include "noli/integrator/contact_blow.h"
-#include "noli/integrator/contact_settings.h"
-#include "noli/integrator/phase.h"
+#include "audit/event_log.h"
+#include "integrator/contact_blow.h"
+#include "integrator/contact_settings.h"
+#include "integrator/phase.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/run_command.h"
+#include "audit/run_command.h"
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -14,7 +14,7 @@
 #include <system_error>
 #include <thread>
 
-#include "noli/audit/start_process.h"
+#include "audit/start_process.h"
 
 namespace noli::audit {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/text.h"
+#include "trajectory/text.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/run_program.h"
+#include "audit/run_program.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -14,8 +14,8 @@
 #include <optional>
 #include <utility>
 
-#include "noli/audit/pipe.h"
-#include "noli/audit/start_process.h"
+#include "audit/pipe.h"
+#include "audit/start_process.h"
 
 namespace noli::audit {
 

@@ -20,8 +20,8 @@
 #include <tuple>
 #include <vector>
 
-#include "noli/audit/plain_loop.h"
-#include "noli/integrator/simulation.h"
+#include "audit/plain_loop.h"
+#include "integrator/simulation.h"
 
 namespace noli::audit {
 

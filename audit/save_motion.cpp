@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/save_motion.h"
+#include "audit/save_motion.h"
 
 #include <fmt/format.h>
 
-#include "noli/audit/run_program.h"
-#include "noli/audit/save_whole.h"
-#include "noli/trajectory/write_file.h"
+#include "audit/run_program.h"
+#include "audit/save_whole.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/frame_motion.h"
+#include "audit/frame_motion.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/saved_query.h"
+#include "audit/saved_query.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <sstream>
 #include <string_view>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/query_csv.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "trajectory/error.h"
+#include "trajectory/query_csv.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 

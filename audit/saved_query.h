@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/audit/any_query.h"
-#include "noli/audit/probe.h"
+#include "audit/any_query.h"
+#include "audit/probe.h"
 
 namespace noli::audit {
 

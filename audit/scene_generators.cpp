@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/scene_generators.h"
+#include "audit/scene_generators.h"
 
 #include <algorithm>
 #include <array>

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/audit/random.h"
+#include "audit/random.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/scratch_folder.h"
+#include "audit/scratch_folder.h"
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/self.h"
+#include "audit/self.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,12 +9,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "noli/audit/run_command.h"
-#include "noli/audit/scratch_folder.h"
-#include "noli/audit/stability_rows.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "audit/run_command.h"
+#include "audit/scratch_folder.h"
+#include "audit/stability_rows.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 namespace {

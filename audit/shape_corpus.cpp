@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/shape_corpus.h"
+#include "audit/shape_corpus.h"
 
 #include <algorithm>
 #include <system_error>
 #include <utility>
 
-#include "noli/trajectory/sha256.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "trajectory/sha256.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 

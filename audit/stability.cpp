@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/stability.h"
+#include "audit/stability.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "noli/audit/scratch_folder.h"
-#include "noli/audit/stability_point.h"
+#include "audit/scratch_folder.h"
+#include "audit/stability_point.h"
 
 namespace noli::audit {
 namespace {

@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/audit/stability_rows.h"
+#include "audit/stability_rows.h"
 
 namespace noli::audit {
 

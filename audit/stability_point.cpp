@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/stability_point.h"
+#include "audit/stability_point.h"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "noli/audit/run_command.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "audit/run_command.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 namespace {

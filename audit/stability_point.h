@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "noli/audit/stability.h"
+#include "audit/stability.h"
 
 namespace noli::audit {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/stability_rows.h"
+#include "audit/stability_rows.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/write_ply.h"
 
 namespace noli::audit {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/start_process.h"
+#include "audit/start_process.h"
 
 #include <fcntl.h>
 #include <spawn.h>

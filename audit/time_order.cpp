@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/time_order.h"
+#include "audit/time_order.h"
 
 #include <algorithm>
 
-#include "noli/audit/mpfr_number.h"
-#include "noli/integrator/clocks.h"
+#include "audit/mpfr_number.h"
+#include "integrator/clocks.h"
 
 namespace noli::audit {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/whole_motion.h"
+#include "audit/whole_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "noli/trajectory/cells.h"
+#include "trajectory/cells.h"
 
 namespace noli::audit {
 

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/audit/frame_motion.h"
-#include "noli/audit/motion_oracle.h"
-#include "noli/audit/whole_query.h"
+#include "audit/frame_motion.h"
+#include "audit/motion_oracle.h"
+#include "audit/whole_query.h"
 
 namespace noli::audit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/whole_query.h"
+#include "audit/whole_query.h"
 
 namespace noli::audit {
 

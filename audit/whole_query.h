@@ -14,8 +14,8 @@
 #include <array>
 #include <cstdint>
 
-#include "noli/audit/any_query.h"
-#include "noli/audit/random.h"
+#include "audit/any_query.h"
+#include "audit/random.h"
 
 namespace noli::audit {
 

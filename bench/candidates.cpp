@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/bench/candidates.h"
+#include "bench/candidates.h"
 
 #include <algorithm>
 #include <cstddef>

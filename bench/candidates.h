@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "noli/kernel/query.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
 
 namespace noli::bench {
 

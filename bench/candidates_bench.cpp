@@ -8,13 +8,13 @@
 #include <cstdio>
 #include <memory>
 
-#include "noli/bench/bench.h"
-#include "noli/bench/candidates.h"
-#include "noli/bench/data.h"
-#include "noli/bench/report.h"
-#include "noli/bench/textbook.h"
-#include "noli/kernel/contact.h"
-#include "noli/trajectory/frames.h"
+#include "bench/bench.h"
+#include "bench/candidates.h"
+#include "bench/data.h"
+#include "bench/report.h"
+#include "bench/textbook.h"
+#include "kernel/contact.h"
+#include "trajectory/frames.h"
 
 namespace noli::bench {
 namespace {

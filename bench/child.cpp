@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/bench/child.h"
+#include "bench/child.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

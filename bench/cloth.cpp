@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/bench/cloth.h"
+#include "bench/cloth.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "noli/integrator/stable_step.h"
+#include "integrator/stable_step.h"
 
 namespace noli::bench {
 namespace {

@@ -5,7 +5,7 @@
 // which fires all of them equally often, is then a fair measure for one that does not.
 #pragma once
 
-#include "noli/integrator/model.h"
+#include "integrator/model.h"
 
 namespace noli::bench {
 

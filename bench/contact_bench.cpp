@@ -11,12 +11,12 @@
 
 #include <cstdio>
 
-#include "noli/bench/bench.h"
-#include "noli/bench/report.h"
-#include "noli/bench/timing.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/integrator/simulation.h"
+#include "bench/bench.h"
+#include "bench/report.h"
+#include "bench/timing.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "integrator/simulation.h"
 
 namespace noli::bench {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/bench/data.h"
+#include "bench/data.h"
 
 #include <algorithm>
 #include <array>
 
-#include "noli/tests/support/real_data.h"
-#include "noli/trajectory/query_csv.h"
+#include "tests/support/real_data.h"
+#include "trajectory/query_csv.h"
 
 namespace noli::bench {
 namespace {

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "noli/kernel/query.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
 
 namespace noli::bench {
 

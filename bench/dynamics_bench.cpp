@@ -9,15 +9,15 @@
 #include <cstdio>
 #include <vector>
 
-#include "noli/audit/plain_loop.h"
-#include "noli/bench/bench.h"
-#include "noli/bench/cloth.h"
-#include "noli/bench/data.h"
-#include "noli/bench/report.h"
-#include "noli/bench/textbook.h"
-#include "noli/bench/timing.h"
-#include "noli/integrator/simulation.h"
-#include "noli/proofs/prover/window_verifier.h"
+#include "audit/plain_loop.h"
+#include "bench/bench.h"
+#include "bench/cloth.h"
+#include "bench/data.h"
+#include "bench/report.h"
+#include "bench/textbook.h"
+#include "bench/timing.h"
+#include "integrator/simulation.h"
+#include "proofs/prover/window_verifier.h"
 
 namespace noli::bench {
 namespace {

@@ -9,14 +9,14 @@
 #include <chrono>
 #include <cstdio>
 
-#include "noli/bench/bench.h"
-#include "noli/bench/child.h"
-#include "noli/bench/data.h"
-#include "noli/bench/report.h"
-#include "noli/bench/sheets.h"
-#include "noli/bench/textbook.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/frames.h"
+#include "bench/bench.h"
+#include "bench/child.h"
+#include "bench/data.h"
+#include "bench/report.h"
+#include "bench/sheets.h"
+#include "bench/textbook.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/frames.h"
 
 namespace noli::bench {
 namespace {

@@ -15,14 +15,14 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "noli/audit/one_step.h"
-#include "noli/audit/sampled_run.h"
-#include "noli/bench/bench.h"
-#include "noli/bench/report.h"
-#include "noli/bench/timing.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/text.h"
+#include "audit/one_step.h"
+#include "audit/sampled_run.h"
+#include "bench/bench.h"
+#include "bench/report.h"
+#include "bench/timing.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/text.h"
 
 namespace noli::bench {
 namespace {

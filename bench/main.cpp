@@ -3,7 +3,7 @@
 // Options are Google Benchmark's. Exits 3 on an option that is not, and where there was nothing to measure.
 #include <benchmark/benchmark.h>
 
-#include "noli/bench/bench.h"
+#include "bench/bench.h"
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);

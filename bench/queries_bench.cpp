@@ -10,12 +10,12 @@
 #include <chrono>
 #include <cstdio>
 
-#include "noli/bench/bench.h"
-#include "noli/bench/data.h"
-#include "noli/bench/report.h"
-#include "noli/bench/textbook.h"
-#include "noli/kernel/contact.h"
-#include "noli/tests/oracle/oracle.h"
+#include "bench/bench.h"
+#include "bench/data.h"
+#include "bench/report.h"
+#include "bench/textbook.h"
+#include "kernel/contact.h"
+#include "tests/oracle/oracle.h"
 
 namespace noli::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/bench/report.h"
+#include "bench/report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

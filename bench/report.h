@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/kernel/stages.h"
+#include "kernel/stages.h"
 
 namespace noli::bench {
 

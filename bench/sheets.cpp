@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/bench/sheets.h"
+#include "bench/sheets.h"
 
 #include <cstdint>
 

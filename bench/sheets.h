@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli::bench {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/bench/textbook.h"
+#include "bench/textbook.h"
 
-#include "noli/audit/plugins/textbook.h"
+#include "audit/plugins/textbook.h"
 
 namespace noli::bench {
 namespace {

@@ -16,7 +16,7 @@
 // coplanar for the whole step or degenerate at the root is missed.
 #pragma once
 
-#include "noli/kernel/query.h"
+#include "kernel/query.h"
 
 namespace noli::bench {
 

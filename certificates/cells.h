@@ -44,13 +44,13 @@
 #include <utility>
 #include <vector>
 
-#include "noli/certificates/features.h"
-#include "noli/certificates/hierarchy.h"
-#include "noli/certificates/near_pair.h"
-#include "noli/certificates/near_pairs.h"
-#include "noli/certificates/pen.h"
-#include "noli/certificates/plan.h"
-#include "noli/trajectory/stop.h"
+#include "certificates/features.h"
+#include "certificates/hierarchy.h"
+#include "certificates/near_pair.h"
+#include "certificates/near_pairs.h"
+#include "certificates/pen.h"
+#include "certificates/plan.h"
+#include "trajectory/stop.h"
 
 namespace noli::certificates {
 

@@ -34,8 +34,8 @@
 #include <cstddef>
 #include <span>
 
-#include "noli/certificates/stencil.h"
-#include "noli/certificates/vector.h"
+#include "certificates/stencil.h"
+#include "certificates/vector.h"
 
 namespace noli::certificates {
 

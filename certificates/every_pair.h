@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/certificates/features.h"
-#include "noli/certificates/near_pair.h"
+#include "certificates/features.h"
+#include "certificates/near_pair.h"
 
 namespace noli::certificates {
 

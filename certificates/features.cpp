@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/certificates/features.h"
+#include "certificates/features.h"
 
 #include <algorithm>
 #include <stdexcept>

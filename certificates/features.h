@@ -20,8 +20,8 @@
 #include <span>
 #include <vector>
 
-#include "noli/certificates/stencil.h"
-#include "noli/trajectory/mesh.h"
+#include "certificates/stencil.h"
+#include "trajectory/mesh.h"
 
 namespace noli::certificates {
 

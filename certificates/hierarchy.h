@@ -22,8 +22,8 @@
 #include <span>
 #include <vector>
 
-#include "noli/certificates/vector.h"
-#include "noli/trajectory/stop.h"
+#include "certificates/vector.h"
+#include "trajectory/stop.h"
 
 namespace noli::certificates {
 

@@ -13,8 +13,8 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "noli/certificates/counts.h"
-#include "noli/certificates/slab.h"
+#include "certificates/counts.h"
+#include "certificates/slab.h"
 
 namespace noli::certificates {
 

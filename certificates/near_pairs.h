@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/certificates/near_pair.h"
-#include "noli/certificates/pair_numbers.h"
+#include "certificates/near_pair.h"
+#include "certificates/pair_numbers.h"
 
 namespace noli::certificates {
 

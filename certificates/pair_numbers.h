@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "noli/certificates/stencil.h"
+#include "certificates/stencil.h"
 
 namespace noli::certificates {
 

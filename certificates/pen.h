@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/certificates/near_pair.h"
-#include "noli/certificates/plan.h"
+#include "certificates/near_pair.h"
+#include "certificates/plan.h"
 
 namespace noli::certificates {
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "noli/certificates/vector.h"
+#include "certificates/vector.h"
 
 namespace noli::certificates {
 

@@ -14,7 +14,7 @@
 
 #include <span>
 
-#include "noli/certificates/closest.h"
+#include "certificates/closest.h"
 
 namespace noli::certificates {
 

@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "noli/kernel/query.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
 
 namespace noli::certificates {
 

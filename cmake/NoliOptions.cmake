@@ -23,10 +23,5 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# Headers are included as <noli/kernel/contact.h> in the build tree as they are once installed.
-set(NOLI_INCLUDE_ROOT "${CMAKE_BINARY_DIR}/include")
-file(MAKE_DIRECTORY "${NOLI_INCLUDE_ROOT}/noli")
-foreach(layer kernel trajectory certificates integrator proofs audit app tests bench)
-  file(CREATE_LINK "${CMAKE_SOURCE_DIR}/${layer}" "${NOLI_INCLUDE_ROOT}/noli/${layer}" SYMBOLIC)
-endforeach()
-file(CREATE_LINK "${CMAKE_SOURCE_DIR}/include/noli/ccd_plugin.h" "${NOLI_INCLUDE_ROOT}/noli/ccd_plugin.h" SYMBOLIC)
+# Headers are included by their place in the project, "kernel/contact.h"; those that are for users alone as "noli/...".
+set(NOLI_INCLUDE_DIRS "${CMAKE_SOURCE_DIR};${CMAKE_SOURCE_DIR}/include")

@@ -16,8 +16,8 @@
 
 #include <array>
 
-#include "noli/integrator/force.h"
-#include "noli/integrator/vector.h"
+#include "integrator/force.h"
+#include "integrator/vector.h"
 
 namespace noli::integrator {
 

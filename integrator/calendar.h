@@ -24,7 +24,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/integrator/clocks.h"
+#include "integrator/clocks.h"
 
 namespace noli::integrator {
 

@@ -23,17 +23,17 @@
 #include <tuple>
 #include <vector>
 
-#include "noli/certificates/cells.h"
-#include "noli/certificates/every_pair.h"
-#include "noli/integrator/books.h"
-#include "noli/integrator/clocks.h"
-#include "noli/integrator/contact_blow.h"
-#include "noli/integrator/contact_extremes.h"
-#include "noli/integrator/contact_limit.h"
-#include "noli/integrator/contact_settings.h"
-#include "noli/integrator/kick.h"
-#include "noli/integrator/pair_list.h"
-#include "noli/integrator/phase.h"
+#include "certificates/cells.h"
+#include "certificates/every_pair.h"
+#include "integrator/books.h"
+#include "integrator/clocks.h"
+#include "integrator/contact_blow.h"
+#include "integrator/contact_extremes.h"
+#include "integrator/contact_limit.h"
+#include "integrator/contact_settings.h"
+#include "integrator/kick.h"
+#include "integrator/pair_list.h"
+#include "integrator/phase.h"
 
 namespace noli::integrator {
 

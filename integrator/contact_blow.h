@@ -14,11 +14,11 @@
 #include <cstdint>
 #include <span>
 
-#include "noli/certificates/closest.h"
-#include "noli/integrator/books.h"
-#include "noli/integrator/contact_impulse.h"
-#include "noli/integrator/contact_limit.h"
-#include "noli/integrator/kick.h"
+#include "certificates/closest.h"
+#include "integrator/books.h"
+#include "integrator/contact_impulse.h"
+#include "integrator/contact_limit.h"
+#include "integrator/kick.h"
 
 namespace noli::integrator {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "noli/certificates/stencil.h"
+#include "certificates/stencil.h"
 
 namespace noli::integrator {
 

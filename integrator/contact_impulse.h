@@ -20,8 +20,8 @@
 #include <cmath>
 #include <span>
 
-#include "noli/certificates/closest.h"
-#include "noli/integrator/vector.h"
+#include "certificates/closest.h"
+#include "integrator/vector.h"
 
 namespace noli::integrator {
 

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "noli/certificates/stencil.h"
+#include "certificates/stencil.h"
 
 namespace noli::integrator {
 

@@ -18,7 +18,7 @@
 // force's events.
 #pragma once
 
-#include "noli/integrator/force.h"
+#include "integrator/force.h"
 
 namespace noli::integrator {
 

@@ -15,7 +15,7 @@
 
 #include <cmath>
 
-#include "noli/integrator/engine.h"
+#include "integrator/engine.h"
 
 namespace noli::integrator {
 

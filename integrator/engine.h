@@ -14,13 +14,13 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "noli/integrator/contact.h"
-#include "noli/integrator/groups.h"
-#include "noli/integrator/kick.h"
-#include "noli/integrator/own_clocks.h"
-#include "noli/integrator/phase.h"
-#include "noli/integrator/scripts.h"
-#include "noli/integrator/simulation.h"
+#include "integrator/contact.h"
+#include "integrator/groups.h"
+#include "integrator/kick.h"
+#include "integrator/own_clocks.h"
+#include "integrator/phase.h"
+#include "integrator/scripts.h"
+#include "integrator/simulation.h"
 
 namespace noli::integrator {
 

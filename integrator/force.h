@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "noli/integrator/vector.h"
-#include "noli/trajectory/mesh.h"
+#include "integrator/vector.h"
+#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

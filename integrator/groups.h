@@ -16,8 +16,8 @@
 #include <cmath>
 #include <vector>
 
-#include "noli/integrator/clocks.h"
-#include "noli/integrator/model.h"
+#include "integrator/clocks.h"
+#include "integrator/model.h"
 
 namespace noli::integrator {
 

@@ -18,11 +18,11 @@
 #include <array>
 #include <span>
 
-#include "noli/integrator/books.h"
-#include "noli/integrator/damping.h"
-#include "noli/integrator/force.h"
-#include "noli/integrator/particle.h"
-#include "noli/integrator/phase.h"
+#include "integrator/books.h"
+#include "integrator/damping.h"
+#include "integrator/force.h"
+#include "integrator/particle.h"
+#include "integrator/phase.h"
 
 namespace noli::integrator {
 

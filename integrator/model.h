@@ -16,13 +16,13 @@
 #include <tuple>
 #include <vector>
 
-#include "noli/integrator/contact_settings.h"
-#include "noli/integrator/forces/edge_spring.h"
-#include "noli/integrator/forces/hinge.h"
-#include "noli/integrator/forces/membrane.h"
-#include "noli/integrator/forces/turning.h"
-#include "noli/integrator/vector.h"
-#include "noli/trajectory/mesh.h"
+#include "integrator/contact_settings.h"
+#include "integrator/forces/edge_spring.h"
+#include "integrator/forces/hinge.h"
+#include "integrator/forces/membrane.h"
+#include "integrator/forces/turning.h"
+#include "integrator/vector.h"
+#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

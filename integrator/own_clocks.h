@@ -21,9 +21,9 @@
 #include <span>
 #include <vector>
 
-#include "noli/integrator/calendar.h"
-#include "noli/integrator/force.h"
-#include "noli/integrator/kick.h"
+#include "integrator/calendar.h"
+#include "integrator/force.h"
+#include "integrator/kick.h"
 
 namespace noli::integrator {
 

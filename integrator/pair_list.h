@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/certificates/stencil.h"
+#include "certificates/stencil.h"
 
 namespace noli::integrator {
 

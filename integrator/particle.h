@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "noli/integrator/vector.h"
+#include "integrator/vector.h"
 
 namespace noli::integrator {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/recording.h"
+#include "integrator/recording.h"
 
 namespace noli::integrator {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "noli/integrator/vector.h"
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/world_lines.h"
+#include "integrator/vector.h"
+#include "trajectory/mesh.h"
+#include "trajectory/world_lines.h"
 
 namespace noli::integrator {
 

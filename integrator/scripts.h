@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "noli/integrator/model.h"
+#include "integrator/model.h"
 
 namespace noli::integrator {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/simulation.h"
+#include "integrator/simulation.h"
 
-#include "noli/integrator/energy.h"
-#include "noli/integrator/engine.h"
+#include "integrator/energy.h"
+#include "integrator/engine.h"
 
 namespace noli::integrator {
 namespace {

@@ -23,13 +23,13 @@
 #include <optional>
 #include <vector>
 
-#include "noli/certificates/counts.h"
-#include "noli/certificates/stencil.h"
-#include "noli/integrator/books.h"
-#include "noli/integrator/contact_extremes.h"
-#include "noli/integrator/model.h"
-#include "noli/integrator/phase.h"
-#include "noli/integrator/recording.h"
+#include "certificates/counts.h"
+#include "certificates/stencil.h"
+#include "integrator/books.h"
+#include "integrator/contact_extremes.h"
+#include "integrator/model.h"
+#include "integrator/phase.h"
+#include "integrator/recording.h"
 
 namespace noli::integrator {
 

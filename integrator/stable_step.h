@@ -21,8 +21,8 @@
 #include <cmath>
 #include <vector>
 
-#include "noli/integrator/model.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/model.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 

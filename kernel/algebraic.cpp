@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/algebraic.h"
+#include "kernel/algebraic.h"
 
 #include <algorithm>
 #include <array>

@@ -21,8 +21,8 @@
 #include <memory>
 #include <vector>
 
-#include "noli/kernel/dyadic.h"
-#include "noli/kernel/polynomial.h"
+#include "kernel/dyadic.h"
+#include "kernel/polynomial.h"
 
 namespace noli {
 

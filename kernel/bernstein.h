@@ -26,7 +26,7 @@
 #include <cstddef>
 #include <tuple>
 
-#include "noli/kernel/contact.h"
+#include "kernel/contact.h"
 
 namespace noli::bernstein {
 

@@ -30,9 +30,9 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/contact.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/time_of_impact.h"
+#include "kernel/contact.h"
+#include "kernel/first_contact.h"
+#include "kernel/time_of_impact.h"
 
 namespace noli {
 namespace cgal_detail {

@@ -11,8 +11,8 @@
 
 #include <optional>
 
-#include "noli/kernel/query.h"
-#include "noli/kernel/stages.h"
+#include "kernel/query.h"
+#include "kernel/stages.h"
 
 namespace noli {
 

@@ -21,10 +21,10 @@
 #include <optional>
 #include <vector>
 
-#include "noli/kernel/formula.h"
-#include "noli/kernel/polynomial.h"
-#include "noli/kernel/query.h"
-#include "noli/kernel/wide.h"
+#include "kernel/formula.h"
+#include "kernel/polynomial.h"
+#include "kernel/query.h"
+#include "kernel/wide.h"
 
 namespace noli::condition {
 

@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/formula.h"
-#include "noli/kernel/polynomial.h"
-#include "noli/kernel/query.h"
+#include "kernel/formula.h"
+#include "kernel/polynomial.h"
+#include "kernel/query.h"
 
 namespace noli::distance {
 

@@ -32,11 +32,11 @@
 #include <limits>
 #include <optional>
 
-#include "noli/kernel/bernstein.h"
-#include "noli/kernel/direction_filter.h"
-#include "noli/kernel/formula.h"
-#include "noli/kernel/query.h"
-#include "noli/kernel/root_filter.h"
+#include "kernel/bernstein.h"
+#include "kernel/direction_filter.h"
+#include "kernel/formula.h"
+#include "kernel/query.h"
+#include "kernel/root_filter.h"
 
 namespace noli::filter {
 

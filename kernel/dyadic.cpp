@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/dyadic.h"
+#include "kernel/dyadic.h"
 
 #include <algorithm>
 #include <cmath>

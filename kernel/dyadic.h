@@ -6,7 +6,7 @@
 #include <compare>
 #include <cstddef>
 
-#include "noli/kernel/integer.h"
+#include "kernel/integer.h"
 
 namespace noli {
 

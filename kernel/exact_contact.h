@@ -16,11 +16,11 @@
 #include <array>
 #include <optional>
 
-#include "noli/kernel/double_filter.h"
-#include "noli/kernel/exact_problem.h"
-#include "noli/kernel/exact_times.h"
-#include "noli/kernel/query.h"
-#include "noli/kernel/wide.h"
+#include "kernel/double_filter.h"
+#include "kernel/exact_problem.h"
+#include "kernel/exact_times.h"
+#include "kernel/query.h"
+#include "kernel/wide.h"
 
 namespace noli::exact {
 

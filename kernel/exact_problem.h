@@ -18,10 +18,10 @@
 #include <cmath>
 #include <optional>
 
-#include "noli/kernel/bernstein.h"
-#include "noli/kernel/exact_times.h"
-#include "noli/kernel/formula.h"
-#include "noli/kernel/wide.h"
+#include "kernel/bernstein.h"
+#include "kernel/exact_times.h"
+#include "kernel/formula.h"
+#include "kernel/wide.h"
 
 namespace noli::exact {
 

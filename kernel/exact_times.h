@@ -21,8 +21,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "noli/kernel/formula.h"
-#include "noli/kernel/wide.h"
+#include "kernel/formula.h"
+#include "kernel/wide.h"
 
 namespace noli::exact {
 

@@ -5,7 +5,7 @@
 //
 // Stages: intervals say that it has failed or that it never will; the quotient needs an exact ring, as it is rounded
 // exactly.
-#include "noli/kernel/failure_time.h"
+#include "kernel/failure_time.h"
 
 #include <CGAL/Gmpzf.h>
 #include <CGAL/Interval_nt.h>
@@ -18,7 +18,7 @@
 #include <numeric>
 #include <optional>
 
-#include "noli/kernel/rounding.h"
+#include "kernel/rounding.h"
 
 namespace noli {
 namespace {

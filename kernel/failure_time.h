@@ -11,7 +11,7 @@
 // What this does not do: it does not know that a ray ends at the next event or a chord at its last breakpoint.
 #pragma once
 
-#include "noli/kernel/query.h"
+#include "kernel/query.h"
 
 namespace noli {
 

@@ -14,8 +14,8 @@
 #include <optional>
 #include <string_view>
 
-#include "noli/kernel/query.h"
-#include "noli/kernel/time_of_impact.h"
+#include "kernel/query.h"
+#include "kernel/time_of_impact.h"
 
 namespace noli {
 

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/contact_condition.h"
-#include "noli/kernel/first_contact.h"
+#include "kernel/contact_condition.h"
+#include "kernel/first_contact.h"
 
 namespace noli::condition {
 

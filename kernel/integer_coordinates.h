@@ -9,8 +9,8 @@
 #include <array>
 #include <cstddef>
 
-#include "noli/kernel/integer.h"
-#include "noli/kernel/scaled_integers.h"
+#include "kernel/integer.h"
+#include "kernel/scaled_integers.h"
 
 namespace noli {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/interval_filter.h"
+#include "kernel/interval_filter.h"
 
 #include <CGAL/Interval_nt.h>
 
-#include "noli/kernel/formula.h"
+#include "kernel/formula.h"
 
 namespace noli::interval_filter {
 namespace {

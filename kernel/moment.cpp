@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/moment.h"
+#include "kernel/moment.h"
 
 #include <algorithm>
 #include <cmath>

@@ -17,7 +17,7 @@
 #include <compare>
 #include <utility>
 
-#include "noli/kernel/time_of_impact.h"
+#include "kernel/time_of_impact.h"
 
 namespace noli {
 

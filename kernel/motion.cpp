@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/motion.h"
+#include "kernel/motion.h"
 
-#include "noli/kernel/first_contact_search.h"
-#include "noli/kernel/motion_points.h"
+#include "kernel/first_contact_search.h"
+#include "kernel/motion_points.h"
 
 namespace noli {
 namespace {

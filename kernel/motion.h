@@ -17,8 +17,8 @@
 #include <array>
 #include <optional>
 
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/query.h"
+#include "kernel/first_contact.h"
+#include "kernel/query.h"
 
 namespace noli {
 

@@ -8,9 +8,9 @@
 #include <array>
 #include <utility>
 
-#include "noli/kernel/formula.h"
-#include "noli/kernel/integer_coordinates.h"
-#include "noli/kernel/motion.h"
+#include "kernel/formula.h"
+#include "kernel/integer_coordinates.h"
+#include "kernel/motion.h"
 
 namespace noli::motion {
 

@@ -6,9 +6,9 @@
 // apart.
 #include <cmath>
 
-#include "noli/kernel/integer_coordinates.h"
-#include "noli/kernel/rounding.h"
-#include "noli/kernel/static_predicates.h"
+#include "kernel/integer_coordinates.h"
+#include "kernel/rounding.h"
+#include "kernel/static_predicates.h"
 
 namespace noli {
 namespace {

@@ -2,7 +2,7 @@
 //
 // A back end only has to call a *lane* on several threads at once; every lane takes the next index until none is left.
 // What to do with indices and exceptions is thus written once, for both.
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/polynomial.h"
+#include "kernel/polynomial.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/dyadic.h"
-#include "noli/kernel/integer.h"
+#include "kernel/dyadic.h"
+#include "kernel/integer.h"
 
 namespace noli {
 

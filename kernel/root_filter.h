@@ -19,7 +19,7 @@
 #include <array>
 #include <cmath>
 
-#include "noli/kernel/bernstein.h"
+#include "kernel/bernstein.h"
 
 namespace noli::filter {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-#include "noli/kernel/algebraic.h"
+#include "kernel/algebraic.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/rounding.h"
+#include "kernel/rounding.h"
 
 #include <CGAL/Interval_nt.h>
 

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "noli/kernel/formula.h"
-#include "noli/kernel/query.h"
-#include "noli/kernel/wide.h"
+#include "kernel/formula.h"
+#include "kernel/query.h"
+#include "kernel/wide.h"
 
 namespace noli::exact {
 

@@ -4,7 +4,7 @@
 //
 // Notation: a view drops one coordinate. A view in which coplanar simplices do not lose a dimension is one-to-one on
 // their plane, so that the question is one in the plane.
-#include "noli/kernel/static_predicates.h"
+#include "kernel/static_predicates.h"
 
 #include <algorithm>
 #include <optional>

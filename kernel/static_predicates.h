@@ -11,7 +11,7 @@
 
 #include <array>
 
-#include "noli/kernel/query.h"
+#include "kernel/query.h"
 
 namespace noli {
 

@@ -4,7 +4,7 @@
 // points that are nearest then, take one in the faces of least dimension; the part is not degenerate, and strictly
 // inside. Its excess is zero at t, and not throughout: for just before t it is still inside, and would have been within
 // already.
-#include "noli/kernel/thickness.h"
+#include "kernel/thickness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,11 @@
 #include <limits>
 #include <vector>
 
-#include "noli/kernel/distance_parts.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/integer_coordinates.h"
-#include "noli/kernel/motion_points.h"
-#include "noli/kernel/rounding.h"
+#include "kernel/distance_parts.h"
+#include "kernel/first_contact.h"
+#include "kernel/integer_coordinates.h"
+#include "kernel/motion_points.h"
+#include "kernel/rounding.h"
 
 namespace noli {
 namespace {

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "noli/kernel/algebraic.h"
+#include "kernel/algebraic.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/base64.h"
+#include "trajectory/base64.h"
 
 #include <cstddef>
 

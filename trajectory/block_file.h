@@ -25,8 +25,8 @@
 #include <string>
 #include <string_view>
 
-#include "noli/trajectory/block_sink.h"
-#include "noli/trajectory/sha256.h"
+#include "trajectory/block_sink.h"
+#include "trajectory/sha256.h"
 
 namespace noli {
 

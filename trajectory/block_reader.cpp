@@ -6,12 +6,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "noli/trajectory/block_file.h"
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/crc32c.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/regular_file.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/block_file.h"
+#include "trajectory/bytes.h"
+#include "trajectory/crc32c.h"
+#include "trajectory/error.h"
+#include "trajectory/regular_file.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

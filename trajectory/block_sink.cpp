@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/block_sink.h"
+#include "trajectory/block_sink.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <stdexcept>
 
-#include "noli/trajectory/block_file.h"
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/crc32c.h"
+#include "trajectory/block_file.h"
+#include "trajectory/bytes.h"
+#include "trajectory/crc32c.h"
 
 namespace noli {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/stop.h"
+#include "trajectory/cells.h"
+#include "trajectory/stop.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/crc32c.h"
+#include "trajectory/crc32c.h"
 
 #include <array>
 #include <cstddef>

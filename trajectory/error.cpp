@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 #include <fmt/format.h>
 

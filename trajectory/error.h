@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/trajectory/stop.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 

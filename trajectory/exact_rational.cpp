@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/exact_rational.h"
+#include "trajectory/exact_rational.h"
 
 #include <fmt/format.h>
 #include <gmpxx.h>
@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "noli/trajectory/text.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/file_info.h"
+#include "trajectory/file_info.h"
 
 #include <algorithm>
 
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/merge.h"
-#include "noli/trajectory/ply_header.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/zero_area.h"
+#include "trajectory/cells.h"
+#include "trajectory/frames.h"
+#include "trajectory/merge.h"
+#include "trajectory/ply_header.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
+#include "trajectory/zero_area.h"
 
 namespace noli {
 namespace {

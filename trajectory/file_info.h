@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/folder_lock.h"
+#include "trajectory/folder_lock.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

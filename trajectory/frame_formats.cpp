@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/frame_formats.h"
+#include "trajectory/frame_formats.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <array>
 #include <string_view>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

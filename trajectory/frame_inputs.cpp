@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/frame_inputs.h"
+#include "trajectory/frame_inputs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frame_formats.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/error.h"
+#include "trajectory/frame_formats.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

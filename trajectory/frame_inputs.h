@@ -21,10 +21,10 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/trajectory/frame_look.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/polygons.h"
+#include "trajectory/frame_look.h"
+#include "trajectory/frames.h"
+#include "trajectory/mesh.h"
+#include "trajectory/polygons.h"
 
 namespace noli {
 

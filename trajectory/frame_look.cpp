@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/frame_look.h"
+#include "trajectory/frame_look.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,13 @@
 #include <functional>
 #include <vector>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frame_formats.h"
-#include "noli/trajectory/input_file.h"
-#include "noli/trajectory/ply_header.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/text_digits.h"
+#include "trajectory/error.h"
+#include "trajectory/frame_formats.h"
+#include "trajectory/input_file.h"
+#include "trajectory/ply_header.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
+#include "trajectory/text_digits.h"
 
 namespace noli {
 namespace {

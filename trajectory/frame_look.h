@@ -18,7 +18,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/trajectory/sha256.h"
+#include "trajectory/sha256.h"
 
 namespace noli {
 

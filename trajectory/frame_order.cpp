@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/frame_order.h"
+#include "trajectory/frame_order.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/name_numbers.h"
+#include "trajectory/error.h"
+#include "trajectory/name_numbers.h"
 
 namespace noli {
 namespace {

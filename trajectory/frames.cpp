@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/frames.h"
+#include "trajectory/frames.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frame_formats.h"
-#include "noli/trajectory/obj.h"
-#include "noli/trajectory/ply.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/error.h"
+#include "trajectory/frame_formats.h"
+#include "trajectory/obj.h"
+#include "trajectory/ply.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

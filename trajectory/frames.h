@@ -18,8 +18,8 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/polygons.h"
+#include "trajectory/mesh.h"
+#include "trajectory/polygons.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/input_file.h"
+#include "trajectory/input_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/merge.h"
+#include "trajectory/merge.h"
 
 #include <bit>
 #include <limits>
 
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/stop.h"
+#include "trajectory/cells.h"
+#include "trajectory/frames.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {

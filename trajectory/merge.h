@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

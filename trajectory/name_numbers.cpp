@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/name_numbers.h"
+#include "trajectory/name_numbers.h"
 
 #include <utility>
 
-#include "noli/trajectory/text.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/obj.h"
+#include "trajectory/obj.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <array>
 #include <limits>
 
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/cells.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

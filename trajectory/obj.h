@@ -19,8 +19,8 @@
 #include <string>
 #include <string_view>
 
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/polygons.h"
+#include "trajectory/mesh.h"
+#include "trajectory/polygons.h"
 
 namespace noli {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/ply.h"
+#include "trajectory/ply.h"
 
 #include <fmt/format.h>
 
 #include <limits>
 
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/ply_header.h"
-#include "noli/trajectory/ply_source.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/cells.h"
+#include "trajectory/error.h"
+#include "trajectory/ply_header.h"
+#include "trajectory/ply_source.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

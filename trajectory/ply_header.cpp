@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/ply_header.h"
+#include "trajectory/ply_header.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <array>
 #include <set>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

@@ -24,9 +24,9 @@
 #include <string_view>
 #include <type_traits>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/ply_header.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/error.h"
+#include "trajectory/ply_header.h"
+#include "trajectory/text.h"
 
 namespace noli::ply {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/polygons.h"
+#include "trajectory/polygons.h"
 
 #include <fmt/format.h>
 #include <gmpxx.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "noli/trajectory/zero_area.h"
+#include "trajectory/zero_area.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/query_csv.h"
+#include "trajectory/query_csv.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/exact_rational.h"
-#include "noli/trajectory/stop.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/error.h"
+#include "trajectory/exact_rational.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

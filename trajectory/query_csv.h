@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/regular_file.h"
+#include "trajectory/regular_file.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli {
 

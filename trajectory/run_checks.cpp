@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/run_checks.h"
+#include "trajectory/run_checks.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "noli/trajectory/run_file.h"
+#include "trajectory/run_file.h"
 
 namespace noli {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/run_checks.h"
-#include "noli/trajectory/run_payload.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/bytes.h"
+#include "trajectory/error.h"
+#include "trajectory/run_checks.h"
+#include "trajectory/run_payload.h"
+#include "trajectory/text.h"
 
 namespace noli::run_block {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/run_checks.h"
-#include "noli/trajectory/run_payload.h"
+#include "trajectory/bytes.h"
+#include "trajectory/run_checks.h"
+#include "trajectory/run_payload.h"
 
 namespace noli::run_block {
 namespace {

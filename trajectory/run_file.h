@@ -21,10 +21,10 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/trajectory/block_file.h"
-#include "noli/trajectory/exclusions.h"
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/world_lines.h"
+#include "trajectory/block_file.h"
+#include "trajectory/exclusions.h"
+#include "trajectory/mesh.h"
+#include "trajectory/world_lines.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/run_log.h"
+#include "trajectory/run_log.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "noli/trajectory/block_sink.h"
-#include "noli/trajectory/crc32c.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/regular_file.h"
+#include "trajectory/block_sink.h"
+#include "trajectory/crc32c.h"
+#include "trajectory/error.h"
+#include "trajectory/regular_file.h"
 
 namespace noli {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/run_manifest.h"
+#include "trajectory/run_manifest.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/regular_file.h"
-#include "noli/trajectory/text.h"
-#include "noli/trajectory/write_file.h"
+#include "trajectory/error.h"
+#include "trajectory/regular_file.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {

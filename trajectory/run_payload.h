@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/block_file.h"
-#include "noli/trajectory/run_file.h"
+#include "trajectory/block_file.h"
+#include "trajectory/run_file.h"
 
 /// What a run's files are about, and the kinds of blocks in trajectory.blocks.
 namespace noli::run_kind {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <system_error>
 
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/run_checks.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/run_payload.h"
-#include "noli/trajectory/text.h"
+#include "trajectory/bytes.h"
+#include "trajectory/error.h"
+#include "trajectory/run_checks.h"
+#include "trajectory/run_file.h"
+#include "trajectory/run_payload.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "noli/trajectory/run_checks.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/run_payload.h"
+#include "trajectory/run_checks.h"
+#include "trajectory/run_file.h"
+#include "trajectory/run_payload.h"
 
 namespace noli {
 namespace {

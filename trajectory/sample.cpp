@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/sample.h"
+#include "trajectory/sample.h"
 
 #include <algorithm>
 #include <cmath>

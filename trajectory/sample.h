@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/world_lines.h"
+#include "trajectory/mesh.h"
+#include "trajectory/world_lines.h"
 
 namespace noli {
 

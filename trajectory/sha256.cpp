@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/sha256.h"
+#include "trajectory/sha256.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "noli/trajectory/sha256_blocks.h"
+#include "trajectory/sha256_blocks.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/sha256_blocks.h"
+#include "trajectory/sha256_blocks.h"
 
 #include <bit>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/stop.h"
+#include "trajectory/stop.h"
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/text.h"
+#include "trajectory/text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/input_file.h"
+#include "trajectory/error.h"
+#include "trajectory/input_file.h"
 
 namespace noli {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/text_digits.h"
+#include "trajectory/text_digits.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "noli/trajectory/text.h"
+#include "trajectory/text.h"
 
 namespace noli {
 

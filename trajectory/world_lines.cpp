@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/world_lines.h"
+#include "trajectory/world_lines.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli {
 namespace {

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

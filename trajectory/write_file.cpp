@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/write_file.h"
+#include "trajectory/write_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "noli/trajectory/block_sink.h"
+#include "trajectory/block_sink.h"
 
 namespace noli {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/write_obj.h"
+#include "trajectory/write_obj.h"
 
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <iterator>
 
-#include "noli/trajectory/write_file.h"
+#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/write_ply.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <bit>
 #include <iterator>
 
-#include "noli/trajectory/write_file.h"
+#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

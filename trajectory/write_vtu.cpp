@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/write_vtu.h"
+#include "trajectory/write_vtu.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/trajectory/base64.h"
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/write_file.h"
+#include "trajectory/base64.h"
+#include "trajectory/bytes.h"
+#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/zero_area.h"
+#include "trajectory/zero_area.h"
 
 #include <gmpxx.h>
 

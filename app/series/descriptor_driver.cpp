@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/series/descriptor_driver.h"
+#include "app/series/descriptor_driver.h"
 
 #if __has_include(<H5FDdevelop.h>)  // HDF5 1.13 and later
 #include <H5FDdevelop.h>

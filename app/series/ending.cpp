@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/series/ending.h"
+#include "app/series/ending.h"
 
 #include <unistd.h>
 

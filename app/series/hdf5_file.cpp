@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/series/hdf5_file.h"
+#include "app/series/hdf5_file.h"
 
-#include "noli/app/series/descriptor_driver.h"
-#include "noli/app/series/ending.h"
+#include "app/series/descriptor_driver.h"
+#include "app/series/ending.h"
 
 namespace noli::series {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "noli/app/series/stream_reader.h"
+#include "app/series/stream_reader.h"
 
 namespace noli::series {
 

@@ -15,9 +15,9 @@
 #include <new>
 #include <string_view>
 
-#include "noli/app/series/ending.h"
-#include "noli/app/series/hdf5_file.h"
-#include "noli/app/series/stream_reader.h"
+#include "app/series/ending.h"
+#include "app/series/hdf5_file.h"
+#include "app/series/stream_reader.h"
 
 namespace noli::series {
 namespace {

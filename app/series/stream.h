@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/trajectory/bytes.h"
+#include "trajectory/bytes.h"
 
 namespace noli::series {
 

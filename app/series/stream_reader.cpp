@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/series/stream_reader.h"
+#include "app/series/stream_reader.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "noli/app/series/ending.h"
+#include "app/series/ending.h"
 
 namespace noli::series {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/app/series/stream.h"
+#include "app/series/stream.h"
 
 namespace noli::series {
 

@@ -10,7 +10,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "noli/audit/host/exchange.h"
+#include "audit/host/exchange.h"
 
 namespace noli::audit {
 

@@ -20,12 +20,12 @@
 #include <cstring>
 #include <limits>
 
-#include "noli/audit/host/exchange.h"
-#include "noli/audit/host/library.h"
-#include "noli/audit/host/pipeline.h"
-#include "noli/audit/host/resident.h"
-#include "noli/audit/host/sandbox.h"
-#include "noli/audit/plugins/textbook.h"
+#include "audit/host/exchange.h"
+#include "audit/host/library.h"
+#include "audit/host/pipeline.h"
+#include "audit/host/resident.h"
+#include "audit/host/sandbox.h"
+#include "audit/plugins/textbook.h"
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) && !defined(__SANITIZE_ADDRESS__)

@@ -15,8 +15,8 @@
 #include <limits>
 #include <vector>
 
-#include "noli/audit/host/library.h"
-#include "noli/audit/host/resident.h"
+#include "audit/host/library.h"
+#include "audit/host/resident.h"
 
 namespace noli::audit {
 

@@ -7,8 +7,8 @@
 // What this does not do: judge the audit. The truth of an audit is the same kernel's.
 #include <noli/ccd_plugin.h>
 
-#include "noli/kernel/contact.h"
-#include "noli/kernel/first_contact.h"
+#include "kernel/contact.h"
+#include "kernel/first_contact.h"
 
 namespace {
 

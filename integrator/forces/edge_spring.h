@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "noli/integrator/force.h"
+#include "integrator/force.h"
 
 namespace noli::integrator {
 

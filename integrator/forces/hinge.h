@@ -29,8 +29,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "noli/integrator/force.h"
-#include "noli/integrator/forces/angle.h"
+#include "integrator/force.h"
+#include "integrator/forces/angle.h"
 
 namespace noli::integrator {
 

@@ -22,7 +22,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "noli/integrator/force.h"
+#include "integrator/force.h"
 
 namespace noli::integrator {
 

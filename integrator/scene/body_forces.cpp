@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/body_forces.h"
+#include "integrator/scene/body_forces.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "noli/integrator/scene/connectivity.h"
-#include "noli/integrator/scene/curve.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/connectivity.h"
+#include "integrator/scene/curve.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

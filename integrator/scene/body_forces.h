@@ -3,9 +3,9 @@
 // The elastic forces of one body (see build_model.h for which), without steps.
 #pragma once
 
-#include "noli/integrator/model.h"
-#include "noli/integrator/scene/body_mesh.h"
-#include "noli/integrator/scene/build_model.h"
+#include "integrator/model.h"
+#include "integrator/scene/body_mesh.h"
+#include "integrator/scene/build_model.h"
 
 namespace noli::integrator {
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/body_mesh.h"
+#include "integrator/scene/body_mesh.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "noli/integrator/scene/curve.h"
-#include "noli/integrator/scene/generators.h"
-#include "noli/integrator/scene/place.h"
-#include "noli/integrator/scene/select.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/curve.h"
+#include "integrator/scene/generators.h"
+#include "integrator/scene/place.h"
+#include "integrator/scene/select.h"
+#include "trajectory/error.h"
+#include "trajectory/frames.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

@@ -3,9 +3,9 @@
 // A body made from what the scene says of it: mesh, places, masses, sets chosen. No forces yet.
 #pragma once
 
-#include "noli/integrator/scene/field.h"
-#include "noli/integrator/scene/scene.h"
-#include "noli/integrator/scene/shape.h"
+#include "integrator/scene/field.h"
+#include "integrator/scene/scene.h"
+#include "integrator/scene/shape.h"
 
 namespace noli::integrator {
 

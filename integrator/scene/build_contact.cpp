@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/build_contact.h"
+#include "integrator/scene/build_contact.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <map>
 
-#include "noli/integrator/scene/curve.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/curve.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

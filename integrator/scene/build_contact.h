@@ -21,8 +21,8 @@
 
 #include <vector>
 
-#include "noli/integrator/scene/body_mesh.h"
-#include "noli/integrator/scene/build_model.h"
+#include "integrator/scene/body_mesh.h"
+#include "integrator/scene/build_model.h"
 
 namespace noli::integrator {
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/build_model.h"
+#include "integrator/scene/build_model.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "noli/integrator/groups.h"
-#include "noli/integrator/scene/body_forces.h"
-#include "noli/integrator/scene/body_mesh.h"
-#include "noli/integrator/scene/build_contact.h"
-#include "noli/integrator/scene/build_scripts.h"
-#include "noli/integrator/scene/curve.h"
-#include "noli/integrator/scene/place.h"
-#include "noli/integrator/scene/select.h"
-#include "noli/integrator/stable_step.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/groups.h"
+#include "integrator/scene/body_forces.h"
+#include "integrator/scene/body_mesh.h"
+#include "integrator/scene/build_contact.h"
+#include "integrator/scene/build_scripts.h"
+#include "integrator/scene/curve.h"
+#include "integrator/scene/place.h"
+#include "integrator/scene/select.h"
+#include "integrator/stable_step.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

@@ -24,8 +24,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/model.h"
-#include "noli/integrator/scene/scene.h"
+#include "integrator/model.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::integrator {
 

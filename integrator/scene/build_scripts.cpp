@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/build_scripts.h"
+#include "integrator/scene/build_scripts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "noli/integrator/scene/curve.h"
-#include "noli/integrator/scene/select.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frames.h"
+#include "integrator/scene/curve.h"
+#include "integrator/scene/select.h"
+#include "trajectory/error.h"
+#include "trajectory/frames.h"
 
 namespace noli::integrator {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/connectivity.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/connectivity.h"
+#include "trajectory/stop.h"
 
 #include <algorithm>
 #include <tuple>

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

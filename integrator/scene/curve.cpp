@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/curve.h"
+#include "integrator/scene/curve.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "noli/integrator/vector.h"
-#include "noli/trajectory/mesh.h"
+#include "integrator/vector.h"
+#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

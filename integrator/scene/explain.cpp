@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/explain.h"
+#include "integrator/scene/explain.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noli/integrator/scene/field.h"
-#include "noli/integrator/scene/pinch.h"
-#include "noli/integrator/scene/predict.h"
-#include "noli/trajectory/cells.h"
+#include "integrator/scene/field.h"
+#include "integrator/scene/pinch.h"
+#include "integrator/scene/predict.h"
+#include "trajectory/cells.h"
 
 namespace noli::integrator {
 namespace {

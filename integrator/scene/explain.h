@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/resonance.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/scene.h"
+#include "integrator/resonance.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::integrator {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/field.h"
+#include "integrator/scene/field.h"
 
 #include <fmt/format.h>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::integrator {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/scene/json_text.h"
-#include "noli/trajectory/mesh.h"
+#include "integrator/scene/json_text.h"
+#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

@@ -22,8 +22,8 @@
 //   pyramid  the base's corners, the first on the x axis, then the tip. Faces look outward
 #pragma once
 
-#include "noli/integrator/scene/scene.h"
-#include "noli/integrator/scene/shape.h"
+#include "integrator/scene/scene.h"
+#include "integrator/scene/shape.h"
 
 namespace noli::integrator {
 

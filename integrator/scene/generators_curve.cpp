@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/curve.h"
-#include "noli/integrator/scene/generators.h"
-#include "noli/integrator/scene/turn.h"
+#include "integrator/scene/curve.h"
+#include "integrator/scene/generators.h"
+#include "integrator/scene/turn.h"
 
 namespace noli::integrator {
 

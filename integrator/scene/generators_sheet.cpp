@@ -2,11 +2,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "noli/integrator/scene/curve.h"
-#include "noli/integrator/scene/generators.h"
-#include "noli/integrator/scene/refine.h"
-#include "noli/integrator/scene/turn.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/curve.h"
+#include "integrator/scene/generators.h"
+#include "integrator/scene/refine.h"
+#include "integrator/scene/turn.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

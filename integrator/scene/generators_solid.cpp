@@ -3,10 +3,10 @@
 #include <map>
 #include <utility>
 
-#include "noli/integrator/scene/curve.h"
-#include "noli/integrator/scene/generators.h"
-#include "noli/integrator/scene/turn.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/curve.h"
+#include "integrator/scene/generators.h"
+#include "integrator/scene/turn.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

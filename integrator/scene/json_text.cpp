@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/json_text.h"
+#include "integrator/scene/json_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/stop.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/pinch.h"
+#include "integrator/scene/pinch.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
 
-#include "noli/integrator/scene/connectivity.h"
-#include "noli/kernel/contact.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/static_predicates.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/connectivity.h"
+#include "kernel/contact.h"
+#include "kernel/first_contact.h"
+#include "kernel/static_predicates.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-#include "noli/integrator/scene/build_model.h"
+#include "integrator/scene/build_model.h"
 
 namespace noli::integrator {
 

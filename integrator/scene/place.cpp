@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/place.h"
+#include "integrator/scene/place.h"
 
 #include <cmath>
 
-#include "noli/integrator/scene/turn.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/turn.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

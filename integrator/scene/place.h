@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "noli/integrator/scene/scene.h"
-#include "noli/integrator/scene/shape.h"
+#include "integrator/scene/scene.h"
+#include "integrator/scene/shape.h"
 
 namespace noli::integrator {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/predict.h"
+#include "integrator/scene/predict.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,9 +8,9 @@
 #include <set>
 #include <tuple>
 
-#include "noli/integrator/groups.h"
-#include "noli/integrator/scene/window_count.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/groups.h"
+#include "integrator/scene/window_count.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

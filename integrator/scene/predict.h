@@ -3,7 +3,7 @@
 // The numbers of an explanation: groups, rates, bytes, resonances. See explain.h for what they mean.
 #pragma once
 
-#include "noli/integrator/scene/explain.h"
+#include "integrator/scene/explain.h"
 
 namespace noli::integrator {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/read_body.h"
+#include "integrator/scene/read_body.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "noli/integrator/scene/nearest.h"
+#include "integrator/scene/nearest.h"
 
 namespace noli::integrator {
 namespace {

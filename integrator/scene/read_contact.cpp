@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/read_contact.h"
+#include "integrator/scene/read_contact.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "noli/integrator/scene/read_body.h"
+#include "integrator/scene/read_body.h"
 
 namespace noli::integrator {
 namespace {

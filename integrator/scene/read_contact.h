@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "noli/integrator/scene/field.h"
-#include "noli/integrator/scene/scene.h"
+#include "integrator/scene/field.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::integrator {
 

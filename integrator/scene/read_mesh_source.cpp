@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "noli/integrator/scene/read_body.h"
+#include "integrator/scene/read_body.h"
 
 namespace noli::integrator {
 namespace {

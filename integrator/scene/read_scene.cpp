@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/read_scene.h"
+#include "integrator/scene/read_scene.h"
 
 #include <fmt/format.h>
 
-#include "noli/integrator/scene/read_body.h"
-#include "noli/integrator/scene/read_contact.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
+#include "integrator/scene/read_body.h"
+#include "integrator/scene/read_contact.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli::integrator {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/integrator/scene/scene.h"
+#include "integrator/scene/scene.h"
 
 namespace noli::integrator {
 

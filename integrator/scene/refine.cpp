@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/refine.h"
+#include "integrator/scene/refine.h"
 
 #include <algorithm>
 #include <map>
 
-#include "noli/integrator/scene/curve.h"
-#include "noli/trajectory/stop.h"
+#include "integrator/scene/curve.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {

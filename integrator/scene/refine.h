@@ -11,7 +11,7 @@
 
 #include <array>
 
-#include "noli/integrator/scene/shape.h"
+#include "integrator/scene/shape.h"
 
 namespace noli::integrator {
 

@@ -14,9 +14,9 @@
 #include <variant>
 #include <vector>
 
-#include "noli/integrator/model.h"
-#include "noli/integrator/scene/schema.h"
-#include "noli/trajectory/mesh.h"
+#include "integrator/model.h"
+#include "integrator/scene/schema.h"
+#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

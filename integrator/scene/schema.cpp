@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/schema.h"
+#include "integrator/scene/schema.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "noli/integrator/scene/nearest.h"
-#include "noli/trajectory/error.h"
+#include "integrator/scene/nearest.h"
+#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

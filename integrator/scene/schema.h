@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/integrator/scene/json_text.h"
+#include "integrator/scene/json_text.h"
 
 namespace noli::integrator {
 

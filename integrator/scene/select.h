@@ -3,9 +3,9 @@
 // Which vertices of a body a selection means.
 #pragma once
 
-#include "noli/integrator/scene/field.h"
-#include "noli/integrator/scene/scene.h"
-#include "noli/integrator/scene/shape.h"
+#include "integrator/scene/field.h"
+#include "integrator/scene/scene.h"
+#include "integrator/scene/shape.h"
 
 namespace noli::integrator {
 

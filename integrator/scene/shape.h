@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/stop.h"
+#include "trajectory/mesh.h"
+#include "trajectory/stop.h"
 
 namespace noli::integrator {
 

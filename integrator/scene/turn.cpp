@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/turn.h"
+#include "integrator/scene/turn.h"
 
 #include <cmath>
 

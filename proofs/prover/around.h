@@ -17,7 +17,7 @@
 
 #include <optional>
 
-#include "noli/proofs/prover/direction.h"
+#include "proofs/prover/direction.h"
 
 namespace noli {
 

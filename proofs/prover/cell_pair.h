@@ -15,12 +15,12 @@
 // What this does not do: it never looks at cells other than the two.
 #pragma once
 
-#include "noli/proofs/prover/around.h"
-#include "noli/proofs/prover/direction_search.h"
-#include "noli/proofs/prover/feature_pairs.h"
-#include "noli/proofs/prover/initial.h"
-#include "noli/proofs/prover/step_record.h"
-#include "noli/proofs/prover/tally.h"
+#include "proofs/prover/around.h"
+#include "proofs/prover/direction_search.h"
+#include "proofs/prover/feature_pairs.h"
+#include "proofs/prover/initial.h"
+#include "proofs/prover/step_record.h"
+#include "proofs/prover/tally.h"
 
 namespace noli {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/charts.h"
+#include "proofs/prover/charts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "noli/kernel/static_predicates.h"
+#include "kernel/static_predicates.h"
 
 namespace noli {
 

@@ -33,8 +33,8 @@
 #include <span>
 #include <vector>
 
-#include "noli/proofs/prover/monotone.h"
-#include "noli/trajectory/mesh.h"
+#include "proofs/prover/monotone.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

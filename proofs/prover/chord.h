@@ -34,7 +34,7 @@
 #include <limits>
 #include <span>
 
-#include "noli/trajectory/world_lines.h"
+#include "trajectory/world_lines.h"
 
 namespace noli {
 

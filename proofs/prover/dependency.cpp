@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/dependency.h"
+#include "proofs/prover/dependency.h"
 
 namespace noli::witness {
 

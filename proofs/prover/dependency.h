@@ -16,8 +16,8 @@
 
 #include <functional>
 
-#include "noli/proofs/prover/feature_sides.h"
-#include "noli/proofs/prover/integer_motion.h"
+#include "proofs/prover/feature_sides.h"
+#include "proofs/prover/integer_motion.h"
 
 namespace noli::witness {
 

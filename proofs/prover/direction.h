@@ -32,7 +32,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "noli/proofs/prover/moving_cell.h"
+#include "proofs/prover/moving_cell.h"
 
 namespace noli {
 

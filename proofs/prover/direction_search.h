@@ -18,7 +18,7 @@
 #include <array>
 #include <optional>
 
-#include "noli/proofs/prover/direction.h"
+#include "proofs/prover/direction.h"
 
 namespace noli {
 

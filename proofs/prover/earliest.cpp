@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/earliest.h"
+#include "proofs/prover/earliest.h"
 
 #include <algorithm>
 
-#include "noli/kernel/first_contact.h"
+#include "kernel/first_contact.h"
 
 namespace noli {
 

@@ -17,8 +17,8 @@
 #include <span>
 #include <vector>
 
-#include "noli/kernel/time_of_impact.h"
-#include "noli/proofs/prover/verifier.h"
+#include "kernel/time_of_impact.h"
+#include "proofs/prover/verifier.h"
 
 namespace noli {
 

@@ -35,8 +35,8 @@
 #include <cstdint>
 #include <span>
 
-#include "noli/kernel/query.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

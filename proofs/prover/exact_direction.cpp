@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/exact_direction.h"
+#include "proofs/prover/exact_direction.h"
 
 #include <algorithm>
 

@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "noli/kernel/integer.h"
+#include "kernel/integer.h"
 
 namespace noli {
 

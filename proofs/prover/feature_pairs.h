@@ -19,9 +19,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "noli/kernel/contact.h"
-#include "noli/proofs/prover/direction.h"
-#include "noli/proofs/prover/moving_cell.h"
+#include "kernel/contact.h"
+#include "proofs/prover/direction.h"
+#include "proofs/prover/moving_cell.h"
 
 namespace noli {
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "noli/kernel/query.h"
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/mesh_paths.h"
+#include "kernel/query.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/mesh_paths.h"
 
 namespace noli {
 

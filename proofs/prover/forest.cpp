@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/forest.h"
+#include "proofs/prover/forest.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "noli/proofs/prover/layout.h"
-#include "noli/proofs/prover/window_owners.h"
+#include "proofs/prover/layout.h"
+#include "proofs/prover/window_owners.h"
 
 namespace noli {
 

@@ -18,11 +18,11 @@
 #include <span>
 #include <vector>
 
-#include "noli/proofs/prover/charts.h"
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/leftover.h"
-#include "noli/proofs/prover/monotone.h"
-#include "noli/trajectory/exclusions.h"
+#include "proofs/prover/charts.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/leftover.h"
+#include "proofs/prover/monotone.h"
+#include "trajectory/exclusions.h"
 
 namespace noli {
 

@@ -12,7 +12,7 @@
 // What this does not do: it does not look at the hierarchy.
 #pragma once
 
-#include "noli/proofs/prover/hierarchy.h"
+#include "proofs/prover/hierarchy.h"
 
 namespace noli {
 

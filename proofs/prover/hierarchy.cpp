@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/hierarchy.h"
+#include "proofs/prover/hierarchy.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/median.h"
-#include "noli/proofs/prover/pieces.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/median.h"
+#include "proofs/prover/pieces.h"
 
 namespace noli {
 

@@ -23,7 +23,7 @@
 #include <memory>
 #include <span>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 #ifdef __SSE2__
 #include <emmintrin.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/initial.h"
+#include "proofs/prover/initial.h"
 
 #include <bit>
 #include <utility>
 
-#include "noli/kernel/static_predicates.h"
+#include "kernel/static_predicates.h"
 
 namespace noli {
 

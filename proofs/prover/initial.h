@@ -9,8 +9,8 @@
 // its corners and edges, and in 2D a point may be inside a face.
 #pragma once
 
-#include "noli/proofs/prover/direction.h"
-#include "noli/proofs/prover/moving_cell.h"
+#include "proofs/prover/direction.h"
+#include "proofs/prover/moving_cell.h"
 
 namespace noli {
 

@@ -14,9 +14,9 @@
 #include <span>
 #include <vector>
 
-#include "noli/kernel/scaled_integers.h"
-#include "noli/proofs/prover/polynomials.h"
-#include "noli/trajectory/world_lines.h"
+#include "kernel/scaled_integers.h"
+#include "proofs/prover/polynomials.h"
+#include "trajectory/world_lines.h"
 
 namespace noli::witness {
 

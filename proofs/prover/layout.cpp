@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/layout.h"
+#include "proofs/prover/layout.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "noli/kernel/static_predicates.h"
-#include "noli/proofs/prover/sheet.h"
+#include "kernel/static_predicates.h"
+#include "proofs/prover/sheet.h"
 
 namespace noli {
 

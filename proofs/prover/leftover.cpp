@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/leftover.h"
+#include "proofs/prover/leftover.h"
 
 #include <algorithm>
 

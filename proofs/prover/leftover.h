@@ -26,8 +26,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/query.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/mesh_paths.h"
+#include "proofs/prover/mesh_paths.h"
 
 #include <algorithm>
 #include <map>

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "noli/proofs/prover/proof_tree.h"
+#include "proofs/prover/proof_tree.h"
 
 namespace noli {
 

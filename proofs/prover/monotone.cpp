@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/monotone.h"
+#include "proofs/prover/monotone.h"
 
 namespace noli {
 

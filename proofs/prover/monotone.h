@@ -35,8 +35,8 @@
 #include <array>
 #include <cmath>
 
-#include "noli/kernel/query.h"
-#include "noli/proofs/prover/hierarchy.h"
+#include "kernel/query.h"
+#include "proofs/prover/hierarchy.h"
 
 namespace noli {
 

@@ -12,11 +12,11 @@
 #include <array>
 #include <cstdint>
 
-#include "noli/kernel/both_ends.h"
-#include "noli/kernel/query.h"
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/leftover.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/both_ends.h"
+#include "kernel/query.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/leftover.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

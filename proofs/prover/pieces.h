@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 
 namespace noli {
 

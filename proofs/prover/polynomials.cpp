@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/polynomials.h"
+#include "proofs/prover/polynomials.h"
 
 #include <algorithm>
 

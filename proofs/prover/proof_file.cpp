@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/proof_file.h"
+#include "proofs/prover/proof_file.h"
 
 #include <algorithm>
 
-#include "noli/kernel/scaled_integers.h"
-#include "noli/proofs/prover/features.h"
-#include "noli/trajectory/bytes.h"
+#include "kernel/scaled_integers.h"
+#include "proofs/prover/features.h"
+#include "trajectory/bytes.h"
 
 namespace noli {
 

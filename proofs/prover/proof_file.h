@@ -8,9 +8,9 @@
 #include <memory>
 #include <span>
 
-#include "noli/proofs/prover/proof_walk.h"
-#include "noli/trajectory/block_file.h"
-#include "noli/trajectory/sha256.h"
+#include "proofs/prover/proof_walk.h"
+#include "trajectory/block_file.h"
+#include "trajectory/sha256.h"
 
 namespace noli {
 

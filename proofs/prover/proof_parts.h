@@ -21,16 +21,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "noli/kernel/scaled_integers.h"
-#include "noli/proofs/prover/around.h"
-#include "noli/proofs/prover/direction_search.h"
-#include "noli/proofs/prover/exact_direction.h"
-#include "noli/proofs/prover/mesh_paths.h"
-#include "noli/proofs/prover/proof_tree.h"
-#include "noli/proofs/prover/tokens.h"
-#include "noli/proofs/prover/too_near.h"
-#include "noli/proofs/prover/traversal.h"
-#include "noli/proofs/prover/window_cell.h"
+#include "kernel/scaled_integers.h"
+#include "proofs/prover/around.h"
+#include "proofs/prover/direction_search.h"
+#include "proofs/prover/exact_direction.h"
+#include "proofs/prover/mesh_paths.h"
+#include "proofs/prover/proof_tree.h"
+#include "proofs/prover/tokens.h"
+#include "proofs/prover/too_near.h"
+#include "proofs/prover/traversal.h"
+#include "proofs/prover/window_cell.h"
 
 namespace noli {
 

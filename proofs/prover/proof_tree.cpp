@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/proof_tree.h"
+#include "proofs/prover/proof_tree.h"
 
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/tokens.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/tokens.h"
 
 namespace noli {
 

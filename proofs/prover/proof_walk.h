@@ -14,8 +14,8 @@
 #include <atomic>
 #include <set>
 
-#include "noli/proofs/prover/proof_parts.h"
-#include "noli/proofs/prover/traversal.h"
+#include "proofs/prover/proof_parts.h"
+#include "proofs/prover/traversal.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/roots.h"
+#include "proofs/prover/roots.h"
 
 #include <algorithm>
 #include <utility>

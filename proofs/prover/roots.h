@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "noli/proofs/prover/polynomials.h"
+#include "proofs/prover/polynomials.h"
 
 namespace noli::witness {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/sheet.h"
+#include "proofs/prover/sheet.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "noli/kernel/static_predicates.h"
+#include "kernel/static_predicates.h"
 
 namespace noli {
 

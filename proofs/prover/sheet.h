@@ -26,7 +26,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/kernel/query.h"
+#include "kernel/query.h"
 
 namespace noli {
 

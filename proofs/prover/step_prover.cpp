@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/step_prover.h"
+#include "proofs/prover/step_prover.h"
 
 #include <list>
 #include <mutex>
 
-#include "noli/proofs/prover/pieces.h"
-#include "noli/proofs/prover/span_cut.h"
+#include "proofs/prover/pieces.h"
+#include "proofs/prover/span_cut.h"
 
 namespace noli {
 

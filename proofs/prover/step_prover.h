@@ -16,8 +16,8 @@
 #include <functional>
 #include <string_view>
 
-#include "noli/proofs/prover/proof_walk.h"
-#include "noli/proofs/prover/verifier.h"
+#include "proofs/prover/proof_walk.h"
+#include "proofs/prover/verifier.h"
 
 namespace noli {
 

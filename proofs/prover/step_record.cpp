@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/step_record.h"
+#include "proofs/prover/step_record.h"
 
 namespace noli {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "noli/proofs/prover/events.h"
+#include "proofs/prover/events.h"
 
 namespace noli {
 

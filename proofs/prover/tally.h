@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "noli/proofs/prover/earliest.h"
-#include "noli/proofs/prover/verifier.h"
+#include "proofs/prover/earliest.h"
+#include "proofs/prover/verifier.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/tokens.h"
+#include "proofs/prover/tokens.h"
 
 namespace noli {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "noli/kernel/integer.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/integer.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

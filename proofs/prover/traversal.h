@@ -16,9 +16,9 @@
 #include <optional>
 #include <vector>
 
-#include "noli/proofs/prover/cell_pair.h"
-#include "noli/proofs/prover/group_pair.h"
-#include "noli/proofs/prover/hierarchy.h"
+#include "proofs/prover/cell_pair.h"
+#include "proofs/prover/group_pair.h"
+#include "proofs/prover/hierarchy.h"
 
 namespace noli {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/verifier.h"
+#include "proofs/prover/verifier.h"
 
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <mutex>
 
-#include "noli/proofs/prover/pieces.h"
-#include "noli/proofs/prover/traversal.h"
+#include "proofs/prover/pieces.h"
+#include "proofs/prover/traversal.h"
 
 namespace noli {
 

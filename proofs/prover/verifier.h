@@ -43,11 +43,11 @@
 #include <span>
 #include <vector>
 
-#include "noli/kernel/contact.h"
-#include "noli/kernel/query.h"
-#include "noli/kernel/stages.h"
-#include "noli/proofs/prover/events.h"
-#include "noli/trajectory/mesh.h"
+#include "kernel/contact.h"
+#include "kernel/query.h"
+#include "kernel/stages.h"
+#include "proofs/prover/events.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 

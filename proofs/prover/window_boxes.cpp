@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/window_boxes.h"
+#include "proofs/prover/window_boxes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 
 namespace noli {
 

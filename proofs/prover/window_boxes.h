@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "noli/proofs/prover/window_cell.h"
+#include "proofs/prover/window_cell.h"
 
 namespace noli {
 

@@ -14,9 +14,9 @@
 
 #include <algorithm>
 
-#include "noli/proofs/prover/direction.h"
-#include "noli/proofs/prover/moving_cell.h"
-#include "noli/proofs/prover/window_chords.h"
+#include "proofs/prover/direction.h"
+#include "proofs/prover/moving_cell.h"
+#include "proofs/prover/window_chords.h"
 
 namespace noli {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/window_chords.h"
+#include "proofs/prover/window_chords.h"
 
 #include <cmath>
 #include <limits>
 
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 
 namespace noli {
 

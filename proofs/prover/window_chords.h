@@ -15,8 +15,8 @@
 
 #include <vector>
 
-#include "noli/proofs/prover/chord.h"
-#include "noli/proofs/prover/forest.h"
+#include "proofs/prover/chord.h"
+#include "proofs/prover/forest.h"
 
 namespace noli {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/window_earliest.h"
+#include "proofs/prover/window_earliest.h"
 
 #include <algorithm>
 #include <span>
 
-#include "noli/proofs/prover/earliest.h"
-#include "noli/proofs/prover/window_features.h"
+#include "proofs/prover/earliest.h"
+#include "proofs/prover/window_features.h"
 
 namespace noli {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "noli/proofs/prover/window_verifier.h"
+#include "proofs/prover/window_verifier.h"
 
 namespace noli {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/window_features.h"
+#include "proofs/prover/window_features.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "noli/kernel/motion.h"
-#include "noli/proofs/prover/chord.h"
+#include "kernel/motion.h"
+#include "proofs/prover/chord.h"
 
 namespace noli {
 

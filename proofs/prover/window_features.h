@@ -10,11 +10,11 @@
 
 #include <array>
 
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/moment.h"
-#include "noli/kernel/query.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/world_lines.h"
+#include "kernel/first_contact.h"
+#include "kernel/moment.h"
+#include "kernel/query.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/world_lines.h"
 
 namespace noli {
 

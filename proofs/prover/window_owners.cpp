@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/window_owners.h"
+#include "proofs/prover/window_owners.h"
 
 #include <algorithm>
 #include <unordered_map>

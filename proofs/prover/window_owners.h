@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "noli/proofs/prover/features.h"
+#include "proofs/prover/features.h"
 
 namespace noli {
 

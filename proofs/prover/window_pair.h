@@ -15,13 +15,13 @@
 // What this does not do: it never looks at cells other than the two.
 #pragma once
 
-#include "noli/proofs/prover/around.h"
-#include "noli/proofs/prover/direction_search.h"
-#include "noli/proofs/prover/feature_pairs.h"
-#include "noli/proofs/prover/initial.h"
-#include "noli/proofs/prover/window_cell.h"
-#include "noli/proofs/prover/window_features.h"
-#include "noli/proofs/prover/window_tally.h"
+#include "proofs/prover/around.h"
+#include "proofs/prover/direction_search.h"
+#include "proofs/prover/feature_pairs.h"
+#include "proofs/prover/initial.h"
+#include "proofs/prover/window_cell.h"
+#include "proofs/prover/window_features.h"
+#include "proofs/prover/window_tally.h"
 
 namespace noli {
 

@@ -3,8 +3,8 @@
 // What one task of the verification of a window has found; the tallies of all tasks, added up in order, are the result.
 #pragma once
 
-#include "noli/proofs/prover/tally.h"
-#include "noli/proofs/prover/window_earliest.h"
+#include "proofs/prover/tally.h"
+#include "proofs/prover/window_earliest.h"
 
 namespace noli {
 

@@ -9,9 +9,9 @@
 
 #include <vector>
 
-#include "noli/proofs/prover/traversal.h"
-#include "noli/proofs/prover/window_boxes.h"
-#include "noli/proofs/prover/window_pair.h"
+#include "proofs/prover/traversal.h"
+#include "proofs/prover/window_boxes.h"
+#include "proofs/prover/window_pair.h"
 
 namespace noli {
 

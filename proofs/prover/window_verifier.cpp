@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/window_verifier.h"
+#include "proofs/prover/window_verifier.h"
 
 #include <algorithm>
 #include <limits>
 #include <mutex>
 
-#include "noli/kernel/parallel.h"
-#include "noli/proofs/prover/span_cut.h"
-#include "noli/proofs/prover/window_traversal.h"
+#include "kernel/parallel.h"
+#include "proofs/prover/span_cut.h"
+#include "proofs/prover/window_traversal.h"
 
 namespace noli {
 

@@ -26,12 +26,12 @@
 #include <span>
 #include <vector>
 
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/moment.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/exclusions.h"
-#include "noli/trajectory/mesh.h"
-#include "noli/trajectory/world_lines.h"
+#include "kernel/first_contact.h"
+#include "kernel/moment.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/exclusions.h"
+#include "trajectory/mesh.h"
+#include "trajectory/world_lines.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/witness.h"
+#include "proofs/prover/witness.h"
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,12 @@
 #include <span>
 #include <tuple>
 
-#include "noli/proofs/prover/dependency.h"
-#include "noli/proofs/prover/features.h"
-#include "noli/proofs/prover/roots.h"
-#include "noli/proofs/prover/tokens.h"
-#include "noli/proofs/prover/witness_judge.h"
-#include "noli/trajectory/bytes.h"
+#include "proofs/prover/dependency.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/roots.h"
+#include "proofs/prover/tokens.h"
+#include "proofs/prover/witness_judge.h"
+#include "trajectory/bytes.h"
 
 namespace noli {
 

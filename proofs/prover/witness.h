@@ -24,11 +24,11 @@
 #include <span>
 #include <string>
 
-#include "noli/proofs/prover/mesh_paths.h"
-#include "noli/proofs/prover/step_prover.h"
-#include "noli/proofs/prover/too_near.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/trajectory/world_lines.h"
+#include "proofs/prover/mesh_paths.h"
+#include "proofs/prover/step_prover.h"
+#include "proofs/prover/too_near.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/world_lines.h"
 
 namespace noli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/witness_judge.h"
+#include "proofs/prover/witness_judge.h"
 
 #include <gmpxx.h>
 
@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "noli/kernel/scaled_integers.h"
-#include "noli/proofs/prover/features.h"
+#include "kernel/scaled_integers.h"
+#include "proofs/prover/features.h"
 
 namespace noli {
 

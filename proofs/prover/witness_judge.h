@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "noli/proofs/prover/witness.h"
+#include "proofs/prover/witness.h"
 
 namespace noli {
 

@@ -5,8 +5,8 @@
 // What this does not do: it neither begins nor commits the step.
 #pragma once
 
-#include "noli/proofs/prover/proof_file.h"
-#include "noli/proofs/prover/step_prover.h"
+#include "proofs/prover/proof_file.h"
+#include "proofs/prover/step_prover.h"
 
 namespace noli {
 

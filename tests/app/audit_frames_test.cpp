@@ -3,9 +3,9 @@
 // `noli audit ccd --frames`: whole pipelines.
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/libraries.h"
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
+#include "tests/app/libraries.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
 
 namespace noli::app_tests {
 namespace {

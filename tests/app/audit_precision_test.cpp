@@ -6,9 +6,9 @@
 #include <cmath>
 #include <csignal>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
-#include "noli/tests/app/worked_example.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "tests/app/worked_example.h"
 
 namespace noli::app_tests {
 namespace {

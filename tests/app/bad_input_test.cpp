@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <ostream>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/energy_watch.h"
+#include "app/energy_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/exact_gap.h"
+#include "app/exact_gap.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/trajectory/run_file.h"
+#include "tests/app/simulate_fixture.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app_tests {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "noli/tests/app/scene.h"
+#include "tests/app/scene.h"
 
 namespace noli::app_tests {
 

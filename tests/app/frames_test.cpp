@@ -9,10 +9,10 @@
 #include <fstream>
 #include <thread>
 
-#include "noli/tests/app/libraries.h"
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
-#include "noli/trajectory/sha256.h"
+#include "tests/app/libraries.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "trajectory/sha256.h"
 
 namespace noli::app_tests {
 namespace {

@@ -3,9 +3,9 @@
 // `noli verify --ignore`: groups of vertices whose cells are not compared.
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

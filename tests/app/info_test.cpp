@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
 
 namespace noli::app_tests {
 namespace {

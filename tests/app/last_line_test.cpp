@@ -5,9 +5,9 @@
 
 #include <sstream>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

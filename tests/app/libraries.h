@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/tests/app/process.h"
+#include "tests/app/process.h"
 
 namespace noli::app_tests {
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `noli export RUN --at`: pictures.
-#include "noli/app/picture.h"
+#include "app/picture.h"
 
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/app/process.h"
+#include "tests/app/process.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

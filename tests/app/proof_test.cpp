@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "noli/tests/app/killer.h"
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
-#include "noli/tests/app/sequences.h"
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/killer.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "tests/app/sequences.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/tests/app/worked_example.h"
+#include "tests/app/simulate_fixture.h"
+#include "tests/app/worked_example.h"
 
 namespace noli::app_tests {
 namespace {

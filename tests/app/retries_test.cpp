@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/app/retries.h"
+#include "app/retries.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // What `noli verify RUN` says of where a run ends, and why.
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/tests/trajectory/mutate_run.h"
-#include "noli/trajectory/write_file.h"
+#include "tests/app/simulate_fixture.h"
+#include "tests/trajectory/mutate_run.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app_tests {
 namespace {

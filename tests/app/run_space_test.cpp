@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bytes that a run is about to write: how many are said, and what happens when the disk will not hold them.
-#include "noli/app/run_space.h"
+#include "app/run_space.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <map>
 
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/tests/app/simulate_fixture.h"
+#include "integrator/scene/read_scene.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

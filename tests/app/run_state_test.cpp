@@ -8,10 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "noli/app/run_series.h"
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/tests/trajectory/run_samples.h"
-#include "noli/trajectory/write_file.h"
+#include "app/run_series.h"
+#include "tests/app/simulate_fixture.h"
+#include "tests/trajectory/run_samples.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app_tests {
 namespace {

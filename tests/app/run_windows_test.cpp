@@ -3,8 +3,8 @@
 // Windows count from 1 wherever somebody reads or types a number, whatever the bytes of the files have.
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/trajectory/run_file.h"
+#include "tests/app/simulate_fixture.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app_tests {
 namespace {

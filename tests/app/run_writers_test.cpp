@@ -7,9 +7,9 @@
 #include <random>
 #include <thread>
 
-#include "noli/tests/app/killer.h"
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/trajectory/folder_lock.h"
+#include "tests/app/killer.h"
+#include "tests/app/simulate_fixture.h"
+#include "trajectory/folder_lock.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/app/scene.h"
+#include "tests/app/scene.h"
 
 #include <fmt/format.h>
 
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/write_ply.h"
 
 namespace noli::app_tests {
 

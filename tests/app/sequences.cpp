@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/app/sequences.h"
+#include "tests/app/sequences.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/write_ply.h"
 
 namespace noli::app_tests {
 

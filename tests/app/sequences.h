@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli::app_tests {
 

@@ -2,7 +2,7 @@
 //
 // Files of series, read back by HDF5's own functions; and what becomes of them when noli_series does not come to its
 // end.
-#include "noli/app/series_file.h"
+#include "app/series_file.h"
 
 #ifdef NOLI_SERIES
 
@@ -17,9 +17,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "noli/app/exit_code.h"
-#include "noli/tests/support/temporary_folder.h"
-#include "noli/trajectory/error.h"
+#include "app/exit_code.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
 
 namespace noli::app_tests {
 namespace {

@@ -3,9 +3,9 @@
 // Scenes with forces of contact, by the command.
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/killer.h"
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "tests/app/killer.h"
+#include "tests/app/simulate_fixture.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli::app_tests {
 namespace {

@@ -10,10 +10,10 @@
 #include <fstream>
 #include <string>
 
-#include "noli/tests/app/bouncing_point.h"
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
-#include "noli/trajectory/run_log.h"
+#include "tests/app/bouncing_point.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "trajectory/run_log.h"
 
 namespace noli::app_tests {
 

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -3,7 +3,7 @@
 // How a run stops early: within a window, while its series is written; and what cannot be run at all.
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -6,13 +6,13 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "noli/tests/app/killer.h"
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/tests/kernel/random_numbers.h"
-#include "noli/trajectory/folder_lock.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/run_log.h"
+#include "tests/app/killer.h"
+#include "tests/app/simulate_fixture.h"
+#include "tests/kernel/random_numbers.h"
+#include "trajectory/folder_lock.h"
+#include "trajectory/frames.h"
+#include "trajectory/run_file.h"
+#include "trajectory/run_log.h"
 
 namespace noli::app_tests {
 namespace {

@@ -3,9 +3,9 @@
 // `noli verify RUN --reproduce`: runs that recorded frames, verified again.
 #include <gtest/gtest.h>
 
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/trajectory/block_file.h"
-#include "noli/trajectory/block_sink.h"
+#include "tests/app/simulate_fixture.h"
+#include "trajectory/block_file.h"
+#include "trajectory/block_sink.h"
 
 namespace noli::app_tests {
 namespace {

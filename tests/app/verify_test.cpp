@@ -5,8 +5,8 @@
 #include <fstream>
 #include <thread>
 
-#include "noli/tests/app/process.h"
-#include "noli/tests/app/scene.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/app/worked_example.h"
+#include "tests/app/worked_example.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_proofs.h"
+#include "audit/fuzz_proofs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 #include <iterator>
 #include <set>
 
-#include "noli/audit/claim_oracle.h"
-#include "noli/audit/minimise_proof.h"
-#include "noli/audit/parsed_claim.h"
-#include "noli/proofs/prover/proof_file.h"
-#include "noli/tests/support/temporary_folder.h"
-#include "noli/trajectory/error.h"
+#include "audit/claim_oracle.h"
+#include "audit/minimise_proof.h"
+#include "audit/parsed_claim.h"
+#include "proofs/prover/proof_file.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

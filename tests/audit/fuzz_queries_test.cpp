@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_queries.h"
+#include "audit/fuzz_queries.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "noli/audit/judge.h"
-#include "noli/audit/minimise_query.h"
-#include "noli/audit/query_generators.h"
-#include "noli/trajectory/query_csv.h"
+#include "audit/judge.h"
+#include "audit/minimise_query.h"
+#include "audit/query_generators.h"
+#include "trajectory/query_csv.h"
 
 namespace noli::audit {
 namespace {

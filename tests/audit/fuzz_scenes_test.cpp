@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_scenes.h"
+#include "audit/fuzz_scenes.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "noli/tests/support/temporary_folder.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/write_file.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 namespace {

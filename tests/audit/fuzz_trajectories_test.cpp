@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/fuzz_trajectories.h"
+#include "audit/fuzz_trajectories.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "noli/audit/motion_generators.h"
-#include "noli/proofs/prover/verifier.h"
-#include "noli/tests/support/temporary_folder.h"
-#include "noli/trajectory/error.h"
+#include "audit/motion_generators.h"
+#include "proofs/prover/verifier.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

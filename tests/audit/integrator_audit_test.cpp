@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "noli/audit/implicit_euler.h"
-#include "noli/audit/integrator_audit.h"
-#include "noli/audit/one_step.h"
-#include "noli/audit/sampled_run.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
+#include "audit/implicit_euler.h"
+#include "audit/integrator_audit.h"
+#include "audit/one_step.h"
+#include "audit/sampled_run.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
 
 namespace noli::audit {
 namespace {

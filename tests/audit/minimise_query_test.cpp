@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/minimise_query.h"
+#include "audit/minimise_query.h"
 
 #include <gtest/gtest.h>
 
-#include "noli/audit/judge.h"
+#include "audit/judge.h"
 
 namespace noli::audit {
 namespace {

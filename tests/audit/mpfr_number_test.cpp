@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // MPFR's numbers against the processor's: with 53 bits and the exponents of IEEE 754 they are the same, bit for bit.
-#include "noli/audit/mpfr_number.h"
+#include "audit/mpfr_number.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
-#include "noli/audit/random.h"
-#include "noli/audit/replay.h"
+#include "audit/random.h"
+#include "audit/replay.h"
 
 namespace noli::audit {
 namespace {

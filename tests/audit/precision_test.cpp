@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Scenes in MPFR: with 53 bits they are what they are in double, bit for bit; with others they are not.
-#include "noli/audit/precision.h"
+#include "audit/precision.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/integrator/simulation.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "integrator/simulation.h"
 
 namespace noli::audit {
 namespace {

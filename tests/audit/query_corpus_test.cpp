@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/query_corpus.h"
+#include "audit/query_corpus.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <set>
 #include <sstream>
 
-#include "noli/audit/fuzz_queries.h"
-#include "noli/audit/judge.h"
-#include "noli/audit/query_generators.h"
-#include "noli/tests/support/temporary_folder.h"
-#include "noli/trajectory/error.h"
+#include "audit/fuzz_queries.h"
+#include "audit/judge.h"
+#include "audit/query_generators.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <thread>
 
-#include "noli/audit/run_command.h"
+#include "audit/run_command.h"
 
 namespace noli::audit {
 namespace {

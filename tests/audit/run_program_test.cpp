@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/run_program.h"
+#include "audit/run_program.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "noli/audit/start_process.h"
+#include "audit/start_process.h"
 
 namespace noli::audit {
 namespace {

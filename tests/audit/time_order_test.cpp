@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/audit/time_order.h"
+#include "audit/time_order.h"
 
 #include <gtest/gtest.h>
 

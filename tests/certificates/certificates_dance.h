@@ -23,9 +23,9 @@
 
 #include "certificates_replay.h"
 #include "certificates_troupe.h"
-#include "noli/certificates/features.h"
-#include "noli/certificates/near_pair.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "certificates/features.h"
+#include "certificates/near_pair.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli::certificates::test {
 

@@ -11,11 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "noli/certificates/stencil.h"
-#include "noli/certificates/vector.h"
-#include "noli/kernel/algebraic.h"
-#include "noli/kernel/distance_parts.h"
-#include "noli/kernel/integer_coordinates.h"
+#include "certificates/stencil.h"
+#include "certificates/vector.h"
+#include "kernel/algebraic.h"
+#include "kernel/distance_parts.h"
+#include "kernel/integer_coordinates.h"
 
 namespace noli::certificates::test {
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "certificates_exact.h"
-#include "noli/certificates/closest.h"
+#include "certificates/closest.h"
 
 namespace noli::certificates::test {
 

@@ -12,8 +12,8 @@
 #include <limits>
 
 #include "certificates_dance.h"
-#include "noli/certificates/cells.h"
-#include "noli/certificates/every_pair.h"
+#include "certificates/cells.h"
+#include "certificates/every_pair.h"
 
 namespace noli::certificates {
 namespace {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "noli/certificates/vector.h"
-#include "noli/tests/kernel/random_numbers.h"
-#include "noli/trajectory/mesh.h"
+#include "certificates/vector.h"
+#include "tests/kernel/random_numbers.h"
+#include "trajectory/mesh.h"
 
 namespace noli::certificates::test {
 

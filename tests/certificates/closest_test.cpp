@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/certificates/closest.h"
+#include "certificates/closest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/certificates/pair_numbers.h"
+#include "certificates/pair_numbers.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "noli/tests/kernel/random_numbers.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli::certificates {
 namespace {

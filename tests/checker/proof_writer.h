@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "noli/proofs/checker/check.h"
-#include "noli/tests/support/temporary_folder.h"
+#include "proofs/checker/check.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noli::checker::test {
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "noli/tests/checker/support.h"
+#include "tests/checker/support.h"
 #include "proof_writer.h"
 
 namespace noli::checker::test {

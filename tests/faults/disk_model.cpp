@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/faults/disk_model.h"
+#include "tests/faults/disk_model.h"
 
 #include <fcntl.h>
 

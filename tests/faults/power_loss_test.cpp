@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <random>
 
-#include "noli/tests/app/simulate_fixture.h"
-#include "noli/tests/faults/disk_model.h"
-#include "noli/trajectory/run_file.h"
+#include "tests/app/simulate_fixture.h"
+#include "tests/faults/disk_model.h"
+#include "trajectory/run_file.h"
 
 namespace noli::app_tests {
 namespace {

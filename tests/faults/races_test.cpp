@@ -10,7 +10,7 @@
 #include <random>
 #include <thread>
 
-#include "noli/tests/app/simulate_fixture.h"
+#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

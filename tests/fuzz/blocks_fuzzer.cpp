@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "check_frame.h"
-#include "noli/tests/trajectory/run_samples.h"
-#include "noli/trajectory/run_payload.h"
+#include "tests/trajectory/run_samples.h"
+#include "trajectory/run_payload.h"
 
 namespace {
 

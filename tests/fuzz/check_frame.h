@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/ply.h"
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/cells.h"
+#include "trajectory/error.h"
+#include "trajectory/ply.h"
+#include "trajectory/write_ply.h"
 
 namespace noli::fuzz {
 

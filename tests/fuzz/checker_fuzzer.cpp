@@ -11,7 +11,7 @@
 //   L, O    a frame, PLY or OBJ
 #include <sys/mman.h>
 
-#include "noli/tests/checker/proof_writer.h"
+#include "tests/checker/proof_writer.h"
 
 namespace {
 

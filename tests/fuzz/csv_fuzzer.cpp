@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "check_frame.h"
-#include "noli/trajectory/query_csv.h"
+#include "trajectory/query_csv.h"
 
 namespace {
 

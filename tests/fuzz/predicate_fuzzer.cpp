@@ -15,14 +15,14 @@
 #include <limits>
 #include <string_view>
 
-#include "noli/audit/any_query.h"
-#include "noli/audit/saved_query.h"
-#include "noli/kernel/contact.h"
-#include "noli/kernel/first_contact.h"
-#include "noli/tests/kernel/oracle_motion.h"
-#include "noli/tests/oracle/oracle.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/query_csv.h"
+#include "audit/any_query.h"
+#include "audit/saved_query.h"
+#include "kernel/contact.h"
+#include "kernel/first_contact.h"
+#include "tests/kernel/oracle_motion.h"
+#include "tests/oracle/oracle.h"
+#include "trajectory/error.h"
+#include "trajectory/query_csv.h"
 
 namespace {
 

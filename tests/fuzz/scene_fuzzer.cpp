@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "check_frame.h"
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/error.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/error.h"
 
 namespace {
 

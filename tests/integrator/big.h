@@ -7,7 +7,7 @@
 // After the numbers that it is about.
 #include <boost/multiprecision/eigen.hpp>
 
-#include "noli/integrator/vector.h"
+#include "integrator/vector.h"
 
 namespace noli::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/calendar.h"
+#include "integrator/calendar.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a layer's kick does to energy and momenta, kick by kick (shared/acm.md 4.1, 4.3).
-#include "noli/integrator/contact_impulse.h"
+#include "integrator/contact_impulse.h"
 
 #include <gtest/gtest.h>
 

@@ -16,10 +16,10 @@
 #include <span>
 #include <vector>
 
-#include "noli/certificates/closest.h"
-#include "noli/certificates/features.h"
-#include "noli/integrator/model.h"
-#include "noli/kernel/thickness.h"
+#include "certificates/closest.h"
+#include "certificates/features.h"
+#include "integrator/model.h"
+#include "kernel/thickness.h"
 
 namespace noli::integrator::test {
 

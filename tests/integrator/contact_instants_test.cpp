@@ -10,9 +10,9 @@
 #include <string>
 
 #include "contact_instants.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/integrator/simulation.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "integrator/simulation.h"
 
 namespace noli::integrator {
 namespace {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "models.h"
-#include "noli/integrator/contact_limit.h"
-#include "noli/integrator/simulation.h"
+#include "integrator/contact_limit.h"
+#include "integrator/simulation.h"
 
 namespace noli::integrator::test {
 

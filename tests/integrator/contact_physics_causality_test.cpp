@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "contact_models.h"
-#include "noli/kernel/thickness.h"
+#include "kernel/thickness.h"
 #include "running.h"
 
 namespace noli::integrator {

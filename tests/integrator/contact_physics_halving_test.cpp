@@ -10,9 +10,9 @@
 #include <filesystem>
 
 #include "contact_models.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/text.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/text.h"
 #include "running.h"
 
 namespace noli::integrator {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "contact_models.h"
-#include "noli/integrator/contact.h"
+#include "integrator/contact.h"
 
 namespace noli::integrator {
 namespace {

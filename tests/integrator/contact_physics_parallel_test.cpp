@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "contact_models.h"
-#include "noli/integrator/contact_impulse.h"
+#include "integrator/contact_impulse.h"
 #include "running.h"
 
 namespace noli::integrator {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "contact_models.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
 #include "running.h"
 
 namespace noli::integrator {

@@ -10,8 +10,8 @@
 #include <span>
 
 #include "models.h"
-#include "noli/integrator/books.h"
-#include "noli/integrator/contact_impulse.h"
+#include "integrator/books.h"
+#include "integrator/contact_impulse.h"
 
 namespace noli::integrator::test {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "contact_models.h"
-#include "noli/integrator/contact_limit.h"
-#include "noli/proofs/prover/window_verifier.h"
+#include "integrator/contact_limit.h"
+#include "proofs/prover/window_verifier.h"
 
 namespace noli::integrator::test {
 

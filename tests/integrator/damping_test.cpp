@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/damping.h"
+#include "integrator/damping.h"
 
 #include <gtest/gtest.h>
 
-#include "noli/integrator/books.h"
-#include "noli/tests/integrator/big.h"
-#include "noli/tests/integrator/shapes.h"
+#include "integrator/books.h"
+#include "tests/integrator/big.h"
+#include "tests/integrator/shapes.h"
 
 namespace noli {
 namespace {

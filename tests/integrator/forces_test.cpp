@@ -8,8 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "noli/integrator/model.h"
-#include "noli/tests/integrator/shapes.h"
+#include "integrator/model.h"
+#include "tests/integrator/shapes.h"
 
 namespace noli {
 namespace {

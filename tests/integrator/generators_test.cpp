@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/generators.h"
+#include "integrator/scene/generators.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "noli/integrator/scene/connectivity.h"
-#include "noli/integrator/scene/curve.h"
-#include "noli/integrator/scene/turn.h"
+#include "integrator/scene/connectivity.h"
+#include "integrator/scene/curve.h"
+#include "integrator/scene/turn.h"
 
 namespace noli::integrator {
 namespace {

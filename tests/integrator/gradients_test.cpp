@@ -6,10 +6,10 @@
 #include <boost/math/constants/constants.hpp>
 #include <vector>
 
-#include "noli/integrator/books.h"
-#include "noli/integrator/model.h"
-#include "noli/tests/integrator/big.h"
-#include "noli/tests/integrator/shapes.h"
+#include "integrator/books.h"
+#include "integrator/model.h"
+#include "tests/integrator/big.h"
+#include "tests/integrator/shapes.h"
 
 namespace noli {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "noli/integrator/model.h"
-#include "noli/integrator/stable_step.h"
+#include "integrator/model.h"
+#include "integrator/stable_step.h"
 
 namespace noli::integrator::test {
 

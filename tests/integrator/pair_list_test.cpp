@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/pair_list.h"
+#include "integrator/pair_list.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "noli/tests/kernel/random_numbers.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli::integrator {
 namespace {

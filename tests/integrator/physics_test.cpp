@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "models.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/integrator/simulation.h"
-#include "noli/trajectory/text.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "integrator/simulation.h"
+#include "trajectory/text.h"
 
 namespace noli::integrator {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/resonance.h"
+#include "integrator/resonance.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "noli/integrator/simulation.h"
+#include "integrator/simulation.h"
 
 namespace noli::integrator::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/build_model.h"
+#include "integrator/scene/build_model.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <numeric>
 #include <set>
 
-#include "noli/integrator/stable_step.h"
-#include "noli/tests/support/temporary_folder.h"
-#include "noli/trajectory/error.h"
+#include "integrator/stable_step.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
 #include "scenes.h"
 
 namespace noli::integrator {

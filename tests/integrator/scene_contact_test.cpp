@@ -8,9 +8,9 @@
 #include <numbers>
 #include <ostream>
 
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/explain.h"
-#include "noli/trajectory/error.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/explain.h"
+#include "trajectory/error.h"
 #include "scenes.h"
 
 namespace noli::integrator {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/explain.h"
+#include "integrator/scene/explain.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "noli/integrator/recording.h"
-#include "noli/integrator/simulation.h"
+#include "integrator/recording.h"
+#include "integrator/simulation.h"
 #include "scenes.h"
 
 namespace noli::integrator {

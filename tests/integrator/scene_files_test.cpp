@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <set>
 
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/integrator/simulation.h"
-#include "noli/tests/support/temporary_folder.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/read_scene.h"
+#include "integrator/simulation.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noli::integrator {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/read_scene.h"
+#include "integrator/scene/read_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <ostream>
 #include <set>
 
-#include "noli/integrator/scene/explain.h"
-#include "noli/trajectory/error.h"
+#include "integrator/scene/explain.h"
+#include "trajectory/error.h"
 #include "scenes.h"
 
 namespace noli::integrator {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/scene/schema.h"
+#include "integrator/scene/schema.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <stdexcept>
 
-#include "noli/integrator/scene/nearest.h"
-#include "noli/trajectory/error.h"
+#include "integrator/scene/nearest.h"
+#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

@@ -8,10 +8,10 @@
 #include <map>
 #include <string>
 
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/text.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli::integrator {
 namespace {

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <set>
 
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/connectivity.h"
-#include "noli/integrator/scene/read_scene.h"
-#include "noli/kernel/thickness.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/connectivity.h"
+#include "integrator/scene/read_scene.h"
+#include "kernel/thickness.h"
 
 namespace noli::integrator {
 namespace {

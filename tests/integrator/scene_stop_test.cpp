@@ -5,12 +5,12 @@
 
 #include <functional>
 
-#include "noli/certificates/hierarchy.h"
-#include "noli/integrator/scene/build_model.h"
-#include "noli/integrator/scene/connectivity.h"
-#include "noli/integrator/scene/explain.h"
-#include "noli/integrator/scene/generators.h"
-#include "noli/trajectory/stop.h"
+#include "certificates/hierarchy.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/connectivity.h"
+#include "integrator/scene/explain.h"
+#include "integrator/scene/generators.h"
+#include "trajectory/stop.h"
 #include "scenes.h"
 
 namespace noli::integrator {

@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "noli/trajectory/error.h"
+#include "trajectory/error.h"
 
 namespace noli::integrator::testing {
 

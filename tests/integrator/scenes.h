@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "noli/integrator/scene/read_scene.h"
+#include "integrator/scene/read_scene.h"
 
 namespace noli::integrator::testing {
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "noli/integrator/model.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "integrator/model.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli::test {
 

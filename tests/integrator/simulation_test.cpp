@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/integrator/simulation.h"
+#include "integrator/simulation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "models.h"
-#include "noli/integrator/clocks.h"
-#include "noli/integrator/particle.h"
+#include "integrator/clocks.h"
+#include "integrator/particle.h"
 #include "running.h"
 
 namespace noli::integrator {

@@ -2,14 +2,14 @@
 //
 // The estimated limits against the true one, 2 / omega_max with the greatest frequency of the assembled system, and
 // that against what happens to a mesh stepped below and above it.
-#include "noli/integrator/stable_step.h"
+#include "integrator/stable_step.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <limits>
 
-#include "noli/tests/integrator/shapes.h"
+#include "tests/integrator/shapes.h"
 
 namespace noli {
 namespace {

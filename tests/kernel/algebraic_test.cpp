@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "noli/kernel/algebraic.h"
-#include "noli/tests/kernel/polynomials.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "kernel/algebraic.h"
+#include "tests/kernel/polynomials.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli {
 namespace {

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/cgal.h"
-#include "noli/tests/kernel/random_queries.h"
+#include "kernel/cgal.h"
+#include "tests/kernel/random_queries.h"
 
 namespace noli {
 namespace {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Contact, and each of the stages that decide it, against the oracle.
-#include "noli/kernel/contact.h"
+#include "kernel/contact.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <sstream>
 
-#include "noli/kernel/double_filter.h"
-#include "noli/kernel/exact_contact.h"
-#include "noli/kernel/interval_filter.h"
-#include "noli/kernel/rounding.h"
-#include "noli/kernel/scaled_integers.h"
-#include "noli/tests/kernel/oracle_motion.h"
-#include "noli/tests/kernel/random_query.h"
-#include "noli/tests/oracle/oracle.h"
+#include "kernel/double_filter.h"
+#include "kernel/exact_contact.h"
+#include "kernel/interval_filter.h"
+#include "kernel/rounding.h"
+#include "kernel/scaled_integers.h"
+#include "tests/kernel/oracle_motion.h"
+#include "tests/kernel/random_query.h"
+#include "tests/oracle/oracle.h"
 
 namespace noli {
 namespace {

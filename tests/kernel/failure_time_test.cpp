@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "noli/kernel/failure_time.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "kernel/failure_time.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli {
 namespace {

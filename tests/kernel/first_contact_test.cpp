@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/first_contact.h"
-#include "noli/tests/kernel/oracle_motion.h"
-#include "noli/tests/kernel/random_queries.h"
+#include "kernel/first_contact.h"
+#include "tests/kernel/oracle_motion.h"
+#include "tests/kernel/random_queries.h"
 
 namespace noli {
 namespace {

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <map>
 
-#include "noli/kernel/contact.h"
-#include "noli/tests/support/real_data.h"
-#include "noli/trajectory/query_csv.h"
+#include "kernel/contact.h"
+#include "tests/support/real_data.h"
+#include "trajectory/query_csv.h"
 
 namespace noli {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/moment.h"
+#include "kernel/moment.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "noli/tests/kernel/polynomials.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "tests/kernel/polynomials.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli {
 namespace {

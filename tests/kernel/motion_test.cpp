@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/motion.h"
+#include "kernel/motion.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "noli/tests/kernel/motions.h"
-#include "noli/tests/kernel/random_queries.h"
+#include "tests/kernel/motions.h"
+#include "tests/kernel/random_queries.h"
 
 namespace noli {
 namespace {

@@ -3,8 +3,8 @@
 // Motions of which a step is known as a query.
 #pragma once
 
-#include "noli/kernel/motion.h"
-#include "noli/tests/kernel/random_queries.h"
+#include "kernel/motion.h"
+#include "tests/kernel/random_queries.h"
 
 namespace noli::test {
 

@@ -3,8 +3,8 @@
 // A query of the kernel as the oracle takes it.
 #pragma once
 
-#include "noli/kernel/query.h"
-#include "noli/tests/oracle/oracle.h"
+#include "kernel/query.h"
+#include "tests/oracle/oracle.h"
 
 namespace noli::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "noli/kernel/polynomial.h"
+#include "kernel/polynomial.h"
 
 namespace noli::test {
 

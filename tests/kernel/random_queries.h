@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "noli/kernel/query.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "kernel/query.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "noli/kernel/query.h"
+#include "kernel/query.h"
 
 namespace noli::test {
 

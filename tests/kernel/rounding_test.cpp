@@ -4,7 +4,7 @@
 #include <cfenv>
 #include <cstdlib>
 
-#include "noli/kernel/rounding.h"
+#include "kernel/rounding.h"
 
 namespace noli {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "noli/kernel/static_predicates.h"
-#include "noli/tests/kernel/hull_by_subsets.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "kernel/static_predicates.h"
+#include "tests/kernel/hull_by_subsets.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli {
 namespace {

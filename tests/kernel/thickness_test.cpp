@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "noli/kernel/first_contact.h"
-#include "noli/kernel/thickness.h"
-#include "noli/tests/kernel/motions.h"
-#include "noli/tests/kernel/oracle_motion.h"
-#include "noli/tests/kernel/random_queries.h"
+#include "kernel/first_contact.h"
+#include "kernel/thickness.h"
+#include "tests/kernel/motions.h"
+#include "tests/kernel/oracle_motion.h"
+#include "tests/kernel/random_queries.h"
 
 namespace noli {
 namespace {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "noli/kernel/time_of_impact.h"
-#include "noli/tests/kernel/polynomials.h"
-#include "noli/tests/kernel/random_numbers.h"
+#include "kernel/time_of_impact.h"
+#include "tests/kernel/polynomials.h"
+#include "tests/kernel/random_numbers.h"
 
 namespace noli {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <random>
 
-#include "noli/kernel/wide.h"
+#include "kernel/wide.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/certificate.h"
+#include "tests/oracle/certificate.h"
 
 #include <gmpxx.h>
 

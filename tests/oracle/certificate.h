@@ -3,7 +3,7 @@
 // Until when n . (a(t) - b(t)) > g holds for two points that move on lines: a linear condition, in rational arithmetic.
 #pragma once
 
-#include "noli/tests/oracle/motion.h"
+#include "tests/oracle/motion.h"
 
 namespace noli::oracle {
 

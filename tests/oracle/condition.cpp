@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/condition.h"
+#include "tests/oracle/condition.h"
 
 #include <algorithm>
 #include <iterator>

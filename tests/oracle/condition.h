@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "noli/tests/oracle/polynomial.h"
-#include "noli/tests/oracle/time.h"
+#include "tests/oracle/polynomial.h"
+#include "tests/oracle/time.h"
 
 namespace noli::oracle {
 

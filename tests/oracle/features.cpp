@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/features.h"
+#include "tests/oracle/features.h"
 
 #include <array>
 #include <utility>

@@ -11,8 +11,8 @@
 
 #include <optional>
 
-#include "noli/tests/oracle/condition.h"
-#include "noli/tests/oracle/integer_path.h"
+#include "tests/oracle/condition.h"
+#include "tests/oracle/integer_path.h"
 
 namespace noli::oracle {
 

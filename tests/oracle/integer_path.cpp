@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/integer_path.h"
+#include "tests/oracle/integer_path.h"
 
 #include <algorithm>
 #include <cmath>

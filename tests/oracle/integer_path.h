@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "noli/tests/oracle/motion.h"
-#include "noli/tests/oracle/polynomial.h"
+#include "tests/oracle/motion.h"
+#include "tests/oracle/polynomial.h"
 
 namespace noli::oracle {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/oracle.h"
+#include "tests/oracle/oracle.h"
 
 #include <algorithm>
 
-#include "noli/tests/oracle/features.h"
+#include "tests/oracle/features.h"
 
 namespace noli::oracle {
 

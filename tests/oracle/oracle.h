@@ -16,8 +16,8 @@
 #include <optional>
 #include <string_view>
 
-#include "noli/tests/oracle/motion.h"
-#include "noli/tests/oracle/time.h"
+#include "tests/oracle/motion.h"
+#include "tests/oracle/time.h"
 
 namespace noli::oracle {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/polynomial.h"
+#include "tests/oracle/polynomial.h"
 
 #include <algorithm>
 #include <cmath>

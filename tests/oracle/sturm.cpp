@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/sturm.h"
+#include "tests/oracle/sturm.h"
 
 #include <utility>
 

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "noli/tests/oracle/polynomial.h"
+#include "tests/oracle/polynomial.h"
 
 namespace noli::oracle {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/time.h"
+#include "tests/oracle/time.h"
 
 #include <algorithm>
 #include <bit>

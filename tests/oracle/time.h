@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "noli/tests/oracle/polynomial.h"
-#include "noli/tests/oracle/sturm.h"
+#include "tests/oracle/polynomial.h"
+#include "tests/oracle/sturm.h"
 
 namespace noli::oracle {
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "noli/tests/oracle/oracle.h"
-#include "noli/tests/support/real_data.h"
-#include "noli/trajectory/query_csv.h"
+#include "tests/oracle/oracle.h"
+#include "tests/support/real_data.h"
+#include "trajectory/query_csv.h"
 
 namespace noli::oracle {
 namespace {

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "noli/tests/oracle/oracle.h"
+#include "tests/oracle/oracle.h"
 
 namespace noli::oracle {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/oracle/sturm.h"
+#include "tests/oracle/sturm.h"
 
 #include <gtest/gtest.h>
 
-#include "noli/tests/oracle/time.h"
+#include "tests/oracle/time.h"
 
 namespace noli::oracle {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // World lines stay within the radius of their chords: in rational arithmetic.
-#include "noli/proofs/prover/chord.h"
+#include "proofs/prover/chord.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

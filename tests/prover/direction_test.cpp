@@ -7,8 +7,8 @@
 #include <deque>
 #include <limits>
 
-#include "noli/proofs/prover/around.h"
-#include "noli/proofs/prover/direction_search.h"
+#include "proofs/prover/around.h"
+#include "proofs/prover/direction_search.h"
 #include "scenes.h"
 
 namespace noli::testing {

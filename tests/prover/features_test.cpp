@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/features.h"
+#include "proofs/prover/features.h"
 
 #include <gtest/gtest.h>
 

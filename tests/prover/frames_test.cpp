@@ -8,8 +8,8 @@
 #include <string>
 
 #include "brute_force.h"
-#include "noli/tests/support/real_data.h"
-#include "noli/trajectory/ply.h"
+#include "tests/support/real_data.h"
+#include "trajectory/ply.h"
 
 namespace noli::testing {
 namespace {

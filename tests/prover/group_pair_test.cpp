@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/group_pair.h"
+#include "proofs/prover/group_pair.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/hierarchy.h"
+#include "proofs/prover/hierarchy.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "noli/proofs/prover/features.h"
+#include "proofs/prover/features.h"
 #include "scenes.h"
 
 namespace noli::testing {

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "noli/trajectory/mesh.h"
+#include "trajectory/mesh.h"
 
 namespace noli::testing {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/layout.h"
+#include "proofs/prover/layout.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "noli/kernel/static_predicates.h"
+#include "kernel/static_predicates.h"
 #include "sheets.h"
 
 namespace noli::testing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The median split, against sorting.
-#include "noli/proofs/prover/median.h"
+#include "proofs/prover/median.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "brute_force.h"
 #include "hulls.h"
-#include "noli/proofs/prover/events.h"
+#include "proofs/prover/events.h"
 
 namespace noli::testing {
 

@@ -3,7 +3,7 @@
 // Surfaces for the tests of sheets.
 #pragma once
 
-#include "noli/trajectory/world_lines.h"
+#include "trajectory/world_lines.h"
 #include "scenes.h"
 
 namespace noli::testing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/proofs/prover/step_prover.h"
+#include "proofs/prover/step_prover.h"
 
 #include <gtest/gtest.h>
 

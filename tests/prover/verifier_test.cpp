@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Small scenes made by hand, each with what the definitions say about it.
-#include "noli/proofs/prover/verifier.h"
+#include "proofs/prover/verifier.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "noli/proofs/prover/window_verifier.h"
+#include "proofs/prover/window_verifier.h"
 #include "scenes.h"
 
 namespace noli::testing {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "noli/tests/oracle/features.h"
+#include "tests/oracle/features.h"
 
 namespace noli::testing {
 

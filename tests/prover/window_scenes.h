@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "brute_force.h"
-#include "noli/proofs/prover/window_verifier.h"
-#include "noli/trajectory/world_lines.h"
+#include "proofs/prover/window_verifier.h"
+#include "trajectory/world_lines.h"
 #include "scenes.h"
 
 namespace noli::testing {

@@ -2,7 +2,7 @@
 //
 // Witnesses of contact: one for each contact of random meshes, those of the ends of doubles' range, and what the judge
 // refuses.
-#include "noli/proofs/prover/witness.h"
+#include "proofs/prover/witness.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@
 #include <functional>
 #include <limits>
 
-#include "noli/proofs/prover/earliest.h"
-#include "noli/proofs/prover/roots.h"
-#include "noli/proofs/prover/tokens.h"
-#include "noli/proofs/prover/witness_judge.h"
-#include "noli/trajectory/bytes.h"
+#include "proofs/prover/earliest.h"
+#include "proofs/prover/roots.h"
+#include "proofs/prover/tokens.h"
+#include "proofs/prover/witness_judge.h"
+#include "trajectory/bytes.h"
 #include "window_scenes.h"
 
 namespace noli::testing {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "layers.h"
-#include "noli/kernel/parallel.h"
+#include "kernel/parallel.h"
 #include "workspace.h"
 
 namespace noli::repository {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/tests/support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noli::repository {
 

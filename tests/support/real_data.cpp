@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/tests/support/real_data.h"
+#include "tests/support/real_data.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/block_file.h"
+#include "trajectory/block_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/crc32c.h"
+#include "trajectory/bytes.h"
+#include "trajectory/crc32c.h"
 #include "run_samples.h"
 #include "support.h"
 

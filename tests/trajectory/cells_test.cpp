@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/cells.h"
+#include "trajectory/cells.h"
 
 #include <gtest/gtest.h>
 

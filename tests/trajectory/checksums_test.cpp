@@ -5,9 +5,9 @@
 #include <random>
 #include <string>
 
-#include "noli/trajectory/crc32c.h"
-#include "noli/trajectory/sha256.h"
-#include "noli/trajectory/sha256_blocks.h"
+#include "trajectory/crc32c.h"
+#include "trajectory/sha256.h"
+#include "trajectory/sha256_blocks.h"
 
 namespace noli {
 namespace {

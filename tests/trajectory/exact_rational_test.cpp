@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/exact_rational.h"
+#include "trajectory/exact_rational.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/file_info.h"
+#include "trajectory/file_info.h"
 
-#include "noli/trajectory/zero_area.h"
+#include "trajectory/zero_area.h"
 #include "support.h"
 
 namespace noli {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/frame_inputs.h"
+#include "trajectory/frame_inputs.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <sys/stat.h>
 
-#include "noli/trajectory/frame_formats.h"
-#include "noli/trajectory/obj.h"
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/frame_formats.h"
+#include "trajectory/obj.h"
+#include "trajectory/write_ply.h"
 #include "support.h"
 
 namespace noli {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/frames.h"
+#include "trajectory/frames.h"
 
 #include <cmath>
 
-#include "noli/trajectory/frame_formats.h"
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/frame_formats.h"
+#include "trajectory/write_ply.h"
 #include "support.h"
 
 namespace noli {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/merge.h"
+#include "trajectory/merge.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/write_ply.h"
 #include "support.h"
 
 namespace noli {

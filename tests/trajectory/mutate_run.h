@@ -16,8 +16,8 @@
 #include <string_view>
 #include <vector>
 
-#include "noli/tests/trajectory/run_samples.h"
-#include "noli/trajectory/bytes.h"
+#include "tests/trajectory/run_samples.h"
+#include "trajectory/bytes.h"
 
 namespace noli::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/obj.h"
+#include "trajectory/obj.h"
 
 #include "support.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every way in which the text of a PLY file can be wrong, and the line and words of the message.
-#include "noli/trajectory/ply.h"
+#include "trajectory/ply.h"
 #include "support.h"
 
 namespace noli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/ply.h"
+#include "trajectory/ply.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/polygons.h"
+#include "trajectory/polygons.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
-#include "noli/trajectory/obj.h"
-#include "noli/trajectory/ply.h"
+#include "trajectory/obj.h"
+#include "trajectory/ply.h"
 #include "support.h"
 
 namespace noli {

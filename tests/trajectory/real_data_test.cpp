@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The readers on files that others made; skipped, visibly, where they are not there.
-#include "noli/tests/support/real_data.h"
-#include "noli/trajectory/file_info.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/query_csv.h"
+#include "tests/support/real_data.h"
+#include "trajectory/file_info.h"
+#include "trajectory/frames.h"
+#include "trajectory/query_csv.h"
 #include "support.h"
 
 namespace noli {

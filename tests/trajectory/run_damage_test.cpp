@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "noli/trajectory/bytes.h"
-#include "noli/trajectory/run_payload.h"
+#include "trajectory/bytes.h"
+#include "trajectory/run_payload.h"
 #include "run_samples.h"
 #include "support.h"
 

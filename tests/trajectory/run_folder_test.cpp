@@ -10,11 +10,11 @@
 #include <system_error>
 #include <thread>
 
-#include "noli/trajectory/block_sink.h"
-#include "noli/trajectory/folder_lock.h"
-#include "noli/trajectory/run_log.h"
-#include "noli/trajectory/run_manifest.h"
-#include "noli/trajectory/write_file.h"
+#include "trajectory/block_sink.h"
+#include "trajectory/folder_lock.h"
+#include "trajectory/run_log.h"
+#include "trajectory/run_manifest.h"
+#include "trajectory/write_file.h"
 #include "support.h"
 
 namespace noli {

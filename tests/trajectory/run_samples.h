@@ -13,9 +13,9 @@
 #include <system_error>
 #include <vector>
 
-#include "noli/trajectory/block_sink.h"
-#include "noli/trajectory/run_file.h"
-#include "noli/trajectory/run_payload.h"
+#include "trajectory/block_sink.h"
+#include "trajectory/run_file.h"
+#include "trajectory/run_payload.h"
 
 namespace noli::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/stop.h"
+#include "trajectory/stop.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -9,15 +9,15 @@
 #include <thread>
 #include <vector>
 
-#include "noli/tests/support/temporary_folder.h"
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/error.h"
-#include "noli/trajectory/frame_look.h"
-#include "noli/trajectory/frames.h"
-#include "noli/trajectory/input_file.h"
-#include "noli/trajectory/merge.h"
-#include "noli/trajectory/query_csv.h"
-#include "noli/trajectory/text.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/cells.h"
+#include "trajectory/error.h"
+#include "trajectory/frame_look.h"
+#include "trajectory/frames.h"
+#include "trajectory/input_file.h"
+#include "trajectory/merge.h"
+#include "trajectory/query_csv.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {

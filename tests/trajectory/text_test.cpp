@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/text.h"
+#include "trajectory/text.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/world_lines.h"
+#include "trajectory/world_lines.h"
 
 #include <cmath>
 

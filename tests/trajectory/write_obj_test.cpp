@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/write_obj.h"
+#include "trajectory/write_obj.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <system_error>
 
-#include "noli/trajectory/obj.h"
+#include "trajectory/obj.h"
 #include "support.h"
 
 namespace noli {

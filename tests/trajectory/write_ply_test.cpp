@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/write_ply.h"
+#include "trajectory/write_ply.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <system_error>
 
-#include "noli/trajectory/cells.h"
-#include "noli/trajectory/ply.h"
+#include "trajectory/cells.h"
+#include "trajectory/ply.h"
 #include "support.h"
 
 namespace noli {

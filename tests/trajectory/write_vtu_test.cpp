@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noli/trajectory/write_vtu.h"
+#include "trajectory/write_vtu.h"
 
 #include <gtest/gtest.h>
 

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "mutants.h"
-#include "noli/tests/oracle/condition.h"
-#include "noli/tests/oracle/integer_path.h"
+#include "tests/oracle/condition.h"
+#include "tests/oracle/integer_path.h"
 
 namespace {
 
