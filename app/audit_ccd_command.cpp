@@ -8,19 +8,17 @@
 #include <optional>
 #include <string>
 
-#include "app/audit_report.h"
 #include "app/commands.h"
-#include "app/duration.h"
-#include "app/frame_options.h"
-#include "app/interrupt.h"
 #include "app/library_options.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/pipeline_report.h"
+#include "app/process.h"
 #include "app/progress.h"
-#include "audit/ccd_audit.h"
-#include "audit/ccd_pipeline.h"
+#include "audit/ccd/audit_report.h"
+#include "audit/ccd/ccd_audit.h"
+#include "audit/ccd/ccd_pipeline.h"
+#include "audit/ccd/pipeline_report.h"
+#include "certify/process/this_program.h"
 #include "trajectory/write_file.h"
 
 namespace noli::app {
@@ -78,7 +76,7 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
       audit::audit_pipeline({request.libraries, ordered.frames[0], ordered.frames[1], request.tolerances,
                              request.max_reports, request.host, arguments.polygons});
   outcome.notes.insert(outcome.notes.begin(), ordered.notes.begin(), ordered.notes.end());
-  output.write("audit-pipeline", pipeline_answer(outcome), pipeline_json(outcome));
+  output.write("audit-pipeline", audit::pipeline_answer(outcome), audit::pipeline_json(outcome));
   return exit_code(outcome.findings(), outcome.complete);
 }
 
@@ -103,8 +101,8 @@ ExitCode run(AuditArguments& arguments) {
     request.progress = show;
     return audit::audit_ccd(request);
   });
-  output.write("audit-ccd", audit_answer(outcome), audit_json(outcome));
-  if (arguments.svg) write_file(*arguments.svg, audit_svg(outcome));
+  output.write("audit-ccd", audit::audit_answer(outcome), audit::audit_json(outcome));
+  if (arguments.svg) write_file(*arguments.svg, audit::audit_svg(outcome));
   return exit_code(outcome.findings() + outcome.wrong_labels(), outcome.complete);
 }
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/integrator_report.h"
-#include "app/interrupt.h"
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/process.h"
+#include "audit/numerics/integrator_report.h"
 #include "integrator/scene/read_scene.h"
 #include "trajectory/error.h"
 #include "trajectory/write_file.h"
@@ -58,8 +58,8 @@ std::vector<integrator::Scene> scenes_of(const IntegratorArguments& arguments) {
   return scenes;
 }
 
-ExitCode exit_code(const IntegratorResults& results) {
-  const std::string verdict = integrator_verdict(results);
+ExitCode exit_code(const audit::IntegratorResults& results) {
+  const std::string verdict = audit::integrator_verdict(results);
   if (verdict == "finding") return ExitCode::refuted;
   return verdict == "measured" ? ExitCode::holds : ExitCode::undecided;
 }
@@ -70,7 +70,7 @@ ExitCode run(IntegratorArguments& arguments) {
   options.windows = static_cast<int>(arguments.windows);
   options.stop = &interrupted();
   const Output output(arguments.results, arguments.scenes, outputs("--svg", arguments.svg));
-  IntegratorResults results;
+  audit::IntegratorResults results;
   for (const integrator::Scene& scene : scenes_of(arguments)) {
     options.begun = [&](const std::string& method, double factor) {
       std::fputs(fmt::format("noli: {}: {}, steps times {:g}\n", on_one_line(scene.title), method, factor).c_str(),
@@ -79,8 +79,8 @@ ExitCode run(IntegratorArguments& arguments) {
     results.push_back(audit::audit_integrator(scene, options));
     if (!results.back().complete) break;
   }
-  output.write("audit-integrator", integrator_answer(results), integrator_json(results));
-  if (arguments.svg) write_file(*arguments.svg, integrator_svg(results));
+  output.write("audit-integrator", audit::integrator_answer(results), audit::integrator_json(results));
+  if (arguments.svg) write_file(*arguments.svg, audit::integrator_svg(results));
   return exit_code(results);
 }
 

@@ -7,15 +7,14 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/duration.h"
-#include "app/interrupt.h"
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/precision_report.h"
+#include "app/process.h"
 #include "app/progress.h"
-#include "app/run_extent.h"
-#include "audit/precision.h"
+#include "audit/numerics/precision.h"
+#include "audit/numerics/precision_report.h"
+#include "certify/simulate/run_extent.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "trajectory/write_file.h"
@@ -72,6 +71,11 @@ audit::PrecisionOutcome audit_scene(const integrator::Scene& scene, const audit:
   return audit::audit_precision(integrator::build_model<3>(scene).model, request);
 }
 
+ExitCode exit_code(const audit::PrecisionOutcome& outcome) {
+  if (outcome.difference) return ExitCode::refuted;
+  return outcome.complete && outcome.windows > 0 ? ExitCode::holds : ExitCode::undecided;
+}
+
 ExitCode run(const PrecisionArguments& arguments) {
   audit::PrecisionRequest request;
   request.arithmetics = arithmetics(arguments.bits);
@@ -94,11 +98,11 @@ ExitCode run(const PrecisionArguments& arguments) {
     request.progress = show;
     return audit_scene(scene, request);
   });
-  Json json = precision_json(outcome);
+  Json json = audit::precision_json(outcome);
   json["timing"] = {{"seconds", watch.seconds()}, {"threads", arguments.threads}};
-  output.write("audit-precision", precision_answer(outcome), json);
-  if (arguments.svg) write_file(*arguments.svg, precision_svg(outcome, scene.title));
-  return precision_exit_code(outcome);
+  output.write("audit-precision", audit::precision_answer(outcome), json);
+  if (arguments.svg) write_file(*arguments.svg, audit::precision_svg(outcome, scene.title));
+  return exit_code(outcome);
 }
 
 }  // namespace

@@ -10,14 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "app/audit_report.h"
 #include "app/commands.h"
-#include "app/duration.h"
-#include "app/interrupt.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "audit/self.h"
+#include "app/process.h"
+#include "audit/ccd/audit_report.h"
+#include "audit/numerics/self.h"
+#include "certify/process/this_program.h"
+#include "certify/result_file.h"
+#include "certify/stopwatch.h"
 #include "kernel/parallel.h"
 #include "trajectory/error.h"
 
@@ -100,18 +101,19 @@ std::string figures_text(const SelfPart& part) {
   return text;
 }
 
-Answer self_answer(const SelfArguments& arguments, const SelfReport& report, double seconds) {
-  Answer answer(verdict(exit_code(report, arguments.require_all)), {{"parts", report.parts.size()},
-                                                                    {"held", report.count(PartState::held)},
-                                                                    {"failed", report.count(PartState::failed)},
-                                                                    {"skipped", report.count(PartState::skipped)},
-                                                                    {"complete", report.complete}});
+report::Answer self_answer(const SelfArguments& arguments, const SelfReport& report, double seconds) {
+  report::Answer answer(verdict(exit_code(report, arguments.require_all)),
+                        {{"parts", report.parts.size()},
+                         {"held", report.count(PartState::held)},
+                         {"failed", report.count(PartState::failed)},
+                         {"skipped", report.count(PartState::skipped)},
+                         {"complete", report.complete}});
   std::string& text = answer.text;
-  std::vector<TableRow> rows = {{"part", "", "result", "figures", "seconds"}};
+  std::vector<audit::TableRow> rows = {{"part", "", "result", "figures", "seconds"}};
   for (const SelfPart& part : report.parts) {
     rows.push_back({part.group, part.name, name(part.state), figures_text(part), fmt::format("{:.1f}", part.seconds)});
   }
-  text += table_text(rows, 4);
+  text += audit::table_text(rows, 4);
   const auto out = std::back_inserter(text);
   for (const SelfPart& part : report.parts) {
     if (part.state == PartState::held) continue;

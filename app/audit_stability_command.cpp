@@ -10,14 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "app/audit_report.h"
 #include "app/commands.h"
-#include "app/duration.h"
-#include "app/interrupt.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "audit/stability.h"
+#include "app/process.h"
+#include "audit/ccd/audit_report.h"
+#include "audit/numerics/stability.h"
+#include "certify/process/this_program.h"
+#include "certify/result_file.h"
+#include "certify/stopwatch.h"
 #include "trajectory/error.h"
 
 namespace noli::app {
@@ -111,7 +112,7 @@ Json stability_json(const StabilityReport& report, double seconds) {
 // --- text ------------------------------------------------------------------------------------------------------------
 
 std::string table(const StabilityReport& report) {
-  std::vector<TableRow> rows = {{"row", "varied", "up to", "energy", "momentum", "gives first", "at", "exit"}};
+  std::vector<audit::TableRow> rows = {{"row", "varied", "up to", "energy", "momentum", "gives first", "at", "exit"}};
   for (const StabilityResult& row : report.rows) {
     const std::size_t first = row.first_to_give();
     const bool gives = first < row.points.size();
@@ -126,15 +127,15 @@ std::string table(const StabilityReport& report) {
                     gives ? fmt::format("{:g}", row.points[first].value) : "-",
                     gives ? std::to_string(row.points[first].exit_code) : "-"});
   }
-  return table_text(rows, 2);
+  return audit::table_text(rows, 2);
 }
 
-Answer stability_answer(const StabilityReport& report, double seconds) {
-  Answer answer(verdict(report), {{"rows", report.rows.size()},
-                                  {"points", report.points()},
-                                  {"held", report.held()},
-                                  {"findings", report.findings()},
-                                  {"complete", report.complete}});
+report::Answer stability_answer(const StabilityReport& report, double seconds) {
+  report::Answer answer(verdict(report), {{"rows", report.rows.size()},
+                                          {"points", report.points()},
+                                          {"held", report.held()},
+                                          {"findings", report.findings()},
+                                          {"complete", report.complete}});
   std::string& text = answer.text;
   text += table(report);
   const auto out = std::back_inserter(text);

@@ -5,11 +5,12 @@
 #include <map>
 #include <memory>
 
-#include "app/ccd_run.h"
 #include "app/commands.h"
-#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/process.h"
+#include "app/progress.h"
+#include "certify/queries/ccd_run.h"
 #include "trajectory/error.h"
 
 namespace noli::app {
@@ -108,13 +109,13 @@ void append_file(const CcdFile& file, std::string& text) {
   }
 }
 
-Answer ccd_answer(const CcdOutcome& outcome) {
+report::Answer ccd_answer(const CcdOutcome& outcome) {
   const CcdCounts& total = outcome.total;
-  Answer answer(verdict(outcome), {{"queries", total.queries},
-                                   {"contacts", total.contacts},
-                                   {"labelled", total.labelled},
-                                   {"disagreements", total.disagreements},
-                                   {"complete", outcome.complete}});
+  report::Answer answer(verdict(outcome), {{"queries", total.queries},
+                                           {"contacts", total.contacts},
+                                           {"labelled", total.labelled},
+                                           {"disagreements", total.disagreements},
+                                           {"complete", outcome.complete}});
   for (const CcdFile& file : outcome.files) append_file(file, answer.text);
   answer.details = "Stages:";
   for (const Stage stage : all_stages) answer.details += fmt::format(" {} {}", name(stage), total.stages[stage]);
@@ -127,7 +128,11 @@ ExitCode run(CcdArguments& arguments) {
   CcdRequest& request = arguments.request;
   if (!arguments.kind.empty()) request.pair = kinds.at(arguments.kind);
   const Output output(arguments.results, request.files);
-  const CcdOutcome outcome = run_ccd(request);
+  request.stop = &interrupted();
+  const CcdOutcome outcome = with_progress("ccd", [&](const auto& show) {
+    request.progress = show;
+    return run_ccd(request);
+  });
   output.write("ccd", ccd_answer(outcome), ccd_json(request, outcome));
   return exit_code(outcome);
 }

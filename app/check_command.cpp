@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/checker.h"
-#include "app/claim.h"
 #include "app/commands.h"
-#include "app/frame_options.h"
-#include "app/input_report.h"
+#include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/run_folder.h"
-#include "app/run_log_facts.h"
-#include "app/time_limit.h"
+#include "certify/proofs/checker.h"
+#include "certify/proofs/claim.h"
+#include "certify/runs/run_folder.h"
+#include "certify/runs/run_log_facts.h"
+#include "report/input_report.h"
+#include "trajectory/blocks/run_file.h"
 #include "trajectory/error.h"
-#include "trajectory/run_file.h"
 #include "trajectory/text.h"
 
 namespace noli::app {
@@ -128,13 +127,13 @@ Json check_json(const CheckerVersion& checker, const fs::path& proof, const std:
 }
 
 /// The checker's first line without its verdict is the place; the line for programs is among the details.
-Answer check_answer(const CheckerVersion& checker, const CheckerVerdict& verdict, const char* word,
-                    const std::vector<std::string>& notes) {
+report::Answer check_answer(const CheckerVersion& checker, const CheckerVerdict& verdict, const char* word,
+                            const std::vector<std::string>& notes) {
   const std::string line = first_line(verdict.words);
   const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
-  Answer answer(word, {{"checker", checker.name}, {"version", checker.version}});
+  report::Answer answer(word, {{"checker", checker.name}, {"version", checker.version}});
   answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
-  answer.text += notes_text(notes);
+  answer.text += report::notes_text(notes);
   answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
   const std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);

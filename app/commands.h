@@ -26,9 +26,7 @@ Command add_info(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_schema(CLI::App& app);
 
-/// `noli fuzz` and `noli audit`, which are nothing but their subcommands.
-CLI::App& add_fuzz(CLI::App& app);
-CLI::App& add_audit(CLI::App& app);
+/// Below `noli fuzz` and `noli audit`.
 Command add_fuzz_queries(CLI::App& fuzz);
 Command add_fuzz_trajectories(CLI::App& fuzz);
 Command add_fuzz_proofs(CLI::App& fuzz);

@@ -8,11 +8,11 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/run_explanation.h"
-#include "app/run_folder.h"
-#include "app/time_limit.h"
+#include "certify/run_explanation.h"
+#include "certify/runs/run_folder.h"
 #include "integrator/scene/explain.h"
 #include "integrator/scene/read_scene.h"
+#include "report/run_explanation_report.h"
 
 namespace noli::app {
 namespace {
@@ -41,7 +41,7 @@ ExitCode explain_folder(const ExplainArguments& arguments) {
   const Output output(arguments.results, {arguments.scene});
   if (!arguments.results.quiet) note_if_being_written(arguments.scene);
   const RunExplanation explanation = explain_run(arguments.scene);
-  output.write("explain-run", answer_of(explanation), to_json(explanation));
+  output.write("explain-run", report::answer_of(explanation), report::to_json(explanation));
   return ExitCode::holds;
 }
 
@@ -53,7 +53,7 @@ ExitCode run(const ExplainArguments& arguments) {
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
   const integrator::Explanation explanation = integrator::explain(scene);
   if (arguments.brief) note_missing_short_form(scene);
-  Answer answer("explained", {{"title", explanation.title}, {"dimension", explanation.dimension}});
+  report::Answer answer("explained", {{"title", explanation.title}, {"dimension", explanation.dimension}});
   answer.text = integrator::to_text(explanation);
   output.write("explain-scene", answer, integrator::to_json(explanation));
   return ExitCode::holds;

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/export_run.h"
+#include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/run_figure.h"
-#include "app/run_folder.h"
-#include "app/run_picture.h"
-#include "app/time_limit.h"
+#include "certify/export_run.h"
+#include "certify/runs/run_folder.h"
+#include "report/figures/run_figure.h"
+#include "report/figures/run_picture.h"
 
 namespace noli::app {
 namespace {
@@ -36,8 +36,8 @@ struct ExportArguments {
   std::string time_limit;
 };
 
-ExitCode draw(const FigureRequest& request) {
-  const FigureOutcome outcome = run_figure(request);
+ExitCode draw(const report::FigureRequest& request) {
+  const report::FigureOutcome outcome = report::run_figure(request);
   std::string text =
       fmt::format("figure {} windows {} end {}\n", request.figure, outcome.windows, digits17(outcome.end));
   if (outcome.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
@@ -45,8 +45,8 @@ ExitCode draw(const FigureRequest& request) {
   return ExitCode::holds;
 }
 
-ExitCode paint(const PictureRequest& request) {
-  const PictureOutcome outcome = run_picture(request);
+ExitCode paint(const report::PictureRequest& request) {
+  const report::PictureOutcome outcome = report::run_picture(request);
   write_standard_output(
       fmt::format("picture width {} height {} time {}\n", outcome.width, outcome.height, digits17(outcome.time)));
   return ExitCode::holds;
@@ -56,6 +56,9 @@ ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   begin_work(arguments.time_limit);
   note_if_being_written(request.run);
+  if (arguments.at || arguments.figure) {
+    require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
+  }
   if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern, request.force});
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern, request.force});
   const ExportOutcome outcome = run_export(request);

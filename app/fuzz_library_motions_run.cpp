@@ -9,14 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "app/interrupt.h"
-#include "app/json.h"
-#include "app/machine.h"
 #include "app/output.h"
+#include "app/process.h"
 #include "app/progress.h"
-#include "audit/fuzz_library_motions.h"
-#include "audit/run_program.h"
-#include "audit/save_motion.h"
+#include "audit/fuzz/trajectories/fuzz_library_motions.h"
+#include "audit/fuzz/trajectories/save_motion.h"
+#include "certify/json.h"
+#include "certify/process/run_program.h"
+#include "certify/result_file.h"
+#include "certify/stopwatch.h"
 #include "trajectory/error.h"
 
 namespace noli::app {
@@ -37,7 +38,7 @@ Words replay_command(const LibraryArguments& library) {
 std::string again(const LibraryArguments& library, const fs::path& folder) {
   Words words = replay_command(library);
   words.push_back(folder.string());
-  return on_one_line(audit::shell_words(words));
+  return on_one_line(shell_words(words));
 }
 
 void settle(LibraryMotionArguments& arguments) {
@@ -118,12 +119,12 @@ std::string finding_text(const LibraryMotionArguments& arguments, const audit::L
                             again(arguments.theirs, finding.folder));
 }
 
-Answer report_answer(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
-                     double seconds) {
-  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
-                                                                     {"contacts", report.contacts},
-                                                                     {"findings", report.findings_total},
-                                                                     {"through", report.through}});
+report::Answer report_answer(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
+                             double seconds) {
+  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
+                                                                             {"contacts", report.contacts},
+                                                                             {"findings", report.findings_total},
+                                                                             {"through", report.through}});
   for_each_fault(report.faults, [&](std::string_view fault, std::uint64_t count) { answer.add({fault, count}); });
   answer.add({"seed", arguments.common.limits.seed});
   std::string& text = answer.text;
@@ -208,7 +209,7 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   const Again result = look_again(arguments);
   const audit::FrameMotion& motion = result.motion;
   const char* const word = interrupted() ? "undecided" : result.found ? "finding" : "no_finding";
-  Answer answer(
+  report::Answer answer(
       word,
       {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
   std::string& text = answer.text;

@@ -4,11 +4,11 @@
 #include <limits>
 #include <system_error>
 
-#include "app/duration.h"
-#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "audit/finding_name.h"
+#include "app/process.h"
+#include "audit/fuzz/finding_name.h"
+#include "certify/result_file.h"
 
 namespace noli::app {
 
@@ -82,6 +82,11 @@ ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent)
   if (extent.interrupted) return ExitCode::undecided;
   if (findings > 0) return ExitCode::refuted;
   return extent.items == 0 ? ExitCode::undecided : ExitCode::holds;
+}
+
+ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t done, bool interrupted) {
+  if (interrupted || done == 0) return ExitCode::undecided;
+  return findings > 0 ? ExitCode::refuted : ExitCode::holds;
 }
 
 }  // namespace noli::app

@@ -11,7 +11,7 @@
 
 #include "app/exit_code.h"
 #include "app/output.h"
-#include "audit/fuzz_blocks.h"
+#include "audit/fuzz/fuzz_blocks.h"
 
 namespace noli::app {
 
@@ -39,7 +39,7 @@ struct AgainArguments {
 void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
                        std::vector<std::string> excluded);
 
-/// "NAME-minimised" in --out, for a saved folder NAME, so that nothing is overwritten (audit/finding_name.h).
+/// "NAME-minimised" in --out, for a saved folder NAME, so that nothing is overwritten (audit/fuzz/finding_name.h).
 std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved);
 
 /// The files in a saved folder, which --json may not overwrite; none if it is not there.
@@ -54,5 +54,7 @@ std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& 
 /// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", "no_finding".
 const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent);
 ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent);
+/// The same of `done` queries.
+ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t done, bool interrupted);
 
 }  // namespace noli::app

@@ -7,20 +7,22 @@
 #include <memory>
 #include <utility>
 
-#include "app/checker.h"
 #include "app/commands.h"
 #include "app/fuzz_options.h"
-#include "app/interrupt.h"
-#include "app/json.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/process.h"
 #include "app/progress.h"
-#include "audit/fuzz_proofs.h"
-#include "audit/minimise_proof.h"
-#include "audit/motion_generators.h"
-#include "audit/scratch_folder.h"
-#include "audit/shape_corpus.h"
+#include "audit/fuzz/proofs/fuzz_proofs.h"
+#include "audit/fuzz/proofs/minimise_proof.h"
+#include "audit/fuzz/shape_corpus.h"
+#include "audit/fuzz/trajectories/motion_generators.h"
+#include "certify/json.h"
+#include "certify/process/scratch_folder.h"
+#include "certify/process/this_program.h"
+#include "certify/proofs/checker.h"
+#include "certify/result_file.h"
+#include "certify/stopwatch.h"
 #include "trajectory/error.h"
 #include "trajectory/text.h"
 
@@ -67,7 +69,7 @@ audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& t
   audit::ProofCase made;
   made.name = proof.filename().string();
   made.proof = bytes;
-  made.groups = audit::parse_proof(made.proof, proof.string());
+  made.groups = parse_proof(made.proof, proof.string());
   made.extension = trajectory[0].extension().string().substr(1);
   for (const fs::path& file : trajectory) made.files.push_back(read_whole_file(file));
   made.refutes = said->code == 1;
@@ -86,9 +88,9 @@ std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, cons
   if (motion.at_rest()) words.emplace_back("--static");
   words.insert(words.end(), claim.begin(), claim.end());
   for (const fs::path& file : files) words.push_back(file);
-  audit::ProgramLimits limits;
+  ProgramLimits limits;
   limits.stop = &interrupted();
-  const audit::ProgramEnd end = audit::run_program(words, limits);
+  const ProgramEnd end = run_program(words, limits);
   if (!end.exited_with(0) && !end.exited_with(1)) return std::nullopt;
   try {
     return read_case(proof, files);
@@ -152,16 +154,16 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
   return json;
 }
 
-Answer report_answer(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
-                     double seconds) {
-  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"mutants", report.extent.items},
-                                                                     {"findings", report.findings_total},
-                                                                     {"accepted", report.codes.accepted},
-                                                                     {"refuted", report.codes.refuted},
-                                                                     {"rejected", report.codes.rejected},
-                                                                     {"failed", report.codes.failed},
-                                                                     {"judged", report.judged},
-                                                                     {"seed", arguments.common.limits.seed}});
+report::Answer report_answer(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
+                             double seconds) {
+  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"mutants", report.extent.items},
+                                                                             {"findings", report.findings_total},
+                                                                             {"accepted", report.codes.accepted},
+                                                                             {"refuted", report.codes.refuted},
+                                                                             {"rejected", report.codes.rejected},
+                                                                             {"failed", report.codes.failed},
+                                                                             {"judged", report.judged},
+                                                                             {"seed", arguments.common.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
@@ -201,7 +203,7 @@ class CheckersBeside {
     const bool has_verified = fs::exists(verified);
     if (!has_verified) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
     return [this, verified, has_verified] {
-      audit::ProgramLimits limits;
+      ProgramLimits limits;
       limits.stop = &interrupted();
       return audit::Checkers{
           audit::hosted_checker(beside_this_program("noli_check_host"), new_desk(), std::chrono::seconds(20)),
@@ -225,7 +227,7 @@ ExitCode run(ProofsArguments& arguments) {
   if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
   const Output output(arguments.common.results, arguments.files);
   require_writable_folder(arguments.common.out, "--out");
-  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
+  const ScratchFolder scratch(ScratchFolder::Place::memory);
   CheckersBeside checkers(scratch.path());
   audit::ProofFuzzOptions options;
   options.limits = arguments.common.limits;
@@ -263,7 +265,7 @@ ExitCode again(const ProofsArguments& arguments) {
   const Output output(arguments.common.results, saved_files(arguments.again.saved()));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::JudgedProof proof{audit::read_proof_files(arguments.again.saved()), {}};
-  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
+  const ScratchFolder scratch(ScratchFolder::Place::memory);
   CheckersBeside beside(scratch.path());
   const audit::Checkers checkers = beside.make()();
   proof.judgement = audit::judge_proof(proof.files, checkers);
@@ -278,7 +280,7 @@ ExitCode again(const ProofsArguments& arguments) {
   const char* const word = stopped ? "undecided" : finding ? "finding" : "no_finding";
   const char* const verified = judged.verified ? word_of(*judged.verified) : "not_asked";
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
-  Answer answer(word, {{"plain", word_of(judged.plain)}, {"verified", verified}, {"claim", claim}});
+  report::Answer answer(word, {{"plain", word_of(judged.plain)}, {"verified", verified}, {"claim", claim}});
   std::string& text = answer.text;
   if (!judged.plain.words.empty()) text += on_one_line(judged.plain.words) + '\n';
   if (finding) text += on_one_line(judged.difference) + '\n';

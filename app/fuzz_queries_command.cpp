@@ -12,17 +12,18 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/duration.h"
-#include "app/fuzz_queries_report.h"
-#include "app/interrupt.h"
+#include "app/fuzz_options.h"
 #include "app/library_options.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/process.h"
 #include "app/progress.h"
-#include "audit/finding_name.h"
-#include "audit/minimise_query.h"
-#include "audit/saved_query.h"
+#include "audit/fuzz/finding_name.h"
+#include "audit/fuzz/queries/fuzz_queries_report.h"
+#include "audit/fuzz/queries/minimise_query.h"
+#include "audit/fuzz/queries/saved_query.h"
+#include "certify/result_file.h"
+#include "certify/stopwatch.h"
 #include "trajectory/error.h"
 
 namespace noli::app {
@@ -93,14 +94,14 @@ class OneFile {
  public:
   OneFile(const FuzzArguments& arguments, const fs::path& file)
       : arguments_(arguments), saved_(audit::read_saved_queries(file)) {
-    const audit::AnyQuery& first = saved_.at(0).query;
+    const AnyQuery& first = saved_.at(0).query;
     if (!arguments_.asks_a_library()) return;
     if (!audit::is_library_query({first.pair, first.dimension})) {
       throw InputError(file.string(), "", "a library is asked about a vertex and a face or two edges in 3D");
     }
     audit::require_ccd_library(arguments_.asked.path, arguments_.asked.host);
     knows_times_ = audit::knows_times(arguments_.asked);
-    std::vector<audit::AnyQuery> queries;
+    std::vector<AnyQuery> queries;
     for (const audit::SavedQuery& saved : saved_) queries.push_back(saved.query);
     found_ = audit::faults_of(arguments_.asked, first.pair, queries, knows_times_);
   }
@@ -178,7 +179,7 @@ ExitCode replay(const FuzzArguments& arguments) {
                            : !differences.empty()       ? "finding"
                            : arguments.asks_a_library() ? "no_finding"
                                                         : "no_difference";
-  Answer answer(word, {{"queries", queries}, {"findings", differences.size()}});
+  report::Answer answer(word, {{"queries", queries}, {"findings", differences.size()}});
   for (const std::string& difference : differences) answer.text += difference + '\n';
   answer.text += not_asked_text(file);
   output.write("fuzz-replay", answer,
@@ -213,7 +214,7 @@ ExitCode minimise(const FuzzArguments& arguments) {
   const std::size_t queries = file.queries().size();
   const ExitCode code = fuzz_exit_code(findings.size(), queries, interrupted());
   const char* const word = code == ExitCode::undecided ? "undecided" : findings.empty() ? "nothing_fails" : "finding";
-  Answer answer(word, {{"queries", queries}, {"findings", findings.size()}});
+  report::Answer answer(word, {{"queries", queries}, {"findings", findings.size()}});
   Json json = {{"verdict", word}, {"queries", queries}, {"findings", findings.size()}, {"reports", Json::array()}};
   for (const audit::Finding& finding : findings) {
     const fs::path result = audit::unused(minimised_name(arguments, finding.index + 1));
@@ -242,7 +243,8 @@ ExitCode run_kernel(const FuzzArguments& arguments, const Output& output) {
     return audit::fuzz_queries(options);
   });
   const double seconds = watch.seconds();
-  output.write("fuzz-queries", fuzz_answer(options, report, seconds), fuzz_json(options, report, seconds));
+  output.write("fuzz-queries", audit::fuzz_answer(options, report, seconds),
+               audit::fuzz_json(options, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }
@@ -264,8 +266,8 @@ ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
     return audit::fuzz_library(options);
   });
   const double seconds = watch.seconds();
-  output.write("fuzz-library-queries", library_fuzz_answer(options, report, seconds),
-               library_fuzz_json(options, report, seconds));
+  output.write("fuzz-library-queries", audit::library_fuzz_answer(options, report, seconds),
+               audit::library_fuzz_json(options, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }

@@ -6,16 +6,18 @@
 
 #include "app/commands.h"
 #include "app/fuzz_options.h"
-#include "app/interrupt.h"
-#include "app/json.h"
-#include "app/machine.h"
 #include "app/output.h"
 #include "app/output_files.h"
+#include "app/process.h"
 #include "app/progress.h"
-#include "audit/fuzz_scenes.h"
-#include "audit/kind_of_difference.h"
-#include "audit/scratch_folder.h"
-#include "audit/start_process.h"
+#include "audit/fuzz/kind_of_difference.h"
+#include "audit/fuzz/scenes/fuzz_scenes.h"
+#include "certify/json.h"
+#include "certify/process/scratch_folder.h"
+#include "certify/process/start_process.h"
+#include "certify/process/this_program.h"
+#include "certify/result_file.h"
+#include "certify/stopwatch.h"
 #include "trajectory/error.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
@@ -48,14 +50,14 @@ struct ScenesArguments {
 /// `noli` itself, as a program of its own. Throws std::system_error when the checker that it starts is not there: each
 /// scene would be a finding.
 audit::RunNoli this_program() {
-  audit::require_startable(beside_this_program("noli_check").string());
+  require_startable(beside_this_program("noli_check").string());
   return [noli = this_program_file().string()](const std::vector<std::string>& arguments) {
     std::vector<std::string> words = {noli};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    audit::ProgramLimits limits;
+    ProgramLimits limits;
     limits.stop = &interrupted();
     limits.time = std::chrono::seconds(120);
-    return audit::run_program(std::move(words), limits);
+    return run_program(std::move(words), limits);
   };
 }
 
@@ -82,12 +84,12 @@ Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport&
   return json;
 }
 
-Answer report_answer(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
-  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"scenes", report.extent.items},
-                                                                     {"findings", report.findings_total},
-                                                                     {"verified", report.verified},
-                                                                     {"resumed", report.resumed},
-                                                                     {"seed", arguments.common.limits.seed}});
+report::Answer report_answer(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
+  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"scenes", report.extent.items},
+                                                                             {"findings", report.findings_total},
+                                                                             {"verified", report.verified},
+                                                                             {"resumed", report.resumed},
+                                                                             {"seed", arguments.common.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
@@ -110,7 +112,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
   settle_limits(arguments.common);
   const Output output(arguments.common.results, {});
   require_writable_folder(arguments.common.out, "--out");
-  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
+  const ScratchFolder scratch(ScratchFolder::Place::memory);
   audit::SceneFuzzOptions options;
   options.limits = arguments.common.limits;
   options.noli = this_program();
@@ -136,7 +138,7 @@ ExitCode again(const ScenesArguments& arguments) {
   if (arguments.wrong_place && !arguments.wrong_place->starts_with('/'))
     throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
   audit::SceneJson scene = audit::read_saved_scene(file);
-  const audit::ScratchFolder scratch(audit::ScratchFolder::Place::memory);
+  const ScratchFolder scratch(ScratchFolder::Place::memory);
   const audit::RunNoli noli = this_program();
   int number = 0;
   const auto judge = [&](const audit::SceneJson& candidate) {
@@ -161,9 +163,9 @@ ExitCode again(const ScenesArguments& arguments) {
   }
   judgement.stopped |= interrupted();
   const char* const word = judgement.stopped ? "undecided" : judgement.difference ? "finding" : "no_finding";
-  Answer answer(word, {{"end", judgement.end.empty() ? "none" : judgement.end},
-                       {"verified", judgement.verified},
-                       {"resumed", judgement.resumed}});
+  report::Answer answer(word, {{"end", judgement.end.empty() ? "none" : judgement.end},
+                               {"verified", judgement.verified},
+                               {"resumed", judgement.resumed}});
   std::string& text = answer.text;
   if (judgement.difference) text += *judgement.difference + '\n';
   if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';

@@ -8,16 +8,17 @@
 #include "app/commands.h"
 #include "app/fuzz_library_motions_run.h"
 #include "app/fuzz_options.h"
-#include "app/interrupt.h"
-#include "app/json.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/process.h"
 #include "app/progress.h"
-#include "app/verify_program.h"
-#include "audit/kind_of_difference.h"
-#include "audit/motion_generators.h"
-#include "audit/save_motion.h"
+#include "audit/fuzz/kind_of_difference.h"
+#include "audit/fuzz/trajectories/motion_generators.h"
+#include "audit/fuzz/trajectories/save_motion.h"
+#include "audit/fuzz/trajectories/verify_program.h"
+#include "certify/json.h"
+#include "certify/result_file.h"
+#include "certify/stopwatch.h"
 #include "trajectory/error.h"
 #include "trajectory/write_file.h"
 
@@ -85,11 +86,12 @@ Json report_json(const TrajectoriesArguments& arguments, const audit::Trajectory
   return json;
 }
 
-Answer report_answer(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
-  Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
-                                                                     {"findings", report.findings_total},
-                                                                     {"checked", report.checked_plain},
-                                                                     {"seed", arguments.common.limits.seed}});
+report::Answer report_answer(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report,
+                             double seconds) {
+  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
+                                                                             {"findings", report.findings_total},
+                                                                             {"checked", report.checked_plain},
+                                                                             {"seed", arguments.common.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
@@ -112,7 +114,7 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   settle_limits(arguments.common);
   const Output output(arguments.common.results, {});
   require_writable_folder(arguments.common.out, "--out");
-  VerifyProgram subject(arguments.verified_every);
+  audit::VerifyProgram subject(arguments.verified_every, interrupted());
   if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
   audit::TrajectoryOptions options;
   options.limits = arguments.common.limits;
@@ -141,7 +143,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   const Output output(arguments.common.results, saved_files(folder));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
-  VerifyProgram subject(1);
+  audit::VerifyProgram subject(1, interrupted());
   bool undecided = false;  // the last one, in the time that there was
   const auto decide = [&](const audit::FrameMotion& one) {
     audit::MotionAnswer answer = subject(one);
@@ -164,7 +166,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   }
   const bool unknown = interrupted() || (undecided && !found);
   const char* const word = unknown ? "undecided" : found ? "finding" : "no_finding";
-  Answer answer(
+  report::Answer answer(
       word,
       {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
   std::string& text = answer.text;

@@ -6,18 +6,18 @@
 #include <iterator>
 #include <memory>
 
-#include "app/ccd_run.h"
 #include "app/commands.h"
+#include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/proof_info.h"
-#include "app/run_folder.h"
-#include "app/run_info.h"
-#include "app/time_limit.h"
-#include "audit/any_query.h"
+#include "certify/proofs/proof_info.h"
+#include "certify/queries/any_query.h"
+#include "certify/queries/ccd_run.h"
+#include "certify/runs/run_folder.h"
+#include "certify/runs/run_info.h"
 #include "trajectory/error.h"
-#include "trajectory/file_info.h"
-#include "trajectory/query_csv.h"
+#include "trajectory/formats/file_info.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace noli::app {
 namespace {
@@ -52,7 +52,7 @@ Json query_info(const std::filesystem::path& path) {
                      "the name does not say what the queries are; expected one of vertex-face, edge-edge, vertex-edge, "
                      "vertex-vertex in it");
   }
-  const auto records = read_query_csv(path, audit::file_kind(*pair));
+  const auto records = read_query_csv(path, file_kind(*pair));
   const auto count_label = [&](bool label) {
     return std::count_if(records.begin(), records.end(),
                          [=](const QueryRecord& record) { return record.label == label; });
@@ -99,8 +99,8 @@ std::string as_text(const Json& value) {
   return text;
 }
 
-Answer info_answer(const Json& files) {
-  Answer answer("described", {{"files", files.size()}});
+report::Answer info_answer(const Json& files) {
+  report::Answer answer("described", {{"files", files.size()}});
   std::string& text = answer.text;
   for (const Json& file : files) {
     text += on_one_line(as_text(file["file"])) + '\n';

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "app/duration.h"
-#include "app/interrupt.h"
-#include "app/machine.h"
 #include "app/options.h"
+#include "app/process.h"
+#include "certify/process/this_program.h"
 
 namespace noli::app {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/library_answers.h"
+#include "audit/ccd/library_answers.h"
 
 namespace noli::app {
 

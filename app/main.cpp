@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/interrupt.h"
-#include "app/machine.h"
 #include "app/output.h"
-#include "app/version.h"
-#include "audit/not_saved.h"
+#include "app/process.h"
+#include "audit/fuzz/not_saved.h"
+#include "certify/version.h"
 #include "trajectory/error.h"
 #include "trajectory/stop.h"
 
@@ -38,6 +37,34 @@ constexpr const char* footer =
     "  noli audit ccd --library lib.so edge-edge-queries.csv   somebody else's library against the truth\n"
     "  noli audit self                        all that noli has to look at itself with\n"
     "`noli COMMAND --help` says more.";
+
+CLI::App& add_fuzz(CLI::App& app) {
+  CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
+  fuzz->require_subcommand(1);
+  fuzz->footer(
+      "Examples:\n"
+      "  noli fuzz queries --for 60s --seed 1\n"
+      "  noli fuzz queries --library ./mine.so --for 60s\n"
+      "  noli fuzz trajectories --for 60s --seed 1\n"
+      "  noli fuzz scenes --for 60s --seed 1\n"
+      "  noli fuzz proofs --for 60s --seed 1\n"
+      "`noli fuzz queries --help` says more.");
+  return *fuzz;
+}
+
+CLI::App& add_audit(CLI::App& app) {
+  CLI::App* const audit = app.add_subcommand("audit", "How far can numbers, and somebody else's code, be trusted?");
+  audit->require_subcommand(1);
+  audit->footer(
+      "Examples:\n"
+      "  noli audit ccd --library ./mine.so queries-edge-edge.csv\n"
+      "  noli audit precision scenes/bounce.json --short\n"
+      "  noli audit integrator --svg integrator.svg     error against run time\n"
+      "  noli audit stability                           how far it goes, and how it ends there\n"
+      "  noli audit self                                all that noli has to look at itself with\n"
+      "`noli audit ccd --help` says more, and so for each.");
+  return *audit;
+}
 
 ExitCode complain(ExitCode code, const std::string& message) {
   std::fputs(fmt::format("noli: {}\n", on_one_line(message)).c_str(), stderr);

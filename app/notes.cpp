@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "trajectory/blocks/folder_lock.h"
 #include "trajectory/error.h"
 
 namespace noli::app {
@@ -32,6 +33,10 @@ void note_missing_short_form(const integrator::Scene& scene) {
   const auto brief = scene.document.find("short");
   if (brief != scene.document.end() && !brief->empty()) return;
   tell_note("--short changes nothing: the scene has no \"short\"");
+}
+
+void note_if_being_written(const std::filesystem::path& run) {
+  if (is_locked(run)) tell_note(run.string() + " is being written: this is about what is committed so far");
 }
 
 }  // namespace noli::app

@@ -3,6 +3,7 @@
 // What the user should know of a scene, on standard error, a line each: no fault, and no result.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "integrator/scene/explain.h"
@@ -17,5 +18,8 @@ void tell_note(const std::string& note);
 
 /// For --short: that it changes nothing, if the scene has no short form.
 void note_missing_short_form(const integrator::Scene& scene);
+
+/// Tells whoever reads the run, on standard error, when another process writes to it.
+void note_if_being_written(const std::filesystem::path& run);
 
 }  // namespace noli::app

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options.h"
 
+#include <charconv>
+#include <optional>
+#include <string_view>
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
+
+#include "app/process.h"
+#include "certify/errors.h"
 
 namespace noli::app {
 
@@ -30,6 +36,14 @@ void add_threads_option(CLI::App& command, int& threads) {
 }
 
 namespace {
+
+std::optional<double> seconds_per(std::string_view unit) {
+  if (unit.empty() || unit == "s") return 1.0;
+  if (unit == "ms") return 1e-3;
+  if (unit == "m") return 60.0;
+  if (unit == "h") return 3600.0;
+  return std::nullopt;
+}
 
 /// Finite numbers, of which `accepts` is true; `what` is what is expected.
 CLI::Validator numbers(bool (*accepts)(double), const char* what) {
@@ -78,6 +92,55 @@ CLI::Validator is_count() {
 CLI::Validator is_dimension() {
   return CLI::Validator(
       [](const std::string& text) { return text == "2" || text == "3" ? "" : text + ": expected 2 or 3"; }, "");
+}
+
+std::chrono::nanoseconds parse_duration(const std::string& text, const std::string& option) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number, std::chars_format::fixed);
+  const auto unit = seconds_per(std::string_view(rest, static_cast<std::size_t>(end - rest)));
+  constexpr double ten_years = 10 * 366 * 24 * 3600.0;
+  const double seconds = number * unit.value_or(0);
+  if (error != std::errc() || !(seconds > 0 && seconds <= ten_years)) {
+    throw UsageError(option + ": '" + text +
+                     "' is no duration; expected a positive number with ms, s, m or h, as in 60s");
+  }
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds));
+}
+
+void add_time_limit_option(CLI::App& command, std::string& text, const std::string& help) {
+  command.add_option("--time-limit", text, help)->type_name("TIME");
+}
+
+std::optional<std::chrono::steady_clock::time_point> begin_work(const std::string& text) {
+  hear_stops_everywhere();
+  if (text.empty()) return std::nullopt;
+  const std::chrono::nanoseconds limit = parse_duration(text, "--time-limit");
+  const auto deadline = std::chrono::steady_clock::now() + limit;
+  stop_after(limit);
+  return deadline;
+}
+
+void add_order_option(CLI::App& command, FrameOrder& order) {
+  command
+      .add_option_function<std::string>(
+          "--order",
+          [&order](const std::string& word) { order = word == "natural" ? FrameOrder::natural : FrameOrder::given; },
+          "natural: sort frames by the numbers in their names; given: take them as they are. Without it, names given "
+          "against their numbers are an error")
+      ->check(CLI::IsMember({"natural", "given"}))
+      ->type_name("natural|given");
+}
+
+void add_polygons_option(CLI::App& command, PolygonRule& polygons) {
+  command
+      .add_option_function<std::string>(
+          "--polygons",
+          [&polygons](const std::string& word) { polygons = word == "fan" ? PolygonRule::fan : PolygonRule::refuse; },
+          "fan (the default): cut faces of more than three corners into triangles that begin at the first corner; "
+          "refuse: they are an error")
+      ->check(CLI::IsMember({"fan", "refuse"}))
+      ->type_name("fan|refuse");
 }
 
 }  // namespace noli::app

@@ -4,10 +4,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "app/output.h"
+#include "trajectory/formats/frame_order.h"
+#include "trajectory/formats/polygons.h"
 
 namespace noli::app {
 
@@ -32,5 +36,23 @@ CLI::Validator is_count();
 
 /// Accepts 2 and 3.
 CLI::Validator is_dimension();
+
+/// "60s", "1.5m", "500ms", "2h"; a bare number is seconds. Positive, at most ten years.
+/// Throws UsageError, naming `option`, for anything else.
+std::chrono::nanoseconds parse_duration(const std::string& text, const std::string& option);
+
+/// --time-limit TIME, kept as text.
+void add_time_limit_option(CLI::App& command, std::string& text,
+                           const std::string& help = "Stop after this time, undecided: 500ms, 60s, 5m, 1h");
+
+/// The work of a command begins: from now on Ctrl-C is heard everywhere, and so is the time limit, if `text` is not
+/// empty. Returns when that is. Throws UsageError for a text that is no duration.
+std::optional<std::chrono::steady_clock::time_point> begin_work(const std::string& text);
+
+/// --order natural | given; neither: the order given has to be that of the numbers in the names.
+void add_order_option(CLI::App& command, FrameOrder& order);
+
+/// --polygons fan | refuse
+void add_polygons_option(CLI::App& command, PolygonRule& polygons);
 
 }  // namespace noli::app

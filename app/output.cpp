@@ -1,139 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/output.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
-#include "app/exit_code.h"
-#include "app/version.h"
+#include "certify/errors.h"
+#include "certify/result_file.h"
+#include "certify/version.h"
 
 namespace noli::app {
 namespace {
 
 /// Of all schemas of results; one more when a member is removed, or means something else.
 constexpr int result_version = 1;
-
-std::string reason() { return std::strerror(errno); }
-
-/// A file beside the one that it is to become; removed if that does not come to pass. Its name is short, so that it is
-/// not too long where the target's is not.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::filesystem::path& target)
-      : name_((target.parent_path() / ".noli-XXXXXX").string()), descriptor_(::mkstemp(name_.data())) {}
-  ~TemporaryFile() {
-    if (!is_open()) return;
-    ::close(descriptor_);
-    ::unlink(name_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  bool is_open() const { return descriptor_ >= 0; }
-  int descriptor() const { return descriptor_; }
-
-  /// Gives it the owner and permissions of the file that it replaces, or the permissions of any new file (mkstemp gives
-  /// a file to its owner alone).
-  bool take_permissions_for(const std::string& target) const {
-    struct stat old = {};
-    if (::stat(target.c_str(), &old) != 0) {
-      const mode_t mask = ::umask(0);
-      ::umask(mask);
-      return ::fchmod(descriptor_, 0666 & ~mask) == 0;
-    }
-    const bool same_owner = old.st_uid == ::geteuid() && old.st_gid == ::getegid();
-    if (!same_owner && ::fchown(descriptor_, old.st_uid, old.st_gid) != 0) return false;
-    return ::fchmod(descriptor_, old.st_mode & 0777) == 0;
-  }
-
-  bool move_to(const std::string& target) {
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    if (closed == 0 && ::rename(name_.c_str(), target.c_str()) == 0) return true;
-    const int error = errno;
-    ::unlink(name_.c_str());
-    errno = error;
-    return false;
-  }
-
- private:
-  std::string name_;
-  int descriptor_;
-};
-
-/// Devices and pipes are written as they are, files are replaced.
-bool is_replaced(const std::string& path) {
-  struct stat status = {};
-  return ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
-}
-
-/// The file that a chain of symbolic links leads to, so that replacing the file leaves the links.
-std::string link_target(const std::string& path) {
-  std::error_code error;
-  const auto target = std::filesystem::canonical(path, error);
-  return error ? path : target.string();
-}
-
-/// Whether a file that exists may be written but not replaced: its folder is not ours to change, or it is a mount
-/// point. Judged by why replacing it failed.
-bool must_be_kept(int error) { return error == EACCES || error == EPERM || error == EBUSY; }
-
-bool can_write(const std::string& path) {
-  if (path.empty()) return errno = ENOENT, false;
-  struct stat status = {};
-  const bool exists = ::stat(path.c_str(), &status) == 0;
-  if (!exists && errno != ENOENT) return false;
-  if (exists && ::access(path.c_str(), W_OK) != 0) return false;
-  if (!is_replaced(path) || TemporaryFile(link_target(path)).is_open()) return true;
-  return exists && must_be_kept(errno);
-}
-
-/// Whether files can be made in a folder. Tried, as permissions do not tell: root has them all, also where no files can
-/// be, as in /proc. The file has no name, so that none is left by a kill; where there are no such files, it has one.
-bool can_make_files(const std::string& folder) {
-  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-  if (descriptor >= 0) return ::close(descriptor) == 0;
-  return TemporaryFile(std::filesystem::path(folder) / "file").is_open();
-}
-
-bool write_all(int descriptor, const std::string& text) {
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  return true;
-}
-
-bool replace_file(const std::string& path, const std::string& text) {
-  const std::string target = link_target(path);
-  TemporaryFile file(target);
-  return file.is_open() && write_all(file.descriptor(), text) && file.take_permissions_for(target) &&
-         file.move_to(target);
-}
-
-/// A device, a pipe, or a file that must be kept.
-bool write_in_place(const std::string& path, const std::string& text) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool written = write_all(descriptor, text);
-  return ::close(descriptor) == 0 && written;
-}
-
-bool write_file(const std::string& path, const std::string& text) {
-  if (!is_replaced(path)) return write_in_place(path, text);
-  if (replace_file(path, text)) return true;
-  return must_be_kept(errno) && ::access(path.c_str(), F_OK) == 0 && write_in_place(path, text);
-}
 
 }  // namespace
 
@@ -143,12 +25,12 @@ Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& 
   require_output_files(others, inputs, options_.force);
 }
 
-std::string Output::words(const Answer& answer) const {
+std::string Output::words(const report::Answer& answer) const {
   if (options_.quiet) return "";
   return options_.porcelain ? answer.porcelain() : answer.words(options_.verbose);
 }
 
-void Output::write(std::string_view schema, const Answer& answer, Json json) const {
+void Output::write(std::string_view schema, const report::Answer& answer, Json json) const {
   const std::optional<std::string>& path = options_.json;
   if (!path) return write_standard_output(words(answer));
   Json document = {{"schema", fmt::format("noli-{}", schema)},
@@ -156,53 +38,13 @@ void Output::write(std::string_view schema, const Answer& answer, Json json) con
                    {"noli", {{"version", version_number()}, {"commit", version_commit()}}}};
   for (const auto& item : json.items()) document[item.key()] = std::move(item.value());
   if (*path == "-") return write_standard_output(to_text(document));
-  if (!write_file(*path, to_text(document))) throw WriteError(*path + ": cannot be written: " + reason());
+  write_result(*path, to_text(document));
   write_standard_output(words(answer));
 }
 
-void require_writable_file(const std::filesystem::path& file, const std::string& option) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    throw UsageError(option + " " + file.string() + ": is a folder; expected a file");
-  }
-  if (can_write(file.string())) return;
-  throw UsageError(option + " " + file.string() + ": cannot be written: " + reason() +
-                   "; expected a file in a folder that is there and may be written to");
-}
-
-void require_program(const std::filesystem::path& program, const std::string& option) {
-  std::error_code error;
-  const bool file = std::filesystem::is_regular_file(program, error);
-  if (!file || ::access(program.c_str(), X_OK) != 0) {
-    throw UsageError(option + " " + program.string() + (file ? ": is not executable" : ": is no file that is there") +
-                     "; expected a program that can be started");
-  }
-}
-
-void make_writable_folder(const std::filesystem::path& folder, const std::string& option) {
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw UsageError(option + " " + folder.string() + ": cannot be made: " + error.message() +
-                     "; expected a folder, or a place for one");
-  }
-  require_writable_folder(folder.empty() ? "." : folder.string(), option);
-}
-
-void require_writable_folder(const std::string& folder, const std::string& option) {
-  const std::filesystem::path path(folder);
-  std::error_code error;
-  const bool exists = std::filesystem::exists(path, error);
-  const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
-  const std::string tried = exists ? path.string() : parent.string();
-  errno = ENOTDIR;
-  if (std::filesystem::is_directory(tried, error) && can_make_files(tried)) return;
-  throw UsageError(option + " " + folder + ": cannot be written: " + reason() +
-                   "; expected a folder that may be written to, or a place for one");
-}
-
 void write_standard_output(const std::string& text) {
-  if (!write_all(STDOUT_FILENO, text)) throw WriteError("standard output: cannot be written: " + reason());
+  if (!write_all(STDOUT_FILENO, text))
+    throw WriteError(std::string("standard output: cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace noli::app

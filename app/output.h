@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/answer.h"
-#include "app/json.h"
 #include "app/output_files.h"
+#include "certify/json.h"
+#include "report/answer.h"
 
 namespace noli::app {
 
@@ -36,28 +36,13 @@ class Output {
   /// name first and then renamed: it is complete or absent, and has the owner and permissions of the one that it
   /// replaces. A file that may be written but not replaced (in a folder without write permission, say) is written in
   /// place. It comes before the text, so that no verdict is printed by a run that fails. Throws WriteError.
-  void write(std::string_view schema, const Answer& answer, Json json) const;
+  void write(std::string_view schema, const report::Answer& answer, Json json) const;
 
  private:
-  std::string words(const Answer& answer) const;
+  std::string words(const report::Answer& answer) const;
 
   OutputOptions options_;
 };
-
-/// Throws UsageError, naming `option`, when the file cannot be written: one that is there, or a new one in its folder.
-/// Leaves nothing behind.
-void require_writable_file(const std::filesystem::path& file, const std::string& option);
-
-/// Throws UsageError, naming `option`, when files cannot be made in this folder or, where there is none yet, in the one
-/// that it would be in. Leaves nothing behind.
-void require_writable_folder(const std::string& folder, const std::string& option);
-
-/// Throws UsageError, naming `option`, when this is no program that can be started.
-void require_program(const std::filesystem::path& program, const std::string& option);
-
-/// Makes a folder, and those that it is in, unless it is there. Throws UsageError, naming `option`, when it cannot be
-/// made, or no files in it.
-void make_writable_folder(const std::filesystem::path& folder, const std::string& option);
 
 /// Writes to standard output, all of it. Throws WriteError.
 void write_standard_output(const std::string& text);

@@ -4,10 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <set>
-
-#include "app/exit_code.h"
-#include "app/output.h"
+#include "certify/errors.h"
+#include "certify/result_file.h"
+#include "certify/runs/run_folder.h"
 
 namespace noli::app {
 namespace {
@@ -88,13 +87,6 @@ void require_new(const OutputFile& output, bool force) {
 }
 
 }  // namespace
-
-bool is_file_of_run(const fs::path& name) {
-  static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks",
-                                              "proof.blocks",  "log.jsonl",  "series.h5"};
-  const std::string text = name.extension() == ".part" ? name.stem().string() : name.string();
-  return names.count(text) > 0 || text.starts_with(".noli-");
-}
 
 std::vector<OutputFile> outputs(const std::string& option, const std::optional<std::string>& path) {
   if (!path) return {};

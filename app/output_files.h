@@ -30,7 +30,4 @@ std::vector<OutputFile> outputs(const std::string& option, const std::optional<s
 void require_output_files(const std::vector<OutputFile>& outputs, const std::vector<std::filesystem::path>& inputs,
                           bool force);
 
-/// Whether a run has a file of this name in its folder, for good or for a moment.
-bool is_file_of_run(const std::filesystem::path& name);
-
 }  // namespace noli::app

@@ -26,4 +26,9 @@ void Progress::show(double share) {
   since_last_ = Stopwatch();
 }
 
+void ProgressBars::show(std::string_view work, double share) {
+  if (!bar_ || work_ != work) bar_.emplace(work_ = work);
+  bar_->show(share);
+}
+
 }  // namespace noli::app

@@ -3,10 +3,12 @@
 // A progress bar on standard error, when that is a terminal; else nothing.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
-#include "app/machine.h"
+#include "certify/stopwatch.h"
 
 namespace noli::app {
 
@@ -25,6 +27,16 @@ class Progress {
   bool terminal_;
   bool shown_ = false;
   Stopwatch since_last_;
+};
+
+/// One bar after another, for work that tells what it does.
+class ProgressBars {
+ public:
+  void show(std::string_view work, double share);
+
+ private:
+  std::string work_;
+  std::optional<Progress> bar_;
 };
 
 /// What `work` returns, which is given something to call with the share that is done; the bar is gone then.

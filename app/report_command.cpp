@@ -9,23 +9,22 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/frame_options.h"
+#include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/output_files.h"
-#include "app/report_assets.h"
-#include "app/report_inputs.h"
-#include "app/report_page.h"
-#include "app/report_results.h"
-#include "app/report_run.h"
-#include "app/report_verdict.h"
-#include "app/run_folder.h"
-#include "app/time_limit.h"
-#include "app/version.h"
-#include "trajectory/base64.h"
+#include "certify/runs/run_folder.h"
+#include "certify/version.h"
+#include "report/report_assets.h"
+#include "report/report_inputs.h"
+#include "report/report_page.h"
+#include "report/report_results.h"
+#include "report/report_run.h"
+#include "report/report_verdict.h"
 #include "trajectory/error.h"
-#include "trajectory/frame_formats.h"
-#include "trajectory/frame_inputs.h"
+#include "trajectory/formats/base64.h"
+#include "trajectory/formats/frame_formats.h"
+#include "trajectory/formats/frame_inputs.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -51,7 +50,7 @@ constexpr double most_rate = 1000;  ///< frames a second
 struct ReportArguments {
   std::vector<fs::path> inputs;
   fs::path output;
-  ReportLimits limits;
+  report::ReportLimits limits;
   bool force = false;
   FrameOrder order = FrameOrder::checked;
   std::optional<std::string> title;
@@ -107,7 +106,7 @@ class Report {
     report_.page = {
         {"title", ""},
         {"made", fmt::format("Made by noli {}. Nothing on this page is fetched from elsewhere.", version_number())},
-        {"verdict", no_verdict()},
+        {"verdict", report::no_verdict()},
         {"facts", Json::array()},
         {"statement", Json::array()},
         {"scene", nullptr},
@@ -117,7 +116,7 @@ class Report {
         {"results", Json::array()}};
   }
 
-  const ReportPage& operator()() {
+  const report::ReportPage& operator()() {
     read_results();
     if (inputs_.run) note_if_being_written(*inputs_.run);
     if (inputs_.run) report_run(*inputs_.run, arguments_.limits, report_);
@@ -125,7 +124,7 @@ class Report {
     if (verified_) put_verdict_of_verify();
     for (const fs::path& path : inputs_.pictures) {
       const std::string image = "data:image/svg+xml;base64," + base64(read_whole_file(path));
-      report_.page["pictures"].push_back({{"name", page_name(path)}, {"image", image}});
+      report_.page["pictures"].push_back({{"name", report::page_name(path)}, {"image", image}});
     }
     put_other_words();
     put_sources();
@@ -136,13 +135,13 @@ class Report {
  private:
   void read_results() {
     for (const fs::path& path : inputs_.results) {
-      Json result = read_result(path);
-      if (is_of_verify(result)) {
+      Json result = report::read_result(path);
+      if (report::is_of_verify(result)) {
         if (verified_) throw UsageError(path.string() + ": expected one result of noli verify at most");
         verified_ = VerifyResult{path, std::move(result)};
         continue;
       }
-      report_.page["results"].push_back({{"name", page_name(path)}, {"result", std::move(result)}});
+      report_.page["results"].push_back({{"name", report::page_name(path)}, {"result", std::move(result)}});
     }
   }
 
@@ -152,36 +151,39 @@ class Report {
       const Json& result = other["result"];
       if (!result.contains("verdict") || !result["verdict"].is_string()) continue;
       const auto word = result["verdict"].get<std::string>();
-      take_word(word, report_);
+      report::take_word(word, report_);
       report_.page["verdict"]["lines"].push_back(
-          fmt::format("{} says {}.", other["name"].get<std::string>(), spoken(word)));
+          fmt::format("{} says {}.", other["name"].get<std::string>(), report::spoken(word)));
     }
   }
 
   /// Which file each part comes from; tables and pictures have the names of theirs above them.
   void put_sources() {
     const auto add = [&](const char* what, const std::string& from) { report_.page["facts"].push_back({what, from}); };
-    if (inputs_.run) add("From", fmt::format("the run {}: how it ended, motion, series", page_name(*inputs_.run)));
+    if (inputs_.run)
+      add("From", fmt::format("the run {}: how it ended, motion, series", report::page_name(*inputs_.run)));
     if (!inputs_.frames.empty()) {
-      const std::string first = page_name(inputs_.frames.front()), last = page_name(inputs_.frames.back());
+      const std::string first = report::page_name(inputs_.frames.front()),
+                        last = report::page_name(inputs_.frames.back());
       add("From", inputs_.frames.size() == 1
                       ? fmt::format("{}: the frame that is shown", first)
                       : fmt::format("{} to {}: the {} frames that are shown", first, last, inputs_.frames.size()));
     }
     if (verified_) {
-      add("From", fmt::format("{}: what noli verify says, its statement and its contacts", page_name(verified_->path)));
+      add("From",
+          fmt::format("{}: what noli verify says, its statement and its contacts", report::page_name(verified_->path)));
     }
   }
 
   void put_frames() {
     if (!verified_) throw UsageError("frames, but no result of noli verify that is about them (--json)");
-    const VerifiedSteps steps = verified_steps(verified_->json, verified_->path);
+    const report::VerifiedSteps steps = report::verified_steps(verified_->json, verified_->path);
     if (steps.run || steps.count != inputs_.frames.size()) {
       throw InputError(verified_->path.string(), "",
                        fmt::format("is about {} {}, but {} frames were given", steps.count,
                                    steps.run ? "windows of a run" : "frames", inputs_.frames.size()));
     }
-    const ResultInputs about(verified_->json, verified_->path);
+    const report::ResultInputs about(verified_->json, verified_->path);
     FrameInputs frames(inputs_.frames);
     for (std::size_t k = 0; k < inputs_.frames.size(); ++k) {
       frames.look_at(k);
@@ -192,22 +194,22 @@ class Report {
       about.require_frame(k, frames.facts()[k]);
       return frame;
     };
-    report_frames(inputs_.frames, {steps.at_rest, steps.flat, read}, arguments_.limits, report_);
+    report::report_frames(inputs_.frames, {steps.at_rest, steps.flat, read}, arguments_.limits, report_);
   }
 
   void put_verdict_of_verify() {
     const auto& [path, json] = *verified_;
     if (inputs_.run) {
-      const VerifiedSteps steps = verified_steps(json, path);
+      const report::VerifiedSteps steps = report::verified_steps(json, path);
       const std::size_t windows = report_.page["scene"]["steps"]["list"].size();
       if (!steps.run || steps.count != windows) {
         throw InputError(path.string(), "",
                          fmt::format("is about {} {}, but the run has {} windows", steps.count,
                                      steps.run ? "windows" : "frames", windows));
       }
-      ResultInputs(json, path).require_run(*inputs_.run);
+      report::ResultInputs(json, path).require_run(*inputs_.run);
     }
-    put_verdict(json, path, report_);
+    report::put_verdict(json, path, report_);
     if (!has_title()) report_.page["title"] = path.stem().string();
   }
 
@@ -221,7 +223,7 @@ class Report {
   const ReportArguments& arguments_;
   Inputs inputs_;
   std::optional<VerifyResult> verified_;
-  ReportPage report_;
+  report::ReportPage report_;
 };
 
 CLI::Validator is_rate() {
@@ -235,12 +237,12 @@ CLI::Validator is_rate() {
 
 ExitCode run(const ReportArguments& arguments) {
   begin_work(arguments.time_limit);
-  if (!has_report_page())
+  if (!report::has_report_page())
     throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
   require_output_files({{"-o", arguments.output, true}}, arguments.inputs, arguments.force);
   Report report(arguments);
-  const ReportPage& page = report();
-  const std::string html = report_html(page);
+  const report::ReportPage& page = report();
+  const std::string html = report::report_html(page);
   replace_file(arguments.output, html);
   const Json& scene = page.page["scene"];
   write_standard_output(fmt::format("report bytes {} frames {}\n", html.size(),

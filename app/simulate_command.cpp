@@ -9,15 +9,29 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/reproduce_run.h"
-#include "app/run_folder.h"
-#include "app/simulate_report.h"
-#include "app/simulate_run.h"
-#include "app/time_limit.h"
+#include "app/process.h"
+#include "app/progress.h"
+#include "certify/runs/run_folder.h"
+#include "certify/simulate/reproduce_run.h"
+#include "certify/simulate/simulate_run.h"
+#include "report/simulate_report.h"
 #include "trajectory/error.h"
 
 namespace noli::app {
 namespace {
+
+ExitCode exit_code(const SimulateOutcome& outcome) {
+  switch (outcome.end) {
+    case RunEnd::done: return ExitCode::holds;
+    case RunEnd::contact:
+    case RunEnd::too_near:
+    case RunEnd::not_finite:
+    case RunEnd::unstable: return ExitCode::refuted;
+    case RunEnd::interrupted:
+    case RunEnd::out_of_time: return ExitCode::undecided;
+  }
+  return ExitCode::failure;
+}
 
 constexpr const char* footer =
     "Each window of simulated time is verified exactly before it is committed to the run, so what is in a run never\n"
@@ -56,7 +70,7 @@ ExitCode reproduce(const SimulateArguments& arguments) {
   const ReproduceOutcome outcome =
       run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
   const char* const verdict = outcome.same ? "same" : "different";
-  Answer answer(verdict, {{"window", arguments.window}, {"breakpoints", outcome.breakpoints}});
+  report::Answer answer(verdict, {{"window", arguments.window}, {"breakpoints", outcome.breakpoints}});
   answer.text = fmt::format("{}, SHA-256 {}, is in {}.\n",
                             outcome.same ? "The window of the run" : "Another window than the run has",
                             hex(outcome.found), on_one_line(request.run.string()));
@@ -82,8 +96,13 @@ ExitCode run(SimulateArguments& arguments) {
     tell_notes(explanation);
     tell_note(space);
   };
+  request.stop = &interrupted();
+  request.stops = interruptions;
+  std::optional<ProgressBars> bars(std::in_place);
+  request.progress = [&bars](std::string_view work, double share) { bars->show(work, share); };
   const SimulateOutcome outcome = run_simulate(request);
-  output.write("simulate", simulate_answer(request, outcome), simulate_json(request, outcome));
+  bars.reset();
+  output.write("simulate", report::simulate_answer(request, outcome), report::simulate_json(request, outcome));
   return exit_code(outcome);
 }
 

@@ -11,22 +11,21 @@
 #include <string>
 #include <utility>
 
-#include "app/checker.h"
 #include "app/commands.h"
-#include "app/frame_options.h"
-#include "app/interrupt.h"
-#include "app/lines_pipe.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/run_folder.h"
-#include "app/time_limit.h"
-#include "app/verify_report.h"
-#include "app/verify_run.h"
-#include "audit/scratch_folder.h"
+#include "app/process.h"
+#include "app/progress.h"
+#include "certify/process/scratch_folder.h"
+#include "certify/proofs/checker.h"
+#include "certify/proofs/lines_pipe.h"
+#include "certify/runs/run_folder.h"
+#include "certify/stopwatch.h"
+#include "certify/verify_run.h"
+#include "report/verify_report.h"
+#include "trajectory/blocks/folder_lock.h"
+#include "trajectory/blocks/run_file.h"
 #include "trajectory/error.h"
-#include "trajectory/folder_lock.h"
-#include "trajectory/run_file.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -192,7 +191,7 @@ class ProofRoute {
 
   VerifyRequest& request_;
   bool can_check_ = false;
-  std::optional<audit::ScratchFolder> folder_;
+  std::optional<ScratchFolder> folder_;
   std::optional<std::filesystem::path> file_;
   std::optional<LinesPipe> lines_;  ///< of a run that is reproduced
   std::optional<CheckerProcess> checker_;
@@ -292,15 +291,19 @@ ExitCode run(VerifyArguments& arguments) {
   inputs = {};  // paths of 10,000 frames are megabytes
   if (request.merge_identical) require_files(request.frames);
   ProofRoute route(request);
+  request.stop = &interrupted();
+  std::optional<ProgressBars> bars(std::in_place);
+  request.progress = [&bars](std::string_view work, double share) { bars->show(work, share); };
   const VerifyOutcome outcome = verify(request, route);
+  bars.reset();
   if (arguments.claim_out && outcome.claim.cells.empty()) {
     std::fputs("noli: note: no claim was written: no step was looked at\n", stderr);
   } else if (arguments.claim_out) {
     write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
   }
   // The JSON of 10,000 frames takes more memory than all else.
-  Json json = arguments.results.json ? verify_json(request, outcome) : Json::object();
-  output.write("verify", verify_answer(request, outcome), std::move(json));
+  Json json = arguments.results.json ? report::verify_json(request, outcome) : Json::object();
+  output.write("verify", report::verify_answer(request, outcome), std::move(json));
   return exit_code(outcome.verdict);
 }
 

@@ -3,7 +3,7 @@
 // What asynchrony saves: a soft plate with an inset of four per cent of its elements whose steps are a hundred times
 // shorter (scenes/stiff_inset.json, without gravity), the inset struck so that what it does is what there is to get
 // right. Beside it synchronous Verlet, with the step that the inset needs: its energy from the same integrator with all
-// steps equal, its time from the plain loop (audit/plain_loop.h), which writes nothing down.
+// steps equal, its time from the plain loop (audit/numerics/plain_loop.h), which writes nothing down.
 //
 // Energy error: the largest difference from the beginning at the ends of windows, in parts of the beginning.
 #include <fmt/format.h>
@@ -14,8 +14,8 @@
 #include <filesystem>
 #include <random>
 
-#include "audit/one_step.h"
-#include "audit/sampled_run.h"
+#include "audit/numerics/one_step.h"
+#include "audit/numerics/sampled_run.h"
 #include "bench/bench.h"
 #include "bench/report.h"
 #include "bench/timing.h"

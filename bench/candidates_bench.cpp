@@ -14,7 +14,7 @@
 #include "bench/report.h"
 #include "bench/textbook.h"
 #include "kernel/contact.h"
-#include "trajectory/frames.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "tests/support/real_data.h"
-#include "trajectory/query_csv.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace noli::bench {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The integrator against a plain synchronous loop over the same forces (audit/plain_loop.h), time for time per force
+// The integrator against a plain synchronous loop over the same forces (audit/numerics/plain_loop.h), time for time per force
 // fired, in one run: grouped steps, a step for each force, recording, and what certifying the recorded windows costs.
 // Beside them the time of one textbook query on armadillo-rollers-vertex-face, where the data is there.
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "audit/plain_loop.h"
+#include "audit/numerics/plain_loop.h"
 #include "bench/bench.h"
 #include "bench/cloth.h"
 #include "bench/data.h"

@@ -16,7 +16,7 @@
 #include "bench/sheets.h"
 #include "bench/textbook.h"
 #include "proofs/prover/verifier.h"
-#include "trajectory/frames.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli::bench {
 namespace {

@@ -15,8 +15,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "audit/one_step.h"
-#include "audit/sampled_run.h"
+#include "audit/numerics/one_step.h"
+#include "audit/numerics/sampled_run.h"
 #include "bench/bench.h"
 #include "bench/report.h"
 #include "bench/timing.h"

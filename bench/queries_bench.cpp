@@ -15,7 +15,7 @@
 #include "bench/report.h"
 #include "bench/textbook.h"
 #include "kernel/contact.h"
-#include "tests/oracle/oracle.h"
+#include "oracle/oracle.h"
 
 namespace noli::bench {
 namespace {

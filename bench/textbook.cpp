@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/textbook.h"
 
-#include "audit/plugins/textbook.h"
+#include "audit/ccd/plugins/textbook.h"
 
 namespace noli::bench {
 namespace {

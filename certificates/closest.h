@@ -20,7 +20,7 @@
 // Where one segment turns through parallel in a plane with the other, the closest points jump from end to end. The
 // distance is as it was, its gradient is not, so a kick comes from another end, no larger than ever, and the energy of
 // an impact is off by first order in the step of contact. For a bar that lands flat on another one: sd 0.2 c, that is
-// 0.4 %, 1.0 %, 2.1 % at c = 0.02, 0.05, 0.1 (c as in shared/acm.md 2.4), mean 0 within its error over 1,000 impacts;
+// 0.4 %, 1.0 %, 2.1 % at c = 0.02, 0.05, 0.1 (c as in docs/contact.md, 1), mean 0 within its error over 1,000 impacts;
 // crossing at 0.01 rad 0.02 %, 0.4 %, 1.2 %; at 0.1 rad and more 0.03 % at c = 0.1, which is that of any impact
 // (tests/integrator/contact_physics_parallel_test.cpp).
 //

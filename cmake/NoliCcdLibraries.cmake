@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Collision detection by others, for plug-ins of `noli audit ccd` over it (audit/plugins).
+# Collision detection by others, for plug-ins of `noli audit ccd` over it (audit/ccd/plugins).
 find_package(fcl QUIET)
 option(NOLI_WITH_FCL "Build the plug-in over FCL for `noli audit ccd` (needs FCL)" ${fcl_FOUND})
 if(NOLI_WITH_FCL AND NOT fcl_FOUND)

@@ -15,7 +15,7 @@ add_library(noli_rounding INTERFACE)
 add_library(noli::rounding ALIAS noli_rounding)
 set_target_properties(noli_rounding PROPERTIES EXPORT_NAME rounding)
 target_compile_options(noli_rounding INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-frounding-math>)
-# CGAL would end the program before main() where rounding cannot be switched; kernel/rounding.h finds that out and says so.
+# CGAL would end the program before main() where rounding cannot be switched; kernel/arithmetic/rounding.h finds that out and says so.
 target_compile_definitions(noli_rounding INTERFACE CGAL_DISABLE_ROUNDING_MATH_CHECK)
 
 add_library(noli_warnings INTERFACE)

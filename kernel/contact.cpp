@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernel/contact.h"
 
+#include "kernel/arithmetic/rounding.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/double_filter.h"
 #include "kernel/exact_contact.h"
 #include "kernel/first_contact.h"
 #include "kernel/interval_filter.h"
-#include "kernel/rounding.h"
-#include "kernel/scaled_integers.h"
 
 namespace noli {
 namespace {

@@ -21,10 +21,10 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/arithmetic/polynomial.h"
+#include "kernel/arithmetic/wide.h"
 #include "kernel/formula.h"
-#include "kernel/polynomial.h"
 #include "kernel/query.h"
-#include "kernel/wide.h"
 
 namespace noli::condition {
 

@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/arithmetic/polynomial.h"
 #include "kernel/formula.h"
-#include "kernel/polynomial.h"
 #include "kernel/query.h"
 
 namespace noli::distance {

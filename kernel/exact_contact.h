@@ -16,11 +16,11 @@
 #include <array>
 #include <optional>
 
+#include "kernel/arithmetic/wide.h"
 #include "kernel/double_filter.h"
 #include "kernel/exact_problem.h"
 #include "kernel/exact_times.h"
 #include "kernel/query.h"
-#include "kernel/wide.h"
 
 namespace noli::exact {
 

@@ -18,10 +18,10 @@
 #include <cmath>
 #include <optional>
 
+#include "kernel/arithmetic/wide.h"
 #include "kernel/bernstein.h"
 #include "kernel/exact_times.h"
 #include "kernel/formula.h"
-#include "kernel/wide.h"
 
 namespace noli::exact {
 

@@ -21,8 +21,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "kernel/arithmetic/wide.h"
 #include "kernel/formula.h"
-#include "kernel/wide.h"
 
 namespace noli::exact {
 

@@ -18,7 +18,7 @@
 #include <numeric>
 #include <optional>
 
-#include "kernel/rounding.h"
+#include "kernel/arithmetic/rounding.h"
 
 namespace noli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernel/first_contact.h"
 
+#include "kernel/arithmetic/integer_coordinates.h"
 #include "kernel/first_contact_search.h"
-#include "kernel/integer_coordinates.h"
 
 namespace noli {
 namespace {

@@ -4,7 +4,7 @@
 // whose exponents do not fit the fixed width, or that double precision could not settle.
 //
 // What this does not do: like every filter it is silent about degenerate queries. It needs directed rounding to work
-// (kernel/rounding.h) and must not be called when it does not.
+// (kernel/arithmetic/rounding.h) and must not be called when it does not.
 #pragma once
 
 #include "kernel/double_filter.h"

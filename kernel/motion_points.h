@@ -8,8 +8,8 @@
 #include <array>
 #include <utility>
 
+#include "kernel/arithmetic/integer_coordinates.h"
 #include "kernel/formula.h"
-#include "kernel/integer_coordinates.h"
 #include "kernel/motion.h"
 
 namespace noli::motion {

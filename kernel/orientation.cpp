@@ -6,8 +6,8 @@
 // apart.
 #include <cmath>
 
-#include "kernel/integer_coordinates.h"
-#include "kernel/rounding.h"
+#include "kernel/arithmetic/integer_coordinates.h"
+#include "kernel/arithmetic/rounding.h"
 #include "kernel/static_predicates.h"
 
 namespace noli {

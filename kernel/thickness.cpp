@@ -12,11 +12,11 @@
 #include <limits>
 #include <vector>
 
+#include "kernel/arithmetic/integer_coordinates.h"
+#include "kernel/arithmetic/rounding.h"
 #include "kernel/distance_parts.h"
 #include "kernel/first_contact.h"
-#include "kernel/integer_coordinates.h"
 #include "kernel/motion_points.h"
-#include "kernel/rounding.h"
 
 namespace noli {
 namespace {

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "kernel/algebraic.h"
+#include "kernel/arithmetic/algebraic.h"
 
 namespace noli {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "trajectory/cells.h"
-#include "trajectory/frames.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
 
 namespace noli {

@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "trajectory/block_sink.h"
+#include "trajectory/blocks/block_sink.h"
 
 namespace noli {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "integrator/scene/connectivity.h"
-#include "integrator/scene/curve.h"
+#include "integrator/scene/shapes/connectivity.h"
+#include "integrator/scene/shapes/curve.h"
 #include "trajectory/stop.h"
 
 namespace noli::integrator {

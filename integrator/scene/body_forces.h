@@ -4,8 +4,8 @@
 #pragma once
 
 #include "integrator/model.h"
-#include "integrator/scene/body_mesh.h"
 #include "integrator/scene/build_model.h"
+#include "integrator/scene/shapes/body_mesh.h"
 
 namespace noli::integrator {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "integrator/scene/curve.h"
+#include "integrator/scene/shapes/curve.h"
 #include "trajectory/stop.h"
 
 namespace noli::integrator {

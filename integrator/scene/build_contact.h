@@ -21,8 +21,8 @@
 
 #include <vector>
 
-#include "integrator/scene/body_mesh.h"
 #include "integrator/scene/build_model.h"
+#include "integrator/scene/shapes/body_mesh.h"
 
 namespace noli::integrator {
 

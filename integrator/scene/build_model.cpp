@@ -8,12 +8,12 @@
 
 #include "integrator/groups.h"
 #include "integrator/scene/body_forces.h"
-#include "integrator/scene/body_mesh.h"
 #include "integrator/scene/build_contact.h"
 #include "integrator/scene/build_scripts.h"
-#include "integrator/scene/curve.h"
-#include "integrator/scene/place.h"
-#include "integrator/scene/select.h"
+#include "integrator/scene/shapes/body_mesh.h"
+#include "integrator/scene/shapes/curve.h"
+#include "integrator/scene/shapes/place.h"
+#include "integrator/scene/shapes/select.h"
 #include "integrator/stable_step.h"
 #include "trajectory/stop.h"
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "integrator/scene/curve.h"
-#include "integrator/scene/select.h"
+#include "integrator/scene/shapes/curve.h"
+#include "integrator/scene/shapes/select.h"
 #include "trajectory/error.h"
-#include "trajectory/frames.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli::integrator {
 namespace {

@@ -3,8 +3,8 @@
 // Scripted vertices: from displacements or frames to the path of each vertex.
 #pragma once
 
-#include "integrator/scene/body_mesh.h"
 #include "integrator/scene/build_model.h"
+#include "integrator/scene/shapes/body_mesh.h"
 
 namespace noli::integrator {
 

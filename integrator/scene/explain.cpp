@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrator/scene/field.h"
 #include "integrator/scene/pinch.h"
 #include "integrator/scene/predict.h"
+#include "integrator/scene/shapes/field.h"
 #include "trajectory/cells.h"
 
 namespace noli::integrator {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "integrator/scene/connectivity.h"
+#include "integrator/scene/shapes/connectivity.h"
 #include "kernel/contact.h"
 #include "kernel/first_contact.h"
 #include "kernel/static_predicates.h"

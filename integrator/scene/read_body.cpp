@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "integrator/scene/nearest.h"
+#include "integrator/scene/shapes/nearest.h"
 
 namespace noli::integrator {
 namespace {

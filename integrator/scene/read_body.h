@@ -3,8 +3,8 @@
 // The fields of one body, one script: what read_scene.h says, part by part.
 #pragma once
 
-#include "integrator/scene/field.h"
 #include "integrator/scene/scene.h"
+#include "integrator/scene/shapes/field.h"
 
 namespace noli::integrator {
 

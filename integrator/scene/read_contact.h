@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "integrator/scene/field.h"
 #include "integrator/scene/scene.h"
+#include "integrator/scene/shapes/field.h"
 
 namespace noli::integrator {
 

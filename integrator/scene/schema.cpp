@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "integrator/scene/nearest.h"
+#include "integrator/scene/shapes/nearest.h"
 #include "trajectory/error.h"
 
 namespace noli::integrator {

@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "kernel/integer.h"
+#include "kernel/arithmetic/integer.h"
 
 namespace noli {
 

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/scaled_integers.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "proofs/prover/polynomials.h"
 #include "trajectory/world_lines.h"
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "kernel/scaled_integers.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "proofs/prover/features.h"
-#include "trajectory/bytes.h"
+#include "trajectory/blocks/bytes.h"
 
 namespace noli {
 

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "proofs/prover/proof_walk.h"
-#include "trajectory/block_file.h"
-#include "trajectory/sha256.h"
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/sha256.h"
 
 namespace noli {
 

@@ -21,7 +21,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernel/scaled_integers.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "proofs/prover/around.h"
 #include "proofs/prover/direction_search.h"
 #include "proofs/prover/exact_direction.h"

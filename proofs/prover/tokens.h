@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/integer.h"
+#include "kernel/arithmetic/integer.h"
 #include "trajectory/mesh.h"
 
 namespace noli {

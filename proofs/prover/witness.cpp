@@ -12,7 +12,7 @@
 #include "proofs/prover/roots.h"
 #include "proofs/prover/tokens.h"
 #include "proofs/prover/witness_judge.h"
-#include "trajectory/bytes.h"
+#include "trajectory/blocks/bytes.h"
 
 namespace noli {
 

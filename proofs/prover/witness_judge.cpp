@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "kernel/scaled_integers.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "proofs/prover/features.h"
 
 namespace noli {

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "tests/app/process.h"
+#include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
-#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/exact_gap.h"
+#include "certify/simulate/exact_gap.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace noli::app {
+namespace noli {
 namespace {
 
 struct Breakpoint {
@@ -94,4 +94,4 @@ TEST(ExactGap, IsFarWhereThingsAreFar) {
 }
 
 }  // namespace
-}  // namespace noli::app
+}  // namespace noli

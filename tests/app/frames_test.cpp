@@ -9,10 +9,10 @@
 #include <fstream>
 #include <thread>
 
-#include "tests/app/libraries.h"
+#include "tests/app/audits/libraries.h"
 #include "tests/app/process.h"
 #include "tests/app/scene.h"
-#include "trajectory/sha256.h"
+#include "trajectory/blocks/sha256.h"
 
 namespace noli::app_tests {
 namespace {

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <functional>
 
-#include "tests/app/simulate_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "tests/app/simulate_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `noli export RUN --at`: pictures.
-#include "app/picture.h"
+#include "report/figures/picture.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/app/simulate_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {
 
-using app::draw;
-using app::Picture;
-using app::View;
+using report::draw;
+using report::Picture;
+using report::View;
 
 std::array<int, 3> pixel(const Picture& picture, double right, double down) {
   const auto i = static_cast<std::size_t>(right * static_cast<double>(picture.width));

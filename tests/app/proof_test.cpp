@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "tests/app/killer.h"
 #include "tests/app/process.h"
+#include "tests/app/runs/killer.h"
+#include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
 #include "tests/app/sequences.h"
-#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "tests/app/simulate_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/worked_example.h"
 
 namespace noli::app_tests {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/retries.h"
+#include "certify/simulate/retries.h"
 
 #include <gtest/gtest.h>
 
-namespace noli::app {
+namespace noli {
 namespace {
 
 TEST(Retries, FirstTakeMoreLayersThenHalveStepsForGood) {
@@ -37,4 +37,4 @@ TEST(Retries, WindowsThatMoreLayersMendAreDefectsOfCertificates) {
 }
 
 }  // namespace
-}  // namespace noli::app
+}  // namespace noli

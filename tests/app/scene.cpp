@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "trajectory/write_ply.h"
+#include "trajectory/formats/write_ply.h"
 
 namespace noli::app_tests {
 

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "tests/app/process.h"
+#include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
-#include "tests/app/simulate_fixture.h"
 #include "tests/app/worked_example.h"
 
 namespace noli::app_tests {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "trajectory/write_ply.h"
+#include "trajectory/formats/write_ply.h"
 
 namespace noli::app_tests {
 

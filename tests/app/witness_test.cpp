@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/process.h"
+#include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
-#include "tests/app/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/fuzz_proofs.h"
+#include "audit/fuzz/proofs/fuzz_proofs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 #include <iterator>
 #include <set>
 
-#include "audit/claim_oracle.h"
-#include "audit/minimise_proof.h"
-#include "audit/parsed_claim.h"
+#include "audit/fuzz/proofs/claim_oracle.h"
+#include "audit/fuzz/proofs/minimise_proof.h"
+#include "certify/proofs/parsed_claim.h"
 #include "proofs/prover/proof_file.h"
 #include "tests/support/temporary_folder.h"
 #include "trajectory/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/fuzz_queries.h"
+#include "audit/fuzz/queries/fuzz_queries.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "audit/judge.h"
-#include "audit/minimise_query.h"
-#include "audit/query_generators.h"
-#include "trajectory/query_csv.h"
+#include "audit/fuzz/queries/judge.h"
+#include "audit/fuzz/queries/minimise_query.h"
+#include "audit/fuzz/queries/query_generators.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace noli::audit {
 namespace {

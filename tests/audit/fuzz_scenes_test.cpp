@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/fuzz_scenes.h"
+#include "audit/fuzz/scenes/fuzz_scenes.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

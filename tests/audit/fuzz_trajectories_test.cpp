@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/fuzz_trajectories.h"
+#include "audit/fuzz/trajectories/fuzz_trajectories.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "audit/motion_generators.h"
+#include "audit/fuzz/trajectories/motion_generators.h"
 #include "proofs/prover/verifier.h"
 #include "tests/support/temporary_folder.h"
 #include "trajectory/error.h"

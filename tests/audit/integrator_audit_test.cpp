@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "audit/implicit_euler.h"
-#include "audit/integrator_audit.h"
-#include "audit/one_step.h"
-#include "audit/sampled_run.h"
+#include "audit/numerics/implicit_euler.h"
+#include "audit/numerics/integrator_audit.h"
+#include "audit/numerics/one_step.h"
+#include "audit/numerics/sampled_run.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 

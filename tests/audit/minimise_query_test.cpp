@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/minimise_query.h"
+#include "audit/fuzz/queries/minimise_query.h"
 
 #include <gtest/gtest.h>
 
-#include "audit/judge.h"
+#include "audit/fuzz/queries/judge.h"
 
 namespace noli::audit {
 namespace {

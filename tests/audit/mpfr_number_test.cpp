@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // MPFR's numbers against the processor's: with 53 bits and the exponents of IEEE 754 they are the same, bit for bit.
-#include "audit/mpfr_number.h"
+#include "audit/numerics/mpfr_number.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
-#include "audit/random.h"
-#include "audit/replay.h"
+#include "audit/fuzz/random.h"
+#include "audit/numerics/replay.h"
 
 namespace noli::audit {
 namespace {

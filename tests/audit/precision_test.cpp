@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Scenes in MPFR: with 53 bits they are what they are in double, bit for bit; with others they are not.
-#include "audit/precision.h"
+#include "audit/numerics/precision.h"
 
 #include <gtest/gtest.h>
 

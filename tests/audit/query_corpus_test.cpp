@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/query_corpus.h"
+#include "audit/fuzz/queries/query_corpus.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <set>
 #include <sstream>
 
-#include "audit/fuzz_queries.h"
-#include "audit/judge.h"
-#include "audit/query_generators.h"
+#include "audit/fuzz/queries/fuzz_queries.h"
+#include "audit/fuzz/queries/judge.h"
+#include "audit/fuzz/queries/query_generators.h"
 #include "tests/support/temporary_folder.h"
 #include "trajectory/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/query_generators.h"
+#include "audit/fuzz/queries/query_generators.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "audit/oracle_bridge.h"
+#include "audit/fuzz/queries/oracle_bridge.h"
 
 namespace noli::audit {
 namespace {

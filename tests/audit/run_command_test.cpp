@@ -4,7 +4,7 @@
 #include <atomic>
 #include <thread>
 
-#include "audit/run_command.h"
+#include "audit/numerics/run_command.h"
 
 namespace noli::audit {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/run_program.h"
+#include "certify/process/run_program.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "audit/start_process.h"
+#include "certify/process/start_process.h"
 
 namespace noli::audit {
 namespace {

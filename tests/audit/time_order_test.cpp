@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/time_order.h"
+#include "audit/numerics/time_order.h"
 
 #include <gtest/gtest.h>
 

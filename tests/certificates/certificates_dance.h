@@ -21,10 +21,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "certificates_replay.h"
-#include "certificates_troupe.h"
 #include "certificates/features.h"
 #include "certificates/near_pair.h"
+#include "certificates_replay.h"
+#include "certificates_troupe.h"
 #include "tests/kernel/random_numbers.h"
 
 namespace noli::certificates::test {

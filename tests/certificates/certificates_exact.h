@@ -13,9 +13,9 @@
 
 #include "certificates/stencil.h"
 #include "certificates/vector.h"
-#include "kernel/algebraic.h"
+#include "kernel/arithmetic/algebraic.h"
+#include "kernel/arithmetic/integer_coordinates.h"
 #include "kernel/distance_parts.h"
-#include "kernel/integer_coordinates.h"
 
 namespace noli::certificates::test {
 

@@ -19,8 +19,8 @@
 #include <span>
 #include <vector>
 
-#include "certificates_exact.h"
 #include "certificates/closest.h"
+#include "certificates_exact.h"
 
 namespace noli::certificates::test {
 

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include "certificates_dance.h"
 #include "certificates/cells.h"
 #include "certificates/every_pair.h"
+#include "certificates_dance.h"
 
 namespace noli::certificates {
 namespace {

@@ -253,7 +253,8 @@ TEST(Asked, FeaturesOfOneCell) {
   witness.witness = {raw(0u) + raw(0u) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(1u) + poly({1}) +
                      poly({-1, 2}) + uint(1) + sint(1) + sint(1)};
   EXPECT_VERDICT(witness.asked({"strict"}), 1, "; features of one cell count");
-  EXPECT_REJECTED(witness.asked({}), "strict: the witness in step 1 says 1, asked was 0; --require strict=1 asks for that");
+  EXPECT_REJECTED(witness.asked({}),
+                  "strict: the witness in step 1 says 1, asked was 0; --require strict=1 asks for that");
 }
 
 TEST(Asked, VerticesWithoutACell) {
@@ -294,7 +295,8 @@ TEST(Asked, OfWitnessesTheirDistance) {
   EXPECT_VERDICT(proof.asked({}), 1, "meet");
   EXPECT_EQ(proof.asked({}).words.find("distance"), std::string::npos);
   proof.frames[0][1][0] = 1;
-  EXPECT_REJECTED(proof.asked({}), "distance: the witness in step 1 says 2, asked was 0; --require distance=2 asks for that");
+  EXPECT_REJECTED(proof.asked({}),
+                  "distance: the witness in step 1 says 2, asked was 0; --require distance=2 asks for that");
   EXPECT_REJECTED(proof.asked({"distance=1.5"}), "the claim: distance");
   EXPECT_VERDICT(proof.asked({"distance=2"}), 1, "are too near; least distance 2, ring 1");
   EXPECT_VERDICT(proof.asked({"distance=3"}), 1, "too near");

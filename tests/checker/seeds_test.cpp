@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/checker/support.h"
 #include "proof_writer.h"
+#include "tests/checker/support.h"
 
 namespace noli::checker::test {
 namespace {

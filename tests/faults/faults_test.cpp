@@ -15,7 +15,7 @@
 #include <map>
 #include <sstream>
 
-#include "tests/app/simulate_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

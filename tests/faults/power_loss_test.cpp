@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/app/simulate_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 #include "tests/faults/disk_model.h"
-#include "trajectory/run_file.h"
+#include "trajectory/blocks/run_file.h"
 
 namespace noli::app_tests {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/app/simulate_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "check_frame.h"
 #include "tests/trajectory/run_samples.h"
-#include "trajectory/run_payload.h"
+#include "trajectory/blocks/run_payload.h"
 
 namespace {
 

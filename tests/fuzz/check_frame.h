@@ -12,8 +12,8 @@
 
 #include "trajectory/cells.h"
 #include "trajectory/error.h"
-#include "trajectory/ply.h"
-#include "trajectory/write_ply.h"
+#include "trajectory/formats/ply.h"
+#include "trajectory/formats/write_ply.h"
 
 namespace noli::fuzz {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "check_frame.h"
-#include "trajectory/query_csv.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace {
 

@@ -15,14 +15,14 @@
 #include <limits>
 #include <string_view>
 
-#include "audit/any_query.h"
-#include "audit/saved_query.h"
+#include "audit/fuzz/queries/saved_query.h"
+#include "certify/queries/any_query.h"
 #include "kernel/contact.h"
 #include "kernel/first_contact.h"
+#include "oracle/oracle.h"
 #include "tests/kernel/oracle_motion.h"
-#include "tests/oracle/oracle.h"
 #include "trajectory/error.h"
-#include "trajectory/query_csv.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace {
 
@@ -93,9 +93,9 @@ bool compare_text(std::string_view text) {
   const auto type = noli::audit::saved_type(text);
   if (!type) return false;
   try {
-    for (const noli::QueryRecord& record : noli::parse_query_csv(text, "input", noli::audit::file_kind(type->pair))) {
-      const noli::audit::AnyQuery query{type->pair, type->dimension, record.x_t0, record.x_t1};
-      noli::audit::visit(query, [](const auto& typed) { compare(typed); });
+    for (const noli::QueryRecord& record : noli::parse_query_csv(text, "input", noli::file_kind(type->pair))) {
+      const noli::AnyQuery query{type->pair, type->dimension, record.x_t0, record.x_t1};
+      noli::visit(query, [](const auto& typed) { compare(typed); });
     }
   } catch (const noli::InputError&) {
     return false;

@@ -11,18 +11,18 @@
 #include <string>
 #include <string_view>
 
+#include "certify/errors.h"
+#include "certify/export_run.h"
+#include "certify/run_explanation.h"
+#include "certify/runs/run_info.h"
+#include "certify/simulate/reproduce_run.h"
+#include "certify/simulate/simulate_run.h"
+#include "certify/verify_run.h"
 #include "check_frame.h"
-#include "app/exit_code.h"
-#include "app/export_run.h"
-#include "app/report_assets.h"
-#include "app/report_run.h"
-#include "app/reproduce_run.h"
-#include "app/run_explanation.h"
-#include "app/run_figure.h"
-#include "app/run_info.h"
-#include "app/simulate_run.h"
-#include "app/verify_run.h"
-#include "tests/app/bouncing_point.h"
+#include "report/figures/run_figure.h"
+#include "report/report_assets.h"
+#include "report/report_run.h"
+#include "tests/app/runs/bouncing_point.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/trajectory/mutate_run.h"
 #include "trajectory/error.h"
@@ -31,7 +31,8 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace noli::app;
+using namespace noli;
+using namespace noli::report;
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -107,7 +108,7 @@ void all_commands(const Runs& runs) {
   if (has_report_page()) ends([&] { report(run); });
   ends([&] { run_export({run, 20, (runs.folder / "frame%d.obj").string(), true}); });
   for (const char* const figure : figure_names) {
-    ends([&] { run_figure({run, figure, (runs.folder / "figure.svg").string(), true}); });
+    ends([&] { report::run_figure({run, figure, (runs.folder / "figure.svg").string(), true}); });
   }
   ends([&] { run_info(run); });
   ends([&] { run_reproduce({runs.scene, false, run, 6, runs.folder / "block"}); });

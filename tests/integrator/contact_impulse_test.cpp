@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a layer's kick does to energy and momenta, kick by kick (shared/acm.md 4.1, 4.3).
+// What a layer's kick does to energy and momenta, kick by kick (docs/contact.md, 4 and 5).
 #include "integrator/contact_impulse.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ Impulses<Dim> slip_rate_friction(const NearFeatures<Dim>& f, const certificates:
   return scaled<Dim>(s.against, std::min(most, s.speed / yield));
 }
 
-/// The closed form of shared/acm.md 4.3, between points that are d apart.
+/// The closed form of docs/contact.md, 5, between points that are d apart.
 template <int Dim>
 Impulses<Dim> plain_friction(const NearFeatures<Dim>& f, const certificates::Closest<Dim>& c, double most) {
   const Vec<double, Dim> n = c.r / c.distance();

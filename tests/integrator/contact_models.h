@@ -3,9 +3,9 @@
 // Small models in which things touch.
 #pragma once
 
-#include "models.h"
 #include "integrator/contact_limit.h"
 #include "integrator/simulation.h"
+#include "models.h"
 
 namespace noli::integrator::test {
 

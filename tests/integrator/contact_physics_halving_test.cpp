@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Friction on an incline against theory, and that the physics of contact is not that of the steps: half of every step
-// gives the same (shared/acm.md 4.3).
+// gives the same (docs/contact.md, 5).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,8 +12,8 @@
 #include "contact_models.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
-#include "trajectory/text.h"
 #include "running.h"
+#include "trajectory/text.h"
 
 namespace noli::integrator {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Edges that turn through parallel, where their closest points jump (shared/acm.md 2.6; certificates/closest.h).
+// Edges that turn through parallel, where their closest points jump (docs/contact.md, 2; certificates/closest.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>

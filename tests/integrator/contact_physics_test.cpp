@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What contact does over many impacts, against theory and the tables of shared/acm.md, 2.4 and 4.1. Table 2.7 is in
+// What contact does over many impacts, against theory and the tables of docs/contact.md, 1 and 4. Its section 3 is in
 // contact_test.cpp.
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ double mean_speed_ratio(double c, double restitution) {
   return s.mean;
 }
 
-/// shared/acm.md 4.1.
+/// docs/contact.md, 4.
 TEST(ContactPhysics, AHundredthOfTheEnergyComesBack) {
   EXPECT_NEAR(mean_speed_ratio(0.05, 0.01), 0.1, 0.015 * 0.1);
   EXPECT_NEAR(mean_speed_ratio(0.02, 0.01), 0.1, 0.005 * 0.1);
@@ -80,7 +80,7 @@ TEST(ContactPhysics, AllOfTheEnergyComesBack) { EXPECT_NEAR(mean_speed_ratio(0.0
 
 // --- Energy ----------------------------------------------------------------------------------------------------------
 
-/// shared/acm.md 2.7, and the books: contact's work is the change of the kinetic energy, window by window. The impacts
+/// docs/contact.md, 3, and the books: contact's work is the change of the kinetic energy, window by window. The impacts
 /// are aslant.
 TEST(ContactPhysics, AThousandImpactsHaveNoTrendAndTheirBooksClose) {
   std::vector<double> changes;
@@ -111,7 +111,7 @@ struct Range {
   double low = 1, high = 1;
 };
 
-/// shared/acm.md 2.4: 1D ball, g = 9.8, some 227 bounces. Energy is taken outside of the layers; gravity's step is the
+/// docs/contact.md, 1: 1D ball, g = 9.8, some 227 bounces. Energy is taken outside of the layers; gravity's step is the
 /// longest of the window's halves that is not longer than h(1).
 Range energy_range(double height, double c) {
   constexpr double g = 9.8, window = 0.05, duration = 200, many_times = 100;

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <span>
 
-#include "models.h"
 #include "integrator/books.h"
 #include "integrator/contact_impulse.h"
+#include "models.h"
 
 namespace noli::integrator::test {
 

@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Contact, Impacts,
                          testing::Values(ImpactError{0.2, 8.1e-3}, ImpactError{0.1, 1.8e-3}, ImpactError{0.05, 4.2e-4},
                                          ImpactError{0.02, 7.8e-5}));
 
-/// shared/acm.md 2.7.
+/// docs/contact.md, 3.
 TEST_P(Impacts, ChangeEnergyByNothingOnAverage) {
   constexpr int count = 1000;
   double sum = 0, squares = 0;
@@ -208,7 +208,7 @@ TEST_P(Impacts, ChangeEnergyByNothingOnAverage) {
   EXPECT_LT(std::abs(mean), 3 * deviation / std::sqrt(double{count}));
 }
 
-/// shared/acm.md 4.1: what comes back is e of the energy.
+/// docs/contact.md, 4: what comes back is e of the energy.
 TEST(Contact, RestitutionIsTheShareOfTheEnergyThatComesBack) {
   for (const double e : {0.5, 0.25, 0.1}) {
     double sum = 0;

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "models.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "integrator/simulation.h"
+#include "models.h"
 #include "trajectory/text.h"
 
 namespace noli::integrator {

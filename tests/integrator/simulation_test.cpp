@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "models.h"
 #include "integrator/clocks.h"
 #include "integrator/particle.h"
+#include "models.h"
 #include "running.h"
 
 namespace noli::integrator {

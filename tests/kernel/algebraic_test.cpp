@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernel/algebraic.h"
+#include "kernel/arithmetic/algebraic.h"
 #include "tests/kernel/polynomials.h"
 #include "tests/kernel/random_numbers.h"
 

@@ -8,14 +8,14 @@
 #include <random>
 #include <sstream>
 
+#include "kernel/arithmetic/rounding.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/double_filter.h"
 #include "kernel/exact_contact.h"
 #include "kernel/interval_filter.h"
-#include "kernel/rounding.h"
-#include "kernel/scaled_integers.h"
+#include "oracle/oracle.h"
 #include "tests/kernel/oracle_motion.h"
 #include "tests/kernel/random_query.h"
-#include "tests/oracle/oracle.h"
 
 namespace noli {
 namespace {

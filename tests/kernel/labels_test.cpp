@@ -9,7 +9,7 @@
 
 #include "kernel/contact.h"
 #include "tests/support/real_data.h"
-#include "trajectory/query_csv.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace noli {
 namespace {

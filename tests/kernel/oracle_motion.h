@@ -4,7 +4,7 @@
 #pragma once
 
 #include "kernel/query.h"
-#include "tests/oracle/oracle.h"
+#include "oracle/oracle.h"
 
 namespace noli::test {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/polynomial.h"
+#include "kernel/arithmetic/polynomial.h"
 
 namespace noli::test {
 

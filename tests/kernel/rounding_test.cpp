@@ -4,7 +4,7 @@
 #include <cfenv>
 #include <cstdlib>
 
-#include "kernel/rounding.h"
+#include "kernel/arithmetic/rounding.h"
 
 namespace noli {
 namespace {

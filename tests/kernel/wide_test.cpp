@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <random>
 
-#include "kernel/wide.h"
+#include "kernel/arithmetic/wide.h"
 
 namespace noli {
 namespace {

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "tests/oracle/oracle.h"
+#include "oracle/oracle.h"
 #include "tests/support/real_data.h"
-#include "trajectory/query_csv.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace noli::oracle {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The oracle on motions that a reader can check by hand.
-#include "tests/oracle/oracle.h"
+#include "oracle/oracle.h"
 
 #include <gtest/gtest.h>
 

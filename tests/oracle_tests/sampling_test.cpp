@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/oracle/oracle.h"
+#include "oracle/oracle.h"
 
 namespace noli::oracle {
 namespace {

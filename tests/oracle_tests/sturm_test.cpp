@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/oracle/sturm.h"
+#include "oracle/sturm.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/oracle/time.h"
+#include "oracle/time.h"
 
 namespace noli::oracle {
 namespace {

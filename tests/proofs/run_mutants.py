@@ -5,7 +5,7 @@
     run_mutants.py --noli NOLI --harness HARNESS --checker NOLI_CHECK [--verified CHECKER] --count N [--seed S] [--first K] -o FOLDER
 
 Mutant k of a seed is the same whenever it is made by the same corpus, which `noli` writes anew each time. The C++ checker runs inside
-of HARNESS (audit/check_host/check_host.cpp), each thousandth mutant as a process too; the verified checker is a process always, and left out where there is
+of HARNESS (audit/fuzz/check_host/check_host.cpp), each thousandth mutant as a process too; the verified checker is a process always, and left out where there is
 none. slow_check.py is asked
 whenever another accepts or refutes, and for some of the others. A finding is kept in FOLDER/findings with the commands that show it.
 Exits 1 when there is one.

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "oracle/oracle.h"
 #include "proofs/prover/verifier.h"
-#include "tests/oracle/oracle.h"
 #include "scenes.h"
 
 namespace noli::testing {

@@ -9,7 +9,7 @@
 
 #include "brute_force.h"
 #include "tests/support/real_data.h"
-#include "trajectory/ply.h"
+#include "trajectory/formats/ply.h"
 
 namespace noli::testing {
 namespace {

@@ -3,8 +3,8 @@
 // Surfaces for the tests of sheets.
 #pragma once
 
-#include "trajectory/world_lines.h"
 #include "scenes.h"
+#include "trajectory/world_lines.h"
 
 namespace noli::testing {
 

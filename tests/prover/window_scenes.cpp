@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tests/oracle/features.h"
+#include "oracle/features.h"
 
 namespace noli::testing {
 

@@ -7,8 +7,8 @@
 
 #include "brute_force.h"
 #include "proofs/prover/window_verifier.h"
-#include "trajectory/world_lines.h"
 #include "scenes.h"
+#include "trajectory/world_lines.h"
 
 namespace noli::testing {
 

@@ -14,7 +14,7 @@
 #include "proofs/prover/roots.h"
 #include "proofs/prover/tokens.h"
 #include "proofs/prover/witness_judge.h"
-#include "trajectory/bytes.h"
+#include "trajectory/blocks/bytes.h"
 #include "window_scenes.h"
 
 namespace noli::testing {

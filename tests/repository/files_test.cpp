@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -46,6 +47,21 @@ TEST(Files, APlantedPathIsFound) {
   EXPECT_EQ(private_path("-I\"" + root + "root/a b\""), root + "root/a");
   EXPECT_EQ(private_path("/usr/include, https://example.org/home/page, .." + root + "work/x, $HOME" + root + "work/x"),
             "");
+}
+
+/// A folder is a room: who looks for something in it should not have to read more names than that.
+TEST(Files, NoFolderHasMoreThanFortySources) {
+  constexpr int most = 40;
+  static const std::map<std::string, int> larger = {{"proofs/prover", 82}};  // until there is one engine
+  std::map<std::string, int> sources;
+  for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) {
+    if (is_cpp(file)) ++sources[file.parent_path().lexically_relative(NOLI_SOURCE_DIR).string()];
+  }
+  EXPECT_GT(sources.size(), 20U);
+  for (const auto& [folder, count] : sources) {
+    const auto allowed = larger.find(folder);
+    EXPECT_LE(count, allowed == larger.end() ? most : allowed->second) << folder;
+  }
 }
 
 TEST(Files, CodeBeginsWithItsLicence) {

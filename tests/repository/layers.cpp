@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layers.h"
 
+#include <initializer_list>
 #include <map>
 #include <regex>
 #include <set>
@@ -14,26 +15,31 @@ namespace {
 
 using Row = std::set<std::string>;
 
+Row with(Row row, std::initializer_list<std::string> more) {
+  row.insert(more);
+  return row;
+}
+
 const std::map<std::string, Row>& table() {
-  static const Row all_but_app = {"kernel", "trajectory",     "certificates", "integrator",
-                                  "proofs", "proofs/checker", "tests/oracle", "include"};
-  static const Row all = [] {
-    Row row = all_but_app;
-    row.insert("audit");
-    return row;
-  }();
+  static const Row geometry = {"kernel", "trajectory"};
+  static const Row dynamics = with(geometry, {"certificates"});
+  static const Row both_wings = with(dynamics, {"integrator", "proofs"});
+  static const Row questions = with(both_wings, {"certify"});
+  static const Row answers = with(questions, {"report", "proofs/checker", "oracle", "include"});
   static const std::map<std::string, Row> rows = {
       {"include", {}},
       {"kernel", {}},
       {"trajectory", {}},
-      {"certificates", {"kernel", "trajectory"}},
-      {"integrator", {"certificates", "kernel", "trajectory"}},
-      {"proofs", {"kernel", "trajectory"}},
+      {"certificates", geometry},
+      {"integrator", dynamics},
+      {"proofs", geometry},
       {"proofs/checker", {}},
-      {"tests/oracle", {}},
-      {"audit", all_but_app},
-      {"app", all},
-      {"examples", {"include", "kernel", "trajectory", "proofs"}},  // what is installed
+      {"certify", both_wings},
+      {"report", questions},
+      {"oracle", {}},
+      {"audit", answers},
+      {"app", with(answers, {"audit"})},
+      {"examples", with(geometry, {"include", "proofs"})},  // what is installed
   };
   return rows;
 }
@@ -67,7 +73,7 @@ std::string layer_of(const fs::path& relative) {
 std::optional<std::string> included_layer(const fs::path& root, const fs::path& file, const std::string& target) {
   const fs::path path(target);
   if (target.starts_with("noli/") && exists_in(root, "include" / path)) return "include";
-  if (target.starts_with("noli/")) return layer_of(path.lexically_normal().lexically_relative("noli"));
+  if (target.starts_with("noli/")) return layer_of(path.lexically_normal().lexically_relative("noli"));  // installed
   if (path.is_absolute()) {
     const fs::path inside = path.lexically_normal().lexically_relative(root);
     return exists_in(root, inside) ? std::optional(layer_of(inside)) : std::nullopt;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Who may include whom. The table is that of the design: geometry and trajectories know nothing of the project, physics
-// and proof never meet, the checker knows nobody, the oracle of the tests knows nobody, and only the command knows all.
+// and proof never meet below certify, the checker knows nobody, the oracle knows nobody, and only the command knows all.
 //
 // What this does not do: it does not run the preprocessor. An include counts even where an #if leaves it out.
 #pragma once
@@ -23,7 +23,7 @@ struct Include {
 std::vector<Include> includes(std::string_view text);
 
 /// The layer a path relative to the project's root is in: its row of the table ("kernel", "proofs/checker",
-/// "tests/oracle", ...), else its first folder.
+/// "oracle", ...), else its first folder.
 std::string layer_of(const std::filesystem::path& relative);
 
 /// The layer that an include of `file` (relative to `root`) leads to; nothing if it leads out of the project.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/block_file.h"
+#include "trajectory/blocks/block_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "trajectory/bytes.h"
-#include "trajectory/crc32c.h"
 #include "run_samples.h"
 #include "support.h"
+#include "trajectory/blocks/bytes.h"
+#include "trajectory/blocks/crc32c.h"
 
 namespace noli {
 namespace {

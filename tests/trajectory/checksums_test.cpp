@@ -5,9 +5,9 @@
 #include <random>
 #include <string>
 
-#include "trajectory/crc32c.h"
-#include "trajectory/sha256.h"
-#include "trajectory/sha256_blocks.h"
+#include "trajectory/blocks/crc32c.h"
+#include "trajectory/blocks/sha256.h"
+#include "trajectory/blocks/sha256_blocks.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/exact_rational.h"
+#include "trajectory/formats/exact_rational.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/file_info.h"
+#include "trajectory/formats/file_info.h"
 
-#include "trajectory/zero_area.h"
 #include "support.h"
+#include "trajectory/zero_area.h"
 
 namespace noli {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/frame_inputs.h"
+#include "trajectory/formats/frame_inputs.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <sys/stat.h>
 
-#include "trajectory/frame_formats.h"
-#include "trajectory/obj.h"
-#include "trajectory/write_ply.h"
 #include "support.h"
+#include "trajectory/formats/frame_formats.h"
+#include "trajectory/formats/obj.h"
+#include "trajectory/formats/write_ply.h"
 
 namespace noli {
 namespace {

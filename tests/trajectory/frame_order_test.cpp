@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/frame_order.h"
+#include "trajectory/formats/frame_order.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

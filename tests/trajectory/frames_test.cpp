@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/frames.h"
+#include "trajectory/formats/frames.h"
 
 #include <cmath>
 
-#include "trajectory/frame_formats.h"
-#include "trajectory/write_ply.h"
 #include "support.h"
+#include "trajectory/formats/frame_formats.h"
+#include "trajectory/formats/write_ply.h"
 
 namespace noli {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "trajectory/write_ply.h"
 #include "support.h"
+#include "trajectory/formats/write_ply.h"
 
 namespace noli {
 namespace {

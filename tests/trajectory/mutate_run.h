@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "tests/trajectory/run_samples.h"
-#include "trajectory/bytes.h"
+#include "trajectory/blocks/bytes.h"
 
 namespace noli::testing {
 

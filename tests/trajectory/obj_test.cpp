@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/obj.h"
+#include "trajectory/formats/obj.h"
 
 #include "support.h"
 

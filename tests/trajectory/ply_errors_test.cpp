@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every way in which the text of a PLY file can be wrong, and the line and words of the message.
-#include "trajectory/ply.h"
 #include "support.h"
+#include "trajectory/formats/ply.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/ply.h"
+#include "trajectory/formats/ply.h"
 
 #include <algorithm>
 #include <cmath>

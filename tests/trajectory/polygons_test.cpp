@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/polygons.h"
+#include "trajectory/formats/polygons.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
-#include "trajectory/obj.h"
-#include "trajectory/ply.h"
 #include "support.h"
+#include "trajectory/formats/obj.h"
+#include "trajectory/formats/ply.h"
 
 namespace noli {
 namespace {

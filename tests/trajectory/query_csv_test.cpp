@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/query_csv.h"
+#include "trajectory/formats/query_csv.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -2,10 +2,10 @@
 //
 // The readers on files that others made; skipped, visibly, where they are not there.
 #include "tests/support/real_data.h"
-#include "trajectory/file_info.h"
-#include "trajectory/frames.h"
-#include "trajectory/query_csv.h"
 #include "support.h"
+#include "trajectory/formats/file_info.h"
+#include "trajectory/formats/frames.h"
+#include "trajectory/formats/query_csv.h"
 
 namespace noli {
 namespace {

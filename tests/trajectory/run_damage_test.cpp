@@ -7,10 +7,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "trajectory/bytes.h"
-#include "trajectory/run_payload.h"
 #include "run_samples.h"
 #include "support.h"
+#include "trajectory/blocks/bytes.h"
+#include "trajectory/blocks/run_payload.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/run_file.h"
+#include "trajectory/blocks/run_file.h"
 
 #include <gtest/gtest.h>
 

@@ -10,12 +10,12 @@
 #include <system_error>
 #include <thread>
 
-#include "trajectory/block_sink.h"
-#include "trajectory/folder_lock.h"
-#include "trajectory/run_log.h"
-#include "trajectory/run_manifest.h"
-#include "trajectory/write_file.h"
 #include "support.h"
+#include "trajectory/blocks/block_sink.h"
+#include "trajectory/blocks/folder_lock.h"
+#include "trajectory/blocks/run_log.h"
+#include "trajectory/blocks/run_manifest.h"
+#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {

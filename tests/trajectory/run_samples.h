@@ -13,9 +13,9 @@
 #include <system_error>
 #include <vector>
 
-#include "trajectory/block_sink.h"
-#include "trajectory/run_file.h"
-#include "trajectory/run_payload.h"
+#include "trajectory/blocks/block_sink.h"
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/blocks/run_payload.h"
 
 namespace noli::testing {
 

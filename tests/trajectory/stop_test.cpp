@@ -12,11 +12,11 @@
 #include "tests/support/temporary_folder.h"
 #include "trajectory/cells.h"
 #include "trajectory/error.h"
-#include "trajectory/frame_look.h"
-#include "trajectory/frames.h"
+#include "trajectory/formats/frame_look.h"
+#include "trajectory/formats/frames.h"
+#include "trajectory/formats/query_csv.h"
 #include "trajectory/input_file.h"
 #include "trajectory/merge.h"
-#include "trajectory/query_csv.h"
 #include "trajectory/text.h"
 
 namespace noli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/text_digits.h"
+#include "trajectory/formats/text_digits.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

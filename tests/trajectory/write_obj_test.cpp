@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/write_obj.h"
+#include "trajectory/formats/write_obj.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <system_error>
 
-#include "trajectory/obj.h"
 #include "support.h"
+#include "trajectory/formats/obj.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/write_ply.h"
+#include "trajectory/formats/write_ply.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <system_error>
 
-#include "trajectory/cells.h"
-#include "trajectory/ply.h"
 #include "support.h"
+#include "trajectory/cells.h"
+#include "trajectory/formats/ply.h"
 
 namespace noli {
 namespace {

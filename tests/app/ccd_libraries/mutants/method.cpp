@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // An exact method of continuous collision detection as a library (include/noli/ccd_plugin.h), and the faults that can
-// be planted in it (mutants.h). Rational arithmetic with the polynomials and algebraic times of tests/oracle.
+// be planted in it (mutants.h). Rational arithmetic with the polynomials and algebraic times of oracle.
 //
 // Notation
 //   x       points as polynomials of t with integer coefficients
@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "mutants.h"
-#include "tests/oracle/condition.h"
-#include "tests/oracle/integer_path.h"
+#include "oracle/condition.h"
+#include "oracle/integer_path.h"
 
 namespace {
 

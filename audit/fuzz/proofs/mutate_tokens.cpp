@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Mutations of the tokens of proofs (proofs/FORMAT.md, sections 3 and 4).
+#include <array>
+#include <numeric>
+
+#include "audit/fuzz/proofs/mutating.h"
+
+namespace noli::audit {
+
+namespace {
+
+using namespace mutating;
+
+/// How many varints follow a token's first byte; of token W that depends on the first of them.
+std::size_t varints_after(unsigned char kind) {
+  switch (kind) {
+    case 0x11: return 3;
+    case 0x12: return 10;
+    default: return 0;
+  }
+}
+
+/// Where the varint at `at` ends; past the end if it is not whole.
+std::size_t end_of_varint(const std::string& payload, std::size_t at) {
+  while (at < payload.size() && (payload[at] & 0x80) != 0) ++at;
+  return at + 1;
+}
+
+std::size_t end_of_token(const std::string& payload, std::size_t at) {
+  const auto kind = static_cast<unsigned char>(payload[at++]);
+  if (kind == 0x10) return at + 4;
+  std::size_t varints = varints_after(kind);
+  if (kind == 0x30) {
+    const auto edges = static_cast<unsigned char>(at < payload.size() ? payload[at] : 0) & 0x7fU;
+    varints = 2 + 2 * std::size_t{edges};
+  }
+  for (; varints > 0; --varints) at = end_of_varint(payload, at);
+  return at;
+}
+
+/// The tokens of one block, taken apart and put back.
+struct Tokens {
+  ProofBlock* block = nullptr;
+  std::vector<std::string> items;
+
+  static Tokens of(Mutating& m) {
+    Tokens tokens{some_block(m, {mutating::tokens}), {}};
+    if (tokens.block == nullptr) return tokens;
+    const std::string& payload = tokens.block->payload;
+    for (std::size_t at = 0; at < payload.size();) {
+      const std::size_t end = std::min(end_of_token(payload, at), payload.size());
+      tokens.items.push_back(payload.substr(at, end - at));
+      at = end;
+    }
+    return tokens;
+  }
+  bool empty() const { return items.empty(); }
+  void put_back() const { block->payload = std::accumulate(items.begin(), items.end(), std::string()); }
+};
+
+/// The token S with small numbers.
+std::string direction_token(Random& random) {
+  std::string token(1, '\x10');
+  std::uint32_t bits = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    const auto n = static_cast<std::uint32_t>(random.one_in(2) ? random.between(-1, 1) : random.between(-512, 511));
+    bits |= (n & 1023U) << 10 * i;
+  }
+  put(token, bits);
+  return token;
+}
+
+std::string scaled_number(std::uint64_t shift, std::int64_t n) { return uint_bytes(shift) + sint_bytes(n); }
+
+/// From least to greatest, times a power of two below 2^shifts.
+std::string some_scaled_number(Random& random, std::uint64_t shifts, std::int64_t least, std::int64_t greatest) {
+  const std::uint64_t shift = random.below(shifts);
+  return scaled_number(shift, random.between(least, greatest));
+}
+
+/// The token P with a plane that nearly rests.
+std::string plane_token(Random& random) {
+  constexpr std::array<std::uint64_t, 5> shifts = {0, 0, 1, 3, 60};
+  std::string token = std::string(1, '\x12') + uint_bytes(random.one_of(shifts));
+  for (int i = 0; i < 3; ++i) token += sint_bytes(random.between(-3, 3));
+  token += some_scaled_number(random, 9, -2, 2);
+  token += some_scaled_number(random, 9, -30, 29);
+  return token + some_scaled_number(random, 9, 0, 3);
+}
+
+std::string path_token(Random& random) {
+  constexpr std::array<std::uint64_t, 6> lengths = {0, 1, 1, 2, 3, 256};
+  const std::uint64_t m = random.one_of(lengths);
+  std::string token = std::string(1, '\x30') + uint_bytes(m);
+  for (std::uint64_t i = 0; i < 2 * m + 1; ++i) token += uint_bytes(random.below(6));
+  return token;
+}
+
+std::string some_token(Random& random, const std::vector<std::string>& items) {
+  switch (random.below(8)) {
+    case 0: return items[some_index(random, items)];
+    case 1: return direction_token(random);
+    case 2: {
+      std::string token(1, '\x11');
+      for (int i = 0; i < 3; ++i) token += sint_bytes(random.between(-1'000'000, 1'000'000) << random.below(40));
+      return token;
+    }
+    case 3: return plane_token(random);
+    case 4: return path_token(random);
+    default: {
+      constexpr std::string_view plain("\x00\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0a\x0b\x0c\x0d\x0e\x20\x21\x22\x23",
+                                       19);
+      return {random.one_in(10) ? static_cast<char>(random.below(256)) : plain[random.below(plain.size())]};
+    }
+  }
+}
+
+bool token_deleted(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  if (tokens.empty()) return false;
+  tokens.items.erase(tokens.items.begin() + static_cast<std::ptrdiff_t>(some_index(m.random, tokens.items)));
+  tokens.put_back();
+  return true;
+}
+
+bool token_doubled(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  if (tokens.empty()) return false;
+  const std::size_t k = some_index(m.random, tokens.items);
+  tokens.items[k] += tokens.items[k];
+  tokens.put_back();
+  return true;
+}
+
+bool tokens_swapped(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  if (tokens.items.size() < 2) return false;
+  const std::size_t k = some_index(m.random, tokens.items);
+  std::swap(tokens.items[k],
+            tokens.items[m.random.one_in(2) ? (k + 1) % tokens.items.size() : some_index(m.random, tokens.items)]);
+  tokens.put_back();
+  return true;
+}
+
+bool token_replaced(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  if (tokens.empty()) return false;
+  tokens.items[some_index(m.random, tokens.items)] = some_token(m.random, tokens.items);
+  tokens.put_back();
+  return true;
+}
+
+bool token_inserted(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  if (tokens.empty()) return false;
+  std::string& before = tokens.items[some_index(m.random, tokens.items)];
+  before = some_token(m.random, tokens.items) + before;
+  tokens.put_back();
+  return true;
+}
+
+/// T before a token that is then needed twice, which is good; or three times, or once; or very often.
+bool split_inserted(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  if (tokens.empty()) return false;
+  std::string& token = tokens.items[some_index(m.random, tokens.items)];
+  constexpr std::array<std::size_t, 7> depths = {1, 1, 1, 3, 20, 1023, 1025};
+  const std::size_t depth = m.random.one_of(depths), times = depth + 1 - (m.random.one_in(4) ? 1 : 0);
+  std::string all(depth, '\0');
+  for (std::size_t i = 0; i < times; ++i) all += token;
+  token = all;
+  tokens.put_back();
+  return true;
+}
+
+/// A coefficient of S, in either of its forms, of P or W.
+bool coefficient(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  std::vector<std::string*> some;
+  for (std::string& token : tokens.items) {
+    if (token.size() > 1) some.push_back(&token);
+  }
+  if (some.empty()) return false;
+  std::string& token = *some[some_index(m.random, some)];
+  if (token[0] == '\x10') {
+    const auto shift = static_cast<unsigned>(10 * m.random.below(3));
+    change_field<std::uint32_t>(token, 1, [&](std::uint32_t bits) {
+      const auto n = static_cast<std::uint32_t>(other_integer(m.random, bits >> shift & 1023U)) & 1023U;
+      return (bits & ~(1023U << shift)) | n << shift;
+    });
+  } else {
+    const std::size_t at = 1 + m.random.below(token.size() - 1);
+    constexpr std::array<int, 6> changes = {1, -1, 2, -2, 3, 64};
+    token[at] = static_cast<char>((token[at] & 0x80) | ((token[at] + m.random.one_of(changes)) & 0x7f));
+  }
+  tokens.put_back();
+  return true;
+}
+
+/// A direction along an axis is written as a plane at rest, whose bounds are met, or missed by one.
+bool direction_as_plane(Mutating& m) {
+  Tokens tokens = Tokens::of(m);
+  std::vector<std::string*> some;
+  for (std::string& token : tokens.items) {
+    if (token.size() == 1 && token[0] >= 8 && token[0] <= 13) some.push_back(&token);
+  }
+  if (some.empty()) return false;
+  std::string& token = *some[some_index(m.random, some)];
+  const int axis = (token[0] - 8) / 2;
+  const std::int64_t sign = token[0] % 2 == 0 ? 1 : -1;
+  constexpr std::array<std::uint64_t, 6> shifts = {0, 0, 1, 4, 4096, 4097};
+  std::string plane = std::string(1, '\x12') + uint_bytes(m.random.one_of(shifts));
+  for (int i = 0; i < 3; ++i) plane += sint_bytes(i == axis ? sign : 0);
+  plane += scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 1) : 0);
+  plane += some_scaled_number(m.random, 5, -6, 6);
+  token = plane + scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 4) : 0);
+  tokens.put_back();
+  return true;
+}
+
+/// TOKS is cut in two, or an empty one is added.
+bool blocks_of_tokens(Mutating& m) {
+  for (ProofGroup& group : m.groups) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (group[i].kind != mutating::tokens || m.random.one_in(2)) continue;
+      const std::size_t cut = m.random.below(group[i].payload.size() + 1);
+      const ProofBlock rest{mutating::tokens, group[i].payload.substr(cut)};
+      group[i].payload.resize(cut);
+      group.insert(group.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A number with more bytes than it needs, or than its place allows.
+bool longer_number(Mutating& m) {
+  ProofBlock* const block = some_block(m, {mutating::tokens, tree, witness});
+  if (block == nullptr || block->payload.empty()) return false;
+  const std::size_t k = some_index(m.random, block->payload);
+  block->payload[k] = static_cast<char>(block->payload[k] | 0x80);
+  constexpr std::array<std::size_t, 4> lengths = {0, 0, 9, 1199};
+  std::string more(m.random.one_of(lengths), '\x80');
+  more += static_cast<char>(m.random.below(2));
+  block->payload.insert(k + 1, more);
+  return true;
+}
+
+}  // namespace
+
+std::vector<ProofMutation> mutations_of_tokens() {
+  return {{"token deleted", 3, token_deleted},       {"token doubled", 3, token_doubled},
+          {"tokens swapped", 3, tokens_swapped},     {"token replaced", 6, token_replaced},
+          {"token inserted", 4, token_inserted},     {"split inserted", 5, split_inserted},
+          {"coefficient", 9, coefficient},           {"direction as plane", 5, direction_as_plane},
+          {"blocks of tokens", 2, blocks_of_tokens}, {"longer number", 1, longer_number}};
+}
+
+}  // namespace noli::audit

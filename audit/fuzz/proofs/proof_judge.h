@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is to be thought of a mutant of a good proof: whether both checkers say the same, and what is true.
+//
+// Notation
+//   truth    whether the claim of a proof holds of its trajectory. Where neither was changed, what was true of the case
+//            is; where one was, the slow oracle tells (audit/fuzz/proofs/claim_oracle.h), whatever the proof says
+//
+// What this does not do: a mutant that is rejected although its proof is good is no difference; a changed claim about a
+// run is not judged, the checkers are only compared.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "audit/fuzz/proofs/proof_checkers.h"
+#include "audit/fuzz/proofs/proof_mutations.h"
+
+namespace noli::audit {
+
+/// The checkers of one thread.
+struct Checkers {
+  std::unique_ptr<ProofChecker> plain;
+  std::unique_ptr<ProofChecker> verified;  ///< nothing: there is none
+};
+
+/// Called by each thread that asks.
+using MakeCheckers = std::function<Checkers()>;
+
+/// What came of one proof.
+struct ProofJudgement {
+  ProofAnswer plain;
+  std::optional<ProofAnswer> verified;  ///< if it was asked
+  std::optional<bool> truth;            ///< of the claim, where that is judged and the plain checker did not reject it
+  bool judged = false;                  ///< truth was found by the oracle
+  bool stopped = false;                 ///< by the user, before the verified checker had answered
+  std::string difference;               ///< empty: there is nothing wrong
+};
+
+/// The bytes of a mutant, those of the case where they are as they were.
+ProofFiles files_of(const ProofCase& from, const ProofMutant& mutant);
+
+/// Asks the plain checker, and the oracle where it does not reject what was changed; and the verified checker if
+/// `ask_verified`, and always about what is accepted of a changed claim.
+ProofJudgement judge_mutant(const ProofCase& from, const ProofMutant& mutant, const Checkers& checkers,
+                            bool ask_verified);
+
+/// Both checkers and the oracle about a proof that was saved.
+ProofJudgement judge_proof(const ProofFiles& files, const Checkers& checkers);
+
+/// "accepted", "refuted", "rejected", or "failed".
+const char* word_of(const ProofAnswer& answer);
+
+/// A difference without what is different each time, and the plain checker's reason where it rejects: a finding that is
+/// made smaller has to stay one of its kind. Empty: there is no difference.
+std::string kind_of(const ProofJudgement& judgement);
+
+/// What a proof reached, on one line: where the plain checker rejects it and why, or that it takes what was changed.
+std::string shape_of(const ProofJudgement& judgement);
+
+/// Whether the claim of a proof holds of its trajectory; nothing where that is not judged. `whole`: else only frames
+/// before the first that cannot be read count, as for a witness, behind whose step no checker looks. Throws InputError
+/// for what cannot be read.
+std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole);
+
+}  // namespace noli::audit

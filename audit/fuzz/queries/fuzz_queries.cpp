@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/fuzz/queries/fuzz_queries.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "audit/fuzz/finding_name.h"
+#include "audit/fuzz/queries/judge.h"
+#include "audit/fuzz/queries/minimise_query.h"
+#include "audit/fuzz/queries/query_generators.h"
+#include "audit/fuzz/queries/saved_query.h"
+#include "kernel/parallel.h"
+#include "trajectory/error.h"
+
+namespace noli::audit {
+
+namespace {
+
+/// What went wrong. What a generator promises holds for its own queries: that cannot be shrunk.
+enum class Fault { contact, probe, promise };
+
+/// A finding before it is shrunk.
+struct RawFinding {
+  Finding finding;
+  Fault fault;
+};
+
+/// Probes are made from the streams from here on, which no block is numbered by.
+constexpr std::uint64_t probe_stream = std::uint64_t{1} << 63;
+constexpr std::uint64_t corpus_stream = std::uint64_t{1} << 62;
+
+/// A query to be asked, where it came from, and what its generator says of it.
+struct Item {
+  Generated generated;
+  Probe probe;
+  std::string generator;
+  std::uint64_t block = 0;
+  std::size_t index = 0;
+  Answers declared = {true, true, true, true};
+};
+
+struct Reached {
+  std::string signature;
+  SavedQuery saved;
+  bool contact;
+};
+
+struct BlockResult {
+  std::array<std::uint64_t, 4> answers{};
+  ProbeTally probes;
+  StageCounters stages;
+  std::vector<RawFinding> findings;
+  std::vector<Reached> reached;  ///< where there is a corpus: the first of each signature
+};
+
+/// What is wrong with the query itself, if the oracle's answer is not what its generator says.
+std::optional<std::string> broken_promise(const Item& item, ContactKind truth) {
+  const auto& made = item.generated.truth;
+  if (made && *made != truth) {
+    return fmt::format("construction: made to be {}, the oracle says {}", name(*made), name(truth));
+  }
+  if (!item.declared[static_cast<std::size_t>(truth)]) {
+    return fmt::format("declaration: {} is not among the generator's answers", name(truth));
+  }
+  return std::nullopt;
+}
+
+void count(const Probe& probe, const ProbeTruth& truth, ProbeTally& tally) {
+  if (probe.eta) ++(truth.within_t ? tally.within : tally.apart);
+  ++(truth.failure == probe.from ? tally.failed : std::isfinite(truth.failure) ? tally.failing : tally.never_failing);
+}
+
+std::optional<Stage> only_stage(const StageCounters& counters) {
+  const auto counted = [&](Stage stage) { return counters[stage] > 0; };
+  const auto found = std::find_if(all_stages.begin(), all_stages.end(), counted);
+  return found == all_stages.end() ? std::nullopt : std::optional(*found);
+}
+
+void judge(const FuzzOptions& options, const Item& item, BlockResult& result) {
+  const AnyQuery& query = item.generated.query;
+  const Truth truth = truth_of(query);
+  const ProbeTruth probe_truth = truth_of(query, item.probe);
+  StageCounters stages;
+  const auto report = [&](std::optional<std::string> what, Fault fault) {
+    if (!what) return;
+    result.findings.push_back(
+        {{item.generator, item.block, item.index, std::move(*what), query, query, item.probe, truth.kind, {}}, fault});
+  };
+  ++result.answers[static_cast<std::size_t>(truth.kind)];
+  count(item.probe, probe_truth, result.probes);
+  report(difference(query, truth, options.decide, stages), Fault::contact);
+  report(difference(query, item.probe, probe_truth, options.decide_probe), Fault::probe);
+  report(broken_promise(item, truth.kind), Fault::promise);
+  result.stages += stages;
+  if (options.corpus.empty()) return;
+  const double first = truth.time ? truth.time->lower() : 0;
+  std::string reached = signature(query, only_stage(stages), truth.kind, first);
+  const auto same = [&](const Reached& other) { return other.signature == reached; };
+  if (std::none_of(result.reached.begin(), result.reached.end(), same)) {
+    result.reached.push_back({std::move(reached), {query, item.probe}, truth.time.has_value()});
+  }
+}
+
+BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size_t queries) {
+  const auto generators = query_generators();
+  const QueryGenerator& generator = generators[block % generators.size()];
+  Random random(options.seed, block), probe_random(options.seed, probe_stream + block);
+  BlockResult result;
+  for (std::size_t index = 0; index < queries; ++index) {
+    const Generated generated = generator(random);
+    const Probe probe = make_probe(generated.query, index % queries_per_distance == 0, probe_random);
+    judge(options, {generated, probe, generator.name(), block, index, generator.declared}, result);
+  }
+  return result;
+}
+
+/// A query of the corpus that was saved without a probe gets one that depends on its number.
+Item corpus_item(const FuzzOptions& options, const CorpusQuery& one, std::size_t number) {
+  Random random(options.seed, corpus_stream + number);
+  const AnyQuery& query = one.saved.query;
+  const Probe probe = one.saved.probe ? *one.saved.probe : make_probe(query, true, random);
+  return {{query, {}}, probe, "corpus/" + one.name, number, one.index};
+}
+
+void shrink(Finding& finding, const Decide& decide) {
+  StageCounters ignored;
+  const auto fails = [&](const AnyQuery& query) {
+    return difference(query, truth_of(query), decide, ignored).has_value();
+  };
+  finding.shrunk = minimise(finding.query, fails);
+  const Truth truth = truth_of(finding.shrunk);
+  finding.truth = truth.kind;
+  finding.difference = difference(finding.shrunk, truth, decide, ignored).value();
+}
+
+/// Probes that may do as well, the simplest first.
+std::vector<Probe> simpler(const Probe& probe) {
+  std::vector<Probe> candidates(8, probe);
+  if (probe.eta) candidates[0].eta = 0;
+  if (probe.eta) candidates[1].eta = 1;
+  candidates[2].from = 0;
+  candidates[3].gap = 0;
+  candidates[4].rays = {false, false};
+  candidates[5].normal = {1, 0, 0};
+  candidates[6].normal = {0, 1, 0};
+  candidates[7].normal = {0, 0, 1};
+  return candidates;
+}
+
+void shrink_probe(Finding& finding, const DecideProbe& decide) {
+  const auto fault = [&](const AnyQuery& query, const Probe& probe) {
+    return difference(query, probe, truth_of(query, probe), decide);
+  };
+  for (const Probe& candidate : simpler(finding.probe)) {
+    if (fault(finding.query, candidate)) finding.probe = candidate;
+  }
+  finding.shrunk =
+      minimise(finding.query, [&](const AnyQuery& query) { return fault(query, finding.probe).has_value(); });
+  finding.truth = truth_of(finding.shrunk).kind;
+  finding.difference = fault(finding.shrunk, finding.probe).value();
+}
+
+std::string file_name(const FuzzOptions& options, const Finding& finding) {
+  const bool corpus = finding.generator.starts_with("corpus/");
+  return fmt::format("{}-{}{}-index{}-{}.csv", corpus ? "corpus" : fmt::format("seed{}", options.seed),
+                     corpus ? "query" : "block", finding.block, finding.index,
+                     file_suffix({finding.query.pair, finding.query.dimension}));
+}
+
+void save(Finding& finding, const FuzzOptions& options) {
+  finding.file = unused(options.out / file_name(options, finding));
+  std::vector<std::string> comments = {"# " + on_one_line(finding.difference)};
+  if (options.command) comments.push_back("# " + options.command(finding.file));
+  comments.push_back(probe_line(finding.shrunk, finding.probe));
+  save_query(finding.file, finding.shrunk, finding.truth != ContactKind::apart, comments);
+}
+
+class Fuzzing {
+ public:
+  explicit Fuzzing(const FuzzOptions& options)
+      : options_(options), corpus_(options.corpus.empty() ? std::nullopt : std::optional<QueryCorpus>(options.corpus)) {
+    for (const QueryGenerator& generator : query_generators()) {
+      report_.generators.push_back({generator.name(), generator.type, generator.declared, {}});
+    }
+  }
+
+  FuzzReport run() {
+    replay_corpus();
+    const BlockEnd end = run_blocks(
+        BlockLimits{options_.count, options_.time_limit, options_.threads, options_.stop},
+        [&](std::uint64_t block, std::size_t queries) { return run_block(options_, block, queries); },
+        [&](BlockResult result) {
+          take(std::move(result), &report_.generators[next_block_++ % report_.generators.size()]);
+          return true;
+        },
+        [&](double seconds) {
+          if (options_.progress) options_.progress({report_.queries, report_.findings_total, seconds});
+        });
+    report_.interrupted = end == BlockEnd::interrupted;
+    if (corpus_) report_.corpus.signatures = corpus_->signatures();
+    if (corpus_) report_.corpus.kept = corpus_->kept();
+    return std::move(report_);
+  }
+
+ private:
+  void replay_corpus() {
+    if (!corpus_) return;
+    const std::vector<CorpusQuery>& queries = corpus_->queries();
+    std::vector<BlockResult> results(queries.size());
+    parallel_for(queries.size(), options_.threads,
+                 [&](std::size_t i) { judge(options_, corpus_item(options_, queries[i], i), results[i]); });
+    for (BlockResult& result : results) {
+      for (const Reached& reached : result.reached) corpus_->reached(reached.signature);
+      result.reached.clear();
+      take(std::move(result), nullptr);
+    }
+    report_.corpus.replayed = queries.size();
+  }
+
+  void take(BlockResult result, GeneratorTally* tally) {
+    for (std::size_t kind = 0; kind < 4; ++kind) {
+      if (tally != nullptr) tally->answers[kind] += result.answers[kind];
+      report_.answers[kind] += result.answers[kind];
+      report_.queries += result.answers[kind];
+    }
+    report_.probes += result.probes;
+    report_.stages += result.stages;
+    report_.findings_total += result.findings.size();
+    for (const Reached& one : result.reached) {
+      if (!corpus_->reached(one.signature)) continue;
+      report_.not_saved.attempt([&] { corpus_->keep(one.signature, one.saved, one.contact); });
+    }
+    for (RawFinding& raw : result.findings) keep(std::move(raw));
+  }
+
+  void keep(RawFinding raw) {
+    if (report_.findings.size() >= options_.max_findings) return;
+    if (raw.fault == Fault::contact) shrink(raw.finding, options_.decide);
+    if (raw.fault == Fault::probe) shrink_probe(raw.finding, options_.decide_probe);
+    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(raw.finding, options_); })) {
+      std::error_code ignored;  // part of it may be there
+      std::filesystem::remove(raw.finding.file, ignored);
+      raw.finding.file.clear();
+    }
+    report_.findings.push_back(std::move(raw.finding));
+  }
+
+  const FuzzOptions& options_;
+  std::optional<QueryCorpus> corpus_;
+  std::uint64_t next_block_ = 0;
+  FuzzReport report_;
+};
+
+}  // namespace
+
+std::uint64_t GeneratorTally::total() const {
+  return std::accumulate(answers.begin(), answers.end(), std::uint64_t{0});
+}
+
+ProbeTally& ProbeTally::operator+=(const ProbeTally& other) {
+  apart += other.apart;
+  within += other.within;
+  failed += other.failed;
+  failing += other.failing;
+  never_failing += other.never_failing;
+  return *this;
+}
+
+std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe>& probe, const Decide& decide,
+                                const DecideProbe& decide_probe) {
+  StageCounters ignored;
+  std::vector<std::string> differences;
+  if (auto what = difference(query, truth_of(query), decide, ignored)) {
+    differences.push_back(std::move(*what));
+  }
+  if (!probe) return differences;
+  if (auto what = difference(query, *probe, truth_of(query, *probe), decide_probe)) {
+    differences.push_back(std::move(*what));
+  }
+  return differences;
+}
+
+std::optional<Finding> shrunk_finding(const AnyQuery& query, const std::optional<Probe>& probe, const Decide& decide,
+                                      const DecideProbe& decide_probe) {
+  StageCounters ignored;
+  Finding finding;
+  finding.query = finding.shrunk = query;
+  if (probe) finding.probe = *probe;
+  if (difference(query, truth_of(query), decide, ignored)) {
+    shrink(finding, decide);
+    return finding;
+  }
+  if (!probe || !difference(query, *probe, truth_of(query, *probe), decide_probe)) return std::nullopt;
+  shrink_probe(finding, decide_probe);
+  return finding;
+}
+
+FuzzReport fuzz_queries(const FuzzOptions& options) {
+  if (!options.count && !options.time_limit && !options.stop) {
+    throw std::invalid_argument("fuzz_queries: neither count, nor time limit, nor stop flag");
+  }
+  return Fuzzing(options).run();
+}
+
+}  // namespace noli::audit

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fuzzing of the predicates: adversarial queries (audit/fuzz/queries/query_generators.h), each decided by the kernel and by the slow
+// oracle (oracle): contact, nearness, and the failure time of a certificate (audit/fuzz/queries/probe.h). A difference is
+// shrunk and saved as a file that `noli ccd` reads and `noli fuzz queries --replay` asks again.
+//
+// Notation
+//   block    queries of one generator (audit/fuzz/block_loop.h). Block b is of generator b mod (number of generators). What
+//            else each of them is asked comes from another stream of the same seed and block
+//   answer   apart, touching, crossing or persistent: the oracle's
+//   finding  a query on which the subject's answer is wrong: it is in contact or not, the kind, the least time rounded
+//            down to double, the enclosure of that time; within eta or not, and the least such time rounded down; the
+//            failure time, rounded down; or an answer of the oracle that the generator does not declare
+//
+// What this does not do: it does not look for crashes of the subject (libFuzzer targets do), nor time it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/fuzz/block_loop.h"
+#include "audit/fuzz/not_saved.h"
+#include "audit/fuzz/queries/probe.h"
+#include "audit/fuzz/queries/query_corpus.h"
+#include "certify/queries/any_query.h"
+#include "kernel/contact.h"
+#include "kernel/first_contact.h"
+#include "kernel/stages.h"
+
+namespace noli::audit {
+
+/// One query of so many in a block is asked for a distance too: the oracle takes a millisecond for that.
+constexpr std::size_t queries_per_distance = 32;
+
+/// What the code under test says of a query.
+struct Decision {
+  std::optional<TimeEnclosure> contact;   ///< as noli::contact
+  ContactKind kind = ContactKind::apart;  ///< as noli::first_contact; apart when that finds no contact
+  double lower = 0;                       ///< the first time rounded down to double; meaningless when apart
+};
+
+/// The code under test. Called from several threads at once; `stages` counts as in noli::contact.
+using Decide = std::function<Decision(const AnyQuery&, StageCounters& stages)>;
+
+/// noli::contact and noli::first_contact.
+Decision decide_with_kernel(const AnyQuery& query, StageCounters& stages);
+
+/// What it says of a probe.
+struct ProbeDecision {
+  bool within = false;             ///< as noli::within_distance
+  std::optional<double> within_t;  ///< as noli::first_within, rounded down to double
+  double failure = 0;              ///< as noli::failure_time
+};
+
+/// The same for probes.
+using DecideProbe = std::function<ProbeDecision(const AnyQuery&, const Probe&)>;
+
+/// noli::within_distance, noli::first_within and noli::failure_time.
+ProbeDecision probe_with_kernel(const AnyQuery& query, const Probe& probe);
+
+struct FuzzProgress {
+  std::uint64_t queries = 0;
+  std::uint64_t findings = 0;
+  double seconds = 0;
+};
+
+struct FuzzOptions {
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> count;                       ///< stop after that many queries
+  std::optional<std::chrono::duration<double>> time_limit;  ///< stop after that time, at the end of a few blocks
+  int threads = 0;                                          ///< <= 0: all there are
+  std::filesystem::path out;      ///< folder, made when the first finding is saved; empty: findings are not saved
+  std::size_t max_findings = 20;  ///< shrink and save at most that many; all are counted
+  std::filesystem::path
+      corpus;  ///< folder that is replayed first and added to (audit/fuzz/queries/query_corpus.h); empty: none
+  std::function<std::string(const std::filesystem::path& file)> command;  ///< that asks a saved finding again
+  const std::atomic<bool>* stop = nullptr;                                ///< polled after every few blocks
+  std::function<void(const FuzzProgress&)> progress;  ///< called from the caller's thread now and then
+  Decide decide = decide_with_kernel;
+  DecideProbe decide_probe = probe_with_kernel;
+};
+
+/// One query on which the subject is wrong.
+struct Finding {
+  std::string generator;                   ///< its name, or "corpus/NAME"
+  std::uint64_t block = 0;                 ///< where it was made: options.seed, block and index make it again
+  std::size_t index = 0;                   ///< within the block
+  std::string difference;                  ///< in words: "contact: subject says apart, the oracle touching", ...
+  AnyQuery query;                          ///< as generated
+  AnyQuery shrunk;                         ///< simpler, and still a finding
+  Probe probe;                             ///< what else it was asked; shrunk along if that is what went wrong
+  ContactKind truth = ContactKind::apart;  ///< the oracle's answer to `shrunk`
+  std::filesystem::path file;              ///< where `shrunk` was saved, labelled with the truth; empty when it was not
+};
+
+/// Answers of one generator.
+struct GeneratorTally {
+  std::string name;
+  QueryType type{};
+  std::array<bool, 4> declared{};          ///< indexed by ContactKind
+  std::array<std::uint64_t, 4> answers{};  ///< how often the oracle gave each
+
+  std::uint64_t total() const;
+};
+
+/// Answers of the oracle to probes.
+struct ProbeTally {
+  std::uint64_t apart = 0, within = 0;                       ///< of queries: eta
+  std::uint64_t failed = 0, failing = 0, never_failing = 0;  ///< of certificates: at `from`, later, never
+
+  ProbeTally& operator+=(const ProbeTally& other);
+  friend bool operator==(const ProbeTally&, const ProbeTally&) = default;
+};
+
+struct FuzzReport {
+  std::uint64_t queries = 0;
+  std::array<std::uint64_t, 4> answers{};  ///< of the oracle, indexed by ContactKind
+  ProbeTally probes;                       ///< one certificate per query, some distances
+  std::vector<GeneratorTally> generators;  ///< in the order of query_generators()
+  StageCounters stages;                    ///< of noli::contact, as counted by options.decide
+  std::uint64_t findings_total = 0;
+  std::vector<Finding> findings;  ///< the first max_findings: of the corpus, then by block and index
+  CorpusTally corpus;
+  bool interrupted = false;  ///< by the stop flag
+  NotSaved not_saved;
+};
+
+/// Runs until count, time limit or stop flag; at least one of the three must be given, else std::invalid_argument.
+/// With `count` the report is the same for any number of threads. What cannot be saved
+/// is in `not_saved`. Throws InputError when the corpus cannot be read.
+FuzzReport fuzz_queries(const FuzzOptions& options);
+
+/// What is wrong with the subject's answers to a saved query, one line each; nothing if they are the oracle's.
+std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe>& probe,
+                                const Decide& decide = decide_with_kernel,
+                                const DecideProbe& decide_probe = probe_with_kernel);
+
+/// The same query made simpler, or nothing if there is nothing wrong; generator, block and file are left empty.
+std::optional<Finding> shrunk_finding(const AnyQuery& query, const std::optional<Probe>& probe,
+                                      const Decide& decide = decide_with_kernel,
+                                      const DecideProbe& decide_probe = probe_with_kernel);
+
+}  // namespace noli::audit

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/fuzz/queries/fuzz_queries_report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <iterator>
+
+#include "audit/fuzz/queries/minimise_query.h"
+#include "kernel/parallel.h"
+#include "trajectory/error.h"
+
+namespace noli::audit {
+namespace {
+
+constexpr std::array<ContactKind, 4> kinds = {ContactKind::apart, ContactKind::touching, ContactKind::crossing,
+                                              ContactKind::persistent};
+
+/// An interrupted run is undecided, whatever it has found: the findings are kept and listed.
+template <class Report>
+const char* verdict(const Report& report, const char* holds) {
+  if (report.interrupted || report.queries == 0) return "undecided";
+  return report.findings_total > 0 ? "finding" : holds;
+}
+
+int threads(int asked) { return asked > 0 ? asked : hardware_threads(); }
+
+Json answers_json(const std::array<std::uint64_t, 4>& answers) {
+  Json json = Json::object();
+  for (const ContactKind kind : kinds) json[std::string(name(kind))] = answers[static_cast<std::size_t>(kind)];
+  return json;
+}
+
+Json corpus_json(const CorpusTally& corpus) {
+  return {{"replayed", corpus.replayed}, {"signatures", corpus.signatures}, {"kept", corpus.kept}};
+}
+
+std::string corpus_text(const CorpusTally& corpus) {
+  return fmt::format("Corpus: replayed {} signatures {} kept {}.\n", corpus.replayed, corpus.signatures, corpus.kept);
+}
+
+/// Where a finding lies, and the command that asks it again.
+template <class Options>
+std::string whereabouts(const Options& options, const std::filesystem::path& file) {
+  if (file.empty()) return "not saved";
+  return "saved as " + on_one_line(file.string()) +
+         (options.command ? "\n  again: " + on_one_line(options.command(file)) : "");
+}
+
+// --- the kernel against the oracle -----------------------------------------------------------------------------------
+
+Json finding_json(const Finding& finding, const std::string& command) {
+  return {{"generator", finding.generator},
+          {"block", finding.block},
+          {"index", finding.index},
+          {"difference", finding.difference},
+          {"truth", name(finding.truth)},
+          {"file", finding.file.string()},
+          {"command", command}};
+}
+
+Json generator_json(const GeneratorTally& generator) {
+  return {{"name", generator.name},
+          {"pair", name(generator.type.pair)},
+          {"dimension", generator.type.dimension},
+          {"answers", answers_json(generator.answers)}};
+}
+
+Json probes_json(const ProbeTally& probes) {
+  return {{"distance", {{"apart", probes.apart}, {"within", probes.within}}},
+          {"failure_time",
+           {{"failed", probes.failed}, {"failing", probes.failing}, {"never_failing", probes.never_failing}}}};
+}
+
+void append_generator(const GeneratorTally& generator, std::string& text) {
+  text += fmt::format("  {} ({}, {}D):", generator.name, name(generator.type.pair), generator.type.dimension);
+  for (const ContactKind kind : kinds) {
+    text += fmt::format(" {} {}", name(kind), generator.answers[static_cast<std::size_t>(kind)]);
+  }
+  text += '\n';
+}
+
+// --- a library against the kernel ------------------------------------------------------------------------------------
+
+constexpr std::array<LibraryFault, library_fault_count> faults = {
+    LibraryFault::false_negative, LibraryFault::late,  LibraryFault::bad_time, LibraryFault::no_time,
+    LibraryFault::failure,        LibraryFault::crash, LibraryFault::hang,     LibraryFault::memory,
+    LibraryFault::false_positive, LibraryFault::early};
+
+Json faults_json(const FaultCounts& counts) {
+  Json json = Json::object();
+  for (const LibraryFault fault : faults) {
+    json[std::string(name(fault))] = counts[static_cast<std::size_t>(fault)];
+  }
+  return json;
+}
+
+Json point_json(const Point3& x) { return {x[0], x[1], x[2]}; }
+
+Json query_json(const AnyQuery& query) {
+  Json json = {{"pair", name(query.pair)}, {"x_t0", Json::array()}, {"x_t1", Json::array()}};
+  for (std::size_t i = 0; i < query.size(); ++i) {
+    json["x_t0"].push_back(point_json(query.x_t0[i]));
+    json["x_t1"].push_back(point_json(query.x_t1[i]));
+  }
+  return json;
+}
+
+Json finding_json(const LibraryFinding& finding, const std::string& command) {
+  return {{"finding", name(finding.found.fault)},
+          {"contact", name(finding.found.kind)},
+          {"words", finding.found.words},
+          {"generator", finding.generator},
+          {"block", finding.block},
+          {"index", finding.index},
+          {"alike", finding.alike},
+          {"query", query_json(finding.shrunk)},
+          {"distinct_coordinates", distinct_coordinates(finding.shrunk)},
+          {"file", finding.file.string()},
+          {"command", command}};
+}
+
+/// A line for each generator that had its turn.
+std::string generators_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
+  std::string text;
+  for (const LibraryTally& tally : report.generators) {
+    if (tally.asked == 0) continue;
+    std::uint64_t findings = 0;
+    for (const LibraryFault fault : faults) {
+      if (counts(fault, options.asked.exact)) findings += tally.faults[static_cast<std::size_t>(fault)];
+    }
+    text += fmt::format("  {}: asked {} contacts {} findings {} false_positives {} ({})\n", tally.name, tally.asked,
+                        tally.contacts, findings, tally.faults[static_cast<std::size_t>(LibraryFault::false_positive)],
+                        tally.attacks);
+  }
+  return text;
+}
+
+}  // namespace
+
+Json fuzz_json(const FuzzOptions& options, const FuzzReport& report, double seconds) {
+  Json json = {{"verdict", verdict(report, "no_difference")},
+               {"seed", options.seed},
+               {"queries", report.queries},
+               {"findings", report.findings_total},
+               {"answers", answers_json(report.answers)}};
+  json["probes"] = probes_json(report.probes);
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) {
+    json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));
+  }
+  json["generators"] = Json::array();
+  for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
+  json["stages"] = stages_json(report.stages);
+  if (!options.corpus.empty()) json["corpus"] = corpus_json(report.corpus);
+  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.threads)}};
+  return json;
+}
+
+report::Answer fuzz_answer(const FuzzOptions& options, const FuzzReport& report, double seconds) {
+  report::Answer answer(verdict(report, "no_difference"),
+                        {{"queries", report.queries}, {"findings", report.findings_total}, {"seed", options.seed}});
+  std::string& text = answer.text;
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
+                   finding.difference, whereabouts(options, finding.file));
+  }
+  if (!options.corpus.empty()) text += corpus_text(report.corpus);
+  text += "Answers of the oracle:\n";
+  for (const auto& generator : report.generators) append_generator(generator, text);
+  const ProbeTally& probes = report.probes;
+  fmt::format_to(out, "Distances: apart {} within {}. Certificates: failed {} failing {} never_failing {}.\n",
+                 probes.apart, probes.within, probes.failed, probes.failing, probes.never_failing);
+  text += "Stages:";
+  for (const Stage stage : all_stages) fmt::format_to(out, " {} {}", name(stage), report.stages[stage]);
+  fmt::format_to(out, "\nTime: {:.1f} s.\n", seconds);
+  return answer;
+}
+
+Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds) {
+  Json json = {{"verdict", verdict(report, "no_finding")},
+               {"library", options.asked.path.string()},
+               {"tolerance", options.asked.tolerance},
+               {"exact", options.asked.exact},
+               {"knows_times", report.knows_times},
+               {"seed", options.seed},
+               {"queries", report.queries},
+               {"contacts", report.contacts},
+               {"findings", report.findings_total},
+               {"faults", faults_json(report.faults)}};
+  json["reports"] = Json::array();
+  for (const auto& finding : report.findings) {
+    json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));
+  }
+  json["generators"] = Json::array();
+  for (const auto& tally : report.generators) {
+    json["generators"].push_back({{"name", tally.name},
+                                  {"attacks", tally.attacks},
+                                  {"asked", tally.asked},
+                                  {"contacts", tally.contacts},
+                                  {"faults", faults_json(tally.faults)}});
+  }
+  if (!options.corpus.empty()) json["corpus"] = corpus_json(report.corpus);
+  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.limits.threads)}};
+  return json;
+}
+
+report::Answer library_fuzz_answer(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds) {
+  report::Answer answer(
+      verdict(report, "no_finding"),
+      {{"queries", report.queries}, {"contacts", report.contacts}, {"findings", report.findings_total}});
+  for (const LibraryFault fault : faults) {
+    answer.add({name(fault), report.faults[static_cast<std::size_t>(fault)]});
+  }
+  answer.add({"seed", options.seed});
+  std::string& text = answer.text;
+  const auto out = std::back_inserter(text);
+  for (const auto& finding : report.findings) {
+    fmt::format_to(out, "{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
+                   finding.found.words, finding.generator, finding.block, finding.index, finding.alike,
+                   distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
+  }
+  if (!options.corpus.empty()) text += corpus_text(report.corpus);
+  text += "Generators (what each attacks):\n" + generators_text(options, report);
+  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
+  return answer;
+}
+
+}  // namespace noli::audit

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Generators of adversarial queries. Each belongs to a family, which says what it attacks, and makes queries of one
+// type. It declares the answers it can give: no other occurs, and each of them is at least a twentieth of its output.
+// Many queries are made backwards from a known contact, and then carry their answer with them.
+//
+// All coordinates are finite doubles; a generator uses nothing but the random numbers it is given.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "audit/fuzz/queries/disguise.h"
+
+namespace noli::audit {
+
+/// Indexed by ContactKind.
+using Answers = std::array<bool, 4>;
+
+struct QueryGenerator {
+  std::string_view family;   ///< "grid", ...
+  std::string_view attacks;  ///< one line: what in a predicate it is made to break
+  QueryType type;
+  Answers declared;
+  Generated (*make)(const QueryType& type, const Answers& declared, Random& random);
+
+  /// "grid/vertex_edge_2d", ...
+  std::string name() const;
+  Generated operator()(Random& random) const { return make(type, declared, random); }
+};
+
+/// All generators; the order never depends on anything.
+std::span<const QueryGenerator> query_generators();
+
+/// A family, from which query_generators() makes one generator per type.
+struct QueryFamily {
+  std::string_view name, attacks;
+  std::vector<QueryType> types;
+  Answers declared;  ///< a kind that does not exist for a type is left out for it
+  Generated (*make)(const QueryType& type, const Answers& declared, Random& random);
+};
+
+/// Where the families are defined: generators_space.cpp, ...
+std::vector<QueryFamily> families_of_position();  ///< special positions of the features at the contact
+std::vector<QueryFamily> families_of_motion();    ///< special motions
+std::vector<QueryFamily> families_of_number();    ///< special numbers
+
+/// One of the declared answers, each as likely.
+ContactKind random_answer(const Answers& declared, Random& random);
+
+}  // namespace noli::audit

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/fuzz/queries/saved_query.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+#include "trajectory/error.h"
+#include "trajectory/formats/query_csv.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
+
+namespace noli::audit {
+
+namespace {
+
+/// The line that says what else the queries were asked, if the file has one.
+std::optional<SavedProbe> saved_probe(const std::string& text) {
+  Lines lines(text);
+  std::string_view line;
+  while (lines.next(line)) {
+    if (const auto saved = parse_probe_line(line)) return saved;
+  }
+  return std::nullopt;
+}
+
+std::string type_line(const QueryType& type) { return fmt::format("# query {} {}d", name(type.pair), type.dimension); }
+
+}  // namespace
+
+std::optional<QueryType> saved_type(std::string_view text) {
+  Lines lines(text);
+  std::string_view line;
+  while (lines.next(line)) {
+    for (const QueryType& type : all_query_types) {
+      if (line == type_line(type)) return type;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string file_suffix(const QueryType& type) {
+  std::string pair(name(type.pair));
+  std::replace(pair.begin(), pair.end(), '_', '-');
+  return pair + (type.dimension == 2 ? "-2d" : "");
+}
+
+void save_query(const std::filesystem::path& file, const AnyQuery& query, bool contact,
+                std::span<const std::string> comments) {
+  std::ostringstream text;
+  const QueryRecord record{query.x_t0, query.x_t1, contact};
+  write_query_csv(text, file_kind(query.pair), std::span(&record, 1));
+  text << type_line({query.pair, query.dimension}) << '\n';
+  for (const std::string& comment : comments) text << comment << '\n';
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  write_file(file, text.str());
+}
+
+std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) throw InputError(file.string(), "", "is not there");
+  const auto kind = kind_from_file_name(file);
+  if (!kind) throw InputError(file.string(), "", "its name tells no kind of query, such as edge-edge");
+  const std::string text = read_whole_file(file);
+  const auto saved = saved_probe(text);
+  const auto type = saved_type(text);
+  AnyQuery query{static_cast<FeaturePair>(*kind), saved ? saved->dimension : type ? type->dimension : 3, {}, {}};
+  const bool fitting = !type || *type == QueryType{query.pair, query.dimension};
+  if (!fitting) throw InputError(file.string(), "", "its name, its line query and its line noli-fuzz do not agree");
+  if (saved && !fits(query, saved->probe)) {
+    throw InputError(file.string(), "", "the line noli-fuzz asks for what a query of this kind has not");
+  }
+  std::vector<SavedQuery> result;
+  for (const QueryRecord& record : parse_query_csv(text, file.string(), *kind)) {
+    query.x_t0 = record.x_t0;
+    query.x_t1 = record.x_t1;
+    result.push_back({query, saved ? std::optional(saved->probe) : std::nullopt});
+  }
+  return result;
+}
+
+std::string quoted(const std::string& word) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./,:@";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string result = "'";
+  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace noli::audit

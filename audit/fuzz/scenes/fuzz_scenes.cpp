@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/fuzz/scenes/fuzz_scenes.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cctype>
+#include <utility>
+
+#include "audit/fuzz/finding_name.h"
+#include "audit/fuzz/kind_of_difference.h"
+#include "audit/fuzz/save_whole.h"
+#include "audit/fuzz/shape_corpus.h"
+#include "integrator/scene/json_text.h"
+#include "trajectory/blocks/sha256.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
+
+namespace noli::audit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t scenes_per_block = 4;
+constexpr const char *scene_file = "scene.json", *wrong_place_file = "wrong_place";  // of a corpus
+
+/// The word behind a key in what --porcelain prints: "verdict=no_contact end=done windows=5".
+std::string word_behind(const std::string& line, const std::string& key) {
+  const std::size_t at = line.find(key + '=');
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + key.size() + 1;
+  return line.substr(begin, line.find(' ', begin) - begin);
+}
+
+/// Whether a message names a place of the scene, or one in it: "/bodies/1" is named by "/bodies/1/mesh", and not by
+/// "/bodies/10".
+bool names_place(const std::string& message, const std::string& place) {
+  for (std::size_t at = 0; (at = message.find(place, at)) != std::string::npos; ++at) {
+    const std::size_t end = at + place.size();
+    if (end == message.size() || !(std::isalnum(static_cast<unsigned char>(message[end])) || message[end] == '_'))
+      return true;
+  }
+  return false;
+}
+
+bool agree(const std::string& verdict, int code) {
+  if (code == 0) return verdict == "no_contact";
+  if (code == 1)
+    return verdict == "contact" || verdict == "too_near" || verdict == "not_finite" || verdict == "unstable";
+  return code == 2 && verdict == "undecided";
+}
+
+class SceneJudge {
+ public:
+  SceneJudge(const GeneratedScene& scene, const RunNoli& noli, const fs::path& folder)
+      : scene_(scene), noli_(noli), folder_(folder), text_(scene.scene.dump(1) + '\n') {}
+
+  SceneJudgement judge() {
+    write_file(file(), text_);
+    const ProgramEnd end = simulate("run", {});
+    if (judgement_.stopped || judgement_.difference) return judgement_;
+    judgement_.end = fmt::format("exit {}", end.code);
+    if (end.code != 3) judgement_.end += " " + word_behind(first_line(end.out), "end");
+    if (scene_.wrong_place) {
+      require_refusal(end);
+    } else if (end.code == 3) {
+      const std::size_t at = end.err.find("scene.json: ");
+      if (at == std::string::npos) {
+        found("message: does not name the file: " + first_complaint(end.err));
+        return judgement_;
+      }
+      judgement_.end = "refused " + end.err.substr(at, end.err.find(':', at + 12) - at).substr(12);
+    } else {
+      look_at_run(end);
+    }
+    return judgement_;
+  }
+
+ private:
+  std::string file() const { return folder_ / "scene.json"; }
+
+  void found(const std::string& what) {
+    if (!judgement_.difference) judgement_.difference = on_one_line(what);
+  }
+
+  ProgramEnd run(const std::vector<std::string>& arguments) {
+    ProgramEnd end = noli_(arguments);
+    judgement_.stopped |= end.kind == ProgramEnd::Kind::stopped;
+    const bool documented = end.kind == ProgramEnd::Kind::exited && end.code >= 0 && end.code <= 3;
+    if (!documented && !judgement_.stopped) {
+      found(fmt::format("failure: noli {}: {}: {}", arguments[0], end.words(), first_complaint(end.err)));
+    }
+    return end;
+  }
+
+  ProgramEnd simulate(const char* name, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"simulate", file(),         "-o", folder_ / name,   "--threads",
+                                      "1",        "--time-limit", "4s", "--ignore-space", "--porcelain"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+
+  void require_refusal(const ProgramEnd& end) {
+    if (end.code != 3) return found(fmt::format("accepted: {} is wrong, and yet {}", *scene_.wrong_place, end.words()));
+    if (!names_place(end.err, *scene_.wrong_place)) {
+      found(fmt::format("message: does not name {}: {}", *scene_.wrong_place, first_complaint(end.err)));
+    }
+  }
+
+  void look_at_run(const ProgramEnd& end) {
+    const std::string line = first_line(end.out), verdict = word_behind(line, "verdict");
+    if (!agree(verdict, end.code)) return found(fmt::format("verdict: {} with {}", verdict, end.words()));
+    if (word_behind(line, "windows") == "0") return;
+    verify();
+    if (end.code != 2 && !judgement_.difference && !judgement_.stopped) resume(end);
+  }
+
+  void verify() {
+    std::vector<std::string> words = {"verify", folder_ / "run", "--threads", "1"};
+    if (scene_.scene.value("record", "full") == "frames") words.emplace_back("--reproduce");
+    const ProgramEnd end = run(words);
+    if (judgement_.stopped || judgement_.difference) return;
+    judgement_.verified = true;
+    if (end.code != 0)
+      found(fmt::format("verify: {}: {}{}", end.words(), first_line(end.out), first_complaint(end.err)));
+    if (!fs::exists(folder_ / "run" / "proof.blocks") || judgement_.difference) return;
+    const ProgramEnd check = run({"check", folder_ / "run"});
+    if (!judgement_.stopped && check.code != 0) {
+      found(fmt::format("check: {}: {}{}", check.words(), first_line(check.out), first_complaint(check.err)));
+    }
+  }
+
+  /// Interrupted at a time that the scene's text decides, so that it is the same when it is asked again.
+  void resume(const ProgramEnd& whole) {
+    const Sha256Digest hash = sha256(text_);
+    const double until = scene_.scene.value("duration", 1.0) * (hash[0] + 1) / 257.0;
+    simulate("again", {"--until", fmt::format("{:.17g}", until)});
+    const ProgramEnd end = simulate("again", {"--resume"});
+    if (judgement_.stopped || judgement_.difference) return;
+    judgement_.resumed = true;
+    if (end.code == 2) return;  // out of time, on a machine that was busy just then
+    if (end.code != whole.code)
+      return found(fmt::format("resume: {}, without an interruption {}", end.words(), whole.words()));
+    for (const char* const name : {"trajectory.blocks", "proof.blocks"}) {
+      const fs::path a = folder_ / "run" / name, b = folder_ / "again" / name;
+      if (fs::exists(a) != fs::exists(b)) return found(fmt::format("resume: one of the two runs has no {}", name));
+      if (fs::exists(a) && read_whole_file(a) != read_whole_file(b)) {
+        return found(fmt::format("resume: other bytes in {} after an interruption at {:.17g} s", name, until));
+      }
+    }
+  }
+
+  const GeneratedScene& scene_;
+  const RunNoli& noli_;
+  fs::path folder_;
+  std::string text_;
+  SceneJudgement judgement_;
+};
+
+struct JudgedScene {
+  GeneratedScene made;
+  std::string generator;
+  SceneJudgement judgement;
+};
+
+class SceneFuzzing {
+ public:
+  explicit SceneFuzzing(const SceneFuzzOptions& options) : options_(options) {
+    if (options.corpus) corpus_.emplace(*options.corpus);
+  }
+
+  SceneFuzzReport run() {
+    if (corpus_) run_corpus();
+    report_.extent = fuzz_blocks(
+        options_.limits, scenes_per_block,
+        [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
+        [this](std::vector<JudgedScene> block) { take_block(std::move(block)); });
+    report_.extent.items = taken_;
+    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
+    return std::move(report_);
+  }
+
+ private:
+  SceneJudgement judge(const GeneratedScene& scene) const {
+    const fs::path folder = options_.desk / fmt::format("scene-{}", number_++);
+    fs::create_directories(folder);
+    SceneJudgement judgement = judge_scene(scene, options_.noli, folder);
+    fs::remove_all(folder);
+    return judgement;
+  }
+
+  std::vector<JudgedScene> make_block(std::uint64_t block, std::uint64_t count) const {
+    const auto all = scene_generators();
+    Random random(options_.limits.seed, block);
+    std::vector<JudgedScene> judged;
+    for (std::uint64_t index = 0; index < count; ++index) {
+      const SceneGenerator& by = all[(block * scenes_per_block + index) % all.size()];
+      JudgedScene one{by.make(random), std::string(by.name), {}};
+      one.judgement = judge(one.made);
+      if (one.judgement.stopped) break;
+      judged.push_back(std::move(one));
+    }
+    return judged;
+  }
+
+  void run_corpus() {
+    for (const std::string& name : corpus_->names()) {
+      if (options_.limits.stop && options_.limits.stop->load()) return;
+      const fs::path folder = corpus_->folder(name), wrong = folder / wrong_place_file;
+      JudgedScene one{{read_saved_scene(folder / scene_file), {}}, "corpus/" + name, {}};
+      if (fs::exists(wrong)) one.made.wrong_place = first_line(read_whole_file(wrong));
+      one.judgement = judge(one.made);
+      if (one.judgement.difference) keep(std::move(one), 0);
+    }
+  }
+
+  /// The simulations of a generator that end in the same way have one shape.
+  void add_to_corpus(const JudgedScene& one) {
+    const std::string shape = one.generator + ": " + without_numbers(one.judgement.end);
+    if (!corpus_->reached(shape)) return;
+    report_.not_saved.attempt([&] {
+      corpus_->add(shape, [&](const fs::path& folder) {
+        write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
+        if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
+      });
+    });
+  }
+
+  void take_block(std::vector<JudgedScene> block) {
+    for (std::size_t index = 0; index < block.size(); ++index) {
+      JudgedScene& one = block[index];
+      ++taken_;
+      ++report_.ends[one.generator][one.judgement.end.empty() ? "failed" : one.judgement.end];
+      report_.verified += one.judgement.verified ? 1 : 0;
+      report_.resumed += one.judgement.resumed ? 1 : 0;
+      if (corpus_ && !one.judgement.difference) add_to_corpus(one);
+      if (one.judgement.difference) keep(std::move(one), index);
+    }
+    ++block_;
+  }
+
+  void keep(JudgedScene one, std::size_t index) {
+    ++report_.findings_total;
+    if (report_.findings.size() >= options_.max_findings) return;
+    if (++alike_[*one.judgement.difference] > options_.max_alike) return;
+    SceneFinding finding{one.generator, block_, index, *one.judgement.difference, one.made.scene, one.made.scene, {}};
+    finding.wrong_place = one.made.wrong_place;
+    const std::string kind(kind_of(finding.difference));
+    const auto now = [&](const SceneJson& scene) { return judge({scene, one.made.wrong_place}).difference; };
+    const auto fails = [&](const SceneJson& scene) { return is_of_kind(now(scene), kind); };
+    // A scene that is wrong stays wrong in other places when something is left out: its message proves nothing then.
+    if (!one.made.wrong_place) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
+    finding.difference = now(finding.shrunk).value_or(finding.difference);
+    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.file.clear();
+    report_.findings.push_back(std::move(finding));
+  }
+
+  void save(SceneFinding& finding) const {
+    const bool known = finding.generator.starts_with("corpus/");
+    const fs::path folder =
+        unused(options_.out / (known ? finding.generator
+                                     : fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
+                                                   finding.index, finding.generator)));
+    finding.file = folder / scene_file;
+    std::vector<std::string> command = {"noli", "fuzz", "scenes", "--replay", finding.file};
+    if (finding.wrong_place) command.insert(command.end(), {"--wrong-place", *finding.wrong_place});
+    save_whole(folder, [&](const fs::path& to) {
+      write_file(to / scene_file, finding.shrunk.dump(2) + '\n');
+      write_file(to / "README", fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
+    });
+  }
+
+  const SceneFuzzOptions& options_;
+  mutable std::atomic<std::uint64_t> number_ = 0;
+  std::uint64_t block_ = 0, taken_ = 0;
+  std::map<std::string, std::size_t> alike_;  ///< by difference
+  std::optional<ShapeCorpus> corpus_;
+  SceneFuzzReport report_;
+};
+
+}  // namespace
+
+SceneJson read_saved_scene(const fs::path& file) {
+  return integrator::parse_json(read_whole_file(file), file.string());
+}
+
+SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli, const fs::path& folder) {
+  return SceneJudge(scene, noli, folder).judge();
+}
+
+SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options) { return SceneFuzzing(options).run(); }
+
+}  // namespace noli::audit

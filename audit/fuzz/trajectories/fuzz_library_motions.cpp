@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/fuzz/trajectories/fuzz_library_motions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "audit/fuzz/finding_name.h"
+#include "audit/fuzz/shape_corpus.h"
+#include "audit/fuzz/trajectories/fuzz_trajectories.h"
+#include "audit/fuzz/trajectories/motion_generators.h"
+#include "audit/fuzz/trajectories/save_motion.h"
+#include "kernel/parallel.h"
+
+namespace noli::audit {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t motions_per_block = 16;
+
+/// A motion that the library was asked.
+struct AskedMotion {
+  FrameMotion motion;
+  LibraryMotionAnswer answer;
+};
+
+/// What one block came to.
+struct AskedBlock {
+  std::vector<AskedMotion> motions;
+  std::uint64_t not_asked = 0;
+};
+
+bool is_costly(const LibraryMotionAnswer& answer) {
+  return answer.found && (answer.found->fault == MotionFault::hang || answer.found->fault == MotionFault::memory);
+}
+
+/// For a motion that is shrunk: what hangs is waited for but a part of the limit, or it would take all day.
+LibraryUnderTest asked_while_shrinking(LibraryUnderTest library, MotionFault fault) {
+  constexpr std::chrono::nanoseconds least = std::chrono::milliseconds(20);
+  HostOptions& host = library.host;
+  if (fault == MotionFault::hang) host.query_limit = std::min(host.query_limit, std::max(host.query_limit / 50, least));
+  host.deadline.reset();
+  return library;
+}
+
+class LibraryMotionFuzzing {
+ public:
+  explicit LibraryMotionFuzzing(const LibraryMotionOptions& options)
+      : options_(options), asked_(options.asked), generators_(motion_generators(options.families)) {
+    for (const MotionGenerator& generator : generators_) {
+      report_.generators.push_back({std::string(generator.name), std::string(generator.attacks), 0, 0, {}});
+    }
+    if (options.corpus) corpus_.emplace(*options.corpus);
+  }
+
+  LibraryMotionReport run() {
+    require_ccd_library(asked_.path, asked_.host);
+    if (const auto& limit = options_.limits.time_limit) {
+      using Clock = std::chrono::steady_clock;
+      asked_.host.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*limit);
+    }
+    report_.knows_times = knows_times(options_.asked);
+    if (corpus_) run_corpus();
+    if (!enough()) {
+      report_.extent = fuzz_blocks(
+          options_.limits, motions_per_block,
+          [this](std::uint64_t block, std::uint64_t count) { return ask_block(block, count); },
+          [this](AskedBlock block) {
+            take_block(std::move(block));
+            return !enough();
+          });
+    }
+    shrink_findings();
+    report_.extent.interrupted |= stopped();  // while they were shrunk
+    report_.extent.items = 0;                 // an interruption leaves blocks that are not whole
+    for (const LibraryMotionTally& tally : report_.generators) report_.extent.items += tally.motions;
+    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
+    return std::move(report_);
+  }
+
+ private:
+  bool stopped() const { return options_.limits.stop != nullptr && options_.limits.stop->load(); }
+  bool enough() const { return options_.first_only && report_.findings_total > 0; }
+
+  const MotionGenerator& generator_of(std::uint64_t block, std::size_t index) const {
+    return generators_[(block * motions_per_block + index) % generators_.size()];
+  }
+
+  AskedBlock ask_block(std::uint64_t block, std::uint64_t count) const {
+    Random random(options_.limits.seed, block);
+    AskedBlock result;
+    std::uint64_t costly = 0;
+    for (std::size_t index = 0; index < count; ++index) {
+      GeneratedMotion made = generator_of(block, index).make(random);
+      if (costly >= asked_.host.most_hangs) {
+        ++result.not_asked;
+        continue;
+      }
+      const MotionQuestion question{report_.knows_times, block == 0};
+      AskedMotion asked{std::move(made.motion), {}};
+      asked.answer = ask_motion(asked_, asked.motion, made.planted, question);
+      if (asked.answer.stopped) break;
+      costly += is_costly(asked.answer) ? 1 : 0;
+      result.motions.push_back(std::move(asked));
+    }
+    return result;
+  }
+
+  void run_corpus() {
+    const std::vector<std::string> names = corpus_->names();  // none of those that are added
+    for (const std::string& name : names) {
+      if (stopped() || enough()) return;
+      AskedMotion asked{read_frames(corpus_->folder(name)), {}};
+      asked.answer = ask_motion(asked_, asked.motion, {}, {report_.knows_times, false});
+      if (asked.answer.stopped) return;
+      take(std::move(asked), "corpus/" + name, 0, nullptr);
+    }
+  }
+
+  void take_block(AskedBlock block) {
+    for (std::size_t index = 0; index < block.motions.size(); ++index) {
+      const std::size_t which = (block_ * motions_per_block + index) % report_.generators.size();
+      LibraryMotionTally& tally = report_.generators[which];
+      take(std::move(block.motions[index]), tally.name, index, &tally);
+    }
+    report_.not_asked += block.not_asked;
+    ++block_;
+  }
+
+  void take(AskedMotion asked, const std::string& generator, std::size_t index, LibraryMotionTally* tally) {
+    const LibraryMotionAnswer& answer = asked.answer;
+    report_.contacts += answer.contacts;
+    report_.candidates += answer.candidates;
+    report_.false_positives += answer.false_positives;
+    if (tally != nullptr) ++tally->motions, tally->contacts += answer.contacts;
+    if (corpus_ && corpus_->reached("library" + answer.shape) && tally != nullptr && !answer.found) {
+      report_.not_saved.attempt([&] {
+        corpus_->add("library" + answer.shape, [&](const fs::path& folder) { write_frames(asked.motion, folder); });
+      });
+    }
+    if (!answer.found) return;
+    const auto fault = static_cast<std::size_t>(answer.found->fault);
+    ++report_.faults[fault];
+    if (tally != nullptr) ++tally->faults[fault];
+    report_.through += answer.found->through ? 1 : 0;
+    ++report_.findings_total;
+    keep({*answer.found, generator, block_, index, asked.motion, asked.motion, 1, {}});
+  }
+
+  /// The first of its like, saved as it is: it is shrunk later, and should not be lost until then.
+  void keep(LibraryMotionFinding finding) {
+    const auto alike = std::ranges::find_if(report_.findings, [&](const LibraryMotionFinding& other) {
+      return other.found.is_like(finding.found) && other.generator == finding.generator;
+    });
+    if (alike != report_.findings.end()) {
+      ++alike->alike;
+      return;
+    }
+    if (report_.findings.size() >= options_.max_findings) return;
+    if (!options_.out.empty()) finding.folder = unused(options_.out / folder_name(finding));
+    save(finding);
+    report_.findings.push_back(std::move(finding));
+  }
+
+  std::string folder_name(const LibraryMotionFinding& finding) const {
+    std::string fault(name(finding.found.fault)), generator = finding.generator;
+    std::ranges::replace(fault, '_', '-');
+    std::ranges::replace(generator, '/', '-');
+    return fmt::format("{}-seed{}-block{}-index{}-{}", fault, options_.limits.seed, finding.block, finding.index,
+                       generator);
+  }
+
+  /// As it is now. Where there is no room for that, what was saved before stays.
+  void save(LibraryMotionFinding& finding) {
+    const auto write = [&] {
+      save_motion(finding.shrunk, finding.found.words, options_.replay_command, finding.folder);
+    };
+    if (finding.folder.empty() || report_.not_saved.attempt(write) || fs::exists(finding.folder)) return;
+    finding.folder.clear();
+  }
+
+  void shrink_findings() {
+    std::vector<LibraryMotionFinding>& findings = report_.findings;
+    parallel_for(findings.size(), options_.limits.threads, [&](std::size_t i) {
+      LibraryMotionFinding& finding = findings[i];
+      if (stopped()) return;
+      ShrunkMotion shrunk = shrink_for_library(options_.asked, finding.motion, finding.found, report_.knows_times,
+                                               options_.shrink_budget);
+      finding.shrunk = std::move(shrunk.motion);
+      finding.found = std::move(shrunk.found);
+    });
+    for (LibraryMotionFinding& finding : findings) save(finding);
+  }
+
+  const LibraryMotionOptions& options_;
+  LibraryUnderTest asked_;  ///< to be asked until the time of the run is over
+  std::vector<MotionGenerator> generators_;
+  std::optional<ShapeCorpus> corpus_;
+  std::uint64_t block_ = 0;
+  LibraryMotionReport report_;
+};
+
+}  // namespace
+
+LibraryMotionReport fuzz_library_motions(const LibraryMotionOptions& options) {
+  return LibraryMotionFuzzing(options).run();
+}
+
+ShrunkMotion shrink_for_library(const LibraryUnderTest& library, const FrameMotion& motion,
+                                const MotionFaultFound& found, bool knows_times, std::size_t budget) {
+  constexpr std::size_t most_costly = 100;  // of those that hang or take all memory
+  const LibraryUnderTest asked = asked_while_shrinking(library, found.fault);
+  const MotionQuestion question{knows_times, found.fault == MotionFault::leak};
+  std::size_t costly = 0;
+  const auto fails = [&](const FrameMotion& candidate) {
+    const std::atomic<bool>* const stop = library.host.stop;
+    if (costly >= most_costly || (stop != nullptr && stop->load())) return false;
+    const LibraryMotionAnswer answer = ask_motion(asked, candidate, {}, question);
+    costly += is_costly(answer) ? 1 : 0;
+    return !answer.stopped && answer.found && answer.found->is_like(found);
+  };
+  const FrameMotion shrunk = minimise(motion, fails, budget);
+  if (shrunk.mesh == motion.mesh && shrunk.frames == motion.frames) return {motion, found};
+  const LibraryMotionAnswer again = ask_motion(library, shrunk, {}, question);
+  if (!again.found || !again.found->is_like(found)) return {motion, found};  // another answer than before
+  return {shrunk, *again.found};
+}
+
+}  // namespace noli::audit

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fuzzing of everything between a file of frames and a checked proof: motions of meshes whose answer is known
+// (audit/fuzz/trajectories/motion_generators.h), written, read, verified, proved, and the proof checked by both checkers.
+//
+// Notation
+//   subject  the code under test, from files to the checkers' words
+//   planted  what a generator says of its motion; the oracle (audit/fuzz/trajectories/motion_oracle.h) has to agree
+//   finding  a motion that cannot be read back to the same bits, or on which the subject is wrong: contact or none, its
+//            step, the exact first time rounded down, features that do not meet then, the kind; no proof or no
+//            witness; a checker that rejects or says otherwise; a crash, a hang. Not one that its time was
+//            up, if it says so
+//   shape    what the subject went through, as a word: which stages, how large a proof. What has a new one is kept in
+//            the corpus
+//
+// What this does not do: it does not count all contacts of a step, only when and where the first one is (tests/prover
+// counts); it knows no least distance and no excluded pairs.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/fuzz/fuzz_blocks.h"
+#include "audit/fuzz/not_saved.h"
+#include "audit/fuzz/trajectories/frame_motion.h"
+#include "audit/fuzz/trajectories/motion_oracle.h"
+#include "audit/fuzz/trajectories/whole_motion.h"
+
+namespace noli::audit {
+
+/// What a checker said.
+enum class CheckerWord { accepted, refuted, rejected, not_asked };
+
+/// What the subject says of a motion.
+struct MotionAnswer {
+  struct First {
+    FeatureTwo features;
+    std::string kind;      ///< as name(ContactKind)
+    std::size_t step = 0;  ///< from 0
+    double time = 0;       ///< the first time rounded down to double
+  };
+
+  std::string failure;     ///< how it failed to answer, in words ("stopped": by the user); then the rest does not count
+  bool undecided = false;  ///< it says that its time was up, which is no fault; then the rest does not count
+  bool contact = false;    ///< else it says that nothing touches
+  std::size_t step = 0;    ///< the last step that it looked at, from 0
+  bool initial = false;    ///< cells meet at the first time
+  std::optional<First> first;
+  bool has_proof = false;  ///< a proof, or a witness of a contact
+  CheckerWord plain = CheckerWord::not_asked, verified = CheckerWord::not_asked;
+  std::string shape;
+};
+
+/// The subject. Called from several threads at once.
+using DecideMotion = std::function<MotionAnswer(const FrameMotion&)>;
+
+struct TrajectoryOptions {
+  FuzzLimits limits;
+  DecideMotion decide;
+  std::vector<std::string> families;            ///< names of generators; none: all of them
+  std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
+  std::optional<std::filesystem::path> corpus;  ///< folder that is there, of motions with different shapes
+  std::size_t max_findings = 20;                ///< shrink and save at most that many; all are counted
+  std::size_t shrink_budget = 1000;             ///< calls of the subject for each of them
+  std::vector<std::string> replay_command;      ///< how a saved finding is shown again, but for its folder
+};
+
+struct TrajectoryFinding {
+  std::string generator;         ///< or the folder in the corpus
+  std::uint64_t block = 0;       ///< of the seed
+  std::size_t index = 0;         ///< within the block
+  std::string difference;        ///< in words, the first of which says what kind of difference it is
+  FrameMotion motion;            ///< as made
+  FrameMotion shrunk;            ///< simpler, and still a finding
+  std::filesystem::path folder;  ///< where `shrunk` was saved; empty when it was not
+};
+
+struct TrajectoryTally {
+  std::string name;
+  std::uint64_t apart = 0, contact = 0;  ///< by the oracle
+  std::uint64_t without_witness = 0;     ///< contacts, each of which is a finding
+  std::uint64_t undecided = 0;           ///< in the time that there was
+};
+
+struct TrajectoryReport {
+  FuzzExtent extent;
+  NotSaved not_saved;
+  std::uint64_t findings_total = 0;
+  std::vector<TrajectoryFinding> findings;  ///< the first max_findings
+  std::vector<TrajectoryTally> generators;
+  std::uint64_t checked_plain = 0, checked_verified = 0;
+  std::uint64_t shapes = 0;       ///< different ones
+  std::uint64_t corpus_size = 0;  ///< motions in the corpus, of before and new
+};
+
+/// Runs until a limit. Throws std::invalid_argument for a family that is not there.
+/// With a count and without a corpus the report is the same for any number of threads. What
+/// cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
+/// the machine fails.
+TrajectoryReport fuzz_trajectories(const TrajectoryOptions& options);
+
+/// What is wrong with the subject's answer, or the files of the motion, in words; nothing if all is well, or if it was
+/// stopped, or its time was up, before that was known.
+std::optional<std::string> difference(const FrameMotion& motion, const DecideMotion& decide,
+                                      const std::atomic<bool>* stop = nullptr);
+
+/// What is wrong with an answer.
+std::optional<std::string> difference(const FrameMotion& motion, const MotionTruth& truth, const MotionAnswer& answer);
+
+/// Where the oracle contradicts what was planted.
+std::optional<std::string> broken_promise(const FrameMotion& motion, const PlantedTruth& planted,
+                                          const MotionTruth& truth);
+
+/// A motion for which `fails` holds and that none of these steps makes simpler: a frame less, a cell less, a vertex
+/// that rests, a coordinate with fewer bits. Stops early after so many calls. Precondition: fails(motion).
+FrameMotion minimise(const FrameMotion& motion, const std::function<bool(const FrameMotion&)>& fails,
+                     std::size_t budget);
+
+}  // namespace noli::audit

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+#include <vector>
+
+#include "audit/numerics/integrator_report.h"
+#include "report/figures/figure_axes.h"
+#include "report/figures/svg.h"
+#include "trajectory/error.h"
+
+namespace noli::audit {
+namespace {
+
+using report::Anchor;
+using report::logarithmic_scale;
+using report::logarithmic_ticks;
+using report::LogScale;
+using report::Svg;
+using report::Tick;
+
+constexpr const char* grey = "#444444";
+constexpr double panel_width = 380, panel_height = 300, gap_x = 110, gap_y = 110, left = 96, top = 84;
+
+constexpr std::size_t columns = 2;  ///< of panels
+
+struct Quantity {
+  const char* words;
+  double IntegratorErrors::*error;
+};
+constexpr std::array<Quantity, 4> quantities = {
+    {{"error of the trajectory [m]", &IntegratorErrors::trajectory},
+     {"error of energy / largest kinetic", &IntegratorErrors::energy},
+     {"error of momentum / largest", &IntegratorErrors::momentum},
+     {"error of angular momentum / largest", &IntegratorErrors::angular_momentum}}};
+
+const char* colour_of(const std::string& method) {
+  if (method == "own") return "#2e8b57";
+  if (method == "grouped") return "#1b6ca8";
+  return method == "verlet" ? "#c8553d" : "#c99a1c";
+}
+
+const char* words_of(const std::string& method) {
+  if (method == "own") return "a step for each force";
+  if (method == "grouped") return "steps in groups";
+  return method == "verlet" ? "Verlet, one step for all" : "implicit Euler";
+}
+
+void axes(Svg& svg, const LogScale& x, const LogScale& y, const char* words) {
+  for (const Tick& tick : logarithmic_ticks(x.low, x.high)) {
+    svg.line({x(tick.value), y.to}, {x(tick.value), y.from}, "#eeeeee");
+    svg.line({x(tick.value), y.from}, {x(tick.value), y.from + 5}, grey);
+    svg.text({x(tick.value), y.from + 20}, tick.words, Anchor::middle);
+  }
+  for (const Tick& tick : logarithmic_ticks(y.low, y.high)) {
+    svg.line({x.from, y(tick.value)}, {x.to, y(tick.value)}, "#eeeeee");
+    svg.line({x.from - 5, y(tick.value)}, {x.from, y(tick.value)}, grey);
+    svg.text({x.from - 9, y(tick.value) + 4.5}, tick.words, Anchor::end);
+  }
+  svg.frame({x.from, y.to}, {x.to - x.from, y.from - y.to}, grey);
+  svg.text({0.5 * (x.from + x.to), y.from + 42}, "run time [s]", Anchor::middle);
+  svg.text({x.from - 68, 0.5 * (y.from + y.to)}, words, Anchor::middle, true);
+}
+
+void panel(Svg& svg, const IntegratorResult& result, const Quantity& quantity, Svg::Point corner) {
+  std::vector<double> times, errors;
+  for (const MethodResult& method : result.methods) {
+    for (const IntegratorPoint& point : method.points) {
+      if (!point.finite) continue;
+      times.push_back(point.seconds);
+      errors.push_back(point.errors.*quantity.error);
+    }
+  }
+  const LogScale x = logarithmic_scale(times, corner[0], corner[0] + panel_width);
+  const LogScale y = logarithmic_scale(errors, corner[1] + panel_height, corner[1]);
+  axes(svg, x, y, quantity.words);
+  for (const MethodResult& method : result.methods) {
+    std::vector<Svg::Point> points;
+    for (const IntegratorPoint& point : method.points) {
+      if (point.finite) points.push_back({x(point.seconds), y(point.errors.*quantity.error)});
+    }
+    svg.polyline(points, colour_of(method.method), 1.6);
+    for (const Svg::Point& at : points) svg.rectangle({at[0] - 3.5, at[1] - 3.5}, {7, 7}, colour_of(method.method));
+  }
+}
+
+void legend(Svg& svg, const IntegratorResults& results) {
+  double x = left;
+  for (const MethodResult& method : results.front().methods) {
+    svg.rectangle({x, 42}, {9, 9}, colour_of(method.method));
+    svg.text({x + 15, 51}, words_of(method.method));
+    x += 215;
+  }
+}
+
+}  // namespace
+
+std::string integrator_svg(const IntegratorResults& results) {
+  const std::string title = "Integration: error against run time";
+  const std::size_t rows = (quantities.size() + columns - 1) / columns;  // of a scene
+  Svg svg(left + static_cast<double>(columns) * (panel_width + gap_x) - gap_x + 30,
+          top + static_cast<double>(rows * results.size()) * (panel_height + gap_y), title);
+  svg.text({left, 28}, title);
+  if (!results.empty()) legend(svg, results);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const double y = top + static_cast<double>(rows * i) * (panel_height + gap_y);
+    svg.text({left, y - 8}, on_one_line(results[i].title));
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+      const auto column = static_cast<double>(k % columns), row = static_cast<double>(k / columns);
+      panel(svg, results[i], quantities[k], {left + column * (panel_width + gap_x), y + row * (panel_height + gap_y)});
+    }
+  }
+  return svg.finish();
+}
+
+}  // namespace noli::audit

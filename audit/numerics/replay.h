@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A run of a scene in numbers of any precision that does what the run in double did, event by event, and tells where
+// the two part.
+//
+// Times are the doubles of that run in all precisions; a time that passes between two events is their difference,
+// rounded once. Everything else is computed anew, the constants of the model being the doubles of the scene.
+//
+// What this does not do: it measures no distances between runs (audit/numerics/precision.h).
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/numerics/divergence.h"
+#include "audit/numerics/event_log.h"
+#include "audit/numerics/mpfr_number.h"
+#include "audit/numerics/precise_model.h"
+#include "audit/numerics/replayed_contact.h"
+#include "integrator/energy.h"
+#include "integrator/engine.h"
+
+namespace noli::audit {
+
+/// Same bits; any NaN is as good as another.
+inline bool same_bits(double a, const MpfrNumber& b) {
+  if (a != a) return b != b;
+  return b == MpfrNumber(a) && std::signbit(a) == b.negative();
+}
+
+/// The recorder of a replay: compares with the log as events come.
+template <int Dim>
+class Comparison {
+ public:
+  /// `bits`: look at breakpoints, number by number.
+  explicit Comparison(bool bits) : bits_(bits) {}
+
+  void follow(const EventLog<Dim>& log) {
+    log_ = &log;
+    next_breakpoint_ = next_examined_ = 0;
+  }
+
+  void reserve(std::size_t) {}
+  void put(VertexId vertex, double t, const integrator::Vec<MpfrNumber, Dim>& x, bool wanted) {
+    if (!bits_ || !wanted || difference_) return;
+    if (next_breakpoint_ == log_->breakpoints().size()) return differ(t, vertex);
+    const auto& expected = log_->breakpoints()[next_breakpoint_++];
+    if (expected.vertex != vertex || expected.t != t) return differ(t, vertex);
+    for (int k = 0; k < Dim; ++k) {
+      if (!same_bits(expected.x[k], x[k])) return differ(t, vertex);
+    }
+  }
+  void layer_fires(const integrator::Firing& firing) { firing_ = firing; }
+  void examined(const certificates::Stencil& pair, const integrator::Course& here) {
+    const integrator::Course there = log_->examined()[next_examined_++].course;
+    if (here == there) return;
+    const CourseChange change{firing_.time, pair, firing_.layer, there.acts};
+    if (here.acts != there.acts) return changes_.acts.add(change);
+    if (here.corners != there.corners) changes_.corners.add(change);
+    if (!here.acts) return;
+    if (here.parts != there.parts && firing_.terms.restitution != 1) changes_.parts.add(change);
+    if (here.sticks != there.sticks) changes_.sticks.add(change);
+  }
+
+  /// Whether all breakpoints of the log have come.
+  void conclude(double end) {
+    if (bits_ && !difference_ && next_breakpoint_ != log_->breakpoints().size()) {
+      difference_ = {end, "breakpoints that never came"};
+    }
+  }
+
+  void differ(double t, VertexId vertex) { differ(t, "position of vertex " + std::to_string(vertex)); }
+  void differ(double t, const std::string& what) {
+    if (!difference_) difference_ = {t, what};
+  }
+
+  const std::optional<BitDifference>& difference() const { return difference_; }
+  const CourseChanges& changes() const { return changes_; }
+
+ private:
+  bool bits_;
+  const EventLog<Dim>* log_ = nullptr;
+  std::size_t next_breakpoint_ = 0, next_examined_ = 0;
+  integrator::Firing firing_{};
+  std::optional<BitDifference> difference_;
+  CourseChanges changes_;
+};
+
+/// The work of damping, friction and so on [J].
+template <class S, int Dim>
+S damping_work(const integrator::Books<S, Dim>& books) {
+  S sum(0);
+  for (const auto& account : books.accounts) sum += account.damping_work;
+  return sum;
+}
+
+template <int Dim>
+class Replay {
+ public:
+  using Number = MpfrNumber;
+  using State = integrator::State<Number, Dim>;
+
+  /// `bits`: it is to be the run in double, number by number.
+  Replay(const Arithmetic& arithmetic, bool bits, const integrator::Model<double, Dim>& model)
+      : arithmetic_(arithmetic), comparison_(bits), engine_(scoped(arithmetic, model)) {}
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  const Arithmetic& arithmetic() const { return arithmetic_; }
+
+  /// Runs the next window; false when `stop` said so. Throws integrator::ContactLimit.
+  template <class Stop>
+  bool run_window(const EventLog<Dim>& log, const Stop& stop) {
+    const MpfrScope scope(arithmetic_);
+    comparison_.follow(log);
+    if (engine_.contact() != nullptr) engine_.contact()->follow(log);
+    if (!engine_.run_window(comparison_, books_, stop)) return false;
+    comparison_.conclude(engine_.time());
+    state_ = integrator::Ledger<Number, Dim, ReplayedContact<Number, Dim>>(engine_).state();
+    damping_ = damping_work(books_);
+    return true;
+  }
+
+  const auto& particles() const { return engine_.particles(); }
+  /// At the end of the last window.
+  const State& state() const { return state_; }
+  const Number& damping() const { return damping_; }  ///< work since time 0 [J]
+
+  Comparison<Dim>& comparison() { return comparison_; }
+  const Comparison<Dim>& comparison() const { return comparison_; }
+
+ private:
+  using Engine = integrator::Engine<Number, Dim, ReplayedContact<Number, Dim>>;
+
+  static Engine scoped(const Arithmetic& arithmetic, const integrator::Model<double, Dim>& model) {
+    const MpfrScope scope(arithmetic);
+    return Engine(precise<Number>(model));
+  }
+
+  Arithmetic arithmetic_;
+  Comparison<Dim> comparison_;
+  Engine engine_;
+  integrator::Books<Number, Dim> books_;
+  State state_;
+  Number damping_;
+};
+
+}  // namespace noli::audit

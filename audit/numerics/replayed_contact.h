@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contact in a run that does what another run did: layers fire when they did there and for the pairs for which they did
+// there, with the formulas of integrator/contact_blow.h in numbers of type S. Whether a layer acts, between which
+// points, with restitution or not, and whether friction stops the slip follows from this run's own positions.
+//
+// Times, thicknesses, stiffnesses and steps are the doubles of the run that is followed.
+//
+// What this does not do: it has no certificates, so a pair that comes near in this run alone goes unseen.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "audit/numerics/event_log.h"
+#include "integrator/contact_blow.h"
+#include "integrator/contact_settings.h"
+#include "integrator/phase.h"
+
+namespace noli::audit {
+
+/// Stands in an Engine<S, Dim, ReplayedContact<S, Dim>> for integrator::Contact.
+template <class S, int Dim>
+class ReplayedContact {
+ public:
+  using Scalar = S;
+  using Particles = std::vector<integrator::Particle<S, Dim>>;
+
+  ReplayedContact(const integrator::ContactSettings&, const Mesh&, Particles& particles, const std::vector<double>&,
+                  double)
+      : particles_(particles) {}
+  ReplayedContact(const ReplayedContact&) = delete;
+  ReplayedContact& operator=(const ReplayedContact&) = delete;
+
+  /// What the next window does. The log stays as it is until the window, and questions about its end, are done.
+  void follow(const EventLog<Dim>& log) {
+    log_ = &log;
+    next_ = 0;
+  }
+
+  bool started() const { return started_; }
+  void start(double) { started_ = true; }
+  void show(integrator::Activity&) {}
+  void forget_extremes() {}
+  void look(VertexId, double) {}
+  double next_certificate() const { return never; }
+  void run_certificate() {}
+
+  double next_layer() const { return next_ < log_->firings().size() ? log_->firings()[next_].firing.time : never; }
+
+  template <class Recorder>
+  std::size_t fire_next(Recorder& record, integrator::Account<S, Dim>& account) {
+    const LoggedFiring& logged = log_->firings()[next_++];
+    const integrator::Firing& firing = logged.firing;
+    const integrator::Kicked<S, Dim, Recorder> now{particles_, record, firing.time};
+    record.layer_fires(firing);
+    record.reserve(4 * (logged.end - logged.begin));
+    std::size_t acted = 0;
+    for (const Examined& examined : log_->examined().subspan(logged.begin, logged.end - logged.begin)) {
+      const auto blow = integrator::strike_pair(now, examined.pair, firing.terms, firing.h, account);
+      record.examined(examined.pair, blow.whole_course());
+      if (blow.course.acts) ++acted;
+    }
+    account.events += acted;
+    return acted;
+  }
+
+  /// The firings of time 0: nothing else happens then.
+  template <class Recorder>
+  void fire_halves(Recorder& record, integrator::Account<S, Dim>& account) {
+    while (next_layer() <= 0) fire_next(record, account);
+  }
+
+  /// As Contact has it; of the pairs that are active there.
+  template <class Each>
+  void for_each_acting(Each&& each) const {
+    for (const ActivePair& active : log_->active()) {
+      const auto c = integrator::closest_now<S, Dim>(particles_, active.pair);
+      const S g = c.distance() - S(active.terms.thickness);
+      if (g < S(0)) each(active.pair, c, g, active.terms.stiffness, active.step);
+    }
+  }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  Particles& particles_;
+  const EventLog<Dim>* log_ = nullptr;
+  std::size_t next_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace noli::audit

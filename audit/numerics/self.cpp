@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/numerics/self.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "audit/numerics/run_command.h"
+#include "audit/numerics/stability_rows.h"
+#include "certify/process/scratch_folder.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
+
+namespace noli::audit {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using std::chrono::nanoseconds;
+
+/// `noli fuzz NAME`, what its document calls the number of things that it has tried, and that all was well.
+struct Fuzzer {
+  const char *name, *tried, *well;
+};
+
+/// Every fuzzer that there is: a new one is a line here.
+constexpr Fuzzer fuzzers[] = {{"queries", "queries", "no_difference"},
+                              {"trajectories", "trajectories", "no_finding"},
+                              {"proofs", "mutants", "no_finding"},
+                              {"scenes", "scenes", "no_finding"}};
+
+/// Rows of the sweeps whose ordinary end is a good example: frames apart and in contact, scenes in the plane and in
+/// space, with contact and without.
+constexpr const char* examples[] = {"frames-offset",   "frames-offset-contact", "steps",
+                                    "stiffness-ratio", "speed-contact",         "thickness-plane-contact"};
+
+/// The programs that check proofs, and the word for each on the command line of `noli check`.
+struct CheckerProgram {
+  const char *name, *option;
+};
+constexpr CheckerProgram checkers[] = {{"noli_check", ""}, {"noli_check_verified", "--verified"}};
+
+/// Time that a program has beyond what it was told to take.
+constexpr std::chrono::minutes grace{10};
+
+struct Stopped {};
+
+std::string told(const CommandRun& run) {
+  const std::string words =
+      run.out.starts_with("verdict") || run.err.empty() ? first_line(run.out) : first_complaint(run.err);
+  return end_words(run) + ": " + (words.empty() ? "it says nothing" : on_one_line(words));
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string milliseconds(nanoseconds time) {
+  return fmt::format("{}ms", std::chrono::duration_cast<std::chrono::milliseconds>(time).count());
+}
+
+/// Files of a folder that end like this, sorted; none if there is no such folder.
+std::vector<fs::path> files_of(const fs::path& folder, const std::string& extension) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == extension) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The folder in which fuzzers may make their own; it goes again if they did not.
+class FindingsFolder {
+ public:
+  explicit FindingsFolder(const fs::path& path) : path_(path) { fs::create_directories(path_); }
+  ~FindingsFolder() {
+    std::error_code not_empty;
+    fs::remove(path_, not_empty);
+  }
+  FindingsFolder(const FindingsFolder&) = delete;
+  FindingsFolder& operator=(const FindingsFolder&) = delete;
+
+ private:
+  const fs::path& path_;
+};
+
+class SelfAudit {
+ public:
+  explicit SelfAudit(const SelfOptions& options) : options_(options) {}
+
+  SelfReport run() {
+    try {
+      if (wanted("rounding")) part("rounding", "self-test", [this](SelfPart& p) { rounding(p); });
+      if (wanted("labels")) part("labels", "queries", [this](SelfPart& p) { labels(p); });
+      if (wanted("fuzz")) fuzz_all();
+      if (wanted("proofs")) proofs();
+    } catch (const Stopped&) {
+      report_.complete = false;
+    }
+    return std::move(report_);
+  }
+
+ private:
+  template <class Do>
+  void part(const std::string& group, const std::string& name, const Do& make) {
+    if (options_.begun) options_.begun(group + " " + name);
+    SelfPart result;
+    result.group = group;
+    result.name = name;
+    const auto begin = std::chrono::steady_clock::now();
+    make(result);
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report_.parts.push_back(std::move(result));
+  }
+
+  bool wanted(const std::string& group) const {
+    return options_.only.empty() || std::find(options_.only.begin(), options_.only.end(), group) != options_.only.end();
+  }
+
+  CommandRun noli(std::vector<std::string> words, nanoseconds limit = nanoseconds(0)) const {
+    words.insert(words.begin(), options_.program.string());
+    CommandRun run = run_command(words, limit + grace, options_.stop);
+    if (run.end == CommandRun::End::stopped) throw Stopped();
+    return run;
+  }
+
+  static void hold(SelfPart& p) { p.state = PartState::held; }
+  static void fail(SelfPart& p, const std::string& words) {
+    p.state = PartState::failed;
+    p.words = words;
+  }
+  static void skip(SelfPart& p, const std::string& words) {
+    p.state = PartState::skipped;
+    p.words = words;
+  }
+
+  /// The document of a program that ended with 0 and this verdict; else the part has failed.
+  static Json document(const CommandRun& run, const char* verdict, SelfPart& p) {
+    Json json = Json::parse(run.out, nullptr, false);
+    if (run.exited(0) && json.is_object() && json.value("verdict", "") == verdict) return json;
+    fail(p,
+         json.is_object() ? fmt::format("{}, verdict {}", end_words(run), json.value("verdict", "none")) : told(run));
+    return nullptr;
+  }
+
+  /// A figure of the document without which nothing was done; else the part has failed.
+  static bool figure(const Json& json, const char* key, SelfPart& p) {
+    const auto found = json.find(key);
+    const std::uint64_t number = found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+    if (number == 0) {
+      fail(p, fmt::format("it says that all is well, of no {}", key));
+      return false;
+    }
+    p.figures.emplace_back(key, number);
+    return true;
+  }
+
+  void rounding(SelfPart& p) const {
+    const CommandRun run = noli({"--version"});
+    const bool passed = run.out.find("\nrounding self-test passed\n") != std::string::npos;
+    if (run.exited(0) && passed) return hold(p);
+    if (!run.exited(0)) return fail(p, told(run));
+    const std::size_t at = run.out.find("rounding");
+    fail(p, at == std::string::npos ? "--version says nothing of it" : on_one_line(first_line(run.out.substr(at))));
+  }
+
+  void labels(SelfPart& p) const {
+    if (!options_.data) return skip(p, "NOLI_DATA is not set");
+    const std::vector<fs::path> files = files_of(*options_.data / "queries", ".csv");
+    if (files.empty()) return skip(p, "there are no queries/*.csv in " + on_one_line(options_.data->string()));
+    std::vector<std::string> words = {"ccd"};
+    for (const fs::path& file : files) words.push_back(file.string());
+    for (const std::string& word : {std::string("--json"), std::string("-")}) words.push_back(word);
+    const Json json = document(noli(words), "agreement", p);
+    if (!json.is_object()) return;
+    p.figures.emplace_back("files", files.size());
+    if (figure(json, "queries", p) && figure(json, "labelled", p)) hold(p);
+  }
+
+  void fuzz_all() {
+    for (const Fuzzer& fuzzer : fuzzers) {
+      part("fuzz", fuzzer.name, [&](SelfPart& p) { fuzz(fuzzer, p); });
+    }
+  }
+
+  void fuzz(const Fuzzer& fuzzer, SelfPart& p) const {
+    p.by_clock = true;
+    const FindingsFolder folder(options_.out);
+    const fs::path out = options_.out / fuzzer.name;
+    const CommandRun run =
+        noli({"fuzz", fuzzer.name, "--for", milliseconds(options_.fuzz_time), "--seed", std::to_string(options_.seed),
+              "--threads", std::to_string(options_.threads), "--out", out.string(), "--json", "-"},
+             options_.fuzz_time);
+    const Json json = document(run, fuzzer.well, p);
+    if (json.is_object() && figure(json, fuzzer.tried, p)) hold(p);
+    if (p.state == PartState::failed && run.exited(1)) p.words += "; what it found is in " + on_one_line(out.string());
+  }
+
+  // --- proofs --------------------------------------------------------------------------------------------------------
+
+  void proofs() {
+    for (const CheckerProgram& checker : checkers) look_for(checker);
+    for (const StabilityRow& row : stability_rows()) {
+      const auto is_it = [&](const char* name) { return row.name == name; };
+      if (std::none_of(std::begin(examples), std::end(examples), is_it)) continue;
+      part("proofs", row.name, [&](SelfPart& p) { example(row, p); });
+    }
+    shipped_scenes();
+  }
+
+  /// The plain checker is part of `noli`; the verified one is built where there is Coq.
+  void look_for(const CheckerProgram& checker) {
+    const bool there = ::access((options_.program.parent_path() / checker.name).c_str(), X_OK) == 0;
+    if (there) return present_.push_back(checker);
+    part("proofs", checker.name, [&](SelfPart& p) {
+      const std::string words = std::string(checker.name) + " is not beside noli";
+      if (*checker.option == '\0') return fail(p, words);
+      skip(p, words + ": it is built where there is Coq");
+    });
+  }
+
+  /// Whether each checker says so: 0 accepted, 1 refuted.
+  bool check(const std::vector<std::string>& files, int code, SelfPart& p) const {
+    for (const CheckerProgram& checker : present_) {
+      std::vector<std::string> words = {"check", "--porcelain"};
+      words.insert(words.end(), files.begin(), files.end());
+      if (*checker.option != '\0') words.emplace_back(checker.option);
+      const CommandRun run = noli(words);
+      const char* const expected = code == 0 ? "verdict=accepted" : "verdict=refuted";
+      if (run.exited(code) && run.verdict_line().starts_with(expected)) continue;
+      fail(p, fmt::format("{}: {}", checker.name, told(run)));
+      return false;
+    }
+    return true;
+  }
+
+  void checked(std::uint64_t steps, SelfPart& p) const {
+    p.figures.emplace_back("steps", steps);
+    p.figures.emplace_back("checkers", present_.size());
+    if (present_.empty()) return fail(p, "there is no checker that could say so");
+    hold(p);
+  }
+
+  void example(const StabilityRow& row, SelfPart& p) const {
+    const ScratchFolder scratch;
+    const StabilityCase what = row.make(row.values.front());
+    if (const auto* scene = std::get_if<SceneCase>(&what)) {
+      write_file(scratch.path() / "scene.json", scene->scene);
+      return run_scene(scratch.path(), {}, {0}, p);
+    }
+    const FramesCase& two = std::get<FramesCase>(what);
+    std::vector<std::string> frames;
+    for (std::size_t i = 0; i < 2; ++i) {
+      frames.push_back((scratch.path() / fmt::format("{}.ply", i)).string());
+      write_file(frames.back(), two.frames[i]);
+    }
+    const std::string proof = (scratch.path() / "proof.noli").string();
+    const CommandRun run = noli({"verify", "--porcelain", frames[0], frames[1], "--proof", proof});
+    const char* const expected = two.touch ? "verdict=contact " : "verdict=proved ";
+    if (!run.exited(two.touch ? 1 : 0) || !run.out.starts_with(expected)) return fail(p, told(run));
+    if (check({proof, frames[0], frames[1]}, two.touch ? 1 : 0, p)) checked(1, p);
+  }
+
+  /// Runs scene.json of the folder and checks what was committed; `codes`: how it may end.
+  void run_scene(const fs::path& folder, const std::vector<std::string>& more, const std::vector<int>& codes,
+                 SelfPart& p) const {
+    const std::string run_folder = (folder / "run").string();
+    std::vector<std::string> words = {
+        "simulate", (folder / "scene.json").string(), "-o", run_folder, "--json", "-", "--ignore-space"};
+    words.insert(words.end(), more.begin(), more.end());
+    const CommandRun run = noli(words);
+    const Json json = Json::parse(run.out, nullptr, false);
+    const auto ends = [&](int code) { return run.exited(code); };
+    if (std::none_of(codes.begin(), codes.end(), ends) || !json.is_object()) return fail(p, told(run));
+    const auto windows = json.value("windows", std::uint64_t{0});
+    if (windows == 0) {
+      if (run.exited(2)) return skip(p, "no window was done within --scene-time");
+      return fail(p, "no window was committed: " + told(run));
+    }
+    if (check({run_folder}, 0, p)) checked(windows, p);
+  }
+
+  void shipped_scenes() {
+    const std::vector<fs::path> files = files_of(options_.scenes, ".json");
+    if (files.empty()) {
+      part("proofs", "scenes", [&](SelfPart& p) {
+        skip(p, "there are no scenes in " + on_one_line(options_.scenes.string()) + " (--scenes)");
+      });
+    }
+    for (const fs::path& file : files) {
+      part("proofs", "scenes/" + file.filename().string(), [&](SelfPart& p) { shipped_scene(file, p); });
+    }
+  }
+
+  /// In its short form, recorded in full, as frames have no proofs.
+  void shipped_scene(const fs::path& file, SelfPart& p) const {
+    p.by_clock = true;
+    Json scene = Json::parse(bytes_of(file), nullptr, false);
+    if (!scene.is_object()) return fail(p, "is no JSON");
+    scene["record"] = "full";
+    const ScratchFolder scratch;
+    write_file(scratch.path() / "scene.json", scene.dump());
+    for (const auto& entry : fs::directory_iterator(file.parent_path())) {  // meshes, which it may name
+      if (entry.is_directory()) {
+        fs::create_directory_symlink(fs::absolute(entry.path()), scratch.path() / entry.path().filename());
+      }
+    }
+    // A scene may be there to show a contact, and the time may be too short for all of it.
+    run_scene(
+        scratch.path(),
+        {"--short", "--time-limit", milliseconds(options_.scene_time), "--threads", std::to_string(options_.threads)},
+        {0, 1, 2}, p);
+  }
+
+  const SelfOptions& options_;
+  SelfReport report_;
+  std::vector<CheckerProgram> present_;
+};
+
+}  // namespace
+
+std::size_t SelfReport::count(PartState state) const {
+  return static_cast<std::size_t>(
+      std::count_if(parts.begin(), parts.end(), [state](const SelfPart& p) { return p.state == state; }));
+}
+
+SelfReport audit_self(const SelfOptions& options) { return SelfAudit(options).run(); }
+
+}  // namespace noli::audit

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/numerics/stability_point.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "audit/numerics/run_command.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+#include "trajectory/write_file.h"
+
+namespace noli::audit {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A table of numbers with a line of names (`noli export --figure ... -o FILE.csv`).
+class Columns {
+ public:
+  explicit Columns(const std::string& text) {
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+      add_line(text.substr(begin, end - begin));
+    }
+  }
+
+  std::size_t rows() const { return rows_; }
+  /// Precondition: there is such a column.
+  const std::vector<double>& operator[](const std::string& name) const { return values_.at(index_.at(name)); }
+  bool has(const std::string& name) const { return index_.contains(name); }
+  const std::map<std::string, std::size_t>& names() const { return index_; }
+
+  bool finite() const {
+    return std::all_of(values_.begin(), values_.end(), [](const std::vector<double>& column) {
+      return std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); });
+    });
+  }
+
+ private:
+  void add_line(const std::string& line) {
+    std::size_t begin = 0;
+    for (std::size_t column = 0;; ++column) {
+      const std::size_t end = std::min(line.find(',', begin), line.size());
+      const std::string cell = line.substr(begin, end - begin);
+      if (names_done_) {
+        if (column < values_.size()) values_[column].push_back(std::strtod(cell.c_str(), nullptr));
+      } else {
+        index_[cell] = values_.size();
+        values_.emplace_back();
+      }
+      if (end == line.size()) break;
+      begin = end + 1;
+    }
+    if (names_done_) ++rows_;
+    names_done_ = true;
+  }
+
+  std::map<std::string, std::size_t> index_;
+  std::vector<std::vector<double>> values_;
+  std::size_t rows_ = 0;
+  bool names_done_ = false;
+};
+
+/// Asks one point; members are filled in as promises are looked at.
+class Asking {
+ public:
+  Asking(const fs::path& folder, const StabilityOptions& options) : folder_(folder), options_(options) {}
+
+  StabilityPoint scene(const SceneCase& what) {
+    write_file(folder_ / "scene.json", what.scene);
+    const CommandRun run = simulate("run", {});
+    point_.exit_code = run.end == CommandRun::End::exited ? run.code : -1;
+    if (!ended_well(run)) return point_;
+    const Json document = document_of(run);
+    if (!agrees(run, document)) return point_;
+    const auto windows = document.is_object() ? document["windows"].get<std::uint64_t>() : 0;
+    const bool unstable = document.is_object() && document["verdict"] == "unstable";
+    if (run.code != 0 && !unstable) gives(reason(run, document), said(run, document));
+    if (windows > 0) verify_again(windows);
+    if (run.code == 0 || unstable) look_at_series(what.free, unstable);
+    if (run.code == 0) resume(document["time"].get<double>());
+    return point_;
+  }
+
+  StabilityPoint frames(const FramesCase& what) {
+    std::vector<std::string> words = {"verify", "--porcelain"};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const fs::path file = folder_ / fmt::format("{}.ply", i);
+      write_file(file, what.frames[i]);
+      words.push_back(file.string());
+    }
+    for (const char* word : {"--threads", "1", "--max-reports", "1"}) words.emplace_back(word);
+    const CommandRun run = noli(words);
+    point_.exit_code = run.end == CommandRun::End::exited ? run.code : -1;
+    if (!ended_well(run)) return point_;
+    const std::string expected = what.touch ? "verdict=contact " : "verdict=proved ";
+    if (run.code == (what.touch ? 1 : 0) && run.out.starts_with(expected)) return point_;
+    gives("answer", line_of(run.code <= 2 ? run.out : run.err));
+    // What is no answer is none that is wrong.
+    if (run.code <= 1) finding(fmt::format("{}, but they {}", run.verdict_line(), what.touch ? "touch" : "stay apart"));
+    return point_;
+  }
+
+ private:
+  CommandRun noli(std::vector<std::string> words) {
+    words.insert(words.begin(), options_.program.string());
+    const CommandRun run = run_command(words, 2 * options_.point_limit + std::chrono::seconds(10), options_.stop);
+    point_.seconds += run.seconds;
+    return run;
+  }
+
+  CommandRun simulate(const std::string& to, const std::vector<std::string>& more) {
+    const auto limit = std::chrono::duration_cast<std::chrono::milliseconds>(options_.point_limit).count();
+    std::vector<std::string> words = {
+        "simulate",     (folder_ / "scene.json").string(), "-o",     path(to), "--threads",     "1",
+        "--time-limit", fmt::format("{}ms", limit),        "--json", "-",      "--ignore-space"};
+    words.insert(words.end(), more.begin(), more.end());
+    return noli(words);
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Without the folder, which has another name each time.
+  std::string line_of(const std::string& text) const {
+    const std::string prefix = path("");
+    std::string line = on_one_line(first_complaint(text));
+    for (std::size_t at; (at = line.find(prefix)) != std::string::npos;) line.erase(at, prefix.size());
+    return line;
+  }
+
+  /// The first promise that is not kept.
+  void gives(const std::string& what, const std::string& words) {
+    if (!point_.gives.empty()) return;
+    point_.gives = what;
+    point_.message = words;
+  }
+
+  void finding(const std::string& words) { point_.findings.push_back(on_one_line(words)); }
+
+  /// A promise that a run with exit code 0 has broken.
+  void broken(const std::string& what, const std::string& words) {
+    gives(what, words);
+    finding(fmt::format("exit 0, but {}: {}", what, words));
+  }
+
+  /// By itself, and with a code that a user may meet.
+  bool ended_well(const CommandRun& run) {
+    if (run.end == CommandRun::End::stopped) return false;
+    if (run.end == CommandRun::End::exited && run.code >= 0 && run.code <= 3) return true;
+    gives(end_words(run), line_of(run.err));
+    finding(end_words(run) + (run.err.empty() ? "" : ": " + line_of(run.err)));
+    return false;
+  }
+
+  static Json document_of(const CommandRun& run) {
+    if (run.code == 3) return nullptr;
+    return Json::parse(run.out, nullptr, false);
+  }
+
+  /// Whether it has what is read of it.
+  static bool whole(const Json& document) {
+    return document.is_object() && document.value("verdict", Json()).is_string() &&
+           document.value("end", Json()).is_string() && document.value("time", Json()).is_number() &&
+           document.value("windows", Json()).is_number_unsigned() &&
+           document.value("windows_total", Json()).is_number_unsigned();
+  }
+
+  /// Whether verdict and exit code do, and what ends with 0 has come to its end.
+  bool agrees(const CommandRun& run, const Json& document) {
+    if (run.code == 3 && !run.err.empty() && run.out.empty()) return true;
+    static const std::map<std::string, int> codes = {{"no_contact", 0}, {"contact", 1},  {"too_near", 1},
+                                                     {"not_finite", 1}, {"unstable", 1}, {"undecided", 2}};
+    std::string problem;
+    if (!whole(document)) {
+      problem = "no document with a verdict";
+    } else if (const auto code = codes.find(document["verdict"].get<std::string>());
+               code == codes.end() || code->second != run.code) {
+      problem = fmt::format("the verdict is {}", document["verdict"].dump());
+    } else if (run.code == 0 && (document["end"] != "done" || document["windows"] != document["windows_total"])) {
+      problem = fmt::format("{} of {} windows", document["windows"].dump(), document["windows_total"].dump());
+    }
+    if (problem.empty()) return true;
+    gives("verdict", problem);
+    finding(fmt::format("exit {}, but {}", run.code, problem));
+    return false;
+  }
+
+  static std::string reason(const CommandRun& run, const Json& document) {
+    return run.code == 3 ? "refused" : document["end"].get<std::string>();
+  }
+
+  /// The line that tells why it ends.
+  std::string said(const CommandRun& run, const Json& document) const {
+    if (run.code == 3) return line_of(run.err);
+    return fmt::format("{} after {} of {} windows", document["end"].get<std::string>(), document["windows"].dump(),
+                       document["windows_total"].dump());
+  }
+
+  /// Whatever a run ends with, what it has committed never touches.
+  void verify_again(std::uint64_t windows) {
+    const CommandRun run = noli({"verify", "--porcelain", path("run"), "--threads", "1"});
+    if (!ended_well(run)) return;
+    const std::string steps = fmt::format(" steps={} steps_total={} ", windows, windows);
+    const bool good = run.out.starts_with("verdict=proved ") || run.out.starts_with("verdict=no_contact ");
+    if (run.code == 0 && good && run.verdict_line().find(steps) != std::string::npos) return;
+    gives("verified", run.verdict_line());
+    finding(fmt::format("of a run with {} windows `noli verify` says, with exit {}: {}", windows, run.code,
+                        line_of(run.out.empty() ? run.err : run.out)));
+  }
+
+  std::optional<Columns> series(const char* figure) {
+    const std::string file = path(std::string(figure) + ".csv");
+    const CommandRun run = noli({"export", path("run"), "--figure", figure, "-o", file, "--force"});
+    if (!ended_well(run)) return std::nullopt;
+    const Columns columns(bytes_of(file));
+    if (run.code == 0 && columns.rows() > 0) return columns;
+    broken("finite", fmt::format("there is no series of {}: {}", figure, line_of(run.err)));
+    return std::nullopt;
+  }
+
+  /// `said`: the program says that the energy has gone astray.
+  void look_at_series(bool free, bool said) {
+    const auto energy = series("energy"), momentum = series("momentum");
+    if (!energy || !momentum) return;
+    if (!energy->finite() || !momentum->finite()) return broken("finite", "a series has what is no number");
+    look_at_energy(*energy, said);
+    if (free) look_at_momentum(*momentum);
+  }
+
+  void look_at_energy(const Columns& energy, bool said) {
+    // Scenes begin in their shape at rest: what the first window's end has is what the beginning had, and the work.
+    double work = 0;
+    for (const auto& [name, column] : energy.names()) {
+      if (name.starts_with("work_") || name.starts_with("damping_work_")) work += energy[name][0];
+    }
+    const double begin = energy["kinetic [J]"][0] - work;
+    for (const double total : energy["total [J]"]) {
+      point_.energy_error = std::max(point_.energy_error, std::abs(total - begin) / begin);
+    }
+    const bool stays = begin > 0 && point_.energy_error <= most_energy_error;
+    const std::string words = fmt::format("it was {:.3g} J, and goes astray by {:.2g} of that", begin,
+                                          begin > 0 ? point_.energy_error : INFINITY);
+    if (said) return gives("energy", words);
+    if (!stays) broken("energy", words);
+  }
+
+  void look_at_momentum(const Columns& momentum) {
+    for (const std::string kind : {"momentum", "angular_momentum"}) {
+      const std::string unit = kind == "momentum" ? " [N s]" : " [N m s]";
+      const std::array<std::string, 3> names = {kind + "_x" + unit, kind + "_y" + unit, kind + "_z" + unit};
+      double size = 0, worst = 0;
+      for (const std::string& name : names) size = std::hypot(size, momentum[name][0]);
+      for (std::size_t i = 0; i < momentum.rows(); ++i) {
+        double off = 0;
+        for (const std::string& name : names) off = std::hypot(off, momentum[name][i] - momentum[name][0]);
+        worst = std::max(worst, off);
+      }
+      const double error = worst == 0 ? 0 : worst / size;
+      point_.momentum_error = std::max(point_.momentum_error, error);
+      if (!(error <= most_momentum_error)) broken(kind, fmt::format("{:.2g} of it is lost or won", error));
+    }
+  }
+
+  void resume(double end) {
+    const CommandRun half = simulate("resumed", {"--until", fmt::format("{:.17g}", end / 2)});
+    if (!ended_well(half)) return;
+    const CommandRun rest = simulate("resumed", {"--resume"});
+    if (!ended_well(rest)) return;
+    if (half.code != 0 || rest.code != 0) {
+      return broken("resume", fmt::format("exit {} half way, then {}", half.code, rest.code));
+    }
+    for (const char* file : {"trajectory.blocks", "proof.blocks"}) {
+      const std::string whole = bytes_of(folder_ / "run" / file);
+      if (whole.empty() || whole != bytes_of(folder_ / "resumed" / file)) {
+        return broken("resume", fmt::format("{} has other bytes", file));
+      }
+    }
+  }
+
+  const fs::path& folder_;
+  const StabilityOptions& options_;
+  StabilityPoint point_;
+};
+
+}  // namespace
+
+StabilityPoint ask_point(const StabilityCase& what, const fs::path& folder, const StabilityOptions& options) {
+  Asking asking(folder, options);
+  if (const auto* scene = std::get_if<SceneCase>(&what)) return asking.scene(*scene);
+  return asking.frames(std::get<FramesCase>(what));
+}
+
+}  // namespace noli::audit

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Vertices and features by the names of their bodies: "vertex cloth[7] meets edge floor[0]-floor[1]".
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "certify/json.h"
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
+
+namespace noli {
+
+class BodyNames {
+ public:
+  /// A body's vertices are first, ..., first + vertices - 1.
+  struct Body {
+    std::string name;
+    std::uint64_t first = 0, vertices = 0;
+  };
+
+  /// No bodies: vertices are named by their numbers.
+  explicit BodyNames(std::vector<Body> bodies = {}) : bodies_(std::move(bodies)) {}
+
+  /// As to_json() gave it. Of anything else, no bodies.
+  static BodyNames from_json(const Json& json);
+  Json to_json() const;
+
+  /// Whether there are any.
+  bool known() const { return !bodies_.empty(); }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  /// The bodies that have any of these vertices, in the order of bodies; of vertices without a body nothing.
+  std::vector<std::string> bodies_of(std::span<const VertexId> vertices) const;
+  /// A vertex by its body and its number there.
+  std::string vertex(VertexId v) const;
+  /// "vertex a[0]", "edge a[0]-a[1]" or the like. Precondition: one to three vertices.
+  std::string feature(std::span<const VertexId> vertices) const;
+  /// Both features of a pair, with a word between them. `vertices`: those of the first come first.
+  std::string pair(FeaturePair kind, std::span<const VertexId> vertices, const std::string& between) const;
+
+ private:
+  std::vector<Body> bodies_;
+};
+
+/// Those of a scene that was built: anything with name, first and vertices.
+template <class Bodies>
+BodyNames names_of(const Bodies& built) {
+  std::vector<BodyNames::Body> bodies;
+  for (const auto& body : built) bodies.push_back({body.name, body.first, body.vertices});
+  return BodyNames(std::move(bodies));
+}
+
+}  // namespace noli

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/export_run.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "certify/errors.h"
+#include "certify/result_file.h"
+#include "certify/runs/frame_times.h"
+#include "certify/runs/run_log_facts.h"
+#include "certify/runs/run_series_reader.h"
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/formats/write_obj.h"
+#include "trajectory/formats/write_ply.h"
+#include "trajectory/formats/write_vtu.h"
+#include "trajectory/sample.h"
+#include "trajectory/stop.h"
+
+namespace noli {
+namespace {
+
+/// "frames/%05d.ply": what is before and after the number, and how wide it is.
+struct Pattern {
+  std::string before, after;
+  std::size_t width = 0;
+  FrameFormat format = FrameFormat::ply;
+
+  std::filesystem::path file(std::uint64_t i) const { return fmt::format("{}{:0{}}{}", before, i, width, after); }
+  std::filesystem::path folder() const { return file(0).parent_path(); }
+
+  /// The number in the name of a file of the folder, if it is one of the pattern.
+  std::optional<std::uint64_t> number(const std::filesystem::path& path) const {
+    const std::string name = path.filename().string();
+    const std::size_t begin = std::filesystem::path(before).filename().string().size();
+    if (name.size() <= begin + after.size()) return std::nullopt;
+    std::uint64_t i = 0;
+    const char* const end = name.data() + name.size() - after.size();
+    const auto [rest, error] = std::from_chars(name.data() + begin, end, i);
+    if (error != std::errc() || rest != end || file(i).filename() != name) return std::nullopt;
+    return i;
+  }
+};
+
+[[noreturn]] void refuse(const std::string& pattern) {
+  throw UsageError("-o " + pattern + ": expected a name with one %d or %05d that ends in .ply, .obj or .vtu");
+}
+
+FrameFormat format_of(const std::string& pattern) {
+  const std::string ending = std::filesystem::path(pattern).extension().string();
+  if (ending == ".ply") return FrameFormat::ply;
+  if (ending == ".obj") return FrameFormat::obj;
+  if (ending == ".vtu") return FrameFormat::vtu;
+  refuse(pattern);
+}
+
+Pattern parse_pattern(const std::string& text) {
+  const std::size_t percent = text.find('%'), d = text.find('d', percent);
+  if (percent == std::string::npos || d == std::string::npos || text.find('%', percent + 1) != std::string::npos) {
+    refuse(text);
+  }
+  const std::string width = text.substr(percent + 1, d - percent - 1);
+  const bool digits = width.size() <= 3 && width.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || (!width.empty() && width[0] != '0') || text.find('/', d) != std::string::npos) refuse(text);
+  return {text.substr(0, percent), text.substr(d + 1), width.empty() ? 0 : std::stoul(width), format_of(text)};
+}
+
+class Export {
+ public:
+  explicit Export(const ExportRequest& request)
+      : request_(request), pattern_(parse_pattern(request.pattern)), reader_(open_run(request.run)) {
+    find_earlier();
+    make_writable_folder(pattern_.folder(), "-o");
+  }
+
+  ExportOutcome operator()() {
+    outcome_.recorded = reader_.header().record == RecordMode::frames;
+    while (auto window = reader_.next_window()) {
+      write_frames(*window);
+      if (is_interrupted()) break;
+      ++outcome_.windows;
+      outcome_.end = window->end;
+    }
+    outcome_.open_window = !outcome_.interrupted && reader_.open_window().has_value();
+    if (pattern_.format == FrameFormat::vtu) write_series();
+    remove_earlier();
+    return std::move(outcome_);
+  }
+
+ private:
+  /// What earlier exports left.
+  void find_earlier() {
+    const std::filesystem::path folder = pattern_.folder();
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error)) {
+      const std::filesystem::path path = folder / entry.path().filename();
+      const bool series = pattern_.format == FrameFormat::vtu && path == pvd_path();
+      if (!series && !pattern_.number(path)) continue;
+      if (entry.is_directory(error)) throw UsageError("-o " + path.string() + ": is a folder; expected a file");
+      if (!series) earlier_.push_back(path);
+      if (request_.force) continue;
+      throw UsageError("-o " + request_.pattern + ": " + path.string() +
+                       " is there already; expected no such file, or --force");
+    }
+  }
+
+  void remove_earlier() {
+    for (const auto& path : earlier_) {
+      if (pattern_.number(path) >= outcome_.frames) outcome_.removed += std::filesystem::remove(path) ? 1 : 0;
+    }
+  }
+
+  void write_frames(const RunWindow& window) {
+    if (!window.lines) return write_recorded(window);
+    constexpr double most = 1e6;
+    if (!(window.end * request_.fps <= most)) {
+      throw UsageError(
+          fmt::format("--fps {}: expected at most {:.0f} frames up to {} s", request_.fps, most, window.end));
+    }
+    for_each_frame_time(window.index, window.begin, window.end, request_.fps, [&](double t) {
+      if (is_interrupted()) return false;
+      write(t, sample(*window.lines, t));
+      return true;
+    });
+  }
+
+  bool is_interrupted() {
+    outcome_.interrupted = outcome_.interrupted || stop_asked().has_value();
+    return outcome_.interrupted;
+  }
+
+  /// Of a run that recorded frames alone: those, whatever was asked for.
+  void write_recorded(const RunWindow& window) {
+    for (const RunFrame& frame : window.frames) write(frame.time, frame.positions);
+  }
+
+  void write(double time, const std::vector<Position>& positions) {
+    times_.push_back(time);
+    write({reader_.mesh(), positions}, pattern_.file(outcome_.frames++));
+  }
+
+  void write(const Frame& frame, const std::filesystem::path& path) const {
+    switch (pattern_.format) {
+      case FrameFormat::ply: return write_ply(path, frame, PlyEncoding::binary_little_endian);
+      case FrameFormat::obj: return write_obj(path, frame);
+      case FrameFormat::vtu: return write_vtu(path, frame, VtuEncoding::base64);
+    }
+  }
+
+  /// Beside the frames, named like them without the number.
+  std::filesystem::path pvd_path() const {
+    std::string stem = std::filesystem::path(pattern_.before).filename().string();
+    while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();
+    return pattern_.folder() / ((stem.empty() ? "series" : stem) + ".pvd");
+  }
+
+  void write_series() {
+    std::vector<PvdEntry> entries;
+    for (std::uint64_t i = 0; i < outcome_.frames; ++i) {
+      entries.push_back({times_[i], pattern_.file(i).filename().string()});
+    }
+    write_pvd(pvd_path(), entries);
+    outcome_.pvd = pvd_path().string();
+  }
+
+  const ExportRequest& request_;
+  Pattern pattern_;
+  SeriesReader reader_;
+  std::vector<std::filesystem::path> earlier_;
+  std::vector<double> times_;
+  ExportOutcome outcome_;
+};
+
+}  // namespace
+
+ExportOutcome run_export(const ExportRequest& request) { return Export(request)(); }
+
+}  // namespace noli

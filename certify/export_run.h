@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frames of a run, as files that other programs read.
+//
+// Notation
+//   frame i   the positions at the time i / fps, i = 0, 1, ..., rounded interpolation of the world lines, which it does
+//             not change; straight lines between frames are not the certified motion
+//
+// What this does not do: it does not verify the run (`noli verify RUN` does).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace noli {
+
+enum class FrameFormat : std::uint8_t { ply, obj, vtu };
+
+struct ExportRequest {
+  std::filesystem::path run;
+  double fps = 60;
+  std::string pattern;  ///< with one %d or %0Nd, where the number of the frame goes; its ending names the format
+  bool force = false;   ///< files of that pattern that are there may be replaced or removed
+};
+
+struct ExportOutcome {
+  std::uint64_t frames = 0;
+  std::uint64_t windows = 0;
+  double end = 0;             ///< of the run [s]
+  std::string pvd;            ///< the series that ParaView opens, if the format is vtu
+  std::uint64_t removed = 0;  ///< files of an earlier export that were not replaced
+  bool open_window = false;
+  bool interrupted = false;
+  bool recorded = false;  ///< the run recorded frames, and these were written
+};
+
+/// Writes the frames, one in memory at a time. Of a run that recorded frames alone, those are written, and fps does not
+/// matter. In the end no file of that pattern is there but those just written. Throws InputError (no run, a damaged
+/// one), UsageError (pattern; a place that cannot be written to; without `force`, files of that pattern that are
+/// there), std::system_error (disk).
+ExportOutcome run_export(const ExportRequest& request);
+
+}  // namespace noli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checkers of proofs, which are programs of their own (proofs/checker, proofs/coq), run as separate processes.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certify/process/pipe.h"
+#include "trajectory/blocks/block_sink.h"
+
+namespace noli {
+
+enum class Checker { plain, verified };
+
+/// As it says itself: "noli_check", "0.1.0", the commit.
+struct CheckerVersion {
+  std::string name, version, commit;
+};
+
+/// Throws HelperError when it does not say; std::runtime_error when it is not there.
+CheckerVersion version_of(Checker checker);
+
+/// What a checker said, and how it ended: 0 accepted, 1 refuted, 3 rejected.
+struct CheckerVerdict {
+  int code = 3;
+  std::string words;  ///< its standard output, lines
+};
+
+/// A checker at work. It does not share the signals of the terminal: this process hears them, and ends it.
+class CheckerProcess {
+ public:
+  /// Starts it on a proof in a file, or, without one, on what is written to it. `asked`: fields as they follow its
+  /// --require (proofs/FORMAT.md, section 6). Throws std::runtime_error when the checker is not there.
+  CheckerProcess(Checker checker, const std::optional<std::filesystem::path>& proof,
+                 const std::vector<std::filesystem::path>& trajectory, const std::vector<std::string>& asked);
+  /// Ends it if it has not ended.
+  ~CheckerProcess();
+  CheckerProcess(const CheckerProcess&) = delete;
+  CheckerProcess& operator=(const CheckerProcess&) = delete;
+
+  /// The next bytes of the proof. Nothing is written any more after a stop (trajectory/stop.h); finish() tells.
+  /// Throws std::runtime_error when the checker reads no more.
+  void write(std::string_view bytes);
+  /// Waits until it has read all that was written and has ended; nothing after a stop: then it is killed. Throws
+  /// HelperError when the machine failed it (memory, a signal); std::runtime_error when it ended with another code than
+  /// it may, or closed its output and stayed.
+  std::optional<CheckerVerdict> finish();
+
+ private:
+  /// Whether the pipe's end can be read or written; false once the wait is over.
+  bool ready(int end, short event) const;
+  std::string why();
+  void end_it();
+
+  Checker checker_;
+  std::unique_ptr<Pipe> proof_, words_;
+  pid_t pid_ = -1;
+};
+
+/// Writes a proof to a checker that is at work, which has to outlive it.
+class CheckerSink : public Sink {
+ public:
+  explicit CheckerSink(CheckerProcess& checker) : checker_(checker) {}
+  void write(std::string_view bytes) override { checker_.write(bytes); }
+  void sync() override {}
+  /// What was written cannot be taken back: the checker will reject a proof of which a part was to be cut off. Nobody
+  /// asks it then.
+  void truncate(std::uint64_t /*size*/) override {}
+
+ private:
+  CheckerProcess& checker_;
+};
+
+/// The file of a run that checkers read.
+std::vector<std::filesystem::path> trajectory_for_checker(const std::vector<std::filesystem::path>& trajectory);
+
+}  // namespace noli

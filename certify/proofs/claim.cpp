@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/proofs/claim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+
+#include "integrator/scene/json_text.h"
+#include "proofs/prover/features.h"
+#include "proofs/prover/proof_file.h"
+#include "trajectory/error.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+constexpr const char* schema = "noli-claim";
+constexpr int schema_version = 1;
+constexpr std::size_t longest_word = 100'000;  // of a command line
+
+bool is_excluded(const LabelPairs& pairs, std::uint32_t a, std::uint32_t b) {
+  return pairs.contains({std::min(a, b), std::max(a, b)});
+}
+
+/// The cells of one label: how many, and one or two of their vertices.
+struct CellsOfLabel {
+  std::size_t cells = 0;
+  std::set<VertexId> vertices;
+};
+
+bool compares_any(const Mesh& mesh, std::span<const std::uint32_t> labels, const LabelPairs& excluded, bool strict) {
+  std::map<std::uint32_t, CellsOfLabel> known;
+  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+    const auto all = corners(mesh, c);
+    const auto vertices = std::span(all).first(corner_count(mesh, c));
+    CellsOfLabel& label = known[labels[c]];
+    ++label.cells;
+    for (const VertexId v : vertices) {
+      if (label.vertices.size() < 2) label.vertices.insert(v);
+    }
+    const bool several = std::ranges::any_of(vertices, [&](VertexId v) { return v != vertices[0]; });
+    if (strict && several && !is_excluded(excluded, labels[c], labels[c])) return true;
+  }
+  for (auto a = known.begin(); a != known.end(); ++a) {
+    for (auto b = a; b != known.end(); ++b) {
+      std::set<VertexId> both = a->second.vertices;
+      both.insert(b->second.vertices.begin(), b->second.vertices.end());
+      const bool two = a != b || a->second.cells > 1;
+      if (two && both.size() > 1 && !is_excluded(excluded, a->first, b->first)) return true;
+    }
+  }
+  return false;
+}
+
+std::string pairs_text(const LabelPairs& pairs) {
+  std::string text;
+  for (const auto& [a, b] : pairs) text += fmt::format("{}{}-{}", text.empty() ? "" : ",", a, b);
+  return text;
+}
+
+/// What follows `key=` up to the next blank, read as a number.
+template <class T>
+bool read_number(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+bool read_flag(std::string_view text, bool& value) {
+  value = text == "1";
+  return text == "0" || text == "1";
+}
+
+bool read_pairs(std::string_view text, LabelPairs& pairs) {
+  while (!text.empty()) {
+    const std::string_view pair = text.substr(0, text.find(','));
+    const std::size_t minus = std::min(pair.find('-'), pair.size() - 1);
+    std::array<std::uint32_t, 2> labels{};
+    if (!read_number(pair.substr(0, minus), labels[0]) || !read_number(pair.substr(minus + 1), labels[1])) return false;
+    pairs.insert(labels);
+    text.remove_prefix(std::min(pair.size() + 1, text.size()));
+  }
+  return true;
+}
+
+bool read_field(std::string_view key, std::string_view value, Claim& claim) {
+  if (key == "motion") return claim.motion = value, true;
+  if (key == "dimension") return read_number(value, claim.dimension);
+  if (key == "steps") return read_number(value, claim.steps);
+  if (key == "strict") return read_flag(value, claim.strict);
+  if (key == "points") return read_flag(value, claim.points);
+  if (key == "distance") return read_number(value, claim.distance);
+  if (key == "ring") return read_number(value, claim.ring);
+  if (key == "merged") return read_number(value, claim.merged);
+  if (key == "excluded") return read_pairs(value, claim.excluded);
+  if (key == "cells") return claim.cells = value, true;
+  if (key == "empty") return read_flag(value, claim.empty);
+  if (key == "from") return read_number(value, claim.from);
+  return key == "to" && read_number(value, claim.to);
+}
+
+constexpr std::array<std::string_view, 13> keys = {"motion",   "dimension", "steps",  "strict",   "points",
+                                                   "distance", "ring",      "merged", "excluded", "cells",
+                                                   "empty",    "from",      "to"};
+
+/// Values of a claim in the order of its line.
+std::vector<std::pair<std::string, std::string>> values(const Claim& claim) {
+  const auto flag = [](bool b) { return std::string(b ? "1" : "0"); };
+  return {{"motion", claim.motion},
+          {"dimension", std::to_string(claim.dimension)},
+          {"steps", std::to_string(claim.steps)},
+          {"strict", flag(claim.strict)},
+          {"points", flag(claim.points)},
+          {"distance", digits17(claim.distance)},
+          {"ring", std::to_string(claim.ring)},
+          {"merged", std::to_string(claim.merged)},
+          {"excluded", pairs_text(claim.excluded)},
+          {"cells", claim.cells},
+          {"empty", flag(claim.empty)},
+          {"from", digits17(claim.from)},
+          {"to", digits17(claim.to)}};
+}
+
+Json pairs_json(const LabelPairs& pairs) {
+  Json list = Json::array();
+  for (const auto& [a, b] : pairs) list.push_back({a, b});
+  return list;
+}
+
+/// The members of a claim file, which are read one by one.
+class ClaimFile {
+ public:
+  explicit ClaimFile(const std::filesystem::path& file) : file_(file.string()) {}
+
+  std::vector<std::string> fields() const {
+    if (!std::filesystem::is_regular_file(file_)) fail("", "cannot be opened; expected a JSON file");
+    const Json json = integrator::parse_json(read_whole_file(file_), file_);
+    if (!json.is_object()) fail("", "expected an object, as `noli verify --claim-out` writes it");
+    if (!json.contains("schema") || json["schema"] != schema) fail("/schema", fmt::format("expected \"{}\"", schema));
+    if (!json.contains("version") || json["version"] != schema_version) {
+      fail("/version", fmt::format("expected {}; other versions are not known here", schema_version));
+    }
+    std::vector<std::string> fields;
+    for (const auto& [key, value] : json.items()) {
+      if (key == "schema" || key == "version") continue;
+      // Of a run the pairs are those of its scene, whoever asks.
+      if (key == "excluded" && json.value("motion", Json()) == "run") continue;
+      fields.push_back(key + "=" + word(key, value));
+      if (fields.back().size() > longest_word) fail("/" + key, "has more pairs than a checker can be asked about");
+    }
+    return fields;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& pointer, const std::string& message) const {
+    throw InputError(file_, pointer, message);
+  }
+
+  /// The checker says which numbers are possible.
+  std::string word(const std::string& key, const Json& value) const {
+    const bool count = value.is_number_unsigned();
+    if (key == "strict" || key == "points" || key == "empty") {
+      if (!value.is_boolean()) fail("/" + key, "expected true or false");
+      return value.get<bool>() ? "1" : "0";
+    }
+    if (key == "dimension" || key == "steps" || key == "ring" || key == "merged") {
+      if (!count) fail("/" + key, "expected a whole number");
+      return std::to_string(value.get<std::uint64_t>());
+    }
+    if (key == "distance") {
+      if (!value.is_number()) fail("/" + key, "expected a number");
+      return digits17(value.get<double>());
+    }
+    if (key == "motion" || key == "cells") {
+      if (!value.is_string()) fail("/" + key, "expected a string");
+      return value.get<std::string>();
+    }
+    if (key == "excluded") return pairs(value);
+    fail("/" + key, "unknown member; `noli schema claim` lists those of a claim");
+  }
+
+  std::string pairs(const Json& list) const {
+    if (!list.is_array()) fail("/excluded", "expected an array of pairs of labels");
+    LabelPairs pairs;
+    for (const Json& pair : list) {
+      const bool two =
+          pair.is_array() && pair.size() == 2 && pair[0].is_number_unsigned() && pair[1].is_number_unsigned();
+      if (!two || pair[0].get<std::uint64_t>() > pair[1].get<std::uint64_t>() ||
+          pair[1].get<std::uint64_t>() > 0xffffffff) {
+        fail("/excluded", "expected pairs [a, b] of labels, a <= b");
+      }
+      pairs.insert({pair[0].get<std::uint32_t>(), pair[1].get<std::uint32_t>()});
+    }
+    return pairs_text(pairs);
+  }
+
+  std::string file_;
+};
+
+}  // namespace
+
+void set_cells(Claim& claim, const Mesh& mesh, std::span<const std::uint32_t> labels, const LabelPairs& excluded) {
+  ProofHeader header;
+  header.vertices = mesh.vertex_count;
+  header.mesh = &mesh;
+  header.labels = labels;
+  claim.cells = hex(cells_hash(header));
+  claim.excluded = excluded;
+  claim.empty = !compares_any(mesh, labels, excluded, claim.strict);
+}
+
+std::optional<Claim> claim_of_words(const std::string& words) {
+  const std::size_t begin = words.find('\n');
+  if (begin == std::string::npos) return std::nullopt;
+  std::string_view line = std::string_view(words).substr(begin + 1);
+  line = line.substr(0, line.find('\n'));
+  if (!line.starts_with("claim ")) return std::nullopt;
+  line.remove_prefix(6);
+  Claim claim;
+  for (const std::string_view key : keys) {
+    const std::string_view field = line.substr(0, line.find(' '));
+    const std::size_t equal = std::min(field.find('='), field.size());
+    if (field.substr(0, equal) != key || equal == field.size()) return std::nullopt;
+    if (!read_field(key, field.substr(equal + 1), claim)) return std::nullopt;
+    line.remove_prefix(std::min(field.size() + 1, line.size()));
+  }
+  return line.empty() ? std::optional(std::move(claim)) : std::nullopt;
+}
+
+std::vector<std::string> fields_of(const Claim& claim) {
+  std::vector<std::string> fields;
+  for (const auto& [key, value] : values(claim)) {
+    if (key == "from" || key == "to") continue;
+    if (key == "ring" && claim.distance == 0) continue;
+    // Of a run the pairs are those of its scene, by default; they may be more than a command line takes.
+    if (key == "excluded" && claim.motion == "run") continue;
+    fields.push_back(key + "=" + value);
+    if (fields.back().size() > longest_word) {
+      throw InputError("the claim", key, "has more pairs of labels than a checker can be asked to leave out");
+    }
+  }
+  return fields;
+}
+
+std::vector<std::string> fields_beyond_default(const Claim& claim) {
+  Claim plain;
+  plain.motion = claim.motion == "run" ? "run" : "linear";
+  plain.dimension = claim.motion == "run" ? claim.dimension : 3;
+  plain.steps = claim.steps;
+  const bool told_by_cells = claim.merged > 0 || (!claim.excluded.empty() && claim.motion != "run");
+  plain.cells = told_by_cells ? "" : claim.cells;
+  const std::vector<std::string> own = fields_of(claim), by_default = fields_of(plain);
+  std::vector<std::string> fields;
+  std::ranges::copy_if(own, std::back_inserter(fields),
+                       [&](const std::string& field) { return std::ranges::count(by_default, field) == 0; });
+  return fields;
+}
+
+std::optional<std::string> difference(const Claim& asked, const Claim& checked, bool refuted) {
+  const auto one = values(asked), other = values(checked);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const std::string& key = one[i].first;
+    const bool extent = key == "steps" || key == "to";
+    if (one[i].second == other[i].second || (refuted && extent)) continue;
+    return fmt::format("{}: asked was {}, the checker's is {}", key, one[i].second, other[i].second);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> weakenings(const Claim& claim) {
+  constexpr std::size_t most_listed = 8;
+  std::vector<std::string> phrases;
+  if (claim.motion == "rest") phrases.emplace_back("frames at rest");
+  if (claim.merged > 0) phrases.push_back(fmt::format("{} merged vertices", claim.merged));
+  if (claim.motion != "run" && !claim.excluded.empty()) {
+    const std::size_t pairs = claim.excluded.size();
+    phrases.push_back("not compared: " +
+                      (pairs > most_listed ? fmt::format("{} pairs", pairs) : pairs_text(claim.excluded)));
+  }
+  if (claim.empty) phrases.emplace_back("the claim is empty");
+  return phrases;
+}
+
+Json claim_json(const Claim& claim) {
+  return {{"motion", claim.motion}, {"dimension", claim.dimension}, {"steps", claim.steps},
+          {"strict", claim.strict}, {"points", claim.points},       {"distance", claim.distance},
+          {"ring", claim.ring},     {"merged", claim.merged},       {"excluded", pairs_json(claim.excluded)},
+          {"cells", claim.cells},   {"empty", claim.empty},         {"from", claim.from},
+          {"to", claim.to}};
+}
+
+Json claim_file(const Claim& claim) {
+  Json json = {{"schema", schema}, {"version", schema_version}};
+  const Json fields = claim_json(claim);  // items() only refers to it
+  for (const auto& [key, value] : fields.items()) {
+    if (key != "from" && key != "to") json[key] = value;
+  }
+  return json;
+}
+
+std::vector<std::string> read_claim_file(const std::filesystem::path& file) { return ClaimFile(file).fields(); }
+
+}  // namespace noli

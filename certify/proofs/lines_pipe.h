@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A trajectory.blocks that is never a file: the world lines of a run that is reproduced, on their way to a checker.
+//
+// What is written is kept in memory until the checker has read it, and drained() bounds that: whoever calls it before
+// each window has one of them in memory.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "certify/process/scratch_folder.h"
+#include "trajectory/blocks/block_sink.h"
+
+namespace noli {
+
+class LinesPipe {
+ public:
+  /// A named pipe in a folder of its own, which vanishes with this. Gives up at the deadline, or when the user asks to
+  /// stop. Throws std::system_error.
+  explicit LinesPipe(std::optional<std::chrono::steady_clock::time_point> deadline);
+  ~LinesPipe();
+  LinesPipe(const LinesPipe&) = delete;
+  LinesPipe& operator=(const LinesPipe&) = delete;
+
+  /// What the checker opens.
+  const std::filesystem::path& path() const { return path_; }
+  /// For a RunWriter, which this has to outlive.
+  std::unique_ptr<Sink> sink();
+
+  /// Waits until the checker has read all that was written. Throws std::runtime_error when it does not open the pipe
+  /// within a minute; returns at once when it has ended, which its proof then tells.
+  void drained();
+  /// The same, and the checker is at its end.
+  void close();
+
+ private:
+  class End;
+
+  void put(std::string_view bytes);
+  void work();
+  bool given_up() const;
+  bool waited_too_long() const;
+  std::optional<int> open() const;
+  bool write(int end, std::string_view bytes) const;
+
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  ScratchFolder folder_;
+  std::filesystem::path path_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::string> waiting_;  ///< the first is on its way until it is gone
+  bool closing_ = false, abandoned_ = false;
+  bool over_ = false;                                                   ///< nothing is written any more
+  std::optional<std::chrono::steady_clock::time_point> awaited_since_;  ///< by drained()
+  bool unopened_ = false;                                               ///< because nobody has opened it
+  std::thread thread_;
+};
+
+}  // namespace noli

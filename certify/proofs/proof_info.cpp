@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/proofs/proof_info.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "certify/proofs/parsed_claim.h"
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/bytes.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
+
+namespace noli {
+namespace {
+
+constexpr FourLetters proof_content = four_letters("PROF");
+constexpr std::size_t step_payload_size = 65;
+
+std::string place(const Block& block) { return fmt::format("byte {}", block.payload_offset()); }
+
+/// Of the committed groups.
+class Contents {
+ public:
+  explicit Contents(const std::filesystem::path& path) : path_(path.string()), reader_(path, proof_content) {
+    while (auto block = reader_.next()) {
+      end_if_stopped();
+      add(*block);
+    }
+    if (!claim_) throw InputError(path_, "", "ends before its claim is committed");
+  }
+
+  Json json() const {
+    static constexpr std::array<const char*, 3> sources = {"frames", "frames at rest", "a run"};
+    const auto source = static_cast<std::size_t>(claim_->source);
+    Json json = {{"file", path_},
+                 {"format", "Noli proof"},
+                 {"about", source < sources.size() ? sources[source] : "something unknown"},
+                 {"dimension", claim_->dimension},
+                 {"strict", claim_->strict},
+                 {"unreferenced_vertices_count", claim_->points},
+                 {"least_distance", claim_->eta},
+                 {"ring", claim_->ring},
+                 {"merged_vertices", claim_->merged.size()},
+                 {"excluded_pairs_of_labels", claim_->excluded.size()},
+                 {"steps", committed_.steps},
+                 {"steps_with_a_witness_of_contact", committed_.witnesses},
+                 {"token_bytes", committed_.token_bytes},
+                 {"open_group", reader_.open_group().has_value()},
+                 {"bytes", std::filesystem::file_size(path_)}};
+    json["begin"] = committed_.steps > 0 ? Json(committed_.begin) : Json();
+    json["end"] = committed_.steps > 0 ? Json(committed_.end) : Json();
+    return json;
+  }
+
+ private:
+  struct Totals {
+    std::uint64_t steps = 0, witnesses = 0, token_bytes = 0;
+    double begin = 0, end = 0;
+  };
+
+  void add(Block& block) {
+    if (block.kind == block_format::commit) return commit(block);
+    if (block.kind == four_letters("STEP")) add_step(block);
+    if (block.kind == four_letters("TOKS")) open_.token_bytes += block.payload.size();
+    if (!claim_) first_.push_back({block.kind, std::move(block.payload)});
+  }
+
+  void add_step(const Block& block) {
+    if (block.payload.size() != step_payload_size) {
+      throw InputError(path_, place(block), fmt::format("a step has {} bytes", step_payload_size));
+    }
+    if (open_.steps++ == 0) open_.begin = get<double>(block.payload.data() + 8);
+    open_.end = get<double>(block.payload.data() + 16);
+    if (block.payload[32] != 0) ++open_.witnesses;
+  }
+
+  void commit(const Block& block) {
+    if (!claim_) claim_ = parse_claim({first_});
+    if (!claim_) throw InputError(path_, place(block), "the first group has no claim");
+    first_.clear();
+    committed_ = open_;
+  }
+
+  std::string path_;
+  BlockReader reader_;
+  ProofGroup first_;  ///< until it is committed
+  std::optional<ParsedClaim> claim_;
+  Totals open_, committed_;
+};
+
+}  // namespace
+
+bool is_proof(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;  // a look would take its beginning from a pipe
+  std::array<char, block_format::file_header_size> begin{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(begin.data(), begin.size())) return false;
+  return std::string_view(begin.data(), block_format::magic.size()) == block_format::magic &&
+         get<FourLetters>(begin.data() + 12) == proof_content;
+}
+
+Json proof_info(const std::filesystem::path& path) { return Contents(path).json(); }
+
+}  // namespace noli

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/proofs/prove_frames.h"
+
+#include <algorithm>
+#include <set>
+
+#include "proofs/prover/features.h"
+#include "proofs/prover/hierarchy.h"
+#include "proofs/prover/witness.h"
+#include "proofs/prover/write_tokens.h"
+
+namespace noli {
+namespace {
+
+/// The groups of cells.
+std::vector<std::uint32_t> labels_of(const Mesh& mesh, const Exclusions* exclusions) {
+  std::vector<std::uint32_t> labels(mesh.cell_count(), 0);
+  for (std::uint32_t c = 0; exclusions != nullptr && c < labels.size(); ++c) {
+    labels[c] = exclusions->groups[corners(mesh, c)[0]];
+  }
+  return labels;
+}
+
+/// Those that have cells on both sides.
+LabelPairs excluded_pairs(const std::vector<std::uint32_t>& labels, const Exclusions* exclusions) {
+  LabelPairs pairs;
+  if (exclusions == nullptr) return pairs;
+  const std::set<std::uint32_t> there(labels.begin(), labels.end());
+  for (const auto& [a, b] : exclusions->pairs) {
+    if (there.count(a) + there.count(b) == 2) pairs.insert({a, b});
+  }
+  return pairs;
+}
+
+/// The tree has a part of its own for each label, in which neighbours are near each other.
+StepProver make_prover(const VerifyRequest& request, int dimension, const Mesh& mesh, const Exclusions* exclusions,
+                       std::span<const Position> x_t0, std::span<const Position> x_t1) {
+  const Hierarchy hierarchy(mesh, x_t0, x_t1, dimension, request.threads);
+  const std::vector<std::uint32_t> labels = labels_of(mesh, exclusions);
+  const auto cells = hierarchy.leaf_cells();
+  std::vector<std::uint32_t> order(cells.begin(), cells.end()), ends;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t c) { return labels[c]; });
+  for (std::size_t i = 1; i <= order.size(); ++i) {
+    if (i == order.size() || labels[order[i]] != labels[order[i - 1]]) ends.push_back(static_cast<std::uint32_t>(i));
+  }
+  return StepProver(
+      mesh, order, ends, labels,
+      {dimension, request.strict, excluded_pairs(labels, exclusions), request.min_distance, request.ring});
+}
+
+ProofFile make_file(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
+                    const IdenticalVertices* classes, const Exclusions* exclusions) {
+  ProofHeader header;
+  header.source = request.constant_motion ? ProofSource::frames_at_rest : ProofSource::frames;
+  header.dimension = dimension;
+  header.strict = request.strict;
+  header.points = request.points;
+  header.eta = request.min_distance;
+  header.ring = request.ring;
+  header.vertices = mesh.vertex_count;
+  header.mesh = &mesh;
+  const std::vector<std::uint32_t> labels = labels_of(mesh, exclusions);
+  header.labels = labels;
+  header.excluded = excluded_pairs(labels, exclusions);
+  if (classes != nullptr) {
+    const auto& same = classes->representative();
+    for (VertexId v = 0; v < same.size(); ++v) {
+      if (same[v] != v) header.merged.push_back({v, same[v]});
+    }
+  }
+  return {request.open_proof(claim), header};
+}
+
+}  // namespace
+
+Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
+                      const Exclusions* exclusions) {
+  Claim claim;
+  claim.motion = request.constant_motion ? "rest" : "linear";
+  claim.dimension = outcome.dimension;
+  claim.steps = outcome.steps_total;
+  claim.strict = request.strict;
+  claim.points = request.points;
+  claim.distance = request.min_distance;
+  claim.ring = request.ring;
+  claim.merged = outcome.merged_vertices;
+  claim.to = request.constant_motion ? 1 : static_cast<double>(outcome.steps_total);
+  const std::vector<std::uint32_t> labels = labels_of(mesh, exclusions);
+  set_cells(claim, mesh, labels, excluded_pairs(labels, exclusions));
+  return claim;
+}
+
+FrameProof::FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
+                       const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x_t0,
+                       std::span<const Position> x_t1)
+    : mesh_(mesh),
+      dimension_(dimension),
+      eta_(request.min_distance),
+      ring_(request.ring),
+      strict_(request.strict),
+      rest_(request.constant_motion),
+      prover_(make_prover(request, dimension, mesh, exclusions, x_t0, x_t1)),
+      file_(make_file(request, claim, dimension, mesh, classes, exclusions)) {}
+
+bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                       const VerifyOptions& options) {
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+  begin(step, ProofFile::Kind::proof, lines);
+  if (!tree_written_) file_.tree(prover_.tree().encoded());
+  if (!write_tokens(file_, prover_, lines, options)) return false;
+  file_.commit();
+  tree_written_ = true;
+  return true;
+}
+
+void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines) {
+  file_.begin_step(step, kind, lines, shift(step));
+}
+
+bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                        const VerifyResult& result) {
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &prover_};
+  return write_witness(step, lines, witness_of(what, result.first, result.initial_reports, result.reports));
+}
+
+bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                        const TooNear& near) {
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &prover_};
+  return write_witness(step, lines, witness_of(what, near, MeshPaths(prover_.tree(), mesh_.vertex_count, ring_)));
+}
+
+bool FrameProof::write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness) {
+  if (!witness) return false;
+  begin(step, ProofFile::Kind::witness, lines);
+  file_.witness(*witness);
+  file_.commit();
+  return true;
+}
+
+}  // namespace noli

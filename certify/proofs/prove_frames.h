@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The proof of `noli verify FRAMES...`, step by step beside the verifier.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "certify/verify_run.h"
+#include "proofs/prover/proof_file.h"
+#include "proofs/prover/step_prover.h"
+#include "trajectory/merge.h"
+
+namespace noli {
+
+/// What is asked of frames. `outcome`: what is known of them before the first step.
+Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
+                      const Exclusions* exclusions);
+
+class FrameProof {
+ public:
+  /// `mesh` is what is compared (after merging), `exclusions` or none what of it is not, which has to outlive this; the rest is what the claim says of it. Writes to
+  /// request.open_proof(claim).
+  FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
+             const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x_t0,
+             std::span<const Position> x_t1);
+
+  /// Writes the proof of a step that has no contact and commits it. False if it was stopped, which leaves the file as
+  /// it was.
+  bool prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+             const VerifyOptions& options);
+
+  /// Writes a witness for a step that has a contact, and commits it. False if none was found.
+  bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+              const VerifyResult& result);
+
+  const StepProver& prover() const { return prover_; }
+
+  /// The same for one in which something comes nearer than the least distance.
+  bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1, const TooNear& near);
+
+ private:
+  bool write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness);
+  /// What step's times are more than those of two frames.
+  double shift(std::size_t step) const { return rest_ ? 0 : static_cast<double>(step); }
+  void begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines);
+
+  const Mesh& mesh_;
+  int dimension_;
+  double eta_;
+  std::uint32_t ring_;
+  bool strict_;
+  bool rest_;
+  bool tree_written_ = false;
+  StepProver prover_;
+  ProofFile file_;
+};
+
+}  // namespace noli

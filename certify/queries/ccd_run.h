@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli ccd` without its words: decides files of queries, compares with their labels, and measures.
+//
+// What this does not do: it prints nothing.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/first_contact.h"
+#include "kernel/query.h"
+#include "kernel/stages.h"
+
+namespace noli {
+
+struct CcdRequest {
+  std::vector<std::filesystem::path> files;
+  std::optional<FeaturePair> pair;          ///< nothing: the name of each file says
+  int dimension = 3;                        ///< 2: z is not looked at
+  bool times = false;                       ///< find the kind and time of each contact too
+  std::size_t max_reports = 100;            ///< list at most so many disagreements
+  const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, the outcome is not complete
+  std::function<void(double)> progress;     ///< called with the share of the files that are done, in [0, 1]
+};
+
+/// A query whose label is not the exact answer.
+struct Disagreement {
+  std::size_t query = 0;  ///< from 1, in its file
+  bool label = false;
+};
+
+/// A query in contact, with --times.
+struct TimedContact {
+  std::size_t query = 0;  ///< from 1, in its file
+  ContactKind kind = ContactKind::touching;
+  double time = 0;  ///< the largest double not above the exact time
+};
+
+struct CcdCounts {
+  std::uint64_t queries = 0;  ///< decided
+  std::uint64_t contacts = 0;
+  std::uint64_t labelled = 0;
+  std::uint64_t disagreements = 0;
+  StageCounters stages;
+  double ns_per_query = 0;  ///< mean; the median of the passes for files that take less than a second
+
+  CcdCounts& operator+=(const CcdCounts& other);
+};
+
+struct CcdFile {
+  std::filesystem::path path;
+  FeaturePair pair = FeaturePair::vertex_face;
+  CcdCounts counts;
+  std::vector<Disagreement> disagreements;  ///< at most max_reports
+  std::vector<TimedContact> times;
+};
+
+struct CcdOutcome {
+  std::vector<CcdFile> files;
+  CcdCounts total;
+  bool complete = true;  ///< false: interrupted
+};
+
+/// Reads all files, then decides them. Throws InputError, UsageError (no kind, no such kind in this dimension).
+CcdOutcome run_ccd(const CcdRequest& request);
+
+/// The kind of query in a file, if its name says it.
+std::optional<FeaturePair> query_kind(const std::filesystem::path& path);
+
+}  // namespace noli

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/runs/run_folder.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "certify/errors.h"
+#include "certify/result_file.h"
+#include "certify/runs/run_log_facts.h"
+#include "certify/version.h"
+#include "trajectory/blocks/block_sink.h"
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/blocks/run_manifest.h"
+#include "trajectory/error.h"
+#include "trajectory/formats/frame_look.h"
+
+namespace noli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const Json& scene) { return scene.dump(2) + "\n"; }
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  return files;
+}
+
+bool is_scrap(const fs::path& file) { return file.filename().string().starts_with(".noli-"); }
+
+/// Whether a folder holds a run, or nothing at all. What a run begins with is trajectory.blocks; a lonely scene.json is
+/// somebody's scene.
+bool is_run(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return false;
+  if (fs::is_regular_file(trajectory_path(folder), error)) return true;
+  const std::vector<fs::path> files = files_in(folder);
+  return std::all_of(files.begin(), files.end(), is_scrap);
+}
+
+/// Whoever made the folder may have put a link where the run will write: its target may be anybody's.
+void require_no_links(const fs::path& folder) {
+  for (const fs::path& file : files_in(folder)) {
+    if (!is_file_of_run(file.filename()) || !fs::is_symlink(fs::symlink_status(file))) continue;
+    throw UsageError("--resume: " + file.string() + " is a link, which is not written to; expected a file of the run");
+  }
+}
+
+/// A scene without what a run's bytes do not depend on.
+Json essential(Json scene) {
+  for (const char* field : {"duration", "title", "about", "short"}) scene.erase(field);
+  if (scene.value("record", "") != "frames") scene.erase("frame_rate");
+  return scene;
+}
+
+/// The files of a run, but not the folder: it may be the current one. What tells that it is a run goes last, so it is
+/// one still if this is cut short. A link is removed, and its target stays.
+void clear(const fs::path& folder) {
+  const fs::path last = trajectory_path(folder);
+  for (const fs::path& file : files_in(folder)) {
+    if (file != last && is_file_of_run(file.filename()) && !fs::is_directory(fs::symlink_status(file)))
+      fs::remove(file);
+  }
+  fs::remove(last);
+}
+
+}  // namespace
+
+/// Without a "." or a slash at its end, which some operations on folders do not take.
+RunFolder::RunFolder(const fs::path& path) : path_(path.lexically_normal()) {
+  if (!path_.has_filename() && path_.has_relative_path()) path_ = path_.parent_path();
+}
+
+void RunFolder::lock() {
+  std::error_code error;
+  if (lock_ || !fs::is_directory(path_, error)) return;
+  try {
+    lock_.emplace(path_);
+  } catch (const FolderLocked& locked) {
+    throw UsageError("-o " + std::string(locked.what()) + "; expected another folder, or to wait for its end");
+  } catch (const std::system_error& closed) {
+    throw UsageError("-o " + std::string(closed.what()) + "; expected a folder that may be read and written to");
+  }
+}
+
+void RunFolder::make(bool force) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path_, error))) make_writable_folder(path_, "-o");
+  lock();
+  const bool empty = fs::is_directory(path_, error) && fs::is_empty(path_, error);
+  if (!empty && !force) {
+    throw UsageError("-o " + path_.string() + ": is there already; expected a new folder, --resume or --force");
+  }
+  if (!is_run(path_)) throw UsageError("-o " + path_.string() + ": is no run; expected a folder that may be replaced");
+  require_writable_folder(path_.string(), "-o");
+  clear(path_);
+}
+
+void RunFolder::begin(const Json& scene, const Sha256Digest& model, const Json& facts) {
+  write_manifest(path_, text_of(scene), {{"noli", version_number()}}, model);
+  log_.emplace(path_);
+  log_begin(facts);
+}
+
+void RunFolder::log_begin(const Json& facts) {
+  Json entry = {{"event", "begin"}, {"version", log_version}, {"manifest_sha256", hex(manifest_hash(path_))}};
+  entry.update(facts);
+  log(entry);
+}
+
+bool RunFolder::has_begun() const {
+  if (!is_run(path_)) throw UsageError("--resume: " + path_.string() + " is no run; expected the folder of one");
+  require_writable_folder(path_.string(), "--resume");
+  require_no_links(path_);
+  const fs::path trajectory = trajectory_path(path_);
+  if (fs::exists(trajectory)) require_writable_file(trajectory, "--resume");
+  if (fs::exists(path_ / "manifest.json")) return true;
+  // The log comes after the manifest.
+  if (!fs::exists(path_ / "log.jsonl")) return false;
+  throw UsageError("--resume: " + path_.string() + " has lost its manifest.json; expected a whole run");
+}
+
+KnownWindows RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
+  const LogFacts told = read_log(path_);
+  const RunManifest manifest = read_manifest(path_);
+  const Json there = Json::parse(read_scene(path_, manifest), nullptr, false);
+  if (!there.is_object() || essential(there) != essential(scene)) {
+    throw InputError((path_ / "scene.json").string(), "",
+                     "is another scene; expected the one to go on with (its duration may differ)");
+  }
+  if (manifest.model_sha256 && *manifest.model_sha256 != model) {
+    throw InputError((path_ / "manifest.json").string(), "/model/sha256",
+                     "the run began with other meshes or paths; expected those files that the scene names unchanged");
+  }
+  try {
+    log_.emplace(path_);
+  } catch (const std::system_error& lock) {
+    throw UsageError("--resume: " + std::string(lock.what()) + "; expected a run that may be written to");
+  }
+  log_has_begun_ = told.parts > 0;
+  KnownWindows known = told.known;
+  known.made_again = true;
+  return known;
+}
+
+void RunFolder::resumed(const CommittedWindows& committed, const Json& facts) {
+  if (!log_has_begun_) log_begin(facts);
+  Json entry = {{"event", "resume"}};
+  committed.tell(entry);
+  log(entry);
+}
+
+bool is_file_of_run(const fs::path& name) {
+  static const std::set<std::string> names = {"manifest.json", "scene.json", "trajectory.blocks",
+                                              "proof.blocks",  "log.jsonl",  "series.h5"};
+  const std::string text = name.extension() == ".part" ? name.stem().string() : name.string();
+  return names.count(text) > 0 || text.starts_with(".noli-");
+}
+
+std::string title_of(const fs::path& run) {
+  const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
+  return scene.is_object() && scene.contains("title") && scene["title"].is_string() ? scene["title"].get<std::string>()
+                                                                                    : "";
+}
+
+std::optional<double> duration_of(const fs::path& run) {
+  for (const char* file : {"manifest.json", "scene.json"}) {
+    std::error_code error;
+    if (fs::status(run / file, error).type() == fs::file_type::not_found) return std::nullopt;
+  }
+  const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
+  if (!scene.is_object() || !scene.contains("duration") || !scene["duration"].is_number()) return std::nullopt;
+  return scene["duration"];
+}
+
+Sha256Digest RunFolder::keep_series() const {
+  const fs::path series = path_ / "series.h5";
+  FileSink(series, FileSink::Open::existing).sync();
+  sync_folder(path_);
+  return file_facts(series).sha256;
+}
+
+void CommittedWindows::tell(Json& entry) const {
+  entry["windows"] = count;
+  entry["running"] = hex(running);
+}
+
+void RunFolder::log(const CommittedWindows& committed, const SeriesRow& row, std::uint32_t deepest) {
+  log({{"event", "window"},
+       {"window", committed.count - 1},
+       {"time", row.time},
+       {"verdict", "no_contact"},
+       {"events", row.events_in_all()},
+       {"breakpoints", row.breakpoints},
+       {"running", hex(committed.running)},
+       {"timing", {{"deepest", deepest}}}});
+}
+
+void RunFolder::log(const Json& entry) { log_->append(entry); }
+
+}  // namespace noli

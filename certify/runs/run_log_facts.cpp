@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/runs/run_log_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "trajectory/blocks/run_log.h"
+#include "trajectory/blocks/run_manifest.h"
+#include "trajectory/error.h"
+#include "trajectory/formats/frame_look.h"
+
+namespace noli {
+namespace {
+
+/// A member that is a number, or else 0.
+template <class T>
+T number(const Json& json, const char* key) {
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return json.is_object() && found != json.end() && found->is_number() ? found->template get<T>() : T{};
+}
+
+const Json& member(const Json& json, const char* key) {
+  static const Json nothing;
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return json.is_object() && found != json.end() ? *found : nothing;
+}
+
+std::optional<Sha256Digest> digest(const Json& json, const char* key) {
+  const Json& text = member(json, key);
+  return text.is_string() ? digest_of_hex(text.get_ref<const std::string&>()) : std::nullopt;
+}
+
+class Reader {
+ public:
+  void take(const Json& entry) {
+    const Json& event = member(entry, "event");
+    if (!event.is_string()) {
+      ++facts_.bad_lines;
+      return;
+    }
+    const auto is = [&](const char* name) { return event.get_ref<const std::string&>() == name; };
+    if (is("begin")) begin(entry);
+    if (is("begin") || is("resume")) {
+      ++facts_.parts;
+      facts_.going_on = true;
+      facts_.series.reset();
+    }
+    if (is("resume")) tell(entry, "windows", 0);
+    if (is("window")) window(entry);
+    if (is("roll_back")) roll_back(entry);
+    if (is("end")) end(entry);
+  }
+
+  LogFacts finish() { return std::move(facts_); }
+
+ private:
+  void begin(const Json& entry) {
+    facts_.names = BodyNames::from_json(member(entry, "bodies"));
+    facts_.manifest = digest(entry, "manifest_sha256");
+    const Json& contact = member(entry, "contact");
+    if (!contact.is_object()) return;
+    facts_.has_contact = true;
+    facts_.most_layers = number<std::uint32_t>(contact, "most_layers");
+    const Json& quarters = member(contact, "layers");
+    if (quarters.is_array() && quarters.size() == 3 &&
+        std::all_of(quarters.begin(), quarters.end(), [](const Json& q) { return q.is_number_integer(); })) {
+      facts_.layers = {quarters[0], quarters[1], quarters[2]};
+    }
+    for (const Json& material : member(contact, "materials")) {
+      facts_.thicknesses.push_back(number<double>(material, "thickness"));
+    }
+  }
+
+  /// Whoever resumes may have found fewer windows than the part before had told of, and makes the others again.
+  void tell(const Json& entry, const char* windows, std::uint64_t more) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 53;
+    if (!member(entry, windows).is_number_unsigned()) return;
+    const auto count = number<std::uint64_t>(entry, windows);
+    if (count <= most) facts_.known = {count + more, digest(entry, "running"), false};
+  }
+
+  void window(const Json& entry) {
+    tell(entry, "window", 1);
+    const Json& timing = member(entry, "timing");
+    if (!member(timing, "deepest").is_number()) return;  // what it does not say is not known
+    const auto window = number<std::uint64_t>(entry, "window");
+    if (window >= next_) {
+      ++facts_.windows;
+      next_ = window + 1;
+    }
+    facts_.deepest = std::max(facts_.deepest, number<std::uint32_t>(timing, "deepest"));
+  }
+
+  void roll_back(Json entry) {
+    if (member(entry, "window").is_number_unsigned()) entry["window"] = entry["window"].get<std::uint64_t>() + 1;
+    facts_.roll_backs.push_back(std::move(entry));
+  }
+
+  void end(const Json& entry) {
+    ++facts_.parts_ended;
+    tell(entry, "windows", 0);
+    facts_.going_on = false;
+    facts_.series = digest(entry, "series_sha256");
+    const Json& why = member(entry, "end");
+    facts_.last_end = why.is_string() ? why.get<std::string>() : "";
+    facts_.last_end_line = entry;
+    const Json& timing = member(entry, "timing");
+    facts_.verifying_seconds += number<double>(timing, "verifying_seconds");
+    for (std::size_t i = 0; i < integrator::phases; ++i) {
+      const std::string phase(name(static_cast<integrator::Phase>(i)));
+      facts_.phases[i] += number<double>(member(timing, "phases"), phase.c_str());
+    }
+    const Json& counts = member(timing, "certificates");
+    certificates::CertificateCounts more;
+    more.slices = number<std::uint64_t>(counts, "slices");
+    more.tubes = number<std::uint64_t>(counts, "tubes");
+    more.plans = number<std::uint64_t>(counts, "plans");
+    more.repairs = number<std::uint64_t>(counts, "repairs");
+    more.activations = number<std::uint64_t>(counts, "activations");
+    more.deactivations = number<std::uint64_t>(counts, "deactivations");
+    more.most_near = number<std::uint64_t>(counts, "most_near");
+    more.deepest = number<std::uint32_t>(counts, "deepest");
+    facts_.certificates += more;
+  }
+
+  LogFacts facts_;
+  std::uint64_t next_ = 0;  ///< window; one may be logged twice, by a part that was killed and by the next
+};
+
+/// Those that are there: whoever has no scene can do without it, and without a log nothing can be compared.
+void require_manifest(const std::filesystem::path& run, const LogFacts& log) {
+  const std::filesystem::path path = run / "manifest.json";
+  if (!std::filesystem::exists(path)) return;
+  const Sha256Digest found = manifest_hash(run);
+  if (log.manifest && found != *log.manifest) {
+    throw InputError(
+        path.string(), "",
+        fmt::format("is damaged: it has SHA-256 {}; expected {}, which the log has", hex(found), hex(*log.manifest)));
+  }
+  if (std::filesystem::exists(run / "scene.json")) read_scene(run, read_manifest(run));
+}
+
+}  // namespace
+
+LogFacts read_log(const std::filesystem::path& run) {
+  Reader reader;
+  read_log_lines(run, [&reader](const Json& entry) { reader.take(entry); });
+  LogFacts facts = reader.finish();
+  require_manifest(run, facts);
+  return facts;
+}
+
+SeriesReader open_run(const std::filesystem::path& run, const LogFacts& log) {
+  SeriesReader reader(run);
+  reader.expect(log.known);
+  return reader;
+}
+
+SeriesReader open_run(const std::filesystem::path& run) { return open_run(run, read_log(run)); }
+
+std::optional<std::string> note_of_lost_log(const LogFacts& log) {
+  if (log.parts > 0) return std::nullopt;
+  return "the run has no log.jsonl: windows that are missing at its end would not be noticed";
+}
+
+void require_series(const std::filesystem::path& run, const LogFacts& log) {
+  const std::filesystem::path path = run / "series.h5";
+  if (!log.series || !std::filesystem::exists(path)) return;
+  const Sha256Digest found = file_facts(path).sha256;
+  if (found == *log.series) return;
+  throw InputError(path.string(), "",
+                   fmt::format("is damaged: it has SHA-256 {}; expected {}, which the log has (`noli simulate ... "
+                               "--resume` writes it again)",
+                               hex(found), hex(*log.series)));
+}
+
+}  // namespace noli

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/runs/run_series.h"
+
+#include <stdexcept>
+
+#include "trajectory/blocks/bytes.h"
+
+namespace noli {
+namespace {
+
+constexpr std::string_view letters = "noli row";
+constexpr std::uint64_t version = 2;
+constexpr std::size_t beginning = letters.size() + sizeof(version);
+
+/// Calls f on each number of a layer, in order.
+template <class Layer, class F>
+void each_number(Layer& layer, F&& f) {
+  f(layer.layer);
+  f(layer.material);
+  f(layer.pair);
+  for (auto& v : layer.vertices) f(v);
+  f(layer.time);
+  f(layer.distance);
+}
+
+/// Calls f on each number of a row, in order, up to its histogram.
+template <class Row, class F>
+void each_number_of_row(Row& row, F&& f) {
+  f(row.time);
+  f(row.kinetic);
+  f(row.kinetic_mean);
+  for (auto* list : {&row.potential, &row.work, &row.damping_work}) {
+    for (auto& x : *list) f(x);
+  }
+  for (auto* list : {&row.momentum, &row.angular_momentum}) {
+    for (auto& x : *list) f(x);
+  }
+  for (auto& n : row.events) f(n);
+  f(row.breakpoints);
+  f(row.halvings);
+  each_number(row.deepest, f);
+  each_number(row.nearest, f);
+  f(row.steps.smallest);
+}
+
+/// Takes numbers from the front of bytes.
+class Numbers {
+ public:
+  explicit Numbers(std::string_view bytes) : bytes_(bytes) {}
+
+  void operator()(double& x) { x = take<double>(); }
+  void operator()(std::uint64_t& n) { n = take<std::uint64_t>(); }
+  void operator()(std::int64_t& n) { n = static_cast<std::int64_t>(take<std::uint64_t>()); }
+  void operator()(VertexId& v) { v = static_cast<VertexId>(below(std::uint64_t{1} << 32)); }
+  void operator()(FeaturePair& pair) { pair = static_cast<FeaturePair>(below(all_feature_pairs.size())); }
+
+  std::size_t left() const { return bytes_.size(); }
+
+ private:
+  template <class T>
+  T take() {
+    if (bytes_.size() < sizeof(T)) throw std::invalid_argument("it ends too soon");
+    const T value = get<T>(bytes_.data());
+    bytes_.remove_prefix(sizeof(T));
+    return value;
+  }
+
+  std::uint64_t below(std::uint64_t end) {
+    const auto n = take<std::uint64_t>();
+    if (n >= end) throw std::invalid_argument("a vertex or a pair of features that is none");
+    return n;
+  }
+
+  std::string_view bytes_;
+};
+
+StepHistogram take_steps(Numbers& take, double smallest) {
+  StepHistogram steps{smallest, {}};
+  std::uint64_t count = 0;
+  take(count);
+  if (count != take.left() / 16 || take.left() % 16 != 0) {
+    throw std::invalid_argument("it has another size than its bins take");
+  }
+  steps.bins.resize(count);
+  for (auto& bin : steps.bins) {
+    take(bin.number);
+    take(bin.ticks);
+  }
+  for (std::size_t i = 1; i < count; ++i) {
+    if (steps.bins[i].number <= steps.bins[i - 1].number)
+      throw std::invalid_argument("the bins of steps do not ascend");
+  }
+  return steps;
+}
+
+}  // namespace
+
+std::string encode(const SeriesRow& row) {
+  std::string bytes(letters);
+  put(bytes, version);
+  each_number_of_row(row, [&bytes]<class T>(const T& x) {
+    if constexpr (std::is_same_v<T, double>) {
+      put(bytes, x);
+    } else {
+      put(bytes, static_cast<std::uint64_t>(x));
+    }
+  });
+  put(bytes, static_cast<std::uint64_t>(row.steps.bins.size()));
+  for (const auto& bin : row.steps.bins) {
+    put(bytes, static_cast<std::uint64_t>(bin.number));
+    put(bytes, bin.ticks);
+  }
+  return bytes;
+}
+
+std::string not_a_row(std::string_view bytes) {
+  if (bytes.size() < beginning || !bytes.starts_with(letters)) {
+    return "its series is no row of version 2, as a run of an earlier Noli has it; expected a run of this version";
+  }
+  const auto found = get<std::uint64_t>(bytes.data() + letters.size());
+  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 2";
+}
+
+SeriesRow decode_row(std::string_view bytes) {
+  if (const std::string problem = not_a_row(bytes); !problem.empty()) throw std::invalid_argument(problem);
+  Numbers take(bytes.substr(beginning));
+  SeriesRow row;
+  each_number_of_row(row, take);
+  row.steps = take_steps(take, row.steps.smallest);
+  return row;
+}
+
+ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action) {
+  if (!action) return {};
+  return {action->layer, action->material, action->pair.kind, action->pair.vertices, action->time, action->distance};
+}
+
+}  // namespace noli

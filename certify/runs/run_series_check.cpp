@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/runs/run_series_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+#include "certify/simulate/retries.h"
+
+namespace noli {
+namespace {
+
+constexpr std::uint64_t most_counted = std::uint64_t{1} << 53;
+
+template <class... Parts>
+void require(bool holds, fmt::format_string<Parts...> problem, Parts&&... parts) {
+  if (!holds) throw std::invalid_argument(fmt::format(problem, std::forward<Parts>(parts)...));
+}
+
+// --- Times -----------------------------------------------------------------------------------------------------------
+
+/// A simulation's windows are all of the same length, and begin at 0.
+void check_times(const SeriesRow& row, const RunWindow& window, const RunScene& scene) {
+  const auto index = static_cast<double>(window.index);
+  const double length = scene.header.window_length, begin = index * length, end = (index + 1) * length;
+  require(window.begin == begin && window.end == end, "is of a window from {} s to {} s; expected {} s to {} s",
+          window.begin, window.end, begin, end);
+  require(row.time == window.end, "ends at {} s; expected {} s", row.time, window.end);
+}
+
+// --- Counts ----------------------------------------------------------------------------------------------------------
+
+void check_counts(const SeriesRow& row, const RunWindow& window, std::uint64_t halvings_before) {
+  for (const std::uint64_t events : row.events) {
+    require(events <= most_counted, "{} events; expected at most 2^53", events);
+  }
+  require(row.breakpoints == window.breakpoints && row.breakpoints <= most_counted,
+          "{} breakpoints; expected the {} of its world lines", row.breakpoints, window.breakpoints);
+  constexpr std::uint64_t most_a_window = Retries::most - 1;
+  const std::uint64_t most = most_a_window * (window.index + 1);
+  require(row.halvings <= most, "{} halvings; expected at most {}", row.halvings, most);
+  require(row.halvings >= halvings_before, "{} halvings; expected at least {}, which the window before has",
+          row.halvings, halvings_before);
+}
+
+// --- Layers ----------------------------------------------------------------------------------------------------------
+
+void check_vertices(const ActingLayer& layer, const RunScene& scene) {
+  const bool flat = scene.header.dimension == 2;
+  require(!flat || layer.pair == FeaturePair::vertex_edge || layer.pair == FeaturePair::vertex_vertex,
+          "a layer between a pair of features that 2D has not: {}", name(layer.pair));
+  const std::span<const VertexId> vertices(layer.vertices.data(), point_count(layer.pair));
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    require(vertices[i] < scene.mesh.vertex_count, "a layer at vertex {}; expected one below {}", vertices[i],
+            scene.mesh.vertex_count);
+    require(std::find(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(i), vertices[i]) ==
+                vertices.begin() + static_cast<std::ptrdiff_t>(i),
+            "a layer that names a vertex twice: {}", vertices[i]);
+  }
+}
+
+void check_layer(const ActingLayer& layer, const RunWindow& window, const RunScene& scene) {
+  if (layer.layer == 0) return require(layer == ActingLayer{}, "numbers of a layer that did not act");
+  constexpr std::uint64_t most_layers = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t most_materials = std::numeric_limits<std::uint16_t>::max();
+  require(layer.layer <= most_layers, "layer {}; expected at most {}", layer.layer, most_layers);
+  require(layer.material <= most_materials, "material {}; expected at most {}", layer.material, most_materials);
+  check_vertices(layer, scene);
+  require(window.begin <= layer.time && layer.time <= window.end, "a layer acts at {} s; expected {} s to {} s",
+          layer.time, window.begin, window.end);
+  require(layer.distance >= 0 && std::isfinite(layer.distance),
+          "a layer at a distance {} m; expected a finite one, 0 or more", layer.distance);
+}
+
+void check_layers(const SeriesRow& row, const RunWindow& window, const RunScene& scene) {
+  const ActingLayer &deepest = row.deepest, &nearest = row.nearest;
+  check_layer(deepest, window, scene);
+  check_layer(nearest, window, scene);
+  require((deepest.layer == 0) == (nearest.layer == 0), "a deepest layer or a nearest one, not both");
+  require(nearest.layer <= deepest.layer, "a layer {} that is deeper than the deepest, {}", nearest.layer,
+          deepest.layer);
+  require(nearest.distance <= deepest.distance, "a nearest distance {} m that is farther than the deepest layer's",
+          nearest.distance);
+}
+
+// --- Steps -----------------------------------------------------------------------------------------------------------
+
+void check_bin(const StepHistogram::Bin& bin, std::int64_t greatest) {
+  require(least_step_bin <= bin.number && bin.number <= greatest, "the bin {}; expected bins of steps from {} to {}",
+          bin.number, least_step_bin, greatest);
+  require(bin.ticks > 0, "an empty bin, {}; expected only those that have ticks", bin.number);
+}
+
+/// Their sum; nothing beyond 2^64 is added up.
+std::uint64_t ticks_of(const StepHistogram& steps, std::uint64_t expected) {
+  std::uint64_t sum = 0;
+  for (const auto& bin : steps.bins) {
+    require(bin.ticks <= expected - sum, "more than {} ticks in its bins; expected so many", expected);
+    sum += bin.ticks;
+  }
+  return sum;
+}
+
+void check_steps(const StepHistogram& steps, const RunWindow& window, const RunScene& scene) {
+  const double length = window.end - window.begin;
+  for (const auto& bin : steps.bins) check_bin(bin, step_bin(length));
+  const auto free = static_cast<std::uint64_t>(std::ranges::count(scene.labels, 0));
+  require(free < most_counted >> 32, "{} free vertices; expected fewer", free);
+  const std::uint64_t expected = free << 32, found = ticks_of(steps, expected);
+  require(found == expected, "{} ticks in its bins; expected {}, 2^32 for each free vertex", found, expected);
+  if (free == 0)
+    return require(steps.smallest == 0, "a smallest step of {} s; expected 0, nothing is free", steps.smallest);
+  require(0 < steps.smallest && steps.smallest <= length, "a smallest step of {} s; expected one up to {} s",
+          steps.smallest, length);
+}
+
+}  // namespace
+
+void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, std::uint64_t halvings) {
+  check_times(row, window, scene);
+  check_counts(row, window, halvings);
+  check_layers(row, window, scene);
+  check_steps(row.steps, window, scene);
+}
+
+}  // namespace noli

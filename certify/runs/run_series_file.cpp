@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/runs/run_series_file.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "certify/runs/frame_times.h"
+#include "certify/runs/run_series_reader.h"
+#include "certify/runs/series_file.h"
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/error.h"
+#include "trajectory/sample.h"
+
+namespace noli {
+namespace {
+
+using integrator::ForceKind;
+
+using Stop = std::function<bool()>;
+
+/// How long the series are.
+struct Extent {
+  std::uint64_t windows = 0, frames = 0;
+  std::int64_t first_bin = 0;  ///< of steps
+  std::uint64_t bins = 0;
+
+  void add(const StepHistogram& steps) {
+    if (steps.bins.empty()) return;
+    const std::int64_t first = steps.bins.front().number, last = steps.bins.back().number;
+    const std::int64_t end = bins == 0 ? last + 1 : std::max(last + 1, first_bin + static_cast<std::int64_t>(bins));
+    first_bin = bins == 0 ? first : std::min(first, first_bin);
+    bins = static_cast<std::uint64_t>(end - first_bin);
+  }
+};
+
+std::uint64_t frames_in(const RunWindow& window, double rate, const Stop& stop) {
+  if (!window.lines) return window.frames.size();
+  std::uint64_t count = 0;
+  for_each_frame_time(window.index, window.begin, window.end, rate, [&](double) { return ++count > 0 && !stop(); });
+  return count;
+}
+
+/// Nothing when it was stopped.
+std::optional<Extent> measure(const std::filesystem::path& run, double rate, const Stop& stop) {
+  SeriesReader reader(run);
+  Extent extent;
+  while (const auto window = reader.next_window()) {
+    ++extent.windows;
+    extent.add(reader.row().steps);
+    extent.frames += frames_in(*window, rate, stop);
+    if (stop()) return std::nullopt;
+  }
+  return extent;
+}
+
+/// An array of the file that is filled from its beginning, many rows at a time.
+class Column {
+ public:
+  Column(SeriesFile& file, std::string name, const std::string& unit, const SeriesShape& shape)
+      : file_(&file), name_(std::move(name)) {
+    file.declare(name_, unit, shape);
+  }
+
+  /// Precondition: one row.
+  void append(std::span<const double> row) {
+    constexpr std::size_t enough = 1 << 14;
+    waiting_.insert(waiting_.end(), row.begin(), row.end());
+    ++rows_;
+    if (waiting_.size() >= enough) flush();
+  }
+  void append(double value) { append(std::span(&value, 1)); }
+
+  void flush() {
+    if (waiting_.empty()) return;
+    file_->write_rows(name_, written_, waiting_);
+    written_ += rows_;
+    rows_ = 0;
+    waiting_.clear();
+  }
+
+ private:
+  SeriesFile* file_;
+  std::string name_;
+  std::vector<double> waiting_;
+  std::uint64_t written_ = 0, rows_ = 0;
+};
+
+SeriesProgram program_that_stops(const Stop& stop) {
+  SeriesProgram program = series_program();
+  program.stop = stop;
+  return program;
+}
+
+class Series {
+ public:
+  Series(const std::filesystem::path& run, double rate, const Extent& extent, const Stop& stop)
+      : run_(run),
+        rate_(rate),
+        stop_(stop),
+        extent_(extent),
+        reader_(run),
+        file_(run / "series.h5", program_that_stops(stop)) {
+    declare();
+  }
+
+  /// Whether it was not stopped.
+  bool write() {
+    while (const auto window = reader_.next_window()) {
+      write(reader_.row());
+      if (!write_frames(*window)) return false;
+    }
+    for (auto& [name, column] : columns_) column.flush();
+    file_.close();
+    return true;
+  }
+
+ private:
+  static std::string of(const char* group, std::size_t kind) {
+    return std::string(group) + "/" + std::string(name(static_cast<ForceKind>(kind)));
+  }
+
+  void declare(const std::string& name, const std::string& unit, const SeriesShape& shape) {
+    columns_.try_emplace(name, file_, name, unit, shape);
+  }
+
+  void declare() {
+    const std::uint64_t n = extent_.windows;
+    declare("time", "s", {n});
+    declare("energy/kinetic", "J", {n});
+    declare("energy/kinetic_mean", "J", {n});
+    for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
+      declare(of("energy/potential", k), "J", {n});
+      declare(of("work", k), "J", {n});
+      declare(of("damping_work", k), "J", {n});
+    }
+    declare("momentum", "N s", {n, 3});
+    declare("angular_momentum", "N m s", {n, 3});
+    declare("events", "1", {n});
+    for (std::size_t k = 0; k < integrator::force_kinds; ++k) declare(of("events_of", k), "1", {n});
+    declare("breakpoints", "1", {n});
+    declare("contact/deepest_layer", "1", {n});
+    declare("contact/least_distance", "m", {n});
+    declare("histograms/smallest_step", "s", {n});
+    declare("histograms/step_share", "1", {n, extent_.bins});
+    std::vector<double> ends;
+    for (std::uint64_t i = 0; i <= extent_.bins; ++i) {
+      ends.push_back(bin_begin(extent_.first_bin + static_cast<std::int64_t>(i)));
+    }
+    file_.add("histograms/step_ends", "s", ends);
+    declare("frames/time", "s", {extent_.frames});
+    declare("frames/positions", "m", {extent_.frames, reader_.mesh().vertex_count, 3});
+  }
+
+  Column& column(const std::string& name) { return columns_.at(name); }
+
+  void write(const SeriesRow& row) {
+    column("time").append(row.time);
+    column("energy/kinetic").append(row.kinetic);
+    column("energy/kinetic_mean").append(row.kinetic_mean);
+    for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
+      column(of("energy/potential", k)).append(row.potential[k]);
+      column(of("work", k)).append(row.work[k]);
+      column(of("damping_work", k)).append(row.damping_work[k]);
+    }
+    column("momentum").append(row.momentum);
+    column("angular_momentum").append(row.angular_momentum);
+    column("events").append(static_cast<double>(row.events_in_all()));
+    for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
+      column(of("events_of", k)).append(static_cast<double>(row.events[k]));
+    }
+    column("breakpoints").append(static_cast<double>(row.breakpoints));
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    column("contact/deepest_layer").append(static_cast<double>(row.deepest.layer));
+    column("contact/least_distance").append(row.nearest.layer > 0 ? row.nearest.distance : none);
+    column("histograms/smallest_step").append(row.steps.smallest);
+    column("histograms/step_share").append(shares(row.steps));
+  }
+
+  /// Of each bin that the run has.
+  std::vector<double> shares(const StepHistogram& steps) const {
+    std::vector<double> row(extent_.bins, 0);
+    const double all = static_cast<double>(steps.ticks());
+    for (const auto& bin : steps.bins) {
+      row[static_cast<std::size_t>(bin.number - extent_.first_bin)] = static_cast<double>(bin.ticks) / all;
+    }
+    return row;
+  }
+
+  bool write_frames(const RunWindow& window) {
+    const auto write = [this](double t, const std::vector<Position>& positions) {
+      write_frame(t, positions);
+      return !stop_();
+    };
+    for (const RunFrame& frame : window.frames) {
+      if (!write(frame.time, frame.positions)) return false;
+    }
+    if (!window.lines) return !stop_();
+    for_each_frame_time(window.index, window.begin, window.end, rate_,
+                        [&](double t) { return write(t, sample(*window.lines, t)); });
+    return !stop_();
+  }
+
+  void write_frame(double time, const std::vector<Position>& positions) {
+    column("frames/time").append(time);
+    column("frames/positions").append(std::span<const double>(positions.front().data(), 3 * positions.size()));
+  }
+
+  const std::filesystem::path& run_;
+  double rate_;
+  const Stop& stop_;
+  Extent extent_;
+  SeriesReader reader_;
+  SeriesFile file_;
+  std::map<std::string, Column> columns_;
+};
+
+}  // namespace
+
+const char* name(SeriesEnd end) {
+  switch (end) {
+    case SeriesEnd::written: return "written";
+    case SeriesEnd::unavailable: return "unavailable";
+    case SeriesEnd::stopped: return "stopped";
+    case SeriesEnd::failed: return "failed";
+  }
+  return "";
+}
+
+SeriesEnd write_series_file(const std::filesystem::path& run, double frame_rate, const Stop& stop) {
+  if (!series_program().available()) return SeriesEnd::unavailable;
+  const auto extent = measure(run, frame_rate, stop);
+  try {
+    const bool written = extent && Series(run, frame_rate, *extent, stop).write();
+    return written ? SeriesEnd::written : SeriesEnd::stopped;
+  } catch (const SeriesStopped&) {
+    return SeriesEnd::stopped;
+  }
+}
+
+}  // namespace noli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/runs/run_series_reader.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "certify/runs/run_series_check.h"
+#include "trajectory/error.h"
+
+namespace noli {
+
+SeriesReader::SeriesReader(const std::filesystem::path& run) : RunReader(run), run_(run) {}
+
+std::optional<RunWindow> SeriesReader::next_window() {
+  std::optional<RunWindow> window = RunReader::next_window();
+  if (window) take_row(*window);
+  return window;
+}
+
+void SeriesReader::take_row(const RunWindow& window) {
+  const std::uint64_t halvings = row_ ? row_->halvings : 0;
+  row_.reset();
+  why_none_ = not_a_row(window.state);
+  if (!why_none_.empty()) return;
+  try {
+    row_ = decode_row(window.state);
+    check_row(*row_, window, scene(), halvings);
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  }
+}
+
+const SeriesRow& SeriesReader::row() const {
+  if (!row_) refuse(why_none_);
+  return *row_;
+}
+
+void SeriesReader::refuse(const std::string& problem) const {
+  throw InputError(trajectory_path(run_).string(), "", fmt::format("the state of window {}: {}", windows(), problem));
+}
+
+}  // namespace noli

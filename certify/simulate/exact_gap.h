@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How near two features come over a stretch of world lines, decided exactly.
+//
+// Notation
+//   piece   between two successive breakpoints of the features' vertices: all of them move linearly in it
+//   gap     the least distance over all pieces; with the kernel's exact predicate "within eta at some time of the
+//           piece" (kernel/thickness.h) it is found by bisection over the doubles
+//
+// A direction n with n . (a - b) >= g |n| for all points a, b at both ends of a piece shows, with a bound of its
+// rounding, that the piece is farther than g; so most pieces are never decided exactly.
+//
+// What this does not do: it looks at no other features than these two.
+#pragma once
+
+#include <array>
+
+#include "kernel/query.h"
+#include "trajectory/world_lines.h"
+
+namespace noli {
+
+/// above < gap <= up_to, and no double is between; or both are 0, which is contact.
+struct ExactGap {
+  double above = 0, up_to = 0;
+  double time = 0;  ///< about when they first are within up_to
+
+  friend bool operator==(const ExactGap&, const ExactGap&) = default;
+};
+
+/// `vertices`: as in kernel/query.h; the first point_count(pair) count. Precondition: such a pair exists in the
+/// dimension, 2 or 3; the vertices are different. Throws std::range_error when the gap is above the greatest double.
+ExactGap exact_gap(const WorldLines& lines, int dimension, FeaturePair pair, const std::array<VertexId, 4>& vertices);
+
+}  // namespace noli

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/simulate/reproduce_run.h"
+
+#include <fmt/format.h>
+
+#include "certify/runs/run_log_facts.h"
+#include "certify/runs/run_series_reader.h"
+#include "certify/simulate/model_run.h"
+#include "integrator/contact_limit.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
+#include "trajectory/write_file.h"
+
+namespace noli {
+namespace {
+
+/// The window, and the state at its beginning.
+template <int Dim>
+struct Found {
+  RunWindow window;
+  std::uint64_t halvings = 0;
+  integrator::Snapshot<double, Dim> before;
+};
+
+template <int Dim>
+Found<Dim> find_window(const ReproduceRequest& request) {
+  SeriesReader reader = open_run(request.run);
+  Found<Dim> found;
+  while (auto window = reader.next_window()) {
+    end_if_stopped();
+    if (window->index + 1 == request.window) {
+      found.window = std::move(*window);
+      found.halvings = reader.row().halvings;
+      return found;
+    }
+    found.before = snapshot_of<Dim>(*window);
+  }
+  throw InputError(
+      request.run.string(), "",
+      fmt::format("has {} windows, counted from 1; expected one of them, found {}", reader.windows(), request.window));
+}
+
+template <int Dim>
+void run_window(integrator::Simulation<double, Dim>& simulation, integrator::Recording<double, Dim>& recording,
+                const ReproduceRequest& request) {
+  integrator::Books<double, Dim> books;
+  try {
+    simulation.run_window(recording, books);
+  } catch (const integrator::ContactLimit& limit) {
+    throw InputError(trajectory_path(request.run).string(), "",
+                     fmt::format("window {}: integrated again, a pair needs more layers than allowed at {:.17g} s: the "
+                                 "run has been changed, or another version of noli wrote it (`noli info` says which)",
+                                 request.window, limit.time));
+  }
+}
+
+template <int Dim>
+ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Scene& scene) {
+  const Found<Dim> found = find_window<Dim>(request);
+  const auto built = integrator::build_model<Dim>(scene);
+  if (built.model.x.size() != found.window.positions.size()) {
+    throw InputError(request.run.string(), "",
+                     "has another number of vertices than the scene; expected the run's scene");
+  }
+  auto simulation = simulation_at<Dim>(built.model, found.before, found.halvings);
+  integrator::Recording<double, Dim> recording;
+  run_window(simulation, recording, request);
+  const WorldLines lines = integrator::world_lines<Dim>(recording, built.model.x.size());
+  ReproduceOutcome outcome;
+  outcome.breakpoints = recording.stream().size();
+  outcome.expected = found.window.lines ? lines_hash(Dim, *found.window.lines) : found.window.lines_hash;
+  outcome.found = lines_hash(Dim, lines);
+  outcome.same = outcome.expected == outcome.found;
+  std::string block;
+  put_lines_block(Dim, lines, [&block](std::string_view bytes) { block += bytes; });
+  replace_file(request.output, block);
+  return outcome;
+}
+
+}  // namespace
+
+ReproduceOutcome run_reproduce(const ReproduceRequest& request) {
+  const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
+  const integrator::Scene scene = integrator::read_scene(request.scene, form);
+  return scene.dimension == 2 ? reproduce<2>(request, scene) : reproduce<3>(request, scene);
+}
+
+}  // namespace noli

@@ -1,0 +1,589 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/simulate/simulate_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <future>
+#include <memory>
+#include <stdexcept>
+
+#include "certify/body_names.h"
+#include "certify/contact_report.h"
+#include "certify/errors.h"
+#include "certify/proofs/prove_run.h"
+#include "certify/runs/frame_times.h"
+#include "certify/runs/run_folder.h"
+#include "certify/runs/run_series.h"
+#include "certify/runs/run_series_file.h"
+#include "certify/runs/run_series_reader.h"
+#include "certify/runs/series_process.h"
+#include "certify/simulate/exact_gap.h"
+#include "certify/simulate/model_facts.h"
+#include "certify/simulate/model_run.h"
+#include "certify/simulate/retries.h"
+#include "certify/simulate/run_extent.h"
+#include "certify/simulate/run_space.h"
+#include "certify/simulate/start_check.h"
+#include "certify/stopwatch.h"
+#include "integrator/contact_limit.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "kernel/parallel.h"
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/error.h"
+#include "trajectory/sample.h"
+#include "trajectory/stop.h"
+
+namespace noli {
+
+namespace {
+
+using integrator::Books;
+using integrator::Doing;
+using integrator::Phase;
+using integrator::Recording;
+using integrator::Simulation;
+using integrator::Snapshot;
+using integrator::Vec;
+
+/// A window that has been integrated and waits for its verdict.
+template <int Dim>
+struct Candidate {
+  std::uint64_t index = 0;
+  Snapshot<double, Dim> before;
+  std::unique_ptr<const WorldLines> lines;
+  std::vector<Position> velocities;
+  SeriesRow row;
+  std::uint32_t deepest = 0;  ///< layer that was active, so far
+  std::future<WindowResult> verdict;
+};
+
+template <int Dim>
+class Run {
+ public:
+  Run(const SimulateRequest& request, const integrator::Scene& scene)
+      : request_(request),
+        built_(integrator::build_model<Dim>(scene)),
+        names_(names_of(built_.bodies)),
+        labels_(labels_of<Dim>(built_.model)),
+        exclusions_(exclusions_of<Dim>(built_.model)),
+        deadline_(request.deadline),
+        verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
+        folder_(request.run),
+        record_(scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames),
+        frame_rate_(scene.frame_rate) {
+    folder_.lock();
+    outcome_.title = scene.title;
+    outcome_.dimension = Dim;
+    outcome_.vertices = built_.model.x.size();
+    outcome_.cells = built_.model.mesh.cell_count();
+    outcome_.window_length = scene.window;
+    outcome_.not_compared = not_compared(built_.model.mesh, labels_, exclusions_, names_);
+    outcome_.windows_total = windows_of(request, scene);
+    require_cells();
+    require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
+    refuse_contact_at_start();
+    const integrator::Explanation explanation = integrator::explain(scene);
+    if (wants_watch(scene, explanation)) watch_energy();
+    const std::string space = require_space(scene, explanation);
+    open(scene);
+    if (request.begun) request.begun(scene, explanation, space);
+  }
+
+  SimulateOutcome operator()() {
+    const Stopwatch watch;
+    PhaseClock clock(activity_);
+    while (!stopped()) {
+      std::optional<Candidate<Dim>> next;
+      if (simulation_->windows() < outcome_.windows_total) next = integrate();
+      if (settle() == Settled::rolled_back) continue;
+      if (outcome_.end != RunEnd::done || !next) break;
+      verify(std::move(*next));
+      tell("simulate", static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
+    }
+    settle();
+    // Whoever stopped a run of which nothing was left to do has stopped nothing.
+    if (writer_->windows() == outcome_.windows_total && stopped_from_outside()) outcome_.end = RunEnd::done;
+    find_end();
+    conclude(clock);
+    outcome_.proved = proof_ != nullptr && outcome_.windows > 0;
+    outcome_.seconds = watch.seconds();
+    return std::move(outcome_);
+  }
+
+ private:
+  void watch_energy() {
+    const integrator::State<double, Dim> state = Simulation<double, Dim>(built_.model).state();
+    const auto& contact = built_.model.contact;
+    energy_.emplace(state.kinetic, state.potential, loses_by_restitution(contact ? &*contact : nullptr));
+    outcome_.energy_watched = true;
+  }
+
+  void tell(std::string_view work, double share) const {
+    if (request_.progress) request_.progress(work, share);
+  }
+
+  int stops() const { return request_.stops ? request_.stops() : 0; }
+
+  void require_cells() const {
+    if (outcome_.cells > 0) return;
+    throw InputError(request_.scene.string(), "/bodies",
+                     "expected a mesh with faces, edges or points; what has none of them touches nothing");
+  }
+
+  bool stopped() {
+    if (stop_asked() == StopReason::interrupted) outcome_.end = RunEnd::interrupted;
+    const bool late = deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+    if (late || stop_asked() == StopReason::out_of_time) outcome_.end = RunEnd::out_of_time;
+    return outcome_.end != RunEnd::done;
+  }
+
+  bool stopped_from_outside() const {
+    return outcome_.end == RunEnd::interrupted || outcome_.end == RunEnd::out_of_time;
+  }
+
+  // --- Beginning -----------------------------------------------------------------------------------------------------
+
+  WindowOptions window_options() const {
+    WindowOptions options;
+    options.dimension = Dim;
+    options.threads = request_.threads;
+    options.initial = false;
+    options.scripted = labels_;
+    options.exclusions = &exclusions_;
+    options.stop = request_.stop;
+    options.deadline = deadline_;
+    return options;
+  }
+
+  VerifyOptions proof_options() const {
+    VerifyOptions options;
+    options.threads = request_.threads;
+    options.stop = request_.stop;
+    options.deadline = deadline_;
+    return options;
+  }
+
+  /// A run to be gone on with may have no window yet.
+  void refuse_contact_at_start() const {
+    const std::string found =
+        contact_at_start(verifier_, built_.model.mesh, positions_of<Dim>(built_.model.x), window_options(), names_);
+    if (!found.empty()) throw InputError(request_.scene.string(), "/bodies", "the scene begins in contact: " + found);
+    end_if_stopped();
+  }
+
+  /// Returns what is said of the bytes to come. Throws WriteError when the disk will not hold them, before anything is
+  /// written.
+  std::string require_space(const integrator::Scene& scene, const integrator::Explanation& explanation) const {
+    const RunToCome run = to_come();
+    const RunBytes bytes = bytes_to_come(scene, explanation, run);
+    std::optional<std::uint64_t> free = free_bytes(run.run);
+    if (free && request_.force) *free += bytes_in(run.run);  // what is replaced goes first
+    const auto problem = space_problem(bytes, run.run, free);
+    if (problem && !request_.ignore_space) throw WriteError(*problem);
+    return space_note(bytes, run.run, free);
+  }
+
+  RunToCome to_come() const {
+    RunToCome run;
+    run.run = folder_.path();
+    run.vertices = outcome_.vertices;
+    run.cells = outcome_.cells;
+    run.windows = outcome_.windows_total;
+    run.prove = request_.prove;
+    run.series = series_program().available();
+    const bool there = std::filesystem::exists(trajectory_path(run.run));
+    if (!request_.resume || !there || !folder_.has_begun()) return run;
+    run.windows_there = RunReader(run.run).count_windows();
+    std::error_code error;
+    run.bytes_there = std::filesystem::file_size(trajectory_path(run.run));
+    const auto proof = std::filesystem::file_size(proof_path(run.run), error);
+    if (!error) run.bytes_there += proof;
+    return run;
+  }
+
+  RunScene run_scene(const integrator::Scene& scene) const {
+    RunScene result;
+    result.header.dimension = Dim;
+    result.header.record = record_;
+    result.header.window_length = scene.window;
+    result.mesh = built_.model.mesh;
+    result.labels = labels_;
+    result.exclusions = exclusions_;
+    return result;
+  }
+
+  /// What the log says of the scene, for those who read the run without it.
+  Json facts() const {
+    Json json = {{"bodies", names_.to_json()}};
+    if (built_.model.contact) json["contact"] = contact_json(*built_.model.contact);
+    return json;
+  }
+
+  CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
+
+  void go_on_with(Simulation<double, Dim> simulation) {
+    simulation_.emplace(std::move(simulation));
+    simulation_->show(activity_);
+  }
+
+  void open(const integrator::Scene& scene) {
+    folder_.lock();  // another process may have made it since
+    const bool go_on = request_.resume && folder_.has_begun();
+    if (!go_on) {
+      Simulation<double, Dim> simulation(built_.model);  // which may be stopped; then nothing is written
+      folder_.make(request_.force || request_.resume);
+      writer_.emplace(folder_.path(), run_scene(scene));
+      folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
+      if (record_ == RecordMode::full && request_.prove) {
+        proof_ =
+            std::make_unique<RunProof>(std::make_unique<FileSink>(proof_path(folder_.path()), FileSink::Open::create),
+                                       run_scene(scene), positions_of<Dim>(built_.model.x), RunProof::Claim{});
+      }
+      go_on_with(std::move(simulation));
+      return;
+    }
+    const KnownWindows known = folder_.go_on(scene.document, hash_of<Dim>(built_.model));
+    SeriesReader reader(folder_.path());
+    reader.expect(known);
+    if (reader.scene() != run_scene(scene)) {
+      throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
+    }
+    Snapshot<double, Dim> last;
+    while (const auto window = reader.next_window()) {
+      last = snapshot_of<Dim>(*window);
+      const SeriesRow& row = reader.row();
+      retries_ = Retries(row.halvings);
+      if (energy_) energy_->add(row);
+      require_whole(*window);
+      if (stopped()) throw ReadInterrupted(folder_.path().string());
+    }
+    if (last.windows > outcome_.windows_total) {
+      throw InputError(folder_.path().string(), "",
+                       fmt::format("has {} windows, {} more than asked for; expected a later time to go on to",
+                                   last.windows, last.windows - outcome_.windows_total));
+    }
+    writer_.emplace(folder_.path(), reader);
+    folder_.resumed(committed(), facts());
+    const bool proved = std::filesystem::exists(proof_path(folder_.path())) || last.windows == 0;
+    if (record_ == RecordMode::full && request_.prove && proved) {
+      try {
+        proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), positions_of<Dim>(built_.model.x),
+                                  proof_options());
+      } catch (const NoProof& none) {
+        outcome_.no_proof = none.what();  // it ended before this already
+      }
+    }
+    outcome_.windows_before = last.windows;
+    go_on_with(simulation_at<Dim>(built_.model, last, retries_.halvings()));
+  }
+
+  /// Windows of a run that can be gone on with are those that a simulation writes.
+  void require_whole(const RunWindow& window) const {
+    if (window.end == static_cast<double>(window.index + 1) * outcome_.window_length) return;
+    throw InputError(folder_.path().string(), "",
+                     fmt::format("window {} ends at {} s; expected {} s to go on with it", window.index + 1, window.end,
+                                 static_cast<double>(window.index + 1) * outcome_.window_length));
+  }
+
+  // --- Windows -------------------------------------------------------------------------------------------------------
+
+  /// The next window; nothing when the run ends within it.
+  std::optional<Candidate<Dim>> integrate() {
+    const Stopwatch watch;
+    before_ = simulation_->snapshot();
+    finite_ = true;
+    limit_.reset();
+    recording_.clear();
+    Books<double, Dim> books;
+    try {
+      if (!simulation_->run_window(recording_, books, [this] { return stopped(); })) return std::nullopt;
+    } catch (const Stopped&) {
+      stopped();
+      return std::nullopt;
+    } catch (const integrator::ContactLimit& limit) {
+      finite_ = simulation_->finite();
+      if (finite_) limit_ = limit;
+      return std::nullopt;
+    }
+    if (!simulation_->finite()) {
+      finite_ = false;
+      return std::nullopt;
+    }
+    Candidate<Dim> next;
+    next.index = before_.windows;
+    next.before = before_;
+    next.deepest = simulation_->certificates().deepest;
+    const Doing recording(activity_, Phase::recording);
+    next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
+    next.velocities = positions_of<Dim>(simulation_->snapshot().v);
+    next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, labels_);
+    next.row.halvings = retries_.halvings();
+    outcome_.simulating_seconds += watch.seconds();
+    return next;
+  }
+
+  /// The window is written before its verdict, because its proof names the hash of what was written; it is not
+  /// committed before.
+  void verify(Candidate<Dim> next) {
+    candidate_ = std::move(next);
+    write(*candidate_);
+    const auto look = [lines = candidate_->lines.get(), index = candidate_->index, options = window_options(), this] {
+      const Stopwatch watch;
+      WindowResult result = verifier_.verify(*lines, options);
+      if (proof_ && result.complete && result.contact_count() == 0) {
+        result.complete = prove(index, *lines);
+      }
+      outcome_.verifying_seconds += watch.seconds();
+      return result;
+    };
+    const bool aside = (request_.threads == 0 ? hardware_threads() : request_.threads) > 1;
+    candidate_->verdict = std::async(aside ? std::launch::async : std::launch::deferred, look);
+  }
+
+  /// A window in which nothing touches is one also if no proof of it is found; the proof of the run then ends before
+  /// it, and no checker accepts that for the whole. False if it was stopped.
+  bool prove(std::uint64_t index, const WorldLines& lines) {
+    try {
+      return proof_->prove(index, lines, writer_->open_window_hash(), proof_options());
+    } catch (const NoProof& none) {
+      folder_.log({{"event", "no_proof"}, {"window", index}, {"why", none.what()}});
+      outcome_.no_proof = fmt::format("window {}: {}", index + 1, none.what());
+      proof_.reset();
+      return true;
+    }
+  }
+
+  enum class Settled { yes, rolled_back };
+
+  /// Waits for the verdict on the window that is being verified, and commits it, goes back to before it, or ends the
+  /// run.
+  Settled settle() {
+    if (!candidate_) return Settled::yes;
+    Candidate<Dim> window = std::move(*candidate_);
+    candidate_.reset();
+    WindowResult result = verdict_of(window);
+    if (!result.complete || result.contact_count() > 0) writer_->discard_window();
+    if (!result.complete) {
+      if (!stopped()) throw std::logic_error("a window was not verified to its end");
+      return Settled::yes;
+    }
+    if (result.contact_count() == 0) {
+      commit(window);
+      return Settled::yes;
+    }
+    if (roll_back(window, result)) return Settled::rolled_back;
+    outcome_.end = RunEnd::contact;
+    if (result.first)
+      outcome_.first_names = names_.pair(result.first->contact.pair, result.first->contact.vertices, "meets");
+    outcome_.contact = std::move(result);
+    return Settled::yes;
+  }
+
+  /// A window in which something touches is run once more: with more layers from the start, in case that certificates
+  /// have missed one, then with all layers' steps halved, from here on. False when all that has been tried.
+  bool roll_back(const Candidate<Dim>& window, const WindowResult& result) {
+    if (!built_.model.contact || outcome_.end != RunEnd::done) return false;
+    const std::optional<Retry> retry = retries_.next(simulation_->certificates().deepest);
+    if (!retry) return false;
+    ++outcome_.roll_backs;
+    Json entry = {{"event", "roll_back"}, {"window", window.index}, {"try", retries_.tries()}};
+    entry["least_layers"] = retry->least_layers;
+    entry["step_halvings"] = retry->halvings;
+    if (result.first) {
+      entry["first"] = contact_json(result.first->contact);
+      entry["first_time"] = result.first->lower();
+    }
+    folder_.log(entry);
+    outcome_.certificates += simulation_->certificates();
+    try {
+      go_on_with(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
+    } catch (const Stopped&) {
+      stopped();
+    }
+    return true;
+  }
+
+  WindowResult verdict_of(Candidate<Dim>& window) {
+    const Doing proving(activity_, Phase::proof);
+    return window.verdict.get();
+  }
+
+  void write(const Candidate<Dim>& window) {
+    const Doing writing(activity_, Phase::writing);
+    const std::vector<RunFrame> frames = frames_of(window);
+    writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
+  }
+
+  void commit(const Candidate<Dim>& window) {
+    const Doing writing(activity_, Phase::writing);
+    if (proof_) proof_->commit();
+    writer_->commit();
+    outcome_.events += window.row.events_in_all();
+    outcome_.breakpoints += window.row.breakpoints;
+    if (energy_) energy_->add(window.row);
+    folder_.log(committed(), window.row, window.deepest);
+    if (retries_.committed()) ++outcome_.certificate_defects;
+  }
+
+  /// With "record": "frames", those within the window.
+  std::vector<RunFrame> frames_of(const Candidate<Dim>& window) const {
+    std::vector<RunFrame> frames;
+    if (record_ == RecordMode::full) return frames;
+    const WorldLines& lines = *window.lines;
+    for_each_frame_time(window.index, lines.first_time(), lines.last_time(), frame_rate_, [&](double t) {
+      frames.push_back({t, sample(lines, t)});
+      return true;
+    });
+    return frames;
+  }
+
+  /// Why the next window did not come to its end, if it did not by itself.
+  void find_end() {
+    if (outcome_.end != RunEnd::done) return;
+    if (limit_) {
+      outcome_.end = RunEnd::too_near;
+      outcome_.limit = limit_;
+      if (before_.windows == 0) outcome_.start_gap = start_gap(limit_->pair);
+      outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "and");
+    } else if (!finite_) {
+      try {
+        outcome_.not_finite = simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] {
+          return stopped();
+        });
+      } catch (const Stopped&) {
+        stopped();
+      }
+      if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
+    } else if (energy_ && energy_->astray()) {
+      outcome_.energy_astray = energy_->astray();
+      outcome_.end = RunEnd::unstable;
+    }
+  }
+
+  std::optional<StartGap> start_gap(const certificates::Stencil& pair) const {
+    const integrator::ContactSettings& settings = *built_.model.contact;
+    const std::span<const VertexId> all(pair.vertices.data(), pair.size());
+    const auto& material = settings.materials[settings.material(all.first(pair.first()), all.subspan(pair.first()))];
+    const std::vector<Position> x = positions_of<Dim>(built_.model.x);
+    const double gap = exact_gap(WorldLines::from_frames(x, x), Dim, pair.kind, pair.vertices).up_to;
+    if (gap >= material.thickness) return std::nullopt;
+    return StartGap{gap, material.thickness, layer_thickness(material, settings.schedule, settings.most_layers)};
+  }
+
+  void conclude(PhaseClock& clock) {
+    outcome_.windows = writer_->windows();
+    outcome_.certificates += simulation_->certificates();
+    outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
+    const std::exception_ptr lost = write_series();
+    outcome_.phases = clock.seconds();
+    log_end();
+    if (lost) std::rethrow_exception(lost);
+  }
+
+  /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it. What keeps it from
+  /// being written is returned: the run has ended all the same.
+  std::exception_ptr write_series() {
+    const Doing writing(activity_, Phase::writing);
+    const int before = stops();
+    tell("series.h5", 0);
+    try {
+      outcome_.series = write_series_file(folder_.path(), frame_rate_, [this, before] { return stops() > before; });
+    } catch (const std::exception&) {
+      outcome_.series = SeriesEnd::failed;
+      return std::current_exception();
+    }
+    return nullptr;
+  }
+
+  void log_end() {
+    Json entry = {{"event", "end"}, {"end", name(outcome_.end)}};
+    committed().tell(entry);
+    entry["series"] = name(outcome_.series);
+    if (outcome_.series == SeriesEnd::written) entry["series_sha256"] = hex(folder_.keep_series());
+    if (outcome_.contact && outcome_.contact->first) {
+      entry["first"] = contact_json(outcome_.contact->first->contact);
+      entry["first"]["kind"] = noli::name(outcome_.contact->first->kind);
+      entry["first_time"] = outcome_.contact->first->lower();
+    }
+    if (outcome_.limit) entry["too_near"] = {{"time", outcome_.limit->time}, {"names", outcome_.first_names}};
+    if (outcome_.energy_astray) entry["energy"] = energy_json(*outcome_.energy_astray);
+    if (built_.model.contact) entry["roll_backs"] = outcome_.roll_backs;
+    entry["timing"] = {{"verifying_seconds", outcome_.verifying_seconds},
+                       {"phases", phases_json(outcome_.phases)},
+                       {"certificates", certificates_json(outcome_.certificates)}};
+    folder_.log(entry);
+  }
+
+  const SimulateRequest& request_;
+  integrator::BuiltScene<Dim> built_;
+  BodyNames names_;
+  std::vector<std::uint8_t> labels_;
+  Exclusions exclusions_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  WindowVerifier verifier_;
+  RunFolder folder_;
+  RecordMode record_;
+  double frame_rate_;
+  std::optional<RunWriter> writer_;
+  std::unique_ptr<RunProof> proof_;  ///< with record full
+  integrator::Activity activity_;
+  std::optional<Simulation<double, Dim>> simulation_;
+  Snapshot<double, Dim> before_;  ///< of the window that is being integrated
+  Recording<double, Dim> recording_;
+  std::optional<Candidate<Dim>> candidate_;
+  std::optional<EnergyWatch> energy_;
+  Retries retries_;  ///< of the window that is next to be committed
+  std::optional<integrator::ContactLimit> limit_;
+  bool finite_ = true;  ///< all numbers of the window that is being integrated
+  SimulateOutcome outcome_;
+};
+
+/// Of a run that was stopped before its first window, while its model was built.
+SimulateOutcome stopped_early(const SimulateRequest& request, const integrator::Scene& scene, StopReason reason) {
+  SimulateOutcome outcome;
+  outcome.end = reason == StopReason::interrupted ? RunEnd::interrupted : RunEnd::out_of_time;
+  outcome.begun = false;
+  outcome.title = scene.title;
+  outcome.dimension = scene.dimension;
+  outcome.window_length = scene.window;
+  outcome.windows_total = windows_of(request, scene);
+  return outcome;
+}
+
+template <int Dim>
+SimulateOutcome run_in(const SimulateRequest& request, const integrator::Scene& scene) {
+  std::optional<Run<Dim>> run;
+  try {
+    run.emplace(request, scene);
+  } catch (const Stopped& stop) {
+    if (request.resume) throw;  // what the run has already is not known
+    return stopped_early(request, scene, stop.reason());
+  }
+  return (*run)();
+}
+
+}  // namespace
+
+const char* name(RunEnd end) {
+  switch (end) {
+    case RunEnd::done: return "done";
+    case RunEnd::contact: return "contact";
+    case RunEnd::too_near: return "too_near";
+    case RunEnd::not_finite: return "not_finite";
+    case RunEnd::unstable: return "unstable";
+    case RunEnd::interrupted: return "interrupted";
+    case RunEnd::out_of_time: return "time_limit";
+  }
+  return "";
+}
+
+SimulateOutcome run_simulate(const SimulateRequest& request) {
+  const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
+  const integrator::Scene scene = integrator::read_scene(request.scene, form);
+  return scene.dimension == 2 ? run_in<2>(request, scene) : run_in<3>(request, scene);
+}
+
+}  // namespace noli

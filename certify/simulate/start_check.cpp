@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/simulate/start_check.h"
+
+#include <fmt/format.h>
+
+#include "trajectory/stop.h"
+
+namespace noli {
+
+namespace {
+
+/// "face cloth[0]-cloth[1]-cloth[2]". Cells are numbered as in trajectory/mesh.h.
+std::string cell_name(const Mesh& mesh, std::size_t cell, const BodyNames& names) {
+  if (cell < mesh.faces.size()) return names.feature(mesh.faces[cell]);
+  cell -= mesh.faces.size();
+  if (cell < mesh.edges.size()) return names.feature(mesh.edges[cell]);
+  return names.feature({&mesh.points[cell - mesh.edges.size()], 1});
+}
+
+}  // namespace
+
+std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, const std::vector<Position>& x,
+                             WindowOptions options, const BodyNames& names) {
+  options.initial = true;
+  options.max_reports = 3;
+  const WindowResult result = verifier.verify(WorldLines::from_frames(x, x), options);
+  if (!result.complete) throw Stopped(stop_asked().value_or(StopReason::out_of_time), "the start of the scene");
+  if (result.contact_count() + result.initial_intersections == 0) return "";
+  std::string pairs;
+  for (const auto& contact : result.reports) {
+    pairs += fmt::format("{}{}", pairs.empty() ? "" : ", ", names.pair(contact.pair, contact.vertices, "meets"));
+  }
+  for (const auto& cells : result.initial_reports) {
+    pairs += fmt::format("{}{} intersects {}", pairs.empty() ? "" : ", ", cell_name(mesh, cells.first_cell, names),
+                         cell_name(mesh, cells.second_cell, names));
+  }
+  return fmt::format("{}; {} pair(s) of features meet, {} pair(s) of cells intersect; expected none", pairs,
+                     result.contact_count(), result.initial_intersections);
+}
+
+}  // namespace noli

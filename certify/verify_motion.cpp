@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli verify RUN`: the windows of a run again, from its files alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "certify/errors.h"
+#include "certify/proofs/largest_distance.h"
+#include "certify/proofs/lines_pipe.h"
+#include "certify/proofs/prove_run.h"
+#include "certify/runs/run_folder.h"
+#include "certify/runs/run_inputs.h"
+#include "certify/runs/run_log_facts.h"
+#include "certify/runs/run_series_reader.h"
+#include "certify/simulate/windows_again.h"
+#include "certify/stopwatch.h"
+#include "certify/verify_run.h"
+#include "integrator/scene/window_count.h"
+#include "proofs/prover/window_verifier.h"
+#include "trajectory/blocks/folder_lock.h"
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/error.h"
+#include "trajectory/stop.h"
+
+namespace noli {
+namespace {
+
+RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log, double window) {
+  RunEnding ending;
+  if (!log.going_on && !log.last_end.empty()) ending.why = log.last_end;
+  ending.going_on = log.going_on;
+  ending.duration = duration_of(run);
+  const double windows = ending.duration ? integrator::windows_up_to(*ending.duration, window) : 0;
+  if (windows > 0 && windows < 0x1p53) ending.windows_total = static_cast<std::uint64_t>(windows);
+  return ending;
+}
+
+class MotionRun {
+ public:
+  explicit MotionRun(const VerifyRequest& request)
+      : request_(request),
+        run_(request.frames.at(0)),
+        live_(request.live),
+        log_(read_log(run_)),
+        reader_(open_run(run_, log_)) {
+    if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore) {
+      throw UsageError(
+          "--static, --merge-identical, --points, --dimension, --ignore: are for frames; expected none of them with a "
+          "run");
+    }
+    require_world_lines();
+    const Mesh& mesh = reader_.mesh();
+    outcome_.steps_total = reader_.count_windows();
+    reader_.look_for_expected();
+    outcome_.ending = ending_of(run_, log_, reader_.header().window_length);
+    if (const auto note = note_of_lost_log(log_)) outcome_.notes.push_back(*note);
+    outcome_.dimension = static_cast<int>(reader_.header().dimension);
+    outcome_.vertices = mesh.vertex_count;
+    outcome_.faces = mesh.faces.size();
+    outcome_.edges = mesh.edges.size();
+    outcome_.points = mesh.points.size();
+    for (const std::uint8_t label : reader_.scene().labels) scripted_.push_back(label & scripted_vertex);
+    outcome_.not_compared = not_compared(mesh, scripted_, reader_.scene().exclusions, log_.names);
+    if (mesh.cell_count() == 0) {
+      throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
+    }
+    outcome_.reproduced = request.reproduce;
+    set_claim();
+  }
+
+  VerifyOutcome operator()() {
+    const Stopwatch watch;
+    look_at_files();
+    try {
+      verify_windows();
+    } catch (const Stopped&) {
+      outcome_.complete = false;
+    }
+    if (request_.follow && ended_) look_at_files();  // they have grown
+    conclude();
+    outcome_.seconds = watch.seconds() - outcome_.read_seconds - outcome_.reproduce_seconds;
+    return std::move(outcome_);
+  }
+
+ private:
+  bool stopped() { return outcome_.stop_at(request_.deadline); }
+
+  void verify_windows() {
+    if (request_.reproduce) make_again();
+    while (outcome_.complete) {
+      auto window = read_next();
+      // A stop after the last window changes nothing.
+      if (!window || stopped() || !reproduce(*window)) break;
+      verify(*window);
+      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+    }
+  }
+
+  void look_at_files() {
+    const Stopwatch watch;
+    try {
+      outcome_.inputs = run_facts(request_.frames[0], [this] { return stopped(); });
+    } catch (const Stopped&) {
+      stopped();
+    }
+    outcome_.read_seconds += watch.seconds();
+  }
+
+  std::optional<RunWindow> read_next() {
+    const Stopwatch watch;
+    auto window = request_.follow ? wait_for_next() : next_of_those_there();
+    outcome_.read_seconds += watch.seconds();
+    return window;
+  }
+
+  /// Of a run that is being written: up to where it was when it was opened.
+  std::optional<RunWindow> next_of_those_there() {
+    const bool enough = live_ && reader_.windows() >= outcome_.steps_total;
+    auto window = enough ? std::nullopt : next_committed();
+    ended_ = !window;
+    return window;
+  }
+
+  /// Whether it is still written is asked before it is looked at: what comes with the end is seen then.
+  std::optional<RunWindow> wait_for_next() {
+    constexpr auto pause = std::chrono::milliseconds(50);
+    while (!stopped()) {
+      live_ = is_locked(run_);
+      reader_.look_again();
+      if (auto window = next_committed()) return window;
+      if (!live_) return next_behind_the_last();
+      std::this_thread::sleep_for(pause);
+    }
+    return std::nullopt;
+  }
+
+  /// What is not committed yet may be taken back while it is read.
+  std::optional<RunWindow> next_committed() {
+    constexpr auto pause = std::chrono::milliseconds(20);
+    for (int more = 20;; --more) {
+      const std::uint64_t before = reader_.windows();
+      try {
+        return reader_.next_window();
+      } catch (const InputError&) {
+        live_ = live_ || is_locked(run_);
+        if (more == 0 || !live_ || reader_.windows() != before) throw;
+      }
+      std::this_thread::sleep_for(pause);
+      reader_.look_again();
+    }
+  }
+
+  /// There is none, once nobody writes to the run any more and its log tells of no more.
+  std::optional<RunWindow> next_behind_the_last() {
+    log_ = read_log(run_);
+    outcome_.ending = ending_of(run_, log_, reader_.header().window_length);
+    reader_.expect(log_.known);
+    reader_.look_again();
+    auto window = next_committed();
+    ended_ = !window;
+    return window;
+  }
+
+  void set_claim() {
+    Claim& claim = outcome_.claim;
+    claim.motion = "run";
+    claim.dimension = outcome_.dimension;
+    claim.steps = outcome_.steps_total;
+    claim.strict = request_.strict;
+    claim.distance = request_.min_distance;
+    claim.ring = request_.ring;
+    set_cells_of_run(claim, reader_.scene());
+  }
+
+  void require_world_lines() const {
+    if (reader_.header().record == RecordMode::full || request_.reproduce) return;
+    throw InputError(
+        request_.frames[0].string(), "",
+        "only frames were recorded (\"record\": \"frames\"); expected world lines, which are what can be verified: "
+        "pass --reproduce to integrate the windows again, or put \"record\": \"full\" into the scene and run `noli "
+        "simulate SCENE.json -o RUN`");
+  }
+
+  /// The model of the scene, to integrate its windows again.
+  void make_again() {
+    again_ = WindowsAgain::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
+  }
+
+  /// Gives the window the world lines that it comes to when it is integrated again. False if it was stopped.
+  bool reproduce(RunWindow& window) {
+    if (!again_) return true;
+    const Stopwatch watch;
+    auto lines = again_->next(window, reader_.row().halvings);
+    outcome_.reproduce_seconds += watch.seconds();
+    if (lines) window.lines = std::move(lines);
+    return window.lines.has_value() && !stopped();
+  }
+
+  WindowOptions options() const {
+    WindowOptions options;
+    options.dimension = outcome_.dimension;
+    options.threads = request_.threads;
+    options.initial = outcome_.steps.empty();
+    options.first_only = request_.first_only;
+    options.strict = request_.strict;
+    options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
+    options.scripted = scripted_;
+    options.exclusions = &reader_.scene().exclusions;
+    options.stop = request_.stop;
+    options.deadline = request_.deadline;
+    return options;
+  }
+
+  void verify(RunWindow& window) {
+    if (!verifier_) verifier_.emplace(reader_.mesh(), beginning(window), options());
+    if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
+    outcome_.claim.to = window.end;
+    WindowResult result = verifier_->verify(*window.lines, options());
+    const bool drop = meeting_at_end_ && result.contact_count() > 0;
+    meeting_at_end_ = result.contact_count() > 0;
+    if (drop) drop_contacts_at_begin(window, result);
+    outcome_.complete = result.complete;
+    add(result);
+    const bool found = result.contact_count() + result.initial_intersections > 0;
+    if (request_.open_proof && (result.complete || found) && !outcome_.no_proof) prove(window, result);
+  }
+
+  void prove(RunWindow& window, const WindowResult& result) {
+    if (witness_sought_ && request_.lines_pipe != nullptr) return;  // the checker reads no further
+    const Stopwatch watch;
+    give_lines(window);
+    if (!proof_) {
+      outcome_.proof_begun = true;
+      const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
+      proof_ =
+          std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), beginning(window), claim);
+    }
+    if (result.contact_count() + result.initial_intersections > 0) {
+      witness_sought_ = true;
+      if (proof_->refute(window.index, *window.lines, window.group_hash, result)) ++outcome_.witnesses;
+    } else if (!outcome_.touches()) {
+      prove_untouched(window);
+    }
+    outcome_.proof_seconds += watch.seconds();
+  }
+
+  /// World lines that are in no file: the checker reads them on their way, window by window.
+  void give_lines(RunWindow& window) {
+    if (request_.lines_pipe == nullptr) return;
+    request_.lines_pipe->drained();
+    if (!lines_) {
+      RunScene scene = reader_.scene();
+      scene.header.record = RecordMode::full;
+      lines_.emplace(request_.lines_pipe->sink(), scene);
+    }
+    lines_->append_window({window.index, *window.lines, window.velocities, window.state, {}});
+    window.group_hash = lines_->open_window_hash();
+    lines_->commit();
+  }
+
+  void prove_untouched(const RunWindow& window) {
+    VerifyOptions options;
+    options.threads = request_.threads;
+    options.stop = request_.stop;
+    options.deadline = request_.deadline;
+    try {
+      outcome_.complete = proof_->prove(window.index, *window.lines, window.group_hash, options);
+      if (outcome_.complete) proof_->commit();
+    } catch (const TooNear& near) {
+      outcome_.near = ListedNear{outcome_.steps.size(), near};
+      if (proof_->refute(window.index, *window.lines, window.group_hash, near)) ++outcome_.witnesses;
+      if (window.index == 0) {
+        outcome_.largest_distance =
+            largest_distance(proof_->prover(), reader_.mesh(), beginning(window), request_.min_distance, options);
+      }
+    } catch (const NoProof&) {
+      outcome_.no_proof = true;
+      outcome_.complete = !request_.needs_proof();
+    }
+  }
+
+  std::vector<Position> beginning(const RunWindow& window) const {
+    std::vector<Position> x;
+    for (VertexId v = 0; v < reader_.mesh().vertex_count; ++v) x.push_back(window.lines->positions(v).front());
+    return x;
+  }
+
+  /// What meets where a window begins was counted in the window before.
+  void drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
+    const std::vector<Position> x = beginning(window);
+    WindowOptions resting = options();
+    resting.first_only = false;
+    resting.max_reports = 0;
+    const WindowResult before = verifier_->verify(WorldLines::from_frames(x, x), resting);
+    result.complete = result.complete && before.complete;
+    for (std::size_t i = 0; i < result.contacts.size(); ++i) {
+      const std::uint64_t known = before.complete ? before.contacts[i] : result.contacts[i];
+      result.contacts[i] -= std::min(result.contacts[i], known);
+    }
+    std::erase_if(result.reports, [&](const FeatureContact& c) { return c.first.begin <= window.begin; });
+  }
+
+  void add(const WindowResult& result) {
+    const std::size_t step = outcome_.steps.size() + 1;
+    outcome_.steps.push_back({result.contacts, result.initial_intersections});
+    for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += result.contacts[i];
+    outcome_.initial_intersections += result.initial_intersections;
+    outcome_.stages += result.stages;
+    outcome_.obligations += result.obligations;
+    outcome_.cell_pairs += result.cell_pairs;
+    for (const auto& contact : result.reports) {
+      if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
+    }
+    for (const auto& pair : result.initial_reports) {
+      if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
+    }
+    if (result.first && !outcome_.first) {
+      const FeatureContact& contact = result.first->contact;
+      outcome_.first =
+          First{contact, step, result.first->kind, result.first->lower(), face_of(reader_.mesh(), contact)};
+    }
+  }
+
+  void conclude() {
+    stopped();
+    const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
+    outcome_.steps_total = ended_ ? reader_.windows() : std::max(outcome_.steps_total, outcome_.steps.size());
+    outcome_.claim.steps = outcome_.steps_total;
+    outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
+    outcome_.open_window = ended_ && !live_ && reader_.open_window().has_value();
+    if (live_) say_that_it_is_written();
+    outcome_.complete = outcome_.complete && (ended_ || enough);
+    // A run of which nothing was committed yet proves nothing.
+    if (outcome_.steps.empty()) outcome_.complete = false;
+    const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
+    const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
+    outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
+  }
+
+  /// Not of a run that was killed while it was verified.
+  void say_that_it_is_written() {
+    outcome_.ending->being_written = is_locked(run_);
+    outcome_.notes.push_back(
+        fmt::format("another process writes to the run: this is about the {} windows that were committed so far{}",
+                    outcome_.steps_total, request_.follow ? "" : "; --follow waits for the others"));
+  }
+
+  const VerifyRequest& request_;
+  const std::filesystem::path& run_;
+  bool live_;  ///< another process writes to it
+  LogFacts log_;
+  SeriesReader reader_;
+  std::vector<std::uint8_t> scripted_;
+  std::optional<WindowVerifier> verifier_;  ///< made where the run begins
+  std::unique_ptr<RunProof> proof_;
+  std::unique_ptr<WindowsAgain> again_;  ///< with --reproduce
+  std::optional<RunWriter> lines_;       ///< of the run as if it were recorded in full
+  bool witness_sought_ = false;
+  bool meeting_at_end_ = false;
+  bool ended_ = false;  ///< all windows have been read
+  VerifyOutcome outcome_;
+};
+
+}  // namespace
+
+VerifyOutcome run_verify_motion(const VerifyRequest& request) { return MotionRun(request)(); }
+
+}  // namespace noli

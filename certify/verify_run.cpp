@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/verify_run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include "certify/errors.h"
+#include "certify/groups.h"
+#include "certify/proofs/largest_distance.h"
+#include "certify/proofs/prove_frames.h"
+#include "certify/queries/any_query.h"
+#include "certify/stopwatch.h"
+#include "proofs/prover/window_verifier.h"
+#include "trajectory/cells.h"
+#include "trajectory/error.h"
+#include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frames.h"
+#include "trajectory/merge.h"
+#include "trajectory/stop.h"
+
+namespace noli {
+namespace {
+
+Motion motion_of(const VerifyRequest& request) { return request.constant_motion ? Motion::constant : Motion::linear; }
+
+/// A frame that is not there is noticed before the work begins, not an hour later. Nothing is opened: that would wait
+/// for the writer of a pipe, and take its only reader away from it.
+void require_readable(const std::vector<std::filesystem::path>& paths) {
+  for (const auto& path : paths) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error) || ::access(path.c_str(), R_OK) != 0) {
+      throw InputError(path.string(), "", "cannot be opened; expected a PLY or OBJ file");
+    }
+  }
+}
+
+class Run {
+ public:
+  explicit Run(const VerifyRequest& request)
+      : request_(request),
+        inputs_(request.frames, request.polygons),
+        sequence_(request.frames, motion_of(request), inputs_.reader()) {
+    require_readable(request.frames);
+    outcome_.steps_total = sequence_.step_count();
+  }
+
+  VerifyOutcome operator()() {
+    const Stopwatch watch;
+    look_at_all();
+    try {
+      verify_steps();
+    } catch (const Stopped&) {
+      outcome_.complete = false;
+    }
+    conclude();
+    outcome_.seconds = watch.seconds() - outcome_.read_seconds;
+    return std::move(outcome_);
+  }
+
+ private:
+  bool stopped() { return outcome_.stop_at(request_.deadline); }
+
+  void tell(std::string_view work, double share) const {
+    if (request_.progress) request_.progress(work, share);
+  }
+
+  void verify_steps() {
+    if (request_.merge_identical) find_classes();
+    while (!stopped() && outcome_.complete && read_next(sequence_)) {
+      if (sequence_.step() == 0) begin();
+      require_plane();
+      note_rest();
+      verify();
+      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+    }
+  }
+
+  /// A frame of another mesh is noticed before the first step is decided.
+  void look_at_all() {
+    const Stopwatch watch;
+    try {
+      for (std::size_t k = 0; k < request_.frames.size() && !stopped(); ++k) {
+        inputs_.look_at(k);
+        tell("look", static_cast<double>(k + 1) / static_cast<double>(request_.frames.size()));
+      }
+    } catch (const Stopped&) {
+      stopped();
+    }
+    outcome_.read_seconds += watch.seconds();
+  }
+
+  /// Whether there was another step. Not when the user would not wait for it.
+  bool read_next(FrameSequence& sequence) {
+    const Stopwatch watch;
+    bool read = false;
+    try {
+      read = sequence.next();
+    } catch (const Stopped&) {
+      outcome_.complete = false;
+      stopped();
+    }
+    outcome_.read_seconds += watch.seconds();
+    return read;
+  }
+
+  /// The first pass of --merge-identical.
+  void find_classes() {
+    FrameSequence frames(request_.frames, Motion::constant, inputs_.reader());
+    while (!stopped() && read_next(frames)) {
+      if (!classes_) classes_.emplace(frames.mesh().vertex_count);
+      classes_->refine(frames.x_t0());
+    }
+  }
+
+  /// What the first step tells about all of them.
+  void begin() {
+    mesh_ = sequence_.mesh();
+    const auto unreferenced = unreferenced_vertices(mesh_);
+    if (request_.points) {
+      mesh_.points.insert(mesh_.points.end(), unreferenced.begin(), unreferenced.end());
+    } else {
+      outcome_.unreferenced_vertices = unreferenced.size();
+    }
+    if (classes_) {
+      mesh_ = with_merged_vertices(mesh_, *classes_);
+      outcome_.merged_vertices = classes_->merged_count();
+    }
+    if (mesh_.cell_count() == 0) {
+      throw InputError(sequence_.path_t0().string(), "",
+                       "no faces, edges or points; expected something that can touch (see --points)");
+    }
+    outcome_.dimension = request_.dimension.value_or(in_plane() ? 2 : 3);
+    if (request_.ignore) leave_out(*request_.ignore);
+    outcome_.vertices = mesh_.vertex_count;
+    outcome_.faces = mesh_.faces.size();
+    outcome_.edges = mesh_.edges.size();
+    outcome_.points = mesh_.points.size();
+    outcome_.claim = claim_of_frames(request_, outcome_, mesh_, groups_ ? &groups_->exclusions : nullptr);
+  }
+
+  /// Pairs of groups are not compared.
+  void leave_out(const std::filesystem::path& file) {
+    groups_ = read_groups(file, mesh_.vertex_count);
+    for (VertexId v = 0; classes_ && v < mesh_.vertex_count; ++v) {
+      const VertexId same = classes_->representative()[v];
+      if (groups_->exclusions.groups[v] == groups_->exclusions.groups[same]) continue;
+      throw InputError(file.string(), "",
+                       fmt::format("vertices {} and {} are merged; expected them in one group", same, v));
+    }
+    require_whole_cells(file, *groups_, mesh_);
+    for (const auto& [a, b] : groups_->exclusions.pairs) {
+      outcome_.not_compared.excluded.push_back({groups_->names[a], groups_->names[b]});
+    }
+    WindowOptions options;
+    options.dimension = outcome_.dimension;
+    options.strict = request_.strict;
+    options.exclusions = &groups_->exclusions;
+    verifier_.emplace(mesh_, sequence_.x_t0(), options);
+  }
+
+  VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
+                              const VerifyOptions& options) const {
+    if (!verifier_) return verify_step(mesh_, x_t0, x_t1, options);
+    WindowOptions window;
+    window.dimension = options.dimension;
+    window.threads = options.threads;
+    window.initial = options.initial;
+    window.first_only = options.first_only;
+    window.strict = options.strict;
+    window.max_reports = options.max_reports;
+    window.exclusions = &groups_->exclusions;
+    window.stop = options.stop;
+    window.deadline = options.deadline;
+    window.progress = options.progress;
+    WindowResult found = verifier_->verify(WorldLines::from_frames(x_t0, x_t1), window);
+    VerifyResult result;
+    result.complete = found.complete;
+    result.contacts = found.contacts;
+    result.initial_intersections = found.initial_intersections;
+    result.reports = std::move(found.reports);
+    result.initial_reports = std::move(found.initial_reports);
+    if (found.first) result.first = found.first->contact;
+    result.stages = found.stages;
+    result.obligations = found.obligations;
+    result.cell_pairs = found.cell_pairs;
+    return result;
+  }
+
+  bool in_plane() const {
+    const auto x_t0 = sequence_.x_t0(), x_t1 = sequence_.x_t1();
+    return all_z_equal(x_t0) && all_z_equal(x_t1) && (x_t0.empty() || x_t0[0][2] == x_t1[0][2]);
+  }
+
+  void require_plane() const {
+    if (request_.dimension || outcome_.dimension == 3 || in_plane()) return;
+    throw InputError(sequence_.path_t1().string(), "",
+                     "leaves the plane of the frames before; expected the same z everywhere (see --dimension)");
+  }
+
+  /// Two equal frames in a row are usually a mistake of whoever wrote them.
+  void note_rest() {
+    if (request_.constant_motion || !std::ranges::equal(sequence_.x_t0(), sequence_.x_t1())) return;
+    at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", sequence_.path_t0().string(),
+                                   sequence_.path_t1().string(), sequence_.step() + 1));
+  }
+
+  VerifyOptions options() const {
+    VerifyOptions options;
+    options.dimension = outcome_.dimension;
+    options.threads = request_.threads;
+    options.initial = request_.constant_motion || sequence_.step() == 0;
+    options.first_only = request_.first_only;
+    options.strict = request_.strict;
+    options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
+    options.stop = request_.stop;
+    options.deadline = request_.deadline;
+    options.progress = [this](double share) {
+      tell("verify", (static_cast<double>(sequence_.step()) + share) / static_cast<double>(outcome_.steps_total));
+    };
+    return options;
+  }
+
+  void verify() {
+    const VerifyOptions asked = options();
+    VerifyResult result = verify_between(sequence_.x_t0(), sequence_.x_t1(), asked);
+    const bool any_at_begin = meeting_at_end_;
+    meeting_at_end_ = !request_.constant_motion && result.contact_count() > 0;
+    if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(asked, result);
+    outcome_.complete = result.complete;
+    add_counts(result);
+    add_reports(result);
+    if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
+    const bool found = result.contact_count() + result.initial_intersections > 0;
+    if (request_.open_proof && (result.complete || found) && !outcome_.no_proof) prove(asked, result);
+  }
+
+  void prove(const VerifyOptions& options, const VerifyResult& result) {
+    const Stopwatch watch;
+    if (!proof_) {
+      outcome_.proof_begun = true;
+      proof_.emplace(request_, outcome_.claim, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr,
+                     groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
+    }
+    const auto step = sequence_.step();
+    if (result.contact_count() + result.initial_intersections > 0) {
+      if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
+    } else if (!outcome_.touches()) {
+      try {
+        outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
+      } catch (const TooNear& near) {
+        outcome_.near = ListedNear{step + 1, near};
+        if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
+        if (step == 0) {
+          outcome_.largest_distance =
+              largest_distance(proof_->prover(), mesh_, sequence_.x_t0(), request_.min_distance, options);
+        }
+      } catch (const NoProof&) {
+        outcome_.no_proof = true;
+        outcome_.complete = !request_.needs_proof();
+      }
+    }
+    outcome_.proof_seconds += watch.seconds();
+  }
+
+  /// What is in contact at the beginning of a later step was in contact at the end of the step before, and counted
+  /// there. Those pairs are the ones that meet when everything rests where the step begins.
+  void drop_contacts_at_begin(VerifyOptions options, VerifyResult& result) const {
+    options.progress = nullptr;
+    options.first_only = false;
+    options.max_reports = 0;
+    const VerifyResult resting = verify_between(sequence_.x_t0(), sequence_.x_t0(), options);
+    result.complete = result.complete && resting.complete;
+    result.stages += resting.stages;
+    for (std::size_t i = 0; i < result.contacts.size(); ++i) {
+      // Counts of what is not complete are lower bounds, and so must the difference be.
+      const std::uint64_t before = resting.complete ? resting.contacts[i] : result.contacts[i];
+      result.contacts[i] -= std::min(result.contacts[i], before);
+    }
+    std::erase_if(result.reports,
+                  [&](const FeatureContact& contact) { return !resting.complete || meets_at_begin(contact); });
+  }
+
+  bool meets_at_begin(const FeatureContact& contact) const {
+    AnyQuery query = query_of(contact);
+    query.x_t1 = query.x_t0;
+    return visit(query, [](const auto& typed) { return meet(typed); });
+  }
+
+  AnyQuery query_of(const FeatureContact& contact) const {
+    AnyQuery query{contact.pair, outcome_.dimension, {}, {}};
+    for (std::size_t i = 0; i < query.size(); ++i) {
+      query.x_t0[i] = sequence_.x_t0()[contact.vertices[i]];
+      query.x_t1[i] = sequence_.x_t1()[contact.vertices[i]];
+    }
+    return query;
+  }
+
+  void add_counts(const VerifyResult& result) {
+    outcome_.steps.push_back({result.contacts, result.initial_intersections});
+    for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += result.contacts[i];
+    outcome_.initial_intersections += result.initial_intersections;
+    outcome_.stages += result.stages;
+    outcome_.obligations += result.obligations;
+    outcome_.cell_pairs += result.cell_pairs;
+  }
+
+  void add_reports(const VerifyResult& result) {
+    const std::size_t step = sequence_.step() + 1;
+    for (const auto& contact : result.reports) {
+      if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
+    }
+    for (const auto& pair : result.initial_reports) {
+      if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
+    }
+  }
+
+  /// Kind and time of a contact of the current step.
+  First exactly(const FeatureContact& contact) const {
+    const auto found = visit(query_of(contact), [](const auto& typed) { return first_contact(typed); });
+    if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
+    return {contact, sequence_.step() + 1, found->kind, found->time.lower(), face_of(mesh_, contact)};
+  }
+
+  void conclude() {
+    stopped();
+    const bool all_steps = outcome_.steps.size() == outcome_.steps_total;
+    const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
+    outcome_.complete = outcome_.complete && (all_steps || enough);
+    const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
+    const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
+    outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
+    put_notes();
+    outcome_.inputs = inputs_.take_facts();
+  }
+
+  void put_notes() {
+    outcome_.notes = request_.order_notes;
+    append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");
+    for (const std::string& note : inputs_.notes()) outcome_.notes.push_back(note);
+    const bool contact = outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1;
+    const bool near = outcome_.near && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
+    if (contact || near) {
+      outcome_.notes.emplace_back(
+          contact
+              ? "the first contact is between two frames: straight lines are assumed there; finer frames tell more"
+              : "what is too near is so between two frames: straight lines are assumed there; finer frames tell more");
+    }
+  }
+
+  const VerifyRequest& request_;
+  FrameInputs inputs_;
+  FrameSequence sequence_;  ///< reads by inputs_
+  std::optional<IdenticalVertices> classes_;
+  Mesh mesh_;
+  std::optional<Groups> groups_;            ///< with --ignore
+  std::optional<WindowVerifier> verifier_;  ///< the same
+  std::optional<FrameProof> proof_;
+  /// Whether some pair of features met in the step before: only then can one meet where the next step begins.
+  bool meeting_at_end_ = false;
+  std::vector<std::string> at_rest_;  ///< notes on steps in which nothing moves
+  VerifyOutcome outcome_;
+};
+
+}  // namespace
+
+std::optional<std::uint32_t> face_of(const Mesh& mesh, const FeatureContact& contact) {
+  if (contact.pair != FeaturePair::vertex_face) return std::nullopt;
+  std::array<VertexId, 3> wanted = {contact.vertices[1], contact.vertices[2], contact.vertices[3]};
+  std::ranges::sort(wanted);
+  const auto found = std::ranges::find_if(mesh.faces, [&](std::array<VertexId, 3> face) {
+    std::ranges::sort(face);
+    return face == wanted;
+  });
+  if (found == mesh.faces.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - mesh.faces.begin());
+}
+
+void VerifyRequest::put_in_order() {
+  OrderedFrames in_order = order_frames(std::move(frames), order);
+  frames = std::move(in_order.frames);
+  ordered = std::move(in_order.how);
+  order_notes = std::move(in_order.notes);
+}
+
+bool VerifyOutcome::stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline) {
+  interrupted |= stop_asked() == StopReason::interrupted;
+  out_of_time |= stop_asked() == StopReason::out_of_time;
+  out_of_time |= deadline && std::chrono::steady_clock::now() >= *deadline;
+  return interrupted || out_of_time;
+}
+
+VerifyOutcome run_verify(const VerifyRequest& request) { return Run(request)(); }
+
+}  // namespace noli

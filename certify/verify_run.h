@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli verify` without its words: goes through the steps of a sequence and gathers what the verifier finds.
+//
+// Notation
+//   step k     as in trajectory/formats/frames.h, but counted from 1 in what is reported: step 1 begins at the first frame
+//
+// What this does not do: it prints nothing (verify_report.h).
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certify/contact_report.h"
+#include "certify/not_compared.h"
+#include "certify/proofs/checker.h"
+#include "certify/proofs/claim.h"
+#include "certify/proofs/largest_distance.h"
+#include "kernel/first_contact.h"
+#include "proofs/prover/too_near.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/blocks/block_sink.h"
+#include "trajectory/formats/frame_look.h"
+#include "trajectory/formats/frame_order.h"
+#include "trajectory/formats/polygons.h"
+
+namespace noli {
+
+class LinesPipe;
+
+struct VerifyRequest {
+  std::vector<std::filesystem::path> frames;  ///< files in the order of time, or the folder of one run
+  FrameOrder order = FrameOrder::checked;     ///< how they came to be in it; put_in_order() does it
+  std::string ordered;                        ///< the same in words
+  std::vector<std::string> order_notes;
+  PolygonRule polygons = PolygonRule::fan;
+  bool run = false;              ///< it is a run: steps are its windows, times are seconds
+  std::optional<int> dimension;  ///< nothing: 2 if all z of the first two frames are equal, else 3
+  int threads = 0;               ///< 0: all there are
+  std::size_t max_reports = 100;
+  bool keep_going = false;       ///< all steps, not only up to the first that has a contact
+  bool first_only = false;       ///< stop at any contact
+  bool strict = false;           ///< also the vertex-disjoint features of one cell
+  bool points = false;           ///< vertices that nothing refers to are particles
+  bool constant_motion = false;  ///< --static: each frame for itself
+  bool merge_identical = false;
+  std::optional<std::filesystem::path> ignore;        ///< groups of vertices that are not compared (groups.h)
+  double min_distance = 0;                            ///< features have to be more than this apart
+  std::uint32_t ring = 1;                             ///< features fewer mesh edges apart may be nearer
+  bool follow = false;                                ///< of a run: wait for windows that are still to come
+  bool live = false;                                  ///< of a run: another process writes to it
+  bool reproduce = false;                             ///< of a run: integrate its windows again (windows_again.h)
+  std::optional<std::filesystem::path> scene_folder;  ///< in which the file of its scene was; nothing: its own
+  bool lines_in_no_file = false;                      ///< of a run that is reproduced: it recorded frames alone
+  LinesPipe* lines_pipe = nullptr;  ///< on which the checker reads its world lines then; nothing: nobody does
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, what is settled by then is the outcome
+  /// Called with what is done, and the share of it in [0, 1]: "look", then "verify". Calls do not overlap.
+  std::function<void(std::string_view work, double share)> progress;
+  std::optional<std::filesystem::path> proof;  ///< the file where the user wants it
+  bool check = true;                           ///< have the checker look at the proof
+  /// Where the proof of a claim is written to, called once at most; empty: none is made.
+  std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
+
+  /// Without a proof there is no answer.
+  bool needs_proof() const { return proof || min_distance > 0; }
+
+  /// Puts frames in the order that is asked for. Throws InputError when they are given against their numbers.
+  void put_in_order();
+};
+
+/// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the
+/// checker has accepted the proof of it.
+enum class Verdict { no_contact, proved, contact, too_near, undecided };
+
+/// The name used in JSON: "no_contact", "proved", "contact", "too_near", "undecided".
+constexpr std::string_view name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_contact: return "no_contact";
+    case Verdict::proved: return "proved";
+    case Verdict::contact: return "contact";
+    case Verdict::too_near: return "too_near";
+    case Verdict::undecided: return "undecided";
+  }
+  return "";
+}
+
+/// The first pair of features that meets.
+struct First {
+  FeatureContact contact;
+  std::size_t step = 0;  ///< from 1
+  ContactKind kind = ContactKind::touching;
+  double time = 0;  ///< the largest double not above the exact time; in [0, 1] of its step, in seconds for a run
+  std::optional<std::uint32_t> face;  ///< of vertex_face: its number in the mesh
+};
+
+/// The number of the face of a contact between a vertex and a face, the first if several have its vertices.
+std::optional<std::uint32_t> face_of(const Mesh& mesh, const FeatureContact& contact);
+
+/// Listed contacts of one step.
+struct Listed {
+  std::size_t step = 0;  ///< from 1
+  FeatureContact contact;
+};
+
+struct ListedInitial {
+  std::size_t step = 0;  ///< from 1
+  InitialIntersection pair;
+};
+
+/// Two cells that come nearer than the least distance, and when, about.
+struct ListedNear {
+  std::size_t step = 0;  ///< from 1
+  TooNear pair;
+};
+
+/// What one step gave.
+struct StepCounts {
+  ContactCounts contacts{};
+  std::uint64_t initial_intersections = 0;
+};
+
+/// How a run ended, as its log and its scene say. Nothing else follows from it.
+struct RunEnding {
+  std::optional<std::string> why;  ///< of the last part that ended, if none began after it: "done", "contact", ...
+  bool going_on = false;           ///< the last part has not ended, or was killed
+  bool being_written = false;      ///< it has not ended: another process writes to it
+  double time = 0;                 ///< of the last window [s]
+  std::optional<double> duration;  ///< of the scene [s]
+  std::optional<std::uint64_t> windows_total;  ///< that the scene's duration asks for
+
+  bool whole() const { return duration && time >= *duration; }
+};
+
+struct VerifyOutcome {
+  Verdict verdict = Verdict::undecided;
+  int dimension = 3;
+  std::size_t vertices = 0, faces = 0, edges = 0, points = 0;
+  std::size_t merged_vertices = 0;
+  NotCompared not_compared;               ///< of a run, or --ignore
+  std::size_t unreferenced_vertices = 0;  ///< that are left out
+  std::size_t steps_total = 0;            ///< of the frames or the run, looked at or not
+  std::vector<StepCounts> steps;          ///< of the steps that were begun, in order
+  bool complete = true;                   ///< all that was asked for was decided; else the counts are lower bounds
+  bool interrupted = false;               ///< by the user
+  bool out_of_time = false;
+  bool open_window = false;         ///< a run that ends in a window which was never committed
+  std::optional<RunEnding> ending;  ///< of a run
+  ContactCounts contacts{};
+  std::uint64_t initial_intersections = 0;
+  std::optional<First> first;
+  std::vector<Listed> reports;
+  std::vector<ListedInitial> initial_reports;
+  StageCounters stages;
+  std::uint64_t obligations = 0;
+  std::uint64_t cell_pairs = 0;
+  double seconds = 0;                               ///< wall clock without reading
+  double read_seconds = 0;                          ///< wall clock of reading
+  bool reproduced = false;                          ///< the windows were integrated again, with the run's hashes
+  double reproduce_seconds = 0;                     ///< wall clock of that
+  bool no_proof = false;                            ///< nothing touches, but no proof of it was found
+  std::optional<ListedNear> near;                   ///< who comes too near
+  std::optional<LargestDistance> largest_distance;  ///< that the first time allows, if it is less than was asked for
+  bool proof_begun = false;                         ///< something was written where the proof goes
+  std::size_t witnesses = 0;                        ///< written to the proof
+  Claim claim;                                      ///< what is asked; without a hash of cells: not known yet
+  std::optional<CheckerVersion> checker;            ///< who looked at the proof
+  std::optional<std::string> checked;               ///< what the checker said of the proof
+  std::optional<std::string> not_checked;           ///< why it was not asked, though the user did not say so
+  double proof_seconds = 0;                         ///< wall clock of making the proof
+  double check_seconds = 0;                         ///< wall clock of waiting for the checker
+  std::vector<FrameFacts> inputs;                   ///< what was looked at: frames in the order of time
+  std::vector<std::string> notes;                   ///< what to know of it, a line each
+
+  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
+  bool touches() const { return contact_count() + initial_intersections > 0; }
+  /// Whether it is time to stop, for the user or for the time limit; notes which.
+  bool stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline);
+};
+
+/// Runs it. Stops early, with what was settled so far, when it is asked to stop (stop, trajectory/stop.h) or at the time limit.
+/// Throws InputError, UsageError (options that do not go together), std::bad_alloc.
+VerifyOutcome run_verify(const VerifyRequest& request);
+
+/// The same for a run: window by window, and that each begins where the one before it ended.
+VerifyOutcome run_verify_motion(const VerifyRequest& request);
+
+}  // namespace noli

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace noli {
+
+/// What `noli --version` prints: version, commit, arithmetic libraries, and whether rounding works on this machine now.
+std::string version_text();
+
+/// The version alone: "0.1.0".
+std::string version_number();
+
+/// The commit alone, as git names it in short; "unknown" outside of a checkout.
+std::string version_commit();
+
+}  // namespace noli

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrator/scene/shapes/body_mesh.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "integrator/scene/shapes/curve.h"
+#include "integrator/scene/shapes/generators.h"
+#include "integrator/scene/shapes/place.h"
+#include "integrator/scene/shapes/select.h"
+#include "trajectory/error.h"
+#include "trajectory/formats/frames.h"
+#include "trajectory/stop.h"
+
+namespace noli::integrator {
+namespace {
+
+/// A file's mesh. In the plane it has edges only, and z = 0.
+Shape load(const Scene& scene, const MeshFile& file, const Field& at) {
+  Frame frame;
+  try {
+    frame = read_frame(scene.path.parent_path() / file.path);
+  } catch (const InputError& error) {
+    at.fail(fmt::format("expected a mesh that loads: {}", error.what()));
+  }
+  if (frame.mesh.vertex_count == 0) at.fail("expected a mesh with vertices");
+  if (scene.dimension == 2) {
+    if (!frame.mesh.faces.empty()) at.fail("expected a mesh of edges without faces, as the scene has dimension 2");
+    for (const Position& x : frame.positions) {
+      if (x[2] != 0) at.fail("expected z = 0 at every vertex, as the scene has dimension 2");
+    }
+  }
+  return {std::move(frame.mesh), std::move(frame.positions), {}};
+}
+
+Shape shape_of(const Scene& scene, const Body& body, const Field& mesh) {
+  const Field at = mesh[mesh.json().begin().key()];
+  if (const auto* file = std::get_if<MeshFile>(&body.mesh)) return load(scene, *file, at);
+  try {
+    return std::visit(
+        [](const auto& generator) -> Shape {
+          if constexpr (requires { make_shape(generator); }) return make_shape(generator);
+          throw std::logic_error("files are loaded, not generated");
+        },
+        body.mesh);
+  } catch (const std::invalid_argument& error) {
+    at.fail(error.what());
+  }
+}
+
+template <std::size_t N>
+void repeat(std::vector<std::array<VertexId, N>>& cells, std::size_t copies, std::size_t vertices) {
+  const std::size_t n = cells.size();
+  for (std::size_t k = n; k < n * copies; ++k) {
+    cells.push_back(cells[k - n]);
+    for (VertexId& i : cells.back()) i += static_cast<VertexId>(vertices);
+  }
+}
+
+void repeat(std::vector<VertexId>& ids, std::size_t copies, std::size_t vertices) {
+  const std::size_t n = ids.size();
+  for (std::size_t k = n; k < n * copies; ++k) ids.push_back(ids[k - n] + static_cast<VertexId>(vertices));
+}
+
+void require_few_copies(const Array& array, std::size_t vertices, const Field& at) {
+  const double all = 1.0 * array.counts[0] * array.counts[1] * array.counts[2] * static_cast<double>(vertices);
+  if (!(all <= most_vertices)) at.fail(fmt::format("expected at most {} vertices, found {}", most_vertices, all));
+}
+
+/// Copies in rows: of the mesh, its shape at rest, its sets; those at the start moved.
+void repeat(BodyMesh& made, const Array& array) {
+  const std::size_t n = made.shape.mesh.vertex_count, copies = array.copies();
+  Mesh& mesh = made.shape.mesh;
+  repeat(mesh.faces, copies, n);
+  repeat(mesh.edges, copies, n);
+  repeat(mesh.points, copies, n);
+  for (auto& [name, ids] : made.shape.sets) repeat(ids, copies, n);
+  mesh.vertex_count = n * copies;
+  for (std::size_t copy = 1; copy < copies; ++copy) {
+    const std::array<std::size_t, 3> at{copy % array.counts[0], copy / array.counts[0] % array.counts[1],
+                                        copy / array.counts[0] / array.counts[1]};
+    for (std::size_t i = 0; i < n; ++i) {
+      end_if_stopped();
+      Position x = made.start[i];
+      for (std::size_t axis = 0; axis < 3; ++axis) x[axis] += static_cast<double>(at[axis]) * array.spacing[axis];
+      made.start.push_back(x);
+      made.rest.push_back(made.rest[i]);
+    }
+  }
+}
+
+template <std::size_t N>
+void require_different(const std::vector<std::array<VertexId, N>>& cells, const char* name, const Field& at) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (std::size_t i = 0; i < N; ++i) {
+      if (cells[c][i] == cells[c][(i + 1) % N]) {
+        at.fail(fmt::format("expected {}s with {} different vertices; {} {} has vertex {} twice", name, N, name, c,
+                            cells[c][i]));
+      }
+    }
+  }
+}
+
+double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
+
+double edge_length(const std::vector<Position>& x, const std::array<VertexId, 2>& edge) {
+  return length(to_vec(x[edge[1]]) - to_vec(x[edge[0]]));
+}
+
+double face_area(const std::vector<Position>& x, const std::array<VertexId, 3>& face) {
+  const Vec3 a = to_vec(x[face[1]]) - to_vec(x[face[0]]), b = to_vec(x[face[2]]) - to_vec(x[face[0]]);
+  const Vec3 n(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+  return length(n) / 2;
+}
+
+/// Mass of a sheet's area, of a curve's length, of a vertex by itself.
+struct Densities {
+  double area = 0, length = 0, vertex = 0;
+};
+
+Densities densities(const ElasticMaterial& m) {
+  return {m.density * m.thickness, m.density * m.thickness * m.width, 0};
+}
+Densities densities(const SpringMaterial& m) {
+  return {m.mass_per == MassPer::area ? m.mass : 0, m.mass_per == MassPer::length ? m.mass : 0,
+          m.mass_per == MassPer::vertex ? m.mass : 0};
+}
+
+double density_factor(const Body& body, const Position& x) {
+  double factor = 1;
+  for (const Patch& patch : body.patches) factor *= contains(patch.box, x) ? patch.density_factor : 1;
+  return factor;
+}
+
+std::vector<double> lumped_masses(const Body& body, const BodyMesh& made) {
+  const Densities density = std::visit([](const auto& m) { return densities(m); }, body.material.kind);
+  const Mesh& mesh = made.shape.mesh;
+  std::vector<double> mass(mesh.vertex_count);
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = density.vertex * density_factor(body, made.start[i]);
+  for (const auto& face : mesh.faces) {
+    end_if_stopped();
+    const double part = density.area * density_factor(body, centre(made.start, face)) * face_area(made.rest, face) / 3;
+    for (const VertexId i : face) mass[i] += part;
+  }
+  for (const auto& edge : mesh.edges) {
+    end_if_stopped();
+    const double part =
+        density.length * density_factor(body, centre(made.start, edge)) * edge_length(made.rest, edge) / 2;
+    for (const VertexId i : edge) mass[i] += part;
+  }
+  return mass;
+}
+
+void require_masses(const BodyMesh& made, const Field& material) {
+  for (std::size_t i = 0; i < made.mass.size(); ++i) {
+    if (made.mass[i] > 0 && std::isfinite(1 / made.mass[i]) && std::isfinite(made.mass[i])) continue;
+    material.fail(fmt::format(
+        "expected a mass at every vertex; that of vertex {} is {} [kg]: faces have mass by density or mass_per_area, "
+        "edges of no face by density or mass_per_length, any vertex by mass_per_vertex",
+        i, made.mass[i]));
+  }
+}
+
+}  // namespace
+
+Field field_of_body(const Scene& scene, std::size_t body) {
+  return Field(scene.document, scene.path.string())["bodies"][body];
+}
+
+double stiffness_factor(const Body& body, const Position& x) {
+  double factor = 1;
+  for (const Patch& patch : body.patches) factor *= contains(patch.box, x) ? patch.stiffness_factor : 1;
+  return factor;
+}
+
+BodyMesh make_body(const Scene& scene, std::size_t index) {
+  const Body& body = scene.bodies[index];
+  const Field at = field_of_body(scene, index);
+  BodyMesh made;
+  made.shape = shape_of(scene, body, at["mesh"]);
+  require_different(made.shape.mesh.faces, "face", at["mesh"]);
+  require_different(made.shape.mesh.edges, "edge", at["mesh"]);
+  Placed placed = place(made.shape, body.deform, body.transform);
+  made.rest = std::move(placed.rest);
+  made.start = std::move(placed.start);
+  require_few_copies(body.array, made.shape.mesh.vertex_count, at["array"]["counts"]);
+  repeat(made, body.array);
+  for (std::size_t i = 0; i < made.start.size(); ++i) {
+    if (!std::isfinite(to_vec(made.start[i]).squaredNorm())) at.fail(fmt::format("vertex {} is too far away", i));
+  }
+  made.mass = lumped_masses(body, made);
+  require_masses(made, at["material"]);
+  made.pinned = select(body.pin, made.shape, made.start, at["pin"]);
+  return made;
+}
+
+}  // namespace noli::integrator

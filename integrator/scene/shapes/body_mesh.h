@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A body made from what the scene says of it: mesh, places, masses, sets chosen. No forces yet.
+#pragma once
+
+#include "integrator/scene/scene.h"
+#include "integrator/scene/shapes/field.h"
+#include "integrator/scene/shapes/shape.h"
+
+namespace noli::integrator {
+
+struct BodyMesh {
+  Shape shape;
+  std::vector<Position> rest;   ///< X
+  std::vector<Position> start;  ///< x before it is perturbed: what boxes choose among
+  std::vector<double> mass;     ///< lumped: a third of a face, half of an edge, to each corner [kg]
+  std::vector<VertexId> pinned;
+};
+
+/// Makes or reads a body's mesh. Throws InputError that names a field under /bodies/i: a file that does not load, a
+/// cell with a vertex twice, faces or third coordinates in the plane, vertices without mass, a pin that is not there.
+BodyMesh make_body(const Scene& scene, std::size_t index);
+
+/// Product of the factors of the patches that a point is in.
+double stiffness_factor(const Body& body, const Position& x);
+
+/// Middle of a cell at the start.
+template <std::size_t N>
+Position centre(const std::vector<Position>& x, const std::array<VertexId, N>& cell) {
+  Position sum{};
+  for (const VertexId i : cell) {
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += x[i][axis];
+  }
+  for (double& coordinate : sum) coordinate /= N;
+  return sum;
+}
+
+/// The field of a body.
+Field field_of_body(const Scene& scene, std::size_t body);
+
+}  // namespace noli::integrator

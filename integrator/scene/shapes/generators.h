@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes made by rule: those of schemas/scene.json, with the sets of vertices that it names. Positions are made by
+// + - * / sqrt alone (circles: turn.h), so their bits are the same everywhere; what is symmetric on paper about an axis
+// or a diagonal is so bit for bit, unless said otherwise.
+//
+//   points   as they are given
+//   chain    n + 1 vertices at equal parts of the curve's length. Smooth: uniform Catmull-Rom splines (Catmull, Rom
+//            1974) through the points, whose ends are mirrored; lengths are those of 32 chords a span. Closed: n
+//            vertices, as many as edges
+//   ring     n vertices, the first on the x axis, counterclockwise
+//   grid     rows from bottom to top; in each cell the diagonal from left bottom to right top, or, alternating, in
+//            every second cell the other one; finer in one place as refine.h says. Faces look to +z
+//   ribbon   rows across the band, from first to last; a row's direction is that of the one before, made perpendicular
+//            to the curve. Faces as those of a grid with the curve as its x
+//   disc     the centre, then rings of 6, 12, 18, ... vertices. Faces look to +z
+//   rod      segments + 1 rings of vertices from -length/2 to length/2, then the middles of the caps. Faces look
+//            outward
+//   sphere   the icosahedron's 12 vertices, then the middles of edges, level by level. Faces look outward
+//   box      faces look outward
+//   torus    rings of vertices about the tube, the first on the x axis. Faces look outward
+//   pyramid  the base's corners, the first on the x axis, then the tip. Faces look outward
+#pragma once
+
+#include "integrator/scene/scene.h"
+#include "integrator/scene/shapes/shape.h"
+
+namespace noli::integrator {
+
+Shape make_shape(const LoosePoints& points);
+Shape make_shape(const Chain& chain);
+Shape make_shape(const Ring& ring);
+Shape make_shape(const Grid& grid);
+Shape make_shape(const Ribbon& ribbon);
+Shape make_shape(const Disc& disc);
+Shape make_shape(const Rod& rod);
+Shape make_shape(const Sphere& sphere);
+Shape make_shape(const SurfaceOfBox& box);
+Shape make_shape(const Torus& torus);
+Shape make_shape(const Pyramid& pyramid);
+
+}  // namespace noli::integrator

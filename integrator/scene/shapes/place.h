@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where a body is: at rest, and at the start. Only + - * / sqrt (angles: turn.h), so bits are the same everywhere.
+//
+// Notation
+//   X    position at rest: scale * that of the mesh
+//   x    position at the start: X deformed, rotated, moved; then perturbed
+#pragma once
+
+#include <vector>
+
+#include "integrator/scene/scene.h"
+#include "integrator/scene/shapes/shape.h"
+
+namespace noli::integrator {
+
+struct Placed {
+  std::vector<Position> rest, start;
+};
+
+/// Start positions are not perturbed yet.
+Placed place(const Shape& shape, const Deform& deform, const Transform& transform);
+
+/// Adds to each coordinate (two in the plane) an amount drawn evenly from [-amplitude, amplitude). What is drawn
+/// depends on the seed, the body's number, the vertex, and the coordinate.
+void perturb(std::vector<Position>& positions, double amplitude, std::uint64_t seed, std::size_t body, int dimension);
+
+}  // namespace noli::integrator

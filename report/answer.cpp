@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/answer.h"
+
+#include <algorithm>
+
+#include "trajectory/error.h"
+
+namespace noli::report {
+namespace {
+
+/// "no_finding" is "NO FINDING".
+std::string in_capitals(std::string word) {
+  std::ranges::transform(word, word.begin(), [](char c) {
+    if (c == '_') return ' ';
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return word;
+}
+
+std::string quoted_if_needed(const std::string& value) {
+  const bool plain = !value.empty() && value.find_first_of(" \t\"") == std::string::npos;
+  if (plain) return value;
+  std::string text = "\"";
+  for (const char c : value) text += c == '"' ? "'" : std::string(1, c);
+  return text + '"';
+}
+
+}  // namespace
+
+std::string Answer::porcelain() const {
+  std::string line = "verdict=" + verdict_;
+  for (const auto& [key, value] : pairs_) line += ' ' + key + '=' + quoted_if_needed(on_one_line(value));
+  return line + '\n';
+}
+
+std::string Answer::last_line() const {
+  std::string behind = place;
+  if (behind.empty()) {
+    for (const auto& [key, value] : pairs_) behind += (behind.empty() ? "" : ", ") + key + ' ' + on_one_line(value);
+  }
+  return in_capitals(verdict_) + (behind.empty() ? "" : "  " + behind);
+}
+
+std::string Answer::words(bool verbose) const {
+  std::string all = text;
+  if (verbose) all += details;
+  if (!next.empty()) all += "Next: " + next + '\n';
+  return all + last_line() + '\n';
+}
+
+}  // namespace noli::report

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a command answers: pairs for machines, lines for people, and the verdict, which people read last.
+//
+// Notation
+//   pair       `key=value`; a value that has a blank stands in double quotes
+//   place      what stands behind the verdict: where, how much, by whom checked
+#pragma once
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace noli::report {
+
+/// A key and its value, which may be anything that can be formatted.
+struct AnswerPair {
+  template <class T>
+  AnswerPair(std::string_view name, const T& thing) : key(name), value(fmt::format("{}", thing)) {}
+
+  std::string key, value;
+};
+
+class Answer {
+ public:
+  explicit Answer(std::string_view verdict, std::initializer_list<AnswerPair> pairs = {})
+      : verdict_(verdict), pairs_(pairs) {}
+
+  void add(AnswerPair pair) { pairs_.push_back(std::move(pair)); }
+
+  std::string text;     ///< lines above the verdict
+  std::string details;  ///< more lines, with --verbose
+  std::string next;     ///< what to do now, a sentence; empty: nothing
+  std::string place;    ///< one line; empty: the pairs
+
+  /// `verdict=WORD key=value ...`, one line.
+  std::string porcelain() const;
+  /// The text, the details if they are wanted, what to do, and as the last line the verdict in capitals and its place.
+  std::string words(bool verbose) const;
+  /// The last line: "NO FINDING  queries 10, findings 0".
+  std::string last_line() const;
+
+ private:
+  std::string verdict_;
+  std::vector<AnswerPair> pairs_;
+};
+
+}  // namespace noli::report

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A picture of a mesh at one moment, for pages about scenes.
+//
+// Notation
+//   view     parallel projection along a direction; z is up, or y in the plane
+//   sample   a pixel is the mean of 3 x 3 samples, each the nearest thing there
+// Parts of the mesh that hang together have a colour each; parts of which nothing is free are grey. Faces are lit from
+// the eye's upper left, alike on both sides, and their edges are darker where there is room for them.
+// Fixed parts of four vertices or fewer are floors and walls: only their borders are drawn, and they need not be seen.
+//
+// What this does not do: no perspective, no shadows, and nothing is decided by it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trajectory/mesh.h"
+
+namespace noli::report {
+
+struct View {
+  Position from{0.8, -1.4, 0.7};  ///< the direction in which the eye is; of any length but zero
+  Position up{0, 0, 1};           ///< not along `from`
+  std::size_t width = 640;        ///< [pixels]; the height follows from what is seen
+};
+
+/// Rows from top to bottom; red, green, blue.
+struct Picture {
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// `fixed`: one for each vertex. Throws std::invalid_argument when the view is none.
+Picture draw(const Frame& frame, const std::vector<bool>& fixed, const View& view);
+
+}  // namespace noli::report

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/figures/run_picture.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "certify/errors.h"
+#include "certify/result_file.h"
+#include "certify/runs/run_folder.h"
+#include "certify/runs/run_log_facts.h"
+#include "certify/runs/run_series_reader.h"
+#include "report/figures/picture.h"
+#include "report/figures/png.h"
+#include "trajectory/error.h"
+#include "trajectory/sample.h"
+#include "trajectory/stop.h"
+#include "trajectory/write_file.h"
+
+namespace noli::report {
+namespace {
+
+void check(const PictureRequest& request) {
+  if (!can_write_png()) throw UsageError("--at: this noli was built without pictures (NOLI_WITH_PNG=OFF)");
+  if (request.output.extension() != ".png") {
+    throw UsageError("-o " + request.output.string() + ": expected a name that ends in .png");
+  }
+  make_writable_folder(request.output.parent_path(), "-o");
+}
+
+View view_of(const PictureRequest& request, std::uint32_t dimension) {
+  View view;
+  if (dimension == 2) {
+    view.from = {0, 0, 1};
+    view.up = {0, 1, 0};
+  }
+  if (request.from) view.from = *request.from;
+  // From straight above, what is ahead is up.
+  if (view.from[0] == 0 && view.from[1] == 0) view.up = {0, 1, 0};
+  return view;
+}
+
+/// Keeps the frame that is nearest to the time asked for.
+class Nearest {
+ public:
+  explicit Nearest(double time) : time_(time) {}
+
+  void add(const RunWindow& window) {
+    for (const RunFrame& frame : window.frames) add(frame.time, frame.positions);
+    if (window.lines && window.begin <= time_ && time_ <= window.end) add(time_, sample(*window.lines, time_));
+  }
+  bool found() const { return found_; }
+  bool is_passed(const RunWindow& window) const { return found_ && window.end > time_ + std::abs(best_.time - time_); }
+  const RunFrame& best() const { return best_; }
+
+ private:
+  void add(double time, const std::vector<Position>& positions) {
+    if (found_ && !(std::abs(time - time_) < std::abs(best_.time - time_))) return;
+    best_ = {time, positions};
+    found_ = true;
+  }
+
+  double time_;
+  RunFrame best_;
+  bool found_ = false;
+};
+
+RunFrame frame_at(SeriesReader& reader, const PictureRequest& request) {
+  Nearest nearest(request.time);
+  double end = 0;
+  while (const auto window = reader.next_window()) {
+    end_if_stopped();
+    end = window->end;
+    nearest.add(*window);
+    if (nearest.is_passed(*window)) break;
+  }
+  if (nearest.found() && request.time >= 0 && request.time <= end) return nearest.best();
+  throw InputError(request.run.string(), "",
+                   fmt::format("goes up to {} s; expected a time of it, found {} s", end, request.time));
+}
+
+}  // namespace
+
+PictureOutcome run_picture(const PictureRequest& request) {
+  check(request);
+  SeriesReader reader = open_run(request.run);
+  const RunFrame frame = frame_at(reader, request);
+  std::vector<bool> fixed;
+  for (const std::uint8_t label : reader.scene().labels) fixed.push_back(label == scripted_vertex);
+  fixed.resize(frame.positions.size(), false);
+  try {
+    const View view = view_of(request, reader.header().dimension);
+    const Picture picture = draw({reader.mesh(), frame.positions}, fixed, view);
+    replace_file(request.output, png(picture));
+    return {frame.time, picture.width, picture.height};
+  } catch (const std::invalid_argument&) {
+    throw UsageError("--from: expected a direction other than zero");
+  }
+}
+
+}  // namespace noli::report

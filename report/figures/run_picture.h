@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A picture of a run at one time.
+//
+// What this does not do: like frames, a picture is a sample of the motion, not the certified motion.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "trajectory/mesh.h"
+
+namespace noli::report {
+
+struct PictureRequest {
+  std::filesystem::path run;
+  double time = 0;               ///< [s]
+  std::optional<Position> from;  ///< direction in which the eye is; its own for each dimension
+  std::filesystem::path output;  ///< ends in .png
+  bool force = false;            ///< a file that is there may be replaced
+};
+
+struct PictureOutcome {
+  double time = 0;  ///< of the picture [s]; of a run that recorded frames alone, that of the nearest one
+  std::size_t width = 0, height = 0;
+};
+
+/// Throws InputError (no run, a damaged one, one that does not have that time), UsageError (the output's name or place,
+/// a direction that is none, built without a library for pictures), std::system_error (disk).
+PictureOutcome run_picture(const PictureRequest& request);
+
+}  // namespace noli::report

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli report`: one page of HTML with everything in it; it fetches nothing.
+//
+// What the page reads (viewer/src/data.js), as JSON:
+//   title, made      texts
+//   verdict          word, tone: "neutral", "good", "open" or "bad" (report_verdict.h), lines: texts
+//   facts            pairs of texts; statement: the same
+//   scene            null, or dimension, vertices, cells {faces, edges, points},
+//                    parts [{name, first, vertices, fixed}], frames, times, unit, least, greatest,
+//                    steps {begin, list: the ends of the steps}, note
+//   contacts         null, or counts by kind, total, initial, listed [{step, pair, features}]
+//   plots            [{title, x, y, log, times, series: [{name, values}]}]
+//   pictures         [{name, image: a data: address}]; results: [{name, result: any JSON}]
+// And, packed (zlib, then base64), cells: vertex numbers, u32, of all faces, edges, points; motion: see PackedFrames.
+//
+// What this does not do: it computes no verdict. What it shows was computed by others, and the page says by whom.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "certify/json.h"
+
+namespace noli::report {
+
+struct ReportPage {
+  Json page;
+  std::string cells, motion;  ///< packed; empty without a scene
+};
+
+/// zlib, as fast as the smallest result allows, then base64.
+std::string packed(std::string_view bytes);
+
+/// The document. Precondition: has_report_page().
+std::string report_html(const ReportPage& report);
+
+}  // namespace noli::report

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/report_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "certify/not_compared.h"
+#include "certify/runs/frame_times.h"
+#include "certify/runs/run_folder.h"
+#include "certify/runs/run_log_facts.h"
+#include "certify/runs/run_series_reader.h"
+#include "report/report_end.h"
+#include "report/report_plots.h"
+#include "report/report_scene.h"
+#include "report/report_verdict.h"
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/error.h"
+#include "trajectory/formats/frames.h"
+#include "trajectory/sample.h"
+#include "trajectory/stop.h"
+
+namespace noli::report {
+namespace {
+
+/// Of a window: more than that are a question of patience, and not of looking.
+constexpr double most_samples = 1e6;
+
+void stop_if_interrupted(const std::filesystem::path& what) {
+  if (stop_asked()) throw ReadInterrupted(what.string());
+}
+
+class Run {
+ public:
+  Run(const std::filesystem::path& path, const ReportLimits& limits)
+      : path_(path),
+        limits_(limits),
+        log_(read_log(path)),
+        reader_(open_run(path, log_)),
+        packer_(reader_.mesh().vertex_count, limits.most_bytes) {}
+
+  void put(ReportPage& report) {
+    while (const auto window = reader_.next_window()) {
+      add(*window);
+      stop_if_interrupted(path_);
+    }
+    const LogFacts& log = log_;
+    report.page["title"] = title_of(path_);
+    // Without a window nothing was decided, however the run ended.
+    take_word(rows_.empty() && log.last_end == "done" ? "undecided" : word_of_end(log.last_end, log.going_on), report);
+    add_lines(log, report.page["verdict"]["lines"]);
+    report.page["facts"] = facts(log);
+    if (rows_.empty()) return;  // nothing moves
+    report.page["plots"] = report_plots(rows_);
+    PackedFrames frames = packer_.pack();
+    put_scene(scene(log), std::move(frames), report);
+  }
+
+ private:
+  bool full() const { return reader_.header().record == RecordMode::full; }
+
+  void add(const RunWindow& window) {
+    rows_.push_back(reader_.row());
+    ends_.push_back(window.end);
+    if (window.index == 0) begin_ = window.begin;
+    for (const RunFrame& frame : window.frames) {
+      if (!packer_.skip()) packer_.add(frame.time, frame.positions);
+    }
+    if (window.lines) add_samples(window);
+  }
+
+  void add_samples(const RunWindow& window) {
+    const double rate = std::min(limits_.fps, most_samples / reader_.header().window_length);
+    for_each_frame_time(window.index, window.begin, window.end, rate, [&](double t) {
+      if (!packer_.skip()) packer_.add(t, sample(*window.lines, t));
+      return !stop_asked();
+    });
+  }
+
+  void add_lines(const LogFacts& log, Json& lines) const {
+    lines.push_back(rows_.empty() ? "No window was committed: nothing is claimed." : claim(log));
+    if (const std::string end = end_line(log); !end.empty()) lines.push_back(end);
+    if (log.going_on) lines.push_back("The run has not ended, or was killed.");
+    if (reader_.open_window()) lines.push_back("A window that was never committed follows; it is left out.");
+    if (rows_.empty()) return;
+    lines.push_back(full()
+                        ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."
+                        : "The run recorded frames and the hash of its motion: noli verify --reproduce integrates and "
+                          "decides it again.");
+  }
+
+  std::string claim(const LogFacts& log) const {
+    const std::string where =
+        fmt::format("in the {} windows of this run, from {} s to {} s", rows_.size(), begin_, ends_.back());
+    return nothing_touches(left_out(log), where) +
+           " Each window was decided in exact arithmetic before it was written.";
+  }
+
+  /// Why the window after the last is not in the run, as its log has it.
+  std::string end_line(const LogFacts& log) const {
+    const std::string what = what_ended(log);
+    const std::string named = what.empty() ? "" : ": " + on_one_line(what);
+    const std::string in_it = rows_.empty() ? "In the first window " : "In the window after them ";
+    if (log.last_end == "contact") return in_it + "something touches, so it is not in the run" + named + ".";
+    if (log.last_end == "too_near") {
+      return in_it + "a pair comes nearer than the scene's layers of contact allow" + named + ".";
+    }
+    if (log.last_end == "unstable") return "The energy goes astray" + named + ". Steps are too long, or kick in time.";
+    if (log.last_end != "not_finite") return "";
+    return in_it + "numbers run out: a velocity or position is not finite. It is not in the run.";
+  }
+
+  NotCompared left_out(const LogFacts& log) const {
+    std::vector<std::uint8_t> held;
+    for (const std::uint8_t label : reader_.scene().labels) held.push_back(label & scripted_vertex);
+    return not_compared(reader_.mesh(), held, reader_.scene().exclusions, log.names);
+  }
+
+  Json facts(const LogFacts& log) const {
+    std::uint64_t events = 0, breakpoints = 0;
+    for (const SeriesRow& row : rows_) {
+      events += row.events_in_all();
+      breakpoints += row.breakpoints;
+    }
+    const Mesh& mesh = reader_.mesh();
+    Json facts = Json::array();
+    const auto add = [&](const std::string& name, const std::string& text) { facts.push_back({name, text}); };
+    add("Mesh", fmt::format("{} vertices, {} faces, {} loose edges, {} loose points", mesh.vertex_count,
+                            mesh.faces.size(), mesh.edges.size(), mesh.points.size()));
+    add("Windows", rows_.empty() ? "none" : fmt::format("{}, up to {} s", rows_.size(), ends_.back()));
+    add("Events", fmt::format("{}", events));
+    add("Breakpoints", fmt::format("{}", breakpoints));
+    add("Ended", log.end().empty() ? "its log does not say how" : log.end());
+    if (!log.roll_backs.empty()) add("Windows that were run again", fmt::format("{}", log.roll_backs.size()));
+    if (const ActingLayer nearest = nearest_layer(); nearest.layer > 0) {
+      const std::string pair = log.names.pair(nearest.pair, nearest.vertices, "and");
+      add("Nearest at an impulse",
+          fmt::format("{}: {} m, at {} s", pair, digits17(nearest.distance), digits17(nearest.time)));
+    }
+    return facts;
+  }
+
+  ActingLayer nearest_layer() const {
+    ActingLayer nearest;
+    for (const SeriesRow& row : rows_) {
+      if (row.nearest.layer == 0) continue;
+      if (nearest.layer == 0 || row.nearest.distance < nearest.distance) nearest = row.nearest;
+    }
+    return nearest;
+  }
+
+  ReportScene scene(const LogFacts& log) const {
+    std::string note = full() ? fmt::format("Frames are samples of the motion, {} a second at most.", limits_.fps)
+                              : "Frames are those that the run recorded.";
+    if (packer_.stride() > 1) note += fmt::format(" One of {} is shown.", packer_.stride());
+    note += " Straight lines between them are not the motion that was verified; positions are rounded for the picture.";
+    return {static_cast<int>(reader_.header().dimension), reader_.mesh(), parts(log), "s", begin_, ends_, note};
+  }
+
+  std::vector<ReportPart> parts(const LogFacts& log) const {
+    std::vector<ReportPart> parts;
+    const std::vector<std::uint8_t>& labels = reader_.scene().labels;
+    for (const auto& body : log.names.bodies()) {
+      if (body.first > labels.size() || body.vertices > labels.size() - body.first) continue;  // no body of this mesh
+      const auto begin = labels.begin() + static_cast<std::ptrdiff_t>(body.first);
+      const bool fixed = std::all_of(begin, begin + static_cast<std::ptrdiff_t>(body.vertices),
+                                     [](std::uint8_t label) { return label == scripted_vertex; });
+      parts.push_back({body.name, body.first, body.vertices, fixed});
+    }
+    if (parts.empty()) parts.push_back({"mesh", 0, reader_.mesh().vertex_count, false});
+    return parts;
+  }
+
+  const std::filesystem::path& path_;
+  const ReportLimits& limits_;
+  LogFacts log_;
+  SeriesReader reader_;
+  MotionPacker packer_;
+  std::vector<SeriesRow> rows_;
+  std::vector<double> ends_;
+  double begin_ = 0;
+};
+
+}  // namespace
+
+void report_run(const std::filesystem::path& run, const ReportLimits& limits, ReportPage& report) {
+  Run(run, limits).put(report);
+}
+
+void report_frames(const std::vector<std::filesystem::path>& frames, const ReportedFrames& how,
+                   const ReportLimits& limits, ReportPage& report) {
+  const bool at_rest = how.at_rest;
+  Frame first = how.read(frames.front(), 0);
+  MotionPacker packer(first.mesh.vertex_count, limits.most_bytes);
+  if (!packer.skip()) packer.add(0, first.positions);
+  std::vector<double> ends;
+  if (at_rest) ends.push_back(0.5);
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    stop_if_interrupted(frames[k]);
+    const Frame frame = how.read(frames[k], k);
+    require_same_mesh(first.mesh, frames.front(), frame.mesh, frames[k]);
+    if (!packer.skip()) packer.add(static_cast<double>(k), frame.positions);
+    ends.push_back(static_cast<double>(k) + (at_rest ? 0.5 : 0));
+  }
+  PackedFrames packed = packer.pack();
+  std::string note = at_rest ? "Each frame was decided by itself, at rest."
+                             : "Between these frames every vertex moves on a straight line: that motion was decided.";
+  if (packer.stride() > 1) note += fmt::format(" One frame of {} is shown.", packer.stride());
+  note += " Positions are rounded for the picture.";
+  const bool flat = how.flat || packed.least[2] == packed.greatest[2];
+  put_scene({flat ? 2 : 3,
+             first.mesh,
+             {{"mesh", 0, first.mesh.vertex_count, false}},
+             at_rest ? "(frame)" : "steps",
+             at_rest ? -0.5 : 0,
+             ends,
+             note},
+            std::move(packed), report);
+}
+
+}  // namespace noli::report

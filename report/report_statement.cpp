@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/report_statement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "report/report_verdict.h"
+
+namespace noli::report {
+namespace {
+
+/// Of members whose names say too little without the manual.
+constexpr std::pair<std::string_view, std::string_view> names[] = {
+    {"excluded", "not compared"},
+    {"min_distance", "least distance"},
+    {"min_distance_from_ring", "least distance between features this many edges apart"},
+    {"strict", "features of one cell are compared too"},
+    {"points", "vertices that nothing refers to are points"},
+    {"static", "each frame by itself, at rest"},
+    {"keep_going", "goes on behind the first step with contact"},
+    {"first_only", "stops at any contact, which need not be the earliest"},
+    {"merge_identical", "vertices that are always in one place are merged"},
+    {"merged_vertices", "vertices that were merged"},
+    {"unreferenced_vertices_left_out", "vertices left out, because nothing refers to them"},
+};
+
+std::string name_of(const std::string& key) {
+  const auto* const found = std::ranges::find(names, key, &std::pair<std::string_view, std::string_view>::first);
+  return found == std::end(names) ? spoken(key) : std::string(found->second);
+}
+
+std::string words(const Json& value);
+
+std::string list_words(const Json& list) {
+  std::string text;
+  for (const Json& item : list) text += (text.empty() ? "" : "; ") + words(item);
+  return text.empty() ? "nothing" : text;
+}
+
+std::string words(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  if (value.is_array()) return list_words(value);
+  return value.is_null() ? "none" : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+Json statement_in_words(const Json& statement) {
+  Json pairs = Json::array();
+  for (const auto& [key, value] : statement.items()) pairs.push_back({name_of(key), words(value)});
+  return pairs;
+}
+
+}  // namespace noli::report

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/report_verdict.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace noli::report {
+namespace {
+
+constexpr std::string_view good[] = {"no_contact", "proved",   "no_difference", "no_finding", "nothing_fails",
+                                     "agreement",  "accepted", "same",          "holds"};
+constexpr std::string_view bad[] = {"contact",      "too_near", "not_finite", "unstable", "finding",
+                                    "disagreement", "refuted",  "rejected",   "differs",  "different"};
+constexpr std::string_view neutral[] = {"measured", "decided", "explained", "described", "report"};
+
+bool among(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }
+
+}  // namespace
+
+Tone tone_of(std::string_view word) {
+  if (among(bad, word)) return Tone::bad;
+  if (among(good, word)) return Tone::good;
+  return among(neutral, word) ? Tone::neutral : Tone::open;
+}
+
+std::string_view name(Tone tone) {
+  switch (tone) {
+    case Tone::neutral: return "neutral";
+    case Tone::good: return "good";
+    case Tone::open: return "open";
+    case Tone::bad: return "bad";
+  }
+  return "";
+}
+
+Json no_verdict() { return {{"word", "report"}, {"tone", name(Tone::neutral)}, {"lines", Json::array()}}; }
+
+void take_word(const std::string& word, ReportPage& report) {
+  Json& verdict = report.page["verdict"];
+  const auto there = verdict["word"].get<std::string>();
+  const bool more = there == "report" || (there == "no_contact" && word == "proved");
+  if (!more && tone_of(word) <= tone_of(there)) return;
+  verdict["word"] = word;
+  verdict["tone"] = name(tone_of(word));
+}
+
+std::string word_of_end(std::string_view end, bool going_on) {
+  if (end == "contact" || end == "too_near" || end == "not_finite" || end == "unstable") return std::string(end);
+  return end == "done" && !going_on ? "no_contact" : "undecided";
+}
+
+std::string spoken(std::string word) {
+  std::ranges::replace(word, '_', ' ');
+  return word;
+}
+
+}  // namespace noli::report

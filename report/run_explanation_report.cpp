@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/run_explanation_report.h"
+
+#include <fmt/format.h>
+
+#include "certify/contact_report.h"
+#include "trajectory/error.h"
+
+namespace noli::report {
+namespace {
+
+using integrator::ForceKind;
+
+std::span<const VertexId> vertices_of(const ActingLayer& action) {
+  return {action.vertices.data(), point_count(action.pair)};
+}
+
+std::string names_of(const RunExplanation& e, const ActingLayer& action) {
+  return e.log.names.pair(action.pair, vertices_of(action), "and");
+}
+
+double per(double count, double time) { return time > 0 ? count / time : 0; }
+
+// --- JSON ------------------------------------------------------------------------------------------------------------
+
+Json moment_json(const RunExplanation& e, const std::optional<ActingMoment>& moment) {
+  if (!moment) return nullptr;
+  const ActingLayer& action = moment->action;
+  const auto vertices = vertices_of(action);
+  return {{"layer", action.layer},
+          {"distance", action.distance},
+          {"time", action.time},
+          {"window", moment->window},
+          {"pair", noli::name(action.pair)},
+          {"vertices", std::vector<VertexId>(vertices.begin(), vertices.end())},
+          {"names", names_of(e, action)},
+          {"material", action.material}};
+}
+
+Json gap_json(const std::optional<ExactGap>& gap) {
+  if (!gap) return nullptr;
+  return {{"above", gap->above}, {"up_to", gap->up_to}, {"time", gap->time}};
+}
+
+Json energy_json(const std::optional<EnergySummary>& energy) {
+  if (!energy) return nullptr;
+  return {{"first", energy->first},
+          {"last", energy->last},
+          {"least", energy->least},
+          {"greatest", energy->greatest},
+          {"damping_work", energy->damping_work}};
+}
+
+Json layer_cap_json(const RunExplanation& e) {
+  if (!e.log.has_contact) return nullptr;
+  Json worst = Json::array();
+  for (const ActingMoment& m : e.worst) {
+    worst.push_back({{"window", m.window}, {"layer", m.action.layer}, {"time", m.action.time}});
+  }
+  return {{"most_layers", e.log.most_layers}, {"worst", worst}};
+}
+
+Json kinds_json(const RunExplanation& e, double time) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < e.events.size(); ++k) {
+    const std::string kind(name(static_cast<ForceKind>(k)));
+    if (time == 0) {
+      json[kind] = e.events[k];
+    } else {
+      json[kind] = per(static_cast<double>(e.events[k]), time);
+    }
+  }
+  return json;
+}
+
+// --- Text ------------------------------------------------------------------------------------------------------------
+
+std::string events_text(const RunExplanation& e) {
+  std::string text = "Events:\n";
+  for (std::size_t k = 0; k < e.events.size(); ++k) {
+    if (e.events[k] == 0) continue;
+    text += fmt::format("  {:<12} {:>14} {:>12.4g} a second of simulated time\n", name(static_cast<ForceKind>(k)),
+                        e.events[k], per(static_cast<double>(e.events[k]), e.time));
+  }
+  text += fmt::format("  {:<12} {:>14} {:>12.4g}\n", "breakpoints", e.breakpoints,
+                      per(static_cast<double>(e.breakpoints), e.time));
+  return text;
+}
+
+std::string gap_text(const RunExplanation& e) {
+  if (!e.gap) return "World lines were not recorded, so how near they came between impulses is not known exactly.";
+  return fmt::format("Between impulses too, decided exactly: above {} m, up to {} m, first at about {} s.",
+                     digits17(e.gap->above), digits17(e.gap->up_to), digits17(e.gap->time));
+}
+
+std::string contact_text(const RunExplanation& e) {
+  if (!e.log.has_contact && !e.deepest) return "Contact: the scene has no forces of it.\n";
+  if (!e.deepest) return "Contact: no layer acted.\n";
+  const ActingMoment &deep = *e.deepest, &near = *e.nearest;
+  std::string text = fmt::format("Deepest layer that acted: {}, between {}, at {} s (window {}).\n", deep.action.layer,
+                                 on_one_line(names_of(e, deep.action)), digits17(deep.action.time), deep.window);
+  text += fmt::format("Nearest at an impulse: {}, {} m apart, at {} s (window {}).\n  {}\n",
+                      on_one_line(names_of(e, near.action)), digits17(near.action.distance), digits17(near.action.time),
+                      near.window, gap_text(e));
+  return text;
+}
+
+std::string bound_text(const RunExplanation& e) {
+  if (!e.log.has_contact) return "";
+  if (const auto bound = e.bound()) {
+    return fmt::format(
+        "Certificates had at most {} layers active for a pair: none was nearer than the next, {} m thick at least.\n",
+        e.log.deepest, digits17(*bound));
+  }
+  return "The log does not tell of all windows, so it is not known how many layers were active.\n";
+}
+
+std::string cap_text(const RunExplanation& e) {
+  if (e.worst.empty() || e.log.most_layers == 0) return "";
+  std::string text = fmt::format("Of {} layers that the scene allows, most acted in:\n", e.log.most_layers);
+  for (const ActingMoment& m : e.worst) {
+    text += fmt::format("  window {}: layer {} ({:.2g} %)\n", m.window, m.action.layer,
+                        100 * static_cast<double>(m.action.layer) / e.log.most_layers);
+  }
+  return text;
+}
+
+std::string roll_backs_text(const RunExplanation& e) {
+  if (e.log.roll_backs.empty()) return "No window was rolled back.\n";
+  std::string text = fmt::format("Rolled back: {} time(s); steps of layers are halved {} time(s) now.\n",
+                                 e.log.roll_backs.size(), e.halvings);
+  for (const Json& entry : e.log.roll_backs)
+    text += "  " + entry.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text;
+}
+
+std::string energy_text(const RunExplanation& e) {
+  if (!e.energy) return "";
+  return fmt::format(
+      "Energy: {:.9g} J after the first window, {:.9g} J after the last (from {:.9g} to {:.9g}); damping did "
+      "{:.3g} J of work between.\n",
+      e.energy->first, e.energy->last, e.energy->least, e.energy->greatest, e.energy->damping_work);
+}
+
+std::string certificates_text(const RunExplanation& e) {
+  if (!e.log.has_contact) return "";
+  const certificates::CertificateCounts& c = e.log.certificates;
+  const auto rate = [&](std::uint64_t n) { return per(static_cast<double>(n), e.time); };
+  return fmt::format(
+      "Certificates, a second of simulated time: {:.4g} slices, {:.4g} tubes left, {:.4g} plans, {:.4g} repairs, "
+      "{:.4g} "
+      "activations, {:.4g} deactivations; at most {} near pairs at a time.\n",
+      rate(c.slices), rate(c.tubes), rate(c.plans), rate(c.repairs), rate(c.activations), rate(c.deactivations),
+      c.most_near);
+}
+
+std::string time_text(const RunExplanation& e) {
+  std::string text = fmt::format("Time: {}.\n", phases_text(e.log.phases));
+  text += fmt::format("Verifying took {:.2f} s in all, beside the rest where there was more than one thread.\n",
+                      e.log.verifying_seconds);
+  if (e.log.parts_ended < e.log.parts) {
+    text += fmt::format("{} of {} part(s) of the run did not end by themselves; their time is not known.\n",
+                        e.log.parts - e.log.parts_ended, e.log.parts);
+  }
+  if (e.log.bad_lines > 0) text += fmt::format("{} line(s) of the log say nothing that is known.\n", e.log.bad_lines);
+  return text;
+}
+
+}  // namespace
+
+Json to_json(const RunExplanation& e) {
+  Json json = {{"verdict", "explained"}, {"title", e.title}, {"dimension", e.dimension}};
+  json["record"] = e.full ? "full" : "frames";
+  json["windows"] = e.windows;
+  json["open_window"] = e.open_window;
+  json["time"] = e.time;
+  json["breakpoints"] = e.breakpoints;
+  json["events"] = kinds_json(e, 0);
+  json["events_a_second"] = kinds_json(e, e.time > 0 ? e.time : 1);
+  json["smallest_step"] = e.smallest_step;
+  json["deepest"] = moment_json(e, e.deepest);
+  json["nearest"] = moment_json(e, e.nearest);
+  json["gap"] = gap_json(e.gap);
+  json["layer_cap"] = layer_cap_json(e);
+  json["step_halvings"] = e.halvings;
+  json["roll_backs"] = e.log.roll_backs;
+  json["energy"] = energy_json(e.energy);
+  const auto bound = e.bound();
+  json["timing"] = {{"phases", phases_json(e.log.phases)},
+                    {"verifying_seconds", e.log.verifying_seconds},
+                    {"certificates", certificates_json(e.log.certificates)},
+                    {"deepest_active", e.log.deepest},
+                    {"bound", bound ? Json(*bound) : Json(nullptr)},
+                    {"end", e.log.end()},
+                    {"parts", e.log.parts},
+                    {"parts_ended", e.log.parts_ended},
+                    {"windows_logged", e.log.windows},
+                    {"bad_lines", e.log.bad_lines}};
+  return json;
+}
+
+Answer answer_of(const RunExplanation& e) {
+  Answer answer("explained", {{"windows", e.windows},
+                              {"time", digits17(e.time)},
+                              {"deepest", e.deepest ? e.deepest->action.layer : 0},
+                              {"end", e.log.end().empty() ? "unknown" : e.log.end()}});
+  std::string& text = answer.text;
+  text += fmt::format("{}: {} windows, {} s.\n", on_one_line(e.title), e.windows, e.time);
+  if (e.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
+  text += contact_text(e) + bound_text(e) + cap_text(e) + roll_backs_text(e);
+  text += events_text(e);
+  if (e.smallest_step > 0) text += fmt::format("Smallest step of a free vertex: {} s.\n", digits17(e.smallest_step));
+  text += energy_text(e) + certificates_text(e) + time_text(e);
+  return answer;
+}
+
+}  // namespace noli::report

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/simulate_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "certify/contact_report.h"
+#include "certify/process/this_program.h"
+#include "kernel/parallel.h"
+#include "trajectory/error.h"
+
+namespace noli::report {
+namespace {
+
+const char* verdict(const SimulateOutcome& outcome) {
+  switch (outcome.end) {
+    case RunEnd::done: return "no_contact";
+    case RunEnd::contact:
+    case RunEnd::too_near:
+    case RunEnd::not_finite:
+    case RunEnd::unstable: return name(outcome.end);
+    case RunEnd::interrupted:
+    case RunEnd::out_of_time: return "undecided";
+  }
+  return "";
+}
+
+/// The window that is not part of the run, from 1.
+std::uint64_t refused_window(const SimulateOutcome& outcome) { return outcome.windows + 1; }
+
+/// Nothing if there was no contact.
+Json first_json(const SimulateOutcome& outcome) {
+  if (!outcome.contact || !outcome.contact->first) return nullptr;
+  Json json = contact_json(outcome.contact->first->contact);
+  json["kind"] = noli::name(outcome.contact->first->kind);
+  json["names"] = outcome.first_names;
+  json["window"] = refused_window(outcome);
+  json["time"] = outcome.contact->first->lower();
+  return json;
+}
+
+Json not_finite_json(const SimulateOutcome& outcome) {
+  if (!outcome.not_finite) return nullptr;
+  const integrator::NotFinite& found = *outcome.not_finite;
+  return {{"window", refused_window(outcome)},
+          {"time", found.time},
+          {"force", found.kind ? Json(integrator::name(*found.kind)) : Json(nullptr)},
+          {"vertices", found.force},
+          {"vertex", found.vertex}};
+}
+
+Json start_gap_json(const SimulateOutcome& outcome) {
+  if (!outcome.start_gap) return nullptr;
+  return {{"gap", outcome.start_gap->gap},
+          {"thickness", outcome.start_gap->thickness},
+          {"last_thickness", outcome.start_gap->last}};
+}
+
+Json too_near_json(const SimulateOutcome& outcome) {
+  if (!outcome.limit) return nullptr;
+  const certificates::Stencil& pair = outcome.limit->pair;
+  const std::vector<VertexId> vertices(pair.vertices.begin(),
+                                       pair.vertices.begin() + static_cast<std::ptrdiff_t>(pair.size()));
+  return {{"window", refused_window(outcome)}, {"time", outcome.limit->time},
+          {"pair", noli::name(pair.kind)},     {"vertices", vertices},
+          {"names", outcome.first_names},      {"start", start_gap_json(outcome)}};
+}
+
+/// What begins within all layers is no matter of the motion.
+std::string too_near_text(const SimulateOutcome& outcome) {
+  const std::string names = on_one_line(outcome.first_names);
+  const std::optional<StartGap>& start = outcome.start_gap;
+  const std::string begins = start ? fmt::format(
+                                         "the scene begins with them {:.6g} m apart, within the thickness of "
+                                         "contact, {:.6g} m, whose last layer has {:.6g} m",
+                                         start->gap, start->thickness, start->last)
+                                   : "";
+  if (start && outcome.limit->time == 0) {
+    return fmt::format("Too near at the start: {} need more layers of contact than \"most_layers\" allows: {}.", names,
+                       begins);
+  }
+  return fmt::format(
+      "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s{}. The "
+      "window is not part of the run.",
+      refused_window(outcome), names, digits17(outcome.limit->time), start ? "; " + begins : "");
+}
+
+/// All windows are there, and nothing touches in them.
+std::string unstable_text(const SimulateOutcome& outcome) {
+  const EnergyAstray& energy = *outcome.energy_astray;
+  return fmt::format(
+      "{} But the energy goes astray: from {:.3g} J to {:.3g} J at {} s, what damping took put back. The motion "
+      "touches "
+      "nothing, and is not that of the scene: its steps are too long, or kick in time (`noli explain`).",
+      nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there,
+      digits17(energy.time));
+}
+
+std::string going_on_text(const SimulateOutcome& outcome) {
+  return outcome.begun ? "; `--resume` goes on behind the last window." : " before the run began; nothing was written.";
+}
+
+std::string end_text(const SimulateOutcome& outcome) {
+  switch (outcome.end) {
+    case RunEnd::done:
+      if (outcome.windows == 0) return "No window was asked for.";
+      return nothing_touches(outcome.not_compared, "from beginning to end");
+    case RunEnd::contact: {
+      const FirstInWindow& first = *outcome.contact->first;
+      return fmt::format(
+          "Contact in window {}: first {} ({}), {}, at {} s ({} pairs of features in the window). The window is not "
+          "part of the run.",
+          refused_window(outcome), contact_text(first.contact), on_one_line(outcome.first_names),
+          noli::name(first.kind), digits17(first.lower()), outcome.contact->contact_count());
+    }
+    case RunEnd::too_near: return too_near_text(outcome);
+    case RunEnd::not_finite: {
+      const integrator::NotFinite& found = *outcome.not_finite;
+      const std::string force =
+          found.kind ? fmt::format("the {} of vertices {}", integrator::name(*found.kind), fmt::join(found.force, ", "))
+                     : "free motion";
+      return fmt::format(
+          "Numbers run out in window {}: at {} s {} leaves vertex {} a velocity or position that is not "
+          "finite. The window is not part of the run.",
+          refused_window(outcome), digits17(found.time), force, found.vertex);
+    }
+    case RunEnd::unstable: return unstable_text(outcome);
+    case RunEnd::interrupted: return "Interrupted" + going_on_text(outcome);
+    case RunEnd::out_of_time: return "Out of time" + going_on_text(outcome);
+  }
+  return "";
+}
+
+/// What has been verified.
+std::string statement(const SimulateOutcome& outcome) {
+  if (outcome.windows == 0) return "no window was committed: nothing is claimed.";
+  std::string text = fmt::format(
+      "no two features that share no vertex meet at any time from 0 to {} s. Not compared: two cells whose vertices "
+      "are "
+      "all scripted or pinned",
+      outcome.time);
+  for (const auto& pair : outcome.not_compared.excluded) text += "; two cells of " + pair_text(pair);
+  return text + ".";
+}
+
+std::string committed_text(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  const std::string run = on_one_line(request.run.string());
+  if (outcome.windows == 0) return fmt::format("No window was committed to {}: nothing is claimed.", run);
+  return fmt::format("{} windows of {} s committed to {}, each verified exactly: {}", outcome.windows,
+                     outcome.window_length, run, statement(outcome));
+}
+
+double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
+
+/// What stands behind the verdict.
+std::string place(const SimulateOutcome& outcome) {
+  const std::string committed =
+      fmt::format("{} of {} windows, {} s", outcome.windows, outcome.windows_total, digits4(outcome.time));
+  const std::string at = fmt::format("window {}", outcome.windows + 1);
+  switch (outcome.end) {
+    case RunEnd::done: return fmt::format("{}: {}", committed, nothing_touches_in_short(outcome.not_compared));
+    case RunEnd::contact: {
+      const FirstInWindow& first = *outcome.contact->first;
+      return fmt::format("{}  t = {} s  {}", at, digits4(first.lower()), pair_in_short(first.contact));
+    }
+    case RunEnd::too_near:
+      return fmt::format("{}  t = {} s  {}", at, digits4(outcome.limit->time), outcome.first_names);
+    case RunEnd::not_finite:
+      return fmt::format("{}  t = {} s  vertex {}", at, digits4(outcome.not_finite->time), outcome.not_finite->vertex);
+    case RunEnd::unstable: return committed + ": nothing touches, but the energy goes astray";
+    case RunEnd::interrupted: return committed + " (interrupted)";
+    case RunEnd::out_of_time: return committed + " (time limit)";
+  }
+  return "";
+}
+
+/// What a user does now.
+std::string next_step(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  const std::string scene = on_one_line(request.scene.string()), run = on_one_line(request.run.string());
+  switch (outcome.end) {
+    case RunEnd::contact: return fmt::format("noli report {0} -o {0}.html shows the motion up to there.", run);
+    case RunEnd::unstable:
+    case RunEnd::not_finite: return fmt::format("noli explain {} tells which steps are too long.", scene);
+    case RunEnd::too_near: return fmt::format("noli explain {} tells how deep the layers went.", run);
+    case RunEnd::interrupted:
+    case RunEnd::out_of_time:
+      return fmt::format("noli simulate {}{} -o {}{}", scene, request.brief ? " --short" : "", run,
+                         outcome.begun   ? " --resume"
+                         : request.force ? " --force"
+                                         : "");
+    case RunEnd::done: return "";
+  }
+  return "";
+}
+
+}  // namespace
+
+Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  Json json = {{"verdict", verdict(outcome)}, {"end", name(outcome.end)}};
+  json["title"] = outcome.title;
+  json["statement"] = statement(outcome);
+  json["scripted_or_pinned"] = outcome.not_compared.held;
+  json["excluded"] = outcome.not_compared.excluded;
+  json["windows"] = outcome.windows;
+  json["windows_total"] = outcome.windows_total;
+  json["window_length"] = outcome.window_length;
+  json["time"] = outcome.time;
+  json["first_time"] =
+      outcome.contact && outcome.contact->first ? Json(outcome.contact->first->lower()) : Json(nullptr);
+  json["first"] = first_json(outcome);
+  json["contacts"] = counts_json(outcome.contact ? outcome.contact->contacts : ContactCounts{});
+  json["not_finite"] = not_finite_json(outcome);
+  json["too_near"] = too_near_json(outcome);
+  json["energy"] = {{"watched", outcome.energy_watched},
+                    {"astray", outcome.energy_astray ? energy_json(*outcome.energy_astray) : Json(nullptr)}};
+  json["roll_backs"] = outcome.roll_backs;
+  json["proof"] = {{"whole", outcome.proved}, {"ends", outcome.no_proof ? Json(*outcome.no_proof) : Json(nullptr)}};
+  json["certificate_defects"] = outcome.certificate_defects;
+  json["dimension"] = outcome.dimension;
+  json["vertices"] = outcome.vertices;
+  json["cells"] = outcome.cells;
+  json["timing"] = {{"seconds", outcome.seconds},
+                    {"simulating_seconds", outcome.simulating_seconds},
+                    {"verifying_seconds", outcome.verifying_seconds},
+                    {"windows_before", outcome.windows_before},
+                    {"events", outcome.events},
+                    {"breakpoints", outcome.breakpoints},
+                    {"phases", phases_json(outcome.phases)},
+                    {"series", name(outcome.series)},
+                    {"certificates", certificates_json(outcome.certificates)},
+                    {"threads", request.threads > 0 ? request.threads : hardware_threads()},
+                    {"peak_memory_bytes", peak_memory_bytes()}};
+  return json;
+}
+
+Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  Answer answer(verdict(outcome),
+                {{"end", name(outcome.end)},
+                 {"windows", outcome.windows},
+                 {"windows_total", outcome.windows_total},
+                 {"time", digits17(outcome.time)},
+                 {"first_time", outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none")}});
+  answer.place = place(outcome);
+  answer.next = next_step(request, outcome);
+  std::string& text = answer.text;
+  text += end_text(outcome) + "\n";
+  if (!outcome.title.empty()) text += on_one_line(outcome.title) + ": ";
+  text += committed_text(request, outcome) + "\n";
+  if (outcome.no_proof) {
+    text += fmt::format("No proof was found: proof.blocks ends before {}.\n", on_one_line(*outcome.no_proof));
+  }
+  if (outcome.begun && outcome.series == SeriesEnd::stopped) {
+    text += "series.h5 was not written: interrupted. `--resume` writes it.\n";
+  }
+  if (outcome.series == SeriesEnd::unavailable) {
+    text +=
+        "series.h5 was not written: noli_series is not beside noli. Build with NOLI_WITH_HDF5=ON; `--resume` writes "
+        "it.\n";
+  }
+  answer.details += fmt::format(
+      "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
+      "beside it; {:.0f} MB.\n",
+      outcome.seconds, outcome.simulating_seconds, per(static_cast<double>(outcome.events), outcome.simulating_seconds),
+      outcome.breakpoints, outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
+  answer.details += fmt::format("Busy with: {}.\n", phases_text(outcome.phases));
+  return answer;
+}
+
+}  // namespace noli::report

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words of `noli simulate`.
+#pragma once
+
+#include <string>
+
+#include "certify/json.h"
+#include "certify/simulate/simulate_run.h"
+#include "report/answer.h"
+
+namespace noli::report {
+
+Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcome);
+
+/// The same in words; the place of the verdict is a window and a time.
+Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& outcome);
+
+}  // namespace noli::report

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `noli verify RUN` says of where a run ends, and why.
+#include <gtest/gtest.h>
+
+#include "tests/app/runs/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+bool says(const std::string& run, const std::string& line) {
+  return ("\n" + run_noli({"verify", run}).out).find("\n" + line + "\n") != std::string::npos;
+}
+
+bool speaks_of_an_end(const std::string& run) {
+  return run_noli({"verify", run}).out.find("The run ends") != std::string::npos;
+}
+
+TEST_F(Simulate, VerifySaysThatARunEndedInAContact) {
+  ASSERT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run_path("run")}).exit_code, 1);
+  EXPECT_TRUE(says(run_path("run"), "The run ends at 0.3046875 s of 1 s (contact)."));
+  const Json run = json_of({"verify", run_path("run")}, 0)["run"];
+  EXPECT_EQ(run["end"], "contact");
+  EXPECT_EQ(run["time"], 0.3046875);
+  EXPECT_EQ(run["duration"], 1);
+}
+
+TEST_F(Simulate, VerifySaysNothingOfTheEndOfAWholeRun) {
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("run")}).exit_code, 0);
+  EXPECT_FALSE(speaks_of_an_end(run_path("run")));
+  const Json run = json_of({"verify", run_path("run")}, 0)["run"];
+  EXPECT_EQ(run["end"], "done");
+  EXPECT_EQ(run["time"], run["duration"]);
+}
+
+TEST_F(Simulate, VerifySaysThatNoMoreOfARunWasAskedFor) {
+  const std::string file = scene(hanging_sheet());
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.1"}).exit_code, 0);
+  EXPECT_TRUE(says(run_path("run"), "The run ends at 0.1 s of 0.25 s (no more was asked for)."));
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--resume"}).exit_code, 0);
+  EXPECT_FALSE(speaks_of_an_end(run_path("run")));
+}
+
+TEST_F(Simulate, VerifySaysThatARunWasInterruptedOrMayGoOn) {
+  Json json = hanging_sheet();
+  json["bodies"][0].erase("pin");
+  json["duration"] = 10000;
+  const std::vector<std::string> simulate = {"simulate", scene(json), "-o", run_path("run"), "--ignore-space"};
+  ASSERT_EQ(run_noli(simulate, interrupt_after(200)).exit_code, 2);
+  const Json run = json_of({"verify", run_path("run")}, 0)["run"];
+  EXPECT_EQ(run["end"], "interrupted");
+  EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 10000 s (interrupted).\n"), std::string::npos);
+  add_entry(run_path("run"), {{"event", "resume"}});
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["run"]["end"], nullptr);
+  const std::string out = run_noli({"verify", run_path("run")}).out;
+  EXPECT_NE(out.find("(it may still be going on, or was killed).\n"), std::string::npos) << out;
+}
+
+TEST_F(Simulate, VerifyDoesWithoutLogAndScene) {
+  ASSERT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run_path("run")}).exit_code, 1);
+  fs::remove(run_path("run/log.jsonl"));
+  EXPECT_TRUE(says(run_path("run"), "The run ends at 0.3046875 s of 1 s (its log does not say why)."));
+  fs::remove(run_path("run/scene.json"));
+  EXPECT_TRUE(says(run_path("run"), "The run ends at 0.3046875 s (its log does not say why)."));
+  EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["run"]["duration"], nullptr);
+}
+
+TEST_F(Simulate, OfNoWindowNothingIsClaimed) {
+  const std::string file = scene(resting_bar(1e9, 1e8));  // a window would take hours
+  const Process process =
+      run_noli({"simulate", file, "-o", run_path("run"), "--time-limit", "200ms", "--ignore-space"});
+  EXPECT_EQ(process.exit_code, 2) << process.err;
+  EXPECT_EQ(process.out.find("verified exactly"), std::string::npos) << process.out;
+  EXPECT_NE(process.out.find("\nNo window was committed to " + run_path("run") + ": nothing is claimed.\n"),
+            std::string::npos)
+      << process.out;
+  const Process verified = run_noli({"verify", run_path("run")});
+  EXPECT_EQ(verified.exit_code, 2);
+  EXPECT_NE(verified.out.find("\nUNDECIDED  0 of 0 windows begun: nothing found so far (no window was committed)\n"),
+            std::string::npos)
+      << verified.out;
+  EXPECT_TRUE(says(run_path("run"), "The run ends at 0 s of 1000000000 s (time limit)."));
+  EXPECT_EQ(
+      json_of({"simulate", file, "-o", run_path("json"), "--time-limit", "200ms", "--ignore-space"}, 2)["statement"],
+      "no window was committed: nothing is claimed.");
+}
+
+}  // namespace
+}  // namespace noli::app_tests

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a run stops early: within a window, while its series is written; and what cannot be run at all.
+#include <gtest/gtest.h>
+
+#include "tests/app/runs/simulate_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+class SimulateStop : public Simulate {};
+
+TEST_F(SimulateStop, EndsWithinAWindow) {
+  for (const char* steps : {"grouped", "own"}) {
+    Json json = resting_bar(1e9, 1e8);  // a window would take hours
+    json["steps"] = steps;
+    const std::string file = scene(json);
+    const auto expect = [&](const Process& process, const std::string& run, const std::string& end) {
+      EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+      EXPECT_EQ(process.verdict_line().rfind("UNDECIDED  0 of ", 0), 0) << process.out;
+      EXPECT_EQ(last_entry(run)["end"], end);
+    };
+    const std::string one = run_path(steps + std::string("1")), other = run_path(steps + std::string("2"));
+    expect(run_noli({"simulate", file, "-o", one, "--ignore-space"}, interrupt_after(300)), one, "interrupted");
+    expect(run_noli({"simulate", file, "-o", other, "--time-limit", "300ms", "--ignore-space"}), other, "time_limit");
+    EXPECT_EQ(json_of({"verify", one}, 2)["steps"], 0);
+  }
+}
+
+TEST_F(SimulateStop, TimeLimitsWithinWindowsChangeNoByte) {
+  Json json = hanging_sheet();
+  json["window"] = 0.05;
+  const std::string file = scene(json);
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
+  int exit_code = 2, calls = 0;
+  while (exit_code == 2 && calls < 1000) {
+    const std::string limit = std::to_string(1 + calls++) + "ms";
+    std::vector<std::string> arguments = {"simulate", file, "-o", run_path("parts"), "--time-limit", limit};
+    if (fs::exists(run_path("parts"))) arguments.emplace_back("--resume");
+    exit_code = run_noli(arguments).exit_code;
+  }
+  EXPECT_EQ(exit_code, 0);
+  EXPECT_GT(calls, 2);
+  EXPECT_TRUE(blocks("parts") == blocks("whole"));
+}
+
+TEST_F(SimulateStop, WritingTheSeriesCanBeInterrupted) {
+  Json json = resting_bar(1, 1);
+  json["frame_rate"] = 1e9;  // hours
+  const Process process =
+      run_noli({"simulate", scene(json), "-o", run_path("run"), "--ignore-space"}, interrupt_after(700));
+  EXPECT_EQ(process.exit_code, 0) << process.err;  // all windows are there
+#if !defined(__SANITIZE_ADDRESS__)                 // which has 250 MB before anything runs
+  EXPECT_LT(process.peak_bytes, 200'000'000u);
+#endif
+  EXPECT_EQ(process.verdict_line().rfind("NO CONTACT  1 of 1 windows", 0), 0) << process.out;
+  EXPECT_NE(process.out.find("`--resume` writes it"), std::string::npos) << process.out;
+  EXPECT_FALSE(fs::exists(run_path("run/series.h5")));
+  EXPECT_EQ(last_entry(run_path("run"))["series"], "stopped");
+  const std::string before = blocks("run");
+  json["frame_rate"] = 60;
+  EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run"), "--resume"}).exit_code, 0);
+  EXPECT_NE(last_entry(run_path("run"))["series"], "stopped");
+  EXPECT_TRUE(blocks("run") == before);
+}
+
+TEST_F(SimulateStop, StepsInAllAreThoseOfTheRun) {
+  const std::string file = scene(resting_bar(1, 0x1p-9));
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run")}).exit_code, 0);
+  const Json whole = json_of({"verify", run_path("run")}, 0);
+  EXPECT_EQ(whole["steps"], 512);
+  EXPECT_EQ(whole["steps_total"], 512);
+  const Json part = json_of({"verify", run_path("run"), "--time-limit", "1ms"}, 2);
+  EXPECT_LT(part["steps"], 512);
+  EXPECT_EQ(part["steps_total"], 512);
+}
+
+TEST_F(SimulateStop, FramesThatCannotBeAreRefused) {
+  Json json = resting_bar(1e9, 1e8);
+  json["frame_rate"] = 1e9;
+  const auto refused = [&](const std::string& problem) {
+    const Process process = run_noli({"simulate", scene(json), "-o", run_path("run")});
+    EXPECT_EQ(process.exit_code, 3) << process.err;
+    EXPECT_NE(process.err.find("/frame_rate: " + problem), std::string::npos) << process.err;
+    EXPECT_FALSE(fs::exists(run_path("run")));
+  };
+  refused("expected fewer than 2^53 frames in 1000000000 s");
+  json["duration"] = json["window"] = 1;
+  json["record"] = "frames";
+  refused("the frames of a window take about 4.8e+10 bytes; expected at most 4.3e+09, as with frame_rate 8.9e+07");
+  json["frame_rate"] = 1e4;
+  EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run")}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace noli::app_tests

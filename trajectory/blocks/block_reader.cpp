@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/bytes.h"
+#include "trajectory/blocks/crc32c.h"
+#include "trajectory/error.h"
+#include "trajectory/regular_file.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+std::uint64_t size_of(std::istream& stream, const std::string& name) {
+  stream.clear();
+  stream.seekg(0, std::ios::end);
+  const auto size = static_cast<std::streamoff>(stream.tellg());
+  if (!stream || size < 0) throw InputError(name, "", "cannot be read at any place; expected a regular file");
+  return static_cast<std::uint64_t>(size);
+}
+
+std::string letters_of(FourLetters kind) {
+  std::string text;
+  put(text, kind);
+  return in_quotes(text);
+}
+
+/// The checksum at the end of `bytes`, which are a block or as long as one, is that of the rest.
+bool checksum_fits(std::string_view bytes) {
+  const std::string_view covered = bytes.substr(0, bytes.size() - block_format::checksum_size);
+  return get<std::uint32_t>(bytes.data() + covered.size()) == crc32c(covered);
+}
+
+Sha256Digest digest_at(const std::string& payload, std::size_t offset) {
+  Sha256Digest digest;
+  std::memcpy(digest.data(), payload.data() + offset, digest.size());
+  return digest;
+}
+
+}  // namespace
+
+BlockReader::BlockReader(const std::filesystem::path& path, FourLetters content)
+    : name_(path.string()), stream_(std::make_unique<std::ifstream>(open_regular_file(path))) {
+  open(content);
+}
+
+BlockReader::BlockReader(std::string bytes, std::string name, FourLetters content)
+    : name_(std::move(name)), stream_(std::make_unique<std::istringstream>(std::move(bytes))) {
+  open(content);
+}
+
+void BlockReader::open(FourLetters content) {
+  using namespace block_format;
+  size_ = size_of(*stream_, name_);
+  if (size_ < file_header_size) {
+    fail(size_, fmt::format("truncated: expected at least {} bytes, the header of a block file", file_header_size));
+  }
+  const std::string header = read(0, file_header_size);
+  if (!header.starts_with(magic)) fail(0, "expected a block file, which begins with 89 'NOLI' 0d 0a 1a");
+  const auto found_version = get<std::uint32_t>(header.data() + magic.size());
+  if (found_version != version) {
+    fail(magic.size(), fmt::format("version {} is not known; expected version {}", found_version, version));
+  }
+  const auto found_content = get<std::uint32_t>(header.data() + magic.size() + 4);
+  if (found_content != content) {
+    fail(magic.size() + 4, fmt::format("is about {}, expected {}", letters_of(found_content), letters_of(content)));
+  }
+  hash_.update(header);
+  at_ = file_header_size;
+}
+
+void BlockReader::fail(std::uint64_t offset, const std::string& problem) const {
+  throw InputError(name_, byte_place(offset), problem);
+}
+
+/// Precondition: the file had as many bytes when it was opened.
+std::string BlockReader::read(std::uint64_t offset, std::uint64_t count) {
+  std::string bytes(count, '\0');
+  stream_->clear();
+  stream_->seekg(static_cast<std::streamoff>(offset));
+  stream_->read(bytes.data(), static_cast<std::streamsize>(count));
+  if (static_cast<std::uint64_t>(stream_->gcount()) != count)
+    fail(offset, fmt::format("cannot be read: expected {} bytes", count));
+  return bytes;
+}
+
+/// Reads the bytes of the block at at_. Returns what is wrong with them, if anything is.
+std::optional<std::string> BlockReader::read_block(std::string& header, std::string& body) {
+  using namespace block_format;
+  const std::uint64_t left = size_ - at_;
+  if (left < block_header_size) return fmt::format("truncated: {} bytes are no block", left);
+  header = read(at_, block_header_size);
+  const auto length = get<std::uint64_t>(header.data() + 4);
+  if (length > left - block_header_size || left - block_header_size - length < checksum_size) {
+    return fmt::format("truncated: a block of {} bytes, but only {} bytes remain", length, left - block_header_size);
+  }
+  body = read(at_ + block_header_size, length + checksum_size);
+  const std::string_view payload(body.data(), length);
+  if (get<std::uint32_t>(body.data() + length) != crc32c(payload, crc32c(header))) {
+    return fmt::format("damaged: the checksum of block {} does not fit", letters_of(get<FourLetters>(header.data())));
+  }
+  return std::nullopt;
+}
+
+/// Whether there is a whole commit block at `from` or later: what comes before it was on the disk once.
+bool BlockReader::commit_follows(std::uint64_t from) {
+  using namespace block_format;
+  const std::string beginning = block_header(commit, commit_payload_size);
+  constexpr std::uint64_t step = std::uint64_t{1} << 20;
+  for (; size_ - from >= commit_size; from += std::min(step, size_ - from)) {
+    const std::string bytes = read(from, std::min(step + commit_size - 1, size_ - from));
+    for (std::size_t at = bytes.find(beginning); at != std::string::npos; at = bytes.find(beginning, at + 1)) {
+      if (bytes.size() - at >= commit_size && checksum_fits(std::string_view(bytes).substr(at, commit_size)))
+        return true;
+    }
+  }
+  return false;
+}
+
+void BlockReader::check_commit(const Block& block) {
+  if (block.payload.size() != block_format::commit_payload_size) {
+    fail(block.offset,
+         fmt::format("a commit of {} bytes, expected {}", block.payload.size(), block_format::commit_payload_size));
+  }
+  const auto number = get<std::uint64_t>(block.payload.data());
+  if (number != committed_.groups) {
+    fail(block.payload_offset(), fmt::format("commit {} where commit {} was expected", number, committed_.groups));
+  }
+  const Sha256Digest group = hash_.digest();
+  if (digest_at(block.payload, 8) != group) {
+    fail(block.payload_offset() + 8, "the hash does not fit the blocks since the commit before");
+  }
+  const Sha256Digest running = next_running_hash(committed_.running, group);
+  if (digest_at(block.payload, 40) != running) {
+    fail(block.payload_offset() + 40, "the running hash does not fit the commits before");
+  }
+  committed_ = {at_, committed_.groups + 1, running, group};
+  hash_ = {};
+}
+
+std::optional<Block> BlockReader::next() {
+  if (at_ == size_) return std::nullopt;
+  std::string header, body;
+  if (const auto problem = read_block(header, body)) {
+    if (commit_follows(at_)) fail(at_, *problem + "; committed blocks follow, so this is no end that was cut off");
+    at_ = size_;
+    return std::nullopt;
+  }
+  Block block{get<FourLetters>(header.data()), at_, {}};
+  at_ += header.size() + body.size();
+  if (block.kind != block_format::commit) {
+    hash_.update(header);
+    hash_.update(body);
+  }
+  body.resize(body.size() - block_format::checksum_size);
+  block.payload = std::move(body);
+  if (block.kind == block_format::commit) check_commit(block);
+  return block;
+}
+
+CommitLook BlockReader::look_at_commits(std::uint64_t group) {
+  using namespace block_format;
+  CommitLook look;
+  for (std::uint64_t at = file_header_size; size_ - at >= block_header_size + checksum_size;) {
+    const std::string header = read(at, block_header_size);
+    const std::uint64_t left = size_ - at - block_header_size - checksum_size;
+    const auto length = get<std::uint64_t>(header.data() + 4);
+    if (length > left) break;
+    if (get<FourLetters>(header.data()) == commit && ++look.count == group && length == commit_payload_size) {
+      look.running = digest_at(read(at + block_header_size, length), 40);
+    }
+    at += block_header_size + length + checksum_size;
+  }
+  return look;
+}
+
+void BlockReader::look_again() {
+  size_ = size_of(*stream_, name_);
+  if (size_ < committed_.offset) fail(size_, "the file has lost what was committed to it");
+  at_ = committed_.offset;
+  hash_ = {};
+}
+
+std::optional<std::uint64_t> BlockReader::open_group() const {
+  return committed_.offset < size_ ? std::optional(committed_.offset) : std::nullopt;
+}
+
+}  // namespace noli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The payloads of the blocks of a run, to bytes and back. Internal to run_file.h; FORMAT.md has the bytes.
+//
+// encode_X gives a payload and trusts what it is given; decode_X checks all that can be seen in the block itself and
+// throws InputError with the place in the file.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/run_file.h"
+
+/// What a run's files are about, and the kinds of blocks in trajectory.blocks.
+namespace noli::run_kind {
+inline constexpr FourLetters content = four_letters("TRAJ");
+inline constexpr FourLetters head = four_letters("HEAD");
+inline constexpr FourLetters mesh = four_letters("MESH");
+inline constexpr FourLetters labels = four_letters("LABL");
+inline constexpr FourLetters exclusions = four_letters("EXCL");
+inline constexpr FourLetters window = four_letters("WIND");
+inline constexpr FourLetters lines = four_letters("LINE");
+inline constexpr FourLetters lines_hash = four_letters("HASH");
+inline constexpr FourLetters frame = four_letters("FRAM");
+inline constexpr FourLetters ends = four_letters("ENDP");
+inline constexpr FourLetters velocities = four_letters("VELO");
+inline constexpr FourLetters state = four_letters("STAT");
+}  // namespace noli::run_kind
+
+namespace noli::run_block {
+
+struct WindowTimes {
+  std::uint64_t index = 0;
+  double begin = 0, end = 0;
+};
+
+struct LinesHash {
+  std::uint64_t breakpoints = 0;
+  Sha256Digest hash{};
+};
+
+std::string encode_head(const RunHeader& header);
+std::string encode_mesh(const Mesh& mesh);
+std::string encode_labels(std::span<const std::uint8_t> labels);
+std::string encode_exclusions(const Exclusions& exclusions);
+std::string encode_window(const WindowTimes& times);
+/// World lines can be too many to be in memory twice.
+std::uint64_t encoded_lines_size(std::uint32_t dimension, const WorldLines& lines);
+void encode_lines(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer);
+std::string encode_vectors(std::uint32_t dimension, std::span<const Position> vectors);
+std::string encode_frame(std::uint32_t dimension, const RunFrame& frame);
+std::string encode_lines_hash(const LinesHash& hash);
+
+/// A block and the name of its file, for errors.
+struct Source {
+  const std::string& file;
+  const Block& block;
+};
+
+RunHeader decode_head(const Source& source);
+Mesh decode_mesh(const Source& source);
+std::vector<std::uint8_t> decode_labels(const Source& source, std::size_t vertex_count);
+/// `mesh`: whose vertices and cells they are about.
+Exclusions decode_exclusions(const Source& source, const Mesh& mesh);
+WindowTimes decode_window(const Source& source);
+WorldLines decode_lines(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
+std::vector<Position> decode_vectors(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
+RunFrame decode_frame(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
+LinesHash decode_lines_hash(const Source& source);
+
+}  // namespace noli::run_block

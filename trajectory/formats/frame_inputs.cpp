@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory/formats/frame_inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "trajectory/error.h"
+#include "trajectory/formats/frame_formats.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The same fault, and which frame it is in.
+InputError of_frame(const InputError& error, const std::string& path, std::size_t k, std::size_t count) {
+  std::string problem = error.what();
+  const std::string begin = on_one_line(path) + ": ";
+  if (problem.starts_with(begin)) problem.erase(0, begin.size());
+  return {path, "", fmt::format("{} (frame {} of {})", problem, k + 1, count)};
+}
+
+/// 5e-07 for k = -6: half of 10^k.
+std::string half_of(int k) { return fmt::format("5e{:+03}", k - 1); }
+
+}  // namespace
+
+FrameInputs::FrameInputs(const std::vector<fs::path>& frames, PolygonRule rule)
+    : rule_(rule), facts_(frames.size()), read_(frames.size(), false) {
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    try {
+      mesh_format(frames[k]);
+    } catch (const InputError& error) {
+      throw of_frame(error, frames[k].string(), k, frames.size());
+    }
+    facts_[k].file = frames[k].string();
+  }
+}
+
+void FrameInputs::look_at(std::size_t k) {
+  const fs::path path = facts_[k].file;
+  try {
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;
+    const std::string bytes = read_whole_file(path);
+    look_at(k, bytes);
+  } catch (const InputError& error) {
+    throw of_frame(error, facts_[k].file, k, facts_.size());
+  }
+}
+
+void FrameInputs::look_at(std::size_t k, std::string_view bytes) {
+  FrameLook look = look_at_frame(bytes, facts_[k].file);
+  if (first_) {
+    require_same_cells(k, bytes, look);
+  } else {
+    if (!look.cells) {
+      Polygons polygons{rule_};
+      mesh_ = parse(k, bytes, polygons).mesh;
+    }
+    first_ = k;
+    same_ = {look.cells};
+  }
+  facts_[k] = std::move(look.facts);
+}
+
+void FrameInputs::require_same_cells(std::size_t k, std::string_view bytes, const FrameLook& look) {
+  if (look.cells && same_.contains(look.cells)) return;
+  Polygons polygons{rule_};
+  if (!mesh_) mesh_ = parse(*first_, read_whole_file(facts_[*first_].file), polygons).mesh;
+  require_same_mesh(*mesh_, facts_[*first_].file, parse(k, bytes, polygons).mesh, facts_[k].file);
+  same_.insert(look.cells);
+}
+
+Frame FrameInputs::parse(std::size_t k, std::string_view bytes, Polygons& polygons) const {
+  return parse_frame(bytes, facts_[k].file, &polygons);
+}
+
+Frame FrameInputs::read(std::size_t k) {
+  const std::string bytes = read_whole_file(facts_[k].file);
+  if (facts_[k].looked_at && frame_hash(bytes) != facts_[k].sha256) {
+    throw InputError(facts_[k].file, "",
+                     "has changed since it was looked at; verify the frames again once they are complete");
+  }
+  Polygons polygons{rule_};
+  Frame frame = parse(k, bytes, polygons);
+  take(k, bytes, frame, polygons);
+  return frame;
+}
+
+ReadFrame FrameInputs::reader() {
+  return [this](const fs::path&, std::size_t k) { return read(k); };
+}
+
+void FrameInputs::take(std::size_t k, std::string_view bytes, const Frame& frame, const Polygons& polygons) {
+  if (!facts_[k].looked_at) facts_[k] = look_at_frame(bytes, facts_[k].file).facts;
+  // Those that were looked at have the same cells, or are found to have others before they are used.
+  for (FrameFacts& facts : facts_) {
+    if (facts.looked_at) facts.cells = frame.mesh.cell_count();
+  }
+  read_[k] = true;
+  polygons_ = std::max(polygons_, polygons.fans.size());
+  non_planarity_ = largest_non_planarity(frame.mesh, polygons.fans, frame.positions, non_planarity_);
+}
+
+std::vector<std::string> FrameInputs::notes() const {
+  std::vector<std::string> notes;
+  const FrameFacts* coarsest = nullptr;
+  for (const FrameFacts& facts : facts_) {
+    if (facts.rounded_at && (coarsest == nullptr || *facts.rounded_at > *coarsest->rounded_at)) coarsest = &facts;
+  }
+  if (coarsest != nullptr) {
+    const int k = *coarsest->rounded_at;
+    const bool fixed = k <= 0 && coarsest->decimals == static_cast<std::uint64_t>(-k);
+    const std::string text = fixed ? fmt::format("text with {} decimal{}", -k, k == -1 ? "" : "s") : coarsest->numbers;
+    notes.push_back(fmt::format("coordinates are {}: gaps below {} may be decided by rounding", text, half_of(k)));
+  }
+  if (polygons_ > 0) {
+    const auto read = std::ranges::count(read_, true);
+    const std::string where = static_cast<std::size_t>(read) == read_.size()
+                                  ? std::string("all frames")
+                                  : fmt::format("the {} frames that were read", read);
+    notes.push_back(
+        fmt::format("{} polygon{} of more than three corners {} cut into fans of triangles; largest "
+                    "non-planarity in {}: {}",
+                    polygons_, polygons_ == 1 ? "" : "s", polygons_ == 1 ? "is" : "are", where, non_planarity_));
+  }
+  return notes;
+}
+
+}  // namespace noli

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory/formats/frame_look.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <vector>
+
+#include "trajectory/error.h"
+#include "trajectory/formats/frame_formats.h"
+#include "trajectory/formats/ply_header.h"
+#include "trajectory/formats/text_digits.h"
+#include "trajectory/input_file.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+/// A hash for this process alone.
+class Spelling {
+ public:
+  void add(std::string_view text) { add(static_cast<std::uint64_t>(std::hash<std::string_view>{}(text))); }
+  void add(std::uint64_t number) { hash_ = (std::rotl(hash_, 23) ^ number) * 0x9e3779b97f4a7c15; }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0;
+};
+
+/// Whether text with so many digits may have been rounded.
+void take_digits(const TextDigits& digits, std::size_t enough, FrameFacts& facts) {
+  facts.numbers = digits.words();
+  facts.decimals = digits.decimals();
+  if (digits.digits() < enough) facts.rounded_at = digits.unit();
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// Takes the next word off a line. Words are short: looking at each character is faster than a search for blanks.
+std::string_view take_word(std::string_view& line) {
+  std::size_t begin = 0;
+  while (begin < line.size() && is_blank(line[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < line.size() && !is_blank(line[end])) ++end;
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
+/// The cells of an OBJ file. Where indices count back, what they mean depends on how many vertices came before.
+std::optional<std::uint64_t> look_at_obj(std::string_view bytes, FrameFacts& facts) {
+  TextDigits digits;
+  Spelling cells;
+  std::uint64_t vertices_told = 0;
+  bool continued = false;
+  Lines lines(bytes);
+  for (std::string_view line; lines.next(line);) {
+    end_if_stopped();
+    continued |= line.ends_with('\\');
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    if (line.size() < 2 || !is_blank(line[1])) continue;
+    if (line[0] == 'v') {
+      ++facts.vertices;
+      line.remove_prefix(1);
+      for (int k = 0; k < 3; ++k) digits.add(take_word(line));
+    } else if (line[0] == 'f' || line[0] == 'l' || line[0] == 'p') {
+      if (vertices_told != facts.vertices) cells.add(vertices_told = facts.vertices);
+      cells.add(line);
+    }
+  }
+  take_digits(digits, digits_of_float64, facts);
+  if (continued) return std::nullopt;
+  cells.add(facts.vertices);
+  return cells.hash();
+}
+
+class PlyLook {
+ public:
+  PlyLook(std::string_view bytes, const std::string& file, FrameFacts& facts)
+      : body_(bytes), header_(parse_ply_header(bytes, file)), facts_(facts) {
+    body_.remove_prefix(header_.body_offset);
+  }
+
+  std::optional<std::uint64_t> cells() {
+    const PlyElement* const vertex = header_.find("vertex");
+    if (vertex == nullptr) return std::nullopt;
+    facts_.vertices = vertex->count;
+    facts_.numbers = number_type(*vertex);
+    add_header(*vertex);
+    const bool whole = header_.format == PlyFormat::ascii ? skip_lines(*vertex) : skip_bytes(*vertex);
+    if (!whole || vertex->find("x") == nullptr || vertex->find("y") == nullptr) return std::nullopt;
+    return cells_.hash();
+  }
+
+ private:
+  /// All of it but the types of what vertices have.
+  void add_header(const PlyElement& vertex) {
+    cells_.add(static_cast<std::uint64_t>(header_.format));
+    for (const PlyElement& element : header_.elements) {
+      cells_.add(element.name);
+      cells_.add(element.count);
+      if (&element == &vertex) continue;
+      for (const PlyProperty& property : element.properties) {
+        cells_.add(property.name);
+        cells_.add(static_cast<std::uint64_t>(property.type));
+        cells_.add(property.count_type ? static_cast<std::uint64_t>(*property.count_type) : 99);
+      }
+    }
+  }
+
+  static bool has_list(const PlyElement& element) {
+    return std::ranges::any_of(element.properties, [](const PlyProperty& p) { return p.count_type.has_value(); });
+  }
+
+  /// False where vertices are not to be found without parsing what is before them, or there are not so many.
+  bool skip_bytes(const PlyElement& vertex) {
+    std::uint64_t before = 0;
+    for (const PlyElement& element : header_.elements) {
+      if (has_list(element)) return false;
+      std::uint64_t entry = 0;
+      for (const PlyProperty& property : element.properties) entry += size_of(property.type);
+      if (entry > 0 && element.count > (body_.size() - before) / entry) return false;
+      if (&element == &vertex) {
+        cells_.add(body_.substr(0, before));
+        cells_.add(body_.substr(before + element.count * entry));
+        return true;
+      }
+      before += element.count * entry;
+    }
+    return false;
+  }
+
+  /// The columns of x, y and z, where they are decimal.
+  std::vector<std::size_t> columns(const PlyElement& vertex) const {
+    std::vector<std::size_t> found;
+    for (std::size_t p = 0; p < vertex.properties.size(); ++p) {
+      const PlyProperty& property = vertex.properties[p];
+      const bool axis = property.name == "x" || property.name == "y" || property.name == "z";
+      if (axis && !is_integer(property.type)) found.push_back(p);
+    }
+    return found;
+  }
+
+  /// An entry is a line that is not blank.
+  bool skip_lines(const PlyElement& vertex) {
+    std::uint64_t first = 0;  // line of the first vertex
+    for (const PlyElement& element : header_.elements) {
+      if (&element == &vertex) break;
+      first += element.count;
+    }
+    if (has_list(vertex)) return false;
+    const std::vector<std::size_t> wanted = columns(vertex);
+    TextDigits digits;
+    std::uint64_t entry = 0;
+    Lines lines(body_);
+    for (std::string_view line; lines.next(line);) {
+      end_if_stopped();
+      if (Words(line).at_end()) continue;
+      if (entry >= first && entry - first < vertex.count) {
+        add_digits(line, wanted, digits);
+      } else {
+        cells_.add(line);
+      }
+      ++entry;
+    }
+    take_text(vertex, wanted, digits);
+    return true;
+  }
+
+  static void add_digits(std::string_view line, const std::vector<std::size_t>& wanted, TextDigits& digits) {
+    std::size_t column = 0;
+    for (const std::size_t next : wanted) {
+      for (; column < next; ++column) take_word(line);
+      digits.add(take_word(line));
+      ++column;
+    }
+  }
+
+  void take_text(const PlyElement& vertex, const std::vector<std::size_t>& wanted, const TextDigits& digits) {
+    if (wanted.empty()) return;  // whole numbers are what they are
+    const bool all_single =
+        std::ranges::all_of(wanted, [&](std::size_t p) { return vertex.properties[p].type == PlyType::float32; });
+    take_digits(digits, all_single ? digits_of_float32 : digits_of_float64, facts_);
+    if (all_single) facts_.numbers += ", read as float32";
+  }
+
+  std::string_view body_;
+  PlyHeader header_;
+  FrameFacts& facts_;
+  Spelling cells_;
+};
+
+}  // namespace
+
+Sha256Digest frame_hash(std::string_view bytes) {
+  constexpr std::size_t part = std::size_t{1} << 24;
+  Sha256 hash;
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(part, bytes.size()))) {
+    end_if_stopped();
+    hash.update(bytes.substr(0, part));
+  }
+  return hash.digest();
+}
+
+FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& path) {
+  FrameLook look;
+  const MeshFormat format = mesh_format(path);
+  look.facts.file = path.string();
+  look.facts.looked_at = true;
+  look.facts.bytes = bytes.size();
+  look.facts.sha256 = frame_hash(bytes);
+  look.cells =
+      format == MeshFormat::ply ? PlyLook(bytes, path.string(), look.facts).cells() : look_at_obj(bytes, look.facts);
+  return look;
+}
+
+FrameFacts file_facts(const std::filesystem::path& path, const std::function<bool()>& stop) {
+  FrameFacts facts;
+  InputFile file(path);
+  Sha256 hash;
+  std::vector<char> part(std::size_t{1} << 20);
+  while (const std::size_t got = file.read(part.data(), part.size())) {
+    if (stop && stop()) throw ReadInterrupted(path.string());
+    hash.update({part.data(), got});
+    facts.bytes += got;
+  }
+  facts.file = path.string();
+  facts.looked_at = true;
+  facts.sha256 = hash.digest();
+  return facts;
+}
+
+}  // namespace noli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A quick look at the bytes of a frame: counts, number type, and whether its cells are spelled as those of another. It
+// takes a small part of the time that parsing takes.
+//
+//   OBJ          lines that begin with v, f, l and p; the text of the last three is what is compared
+//   PLY, ASCII   the header, and all lines but those of vertices
+//   PLY, binary  the header, and all bytes but those of vertices
+//
+// What this does not do: it finds no fault in a coordinate or an index, and other spellings of the same cells (with
+// texture indices, say) differ for it. Who needs to know parses the frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "trajectory/blocks/sha256.h"
+
+namespace noli {
+
+/// What was read of a frame.
+struct FrameFacts {
+  std::string file;         ///< its name, as given; a path would take several times the memory
+  bool looked_at = false;   ///< else only the name is known
+  std::uint64_t bytes = 0;  ///< of the file
+  Sha256Digest sha256{};    ///< of its bytes
+  std::string numbers;      ///< of coordinates: "float64", "float32/float64", "text with 9 digits, 6 decimals"
+  std::uint64_t vertices = 0;
+  std::optional<std::uint64_t> cells;  ///< once a frame of the mesh has been parsed
+  std::optional<int> rounded_at;       ///< k: text that may have been rounded to multiples of 10^k (text_digits.h)
+  std::uint64_t decimals = 0;          ///< of such text
+};
+
+struct FrameLook {
+  FrameFacts facts;
+  /// Equal for equal counts of vertices and equal spellings of cells; different spellings almost surely differ. Nothing
+  /// where cells can only be found by parsing.
+  std::optional<std::uint64_t> cells;
+};
+
+/// The hash of the bytes of a file. Throws Stopped.
+Sha256Digest frame_hash(std::string_view bytes);
+
+/// Throws InputError for a header of a PLY file that is not as it has to be, and for other extensions; Stopped.
+FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& path);
+
+/// Of any file: bytes and hash alone. It is read part by part, until `stop` says true. Throws InputError,
+/// ReadInterrupted.
+FrameFacts file_facts(const std::filesystem::path& path, const std::function<bool()>& stop = {});
+
+}  // namespace noli

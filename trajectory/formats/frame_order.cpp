@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory/formats/frame_order.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "trajectory/error.h"
+#include "trajectory/formats/name_numbers.h"
+
+namespace noli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Key = std::vector<NameNumber> NumberedName::*;
+
+/// Beyond this many digits a number counts no frames, and no gap is looked for.
+constexpr std::int64_t most_gap_digits = 18;
+
+struct Pair {
+  std::size_t before, after;  ///< places in the order given
+};
+
+/// Frames whose names differ in their numbers only.
+class Family {
+ public:
+  void add(std::size_t place, NumberedName name) {
+    places_.push_back(place);
+    names_.push_back(std::move(name));
+  }
+  std::size_t size() const { return places_.size(); }
+
+  /// The first frame that has a smaller number than one before it, and the first of those.
+  std::optional<Pair> against(Key key) const {
+    std::size_t largest = 0;
+    for (std::size_t j = 1; j < names_.size(); ++j) {
+      if (names_[j].*key >= names_[largest].*key) {
+        largest = j;
+        continue;
+      }
+      std::size_t i = 0;
+      while (names_[i].*key <= names_[j].*key) ++i;
+      return Pair{places_[i], places_[j]};
+    }
+    return std::nullopt;
+  }
+
+  /// Whether `12.5` may be two numbers.
+  bool may_be_integers() const {
+    bool fraction = false, zero_first = false;
+    std::size_t shortest = std::string::npos, longest = 0;
+    for (const NumberedName& name : names_) {
+      if (name.has_exponent) return false;
+      for (const std::string& digits : name.fractions) {
+        if (digits.empty()) continue;
+        fraction = true;
+        zero_first |= digits.size() > 1 && digits[0] == '0';
+        shortest = std::min(shortest, digits.size());
+        longest = std::max(longest, digits.size());
+      }
+    }
+    return fraction && !(zero_first && shortest != longest);
+  }
+
+  /// Puts the places of its frames in the order of their numbers: order[k] is the frame at place k.
+  void sort(std::vector<std::size_t>& order) const {
+    std::vector<std::size_t> sorted(size());
+    for (std::size_t i = 0; i < size(); ++i) sorted[i] = i;
+    std::ranges::stable_sort(
+        sorted, {}, [&](std::size_t i) -> const auto& { return names_[i].decimals; });
+    for (std::size_t i = 0; i < size(); ++i) order[places_[i]] = places_[sorted[i]];
+  }
+
+  /// The numbers that count the frames, ascending, each with one of its frames. None unless exactly one number of the
+  /// names differs, and is always a whole one from 0.
+  std::vector<std::pair<std::uint64_t, std::size_t>> counted() const {
+    const auto column = varying();
+    if (!column) return {};
+    std::map<std::uint64_t, std::size_t> counted;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const NameNumber& number = names_[i].decimals[*column];
+      const bool whole = number.exponent >= static_cast<std::int64_t>(number.digits.size());
+      if (number.negative || !whole || number.exponent > most_gap_digits) return {};
+      std::uint64_t value = 0;
+      for (std::int64_t d = 0; d < number.exponent; ++d) {
+        const auto at = static_cast<std::size_t>(d);
+        value = 10 * value + (at < number.digits.size() ? static_cast<std::uint64_t>(number.digits[at] - '0') : 0);
+      }
+      counted.emplace(value, places_[i]);
+    }
+    return {counted.begin(), counted.end()};
+  }
+
+ private:
+  /// The one number that is not the same in all names.
+  std::optional<std::size_t> varying() const {
+    std::optional<std::size_t> found;
+    for (std::size_t k = 0; k < names_[0].decimals.size(); ++k) {
+      const auto same = [&](const NumberedName& name) { return name.decimals[k] == names_[0].decimals[k]; };
+      if (std::ranges::all_of(names_, same)) continue;
+      if (found) return std::nullopt;
+      found = k;
+    }
+    return found;
+  }
+
+  std::vector<std::size_t> places_;
+  std::vector<NumberedName> names_;
+};
+
+class Orderer {
+ public:
+  explicit Orderer(std::vector<fs::path> frames) : frames_(std::move(frames)) {
+    std::map<std::string, std::size_t> known;
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      NumberedName name = numbers_of_name(frames_[k]);
+      if (name.decimals.empty()) continue;
+      const auto [at, is_new] = known.emplace(name.pattern, families_.size());
+      if (is_new) families_.emplace_back();
+      families_[at->second].add(k, std::move(name));
+    }
+    std::erase_if(families_, [](const Family& family) { return family.size() < 2; });
+  }
+
+  OrderedFrames operator()(FrameOrder order) && {
+    OrderedFrames result;
+    result.how = families_.empty() ? "as given; no two names differ in their numbers alone"
+                                   : "as given, which is the order of the numbers in the names";
+    if (order == FrameOrder::natural) {
+      sort(result);
+    } else {
+      for (const Family& family : families_) {
+        const std::string problem = problem_of(family);
+        if (problem.empty()) continue;
+        if (order == FrameOrder::checked) throw InputError("frames", "", problem + advice());
+        result.how = "as given, against the numbers in the names (--order given)";
+        result.notes.push_back("frames are in the order given (--order given), against their numbers: " + problem);
+        break;
+      }
+    }
+    append_gaps(result.notes);
+    append_capped(result.notes, twice(), "files that are given more than once");
+    result.frames = std::move(frames_);
+    return result;
+  }
+
+ private:
+  std::string name(std::size_t place) const { return frames_[place].string(); }
+
+  static const char* advice() { return "; pass --order natural, or --order given if this is the order you mean"; }
+
+  /// What is wrong with the order; "" if nothing is.
+  std::string problem_of(const Family& family) const {
+    const auto decimal = family.against(&NumberedName::decimals);
+    const auto integer = family.may_be_integers() ? family.against(&NumberedName::integers) : std::nullopt;
+    const auto in_words = [&](const Pair& pair) {
+      return fmt::format("{} comes before {}", name(pair.before), name(pair.after));
+    };
+    if (!family.may_be_integers()) return decimal ? in_words(*decimal) : "";
+    if (decimal && integer) return in_words(*decimal);
+    if (decimal) return in_words(*decimal) + ", which is against their numbers if these are decimals (0.10 before 0.9)";
+    if (integer)
+      return in_words(*integer) + ", which is their order only if the numbers are decimals (0.10 before 0.9)";
+    return "";
+  }
+
+  void sort(OrderedFrames& result) {
+    result.how = "sorted by the numbers in the names (--order natural)";
+    std::vector<std::size_t> order(frames_.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    for (const Family& family : families_) family.sort(order);
+    std::vector<fs::path> sorted;
+    std::size_t moved = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      sorted.push_back(frames_[order[k]]);
+      moved += order[k] != k;
+    }
+    if (moved > 0) {
+      result.notes.push_back(
+          fmt::format("frames were sorted by the numbers in their names (--order natural): {} of {} changed places",
+                      moved, order.size()));
+    }
+    given_ = std::exchange(frames_, std::move(sorted));
+  }
+
+  /// The name of a frame by its place in the order given, which is where families have it.
+  std::string given_name(std::size_t place) const { return given_.empty() ? name(place) : given_[place].string(); }
+
+  void append_gaps(std::vector<std::string>& notes) const {
+    for (const Family& family : families_) append_capped(notes, gaps(family), "gaps in the numbers");
+  }
+
+  /// Differences of successive numbers that are larger than the most frequent one.
+  std::vector<std::string> gaps(const Family& family) const {
+    const auto counted = family.counted();
+    if (counted.size() < 3) return {};
+    std::map<std::uint64_t, std::size_t> strides;
+    for (std::size_t i = 1; i < counted.size(); ++i) ++strides[counted[i].first - counted[i - 1].first];
+    const std::uint64_t stride = std::ranges::max_element(strides, {}, [](const auto& s) { return s.second; })->first;
+    std::vector<std::string> found;
+    for (std::size_t i = 1; i < counted.size(); ++i) {
+      const auto& [low, before] = counted[i - 1];
+      const auto& [high, after] = counted[i];
+      if (high - low <= stride) continue;
+      found.push_back(fmt::format("{} to {}: {}", given_name(before), given_name(after), missing(low, high, stride)));
+    }
+    return found;
+  }
+
+  static std::string missing(std::uint64_t low, std::uint64_t high, std::uint64_t stride) {
+    if ((high - low) % stride != 0) {
+      return fmt::format("the number grows by {}, and mostly by {}", high - low, stride);
+    }
+    if (high - low == 2 * stride) return fmt::format("frame {} is missing", low + stride);
+    const std::string by = stride > 1 ? fmt::format(", by {},", stride) : "";
+    return fmt::format("frames {} to {}{} are missing", low + stride, high - stride, by);
+  }
+
+  std::vector<std::string> twice() const {
+    std::map<std::string, std::vector<std::size_t>> places;
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      places[fs::absolute(frames_[k]).lexically_normal().string()].push_back(k + 1);
+    }
+    std::vector<std::string> found;
+    for (const fs::path& frame : frames_) {
+      auto& at = places[fs::absolute(frame).lexically_normal().string()];
+      if (at.size() < 2) continue;
+      const std::string times = at.size() == 2 ? "twice" : fmt::format("{} times", at.size());
+      if (at.size() > most_notes_of_a_kind) at.resize(most_notes_of_a_kind);
+      found.push_back(fmt::format("{} is given {}: as frames {}", frame.string(), times, fmt::join(at, ", ")));
+      at.clear();
+    }
+    return found;
+  }
+
+  std::vector<fs::path> frames_, given_;  ///< in the order of time; as given, if that is another one
+  std::vector<Family> families_;
+};
+
+}  // namespace
+
+void append_capped(std::vector<std::string>& notes, const std::vector<std::string>& more, std::string_view what) {
+  const std::size_t shown = std::min(more.size(), most_notes_of_a_kind);
+  notes.insert(notes.end(), more.begin(), more.begin() + static_cast<std::ptrdiff_t>(shown));
+  if (shown < more.size()) notes.push_back(fmt::format("and {} more {}", more.size() - shown, what));
+}
+
+OrderedFrames order_frames(std::vector<fs::path> frames, FrameOrder order) { return Orderer(std::move(frames))(order); }
+
+}  // namespace noli

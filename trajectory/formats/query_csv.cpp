@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory/formats/query_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "trajectory/error.h"
+#include "trajectory/formats/exact_rational.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+struct KindName {
+  std::string_view word;
+  QueryKind kind;
+};
+constexpr std::array<KindName, 4> kind_names = {{{"vertex-face", QueryKind::vertex_face},
+                                                 {"edge-edge", QueryKind::edge_edge},
+                                                 {"vertex-edge", QueryKind::vertex_edge},
+                                                 {"vertex-vertex", QueryKind::vertex_vertex}}};
+
+std::string with_hyphens(std::string text) {
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+std::string_view trimmed(std::string_view field) {
+  const std::size_t begin = field.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return field.substr(begin, field.find_last_not_of(" \t") + 1 - begin);
+}
+
+class CsvParser {
+ public:
+  CsvParser(std::string_view text, const std::string& file, QueryKind kind)
+      : lines_(text), file_(file), points_(point_count(kind)) {}
+
+  std::vector<QueryRecord> parse() {
+    std::string_view line;
+    while (lines_.next(line)) {
+      if (const auto text = trimmed(line); !text.empty() && text.front() != '#') parse_row(line);
+    }
+    if (rows_ == 0) throw InputError(file_, "", "holds no queries");
+    if (row_of_query() != 0) {
+      fail(fmt::format("the file ends within a query: {} rows, expected a multiple of {}", rows_, 2 * points_));
+    }
+    return std::move(records_);
+  }
+
+ private:
+  static constexpr std::size_t coordinate_columns = 6;
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(file_, line_place(lines_.number()), problem);
+  }
+
+  std::size_t row_of_query() const { return rows_ % (2 * points_); }
+
+  void parse_row(std::string_view line) {
+    end_if_stopped();
+    split(line);
+    if (row_of_query() == 0) records_.emplace_back();
+    QueryRecord& record = records_.back();
+    Position& position = row_of_query() < points_ ? record.x_t0[row_of_query()] : record.x_t1[row_of_query() - points_];
+    for (std::size_t axis = 0; axis < 3; ++axis) position[axis] = parse_coordinate(axis);
+    const std::optional<bool> label = parse_label();
+    if (row_of_query() == 0) record.label = label;
+    if (label != record.label) fail("the label differs from that of the first row of this query");
+    ++rows_;
+  }
+
+  /// Fills columns_; all rows of a file must have as many as the first.
+  void split(std::string_view line) {
+    columns_.clear();
+    for (std::size_t comma = 0; comma != std::string_view::npos;) {
+      comma = line.find(',');
+      columns_.push_back(trimmed(line.substr(0, comma)));
+      line.remove_prefix(comma == std::string_view::npos ? 0 : comma + 1);
+    }
+    if (columns_.size() != coordinate_columns && columns_.size() != coordinate_columns + 1) {
+      fail(fmt::format("expected 6 columns, or 7 with a label, found {}", columns_.size()));
+    }
+    if (rows_ == 0) labelled_ = columns_.size() > coordinate_columns;
+    if (labelled_ != (columns_.size() > coordinate_columns)) {
+      fail(labelled_ ? "the label is missing, the rows before have one" : "a label, but the rows before have none");
+    }
+  }
+
+  double parse_coordinate(std::size_t axis) const {
+    double value = 0;
+    const std::string problem = parse_exact_quotient(columns_[2 * axis], columns_[2 * axis + 1], value);
+    if (!problem.empty()) fail(fmt::format("{}: {}", "xyz"[axis], problem));
+    return value;
+  }
+
+  std::optional<bool> parse_label() const {
+    if (!labelled_) return std::nullopt;
+    const std::string_view word = columns_.back();
+    if (word != "0" && word != "1") fail(fmt::format("expected the label 0 or 1, found {}", in_quotes(word)));
+    return word == "1";
+  }
+
+  Lines lines_;
+  const std::string& file_;
+  std::size_t points_;
+  std::vector<std::string_view> columns_;  ///< of the current row
+  std::size_t rows_ = 0;                   ///< read so far
+  bool labelled_ = false;
+  std::vector<QueryRecord> records_;
+};
+
+std::string format_row(const Position& x, std::optional<bool> label) {
+  std::string row = format_exact_quotient(x[0]);
+  for (const double coordinate : {x[1], x[2]}) row += ',' + format_exact_quotient(coordinate);
+  if (label) row += *label ? ",1" : ",0";
+  return row + '\n';
+}
+
+}  // namespace
+
+std::size_t point_count(QueryKind kind) {
+  switch (kind) {
+    case QueryKind::vertex_face:
+    case QueryKind::edge_edge: return 4;
+    case QueryKind::vertex_edge: return 3;
+    case QueryKind::vertex_vertex: return 2;
+  }
+  return 0;
+}
+
+std::optional<QueryKind> kind_from_file_name(const std::filesystem::path& path) {
+  const std::string file_name = with_hyphens(path.filename().string());
+  std::optional<QueryKind> result;
+  for (const auto& [word, kind] : kind_names) {
+    if (file_name.find(word) == std::string::npos) continue;
+    if (result) return std::nullopt;
+    result = kind;
+  }
+  return result;
+}
+
+std::optional<QueryKind> kind_from_name(std::string_view name) {
+  const std::string hyphenated = with_hyphens(std::string(name));
+  for (const auto& [word, kind] : kind_names) {
+    if (word == hyphenated) return kind;
+  }
+  return std::nullopt;
+}
+
+std::vector<QueryRecord> parse_query_csv(std::string_view text, const std::string& file, QueryKind kind) {
+  if (text.empty()) throw InputError(file, "", "is empty");
+  return CsvParser(text, file, kind).parse();
+}
+
+std::vector<QueryRecord> read_query_csv(const std::filesystem::path& path, QueryKind kind) {
+  return parse_query_csv(read_whole_file(path), path.string(), kind);
+}
+
+void write_query_csv(std::ostream& out, QueryKind kind, std::span<const QueryRecord> records) {
+  for (const QueryRecord& record : records) {
+    if (record.label.has_value() != records[0].label.has_value()) {
+      throw std::invalid_argument("write_query_csv: some queries have a label and some have none");
+    }
+    for (const auto& positions : {record.x_t0, record.x_t1}) {
+      for (std::size_t p = 0; p < point_count(kind); ++p) out << format_row(positions[p], record.label);
+    }
+  }
+}
+
+void write_query_csv(const std::filesystem::path& path, QueryKind kind, std::span<const QueryRecord> records) {
+  errno = 0;
+  std::ofstream out(path, std::ios::binary);
+  if (out) write_query_csv(out, kind, records);
+  out.close();
+  if (!out) throw std::system_error(errno, std::generic_category(), path.string());
+}
+
+}  // namespace noli
