@@ -502,6 +502,7 @@ TEST(Asked, FieldsThatNobodyCanAsk) {
                                   "all"}) {
     EXPECT_REJECTED(two_edges().asked({cells, field}), "the command line");
   }
+  EXPECT_REJECTED(two_edges().asked({"colour=" + std::string(64, '0')}), "expected motion, dimension");
   EXPECT_REJECTED(two_edges().asked({"cells=" + std::string(63, '0')}), "64 digits");
   EXPECT_REJECTED(two_edges().asked({"cells=" + std::string(64, 'A')}), "64 digits");
   EXPECT_REJECTED(two_edges().asked({cells}), "the claim: cells: the proof says ");
