@@ -60,7 +60,7 @@ struct ProofsArguments {
 /// Of a proof and its trajectory, which the checker has to take.
 audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& trajectory) {
   const std::string bytes = read_whole_file(proof);
-  CheckerProcess checker(Checker::plain, proof, trajectory, audit::own_claim(bytes));
+  CheckerProcess checker(Checker::plain, proof, trajectory, audit::own_claim(bytes), &interrupted());
   const auto said = checker.finish();
   if (!said) throw ReadInterrupted(proof.string());
   if (said->code == 3) {

@@ -52,8 +52,9 @@ CheckerVersion version_of(Checker checker) {
 }
 
 CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
-                               const std::vector<fs::path>& trajectory, const std::vector<std::string>& asked)
-    : checker_(checker), words_(std::make_unique<Pipe>()) {
+                               const std::vector<fs::path>& trajectory, const std::vector<std::string>& asked,
+                               const std::atomic<bool>* stop)
+    : checker_(checker), words_(std::make_unique<Pipe>()), stop_(stop) {
   std::vector<std::string> arguments = {beside_this_program(name_of(checker)).string()};
   for (const std::string& field : asked) arguments.insert(arguments.end(), {"--require", field});
   arguments.push_back(proof ? name_of_file(*proof) : "-");
@@ -81,10 +82,14 @@ void CheckerProcess::end_it() {
   pid_ = -1;
 }
 
+bool CheckerProcess::stopped() const {
+  return stop_asked().has_value() || (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
+}
+
 bool CheckerProcess::ready(int end, short event) const {
   constexpr int milliseconds = 100;  // an interruption that came before poll() does not end it
   for (;;) {
-    if (stop_asked()) return false;
+    if (stopped()) return false;
     pollfd one{end, event, 0};
     const int there = ::poll(&one, 1, milliseconds);
     if (there > 0) return true;
@@ -127,10 +132,10 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
     if (got == 0) break;
     if (got < 0 && errno != EINTR && errno != EAGAIN) fail("the checker's words");
   }
-  const std::optional<int> status = wait_for_end(pid_, time_to_stay, [] { return stop_asked().has_value(); });
+  const std::optional<int> status = wait_for_end(pid_, time_to_stay, [this] { return stopped(); });
   if (!status) {
     end_it();
-    if (stop_asked()) return std::nullopt;
+    if (stopped()) return std::nullopt;
     throw std::runtime_error(fmt::format("{} closed its output, but did not end", name_of(checker_)));
   }
   pid_ = -1;

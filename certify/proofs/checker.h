@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -37,15 +38,17 @@ struct CheckerVerdict {
 class CheckerProcess {
  public:
   /// Starts it on a proof in a file, or, without one, on what is written to it. `asked`: fields as they follow its
-  /// --require (proofs/FORMAT.md, section 6). Throws std::runtime_error when the checker is not there.
+  /// --require (proofs/FORMAT.md, section 6). `stop`: a stop beside that of trajectory/stop.h, polled. Throws
+  /// std::runtime_error when the checker is not there.
   CheckerProcess(Checker checker, const std::optional<std::filesystem::path>& proof,
-                 const std::vector<std::filesystem::path>& trajectory, const std::vector<std::string>& asked);
+                 const std::vector<std::filesystem::path>& trajectory, const std::vector<std::string>& asked,
+                 const std::atomic<bool>* stop = nullptr);
   /// Ends it if it has not ended.
   ~CheckerProcess();
   CheckerProcess(const CheckerProcess&) = delete;
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
-  /// The next bytes of the proof. Nothing is written any more after a stop (trajectory/stop.h); finish() tells.
+  /// The next bytes of the proof. Nothing is written any more after a stop; finish() tells.
   /// Throws std::runtime_error when the checker reads no more.
   void write(std::string_view bytes);
   /// Waits until it has read all that was written and has ended; nothing after a stop: then it is killed. Throws
@@ -54,6 +57,7 @@ class CheckerProcess {
   std::optional<CheckerVerdict> finish();
 
  private:
+  bool stopped() const;
   /// Whether the pipe's end can be read or written; false once the wait is over.
   bool ready(int end, short event) const;
   std::string why();
@@ -62,6 +66,7 @@ class CheckerProcess {
   Checker checker_;
   std::unique_ptr<Pipe> proof_, words_;
   pid_t pid_ = -1;
+  const std::atomic<bool>* stop_;
 };
 
 /// Writes a proof to a checker that is at work, which has to outlive it.

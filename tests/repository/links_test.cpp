@@ -29,7 +29,8 @@ bool is_prose(const fs::path& path) { return path.extension() == ".md"; }
 /// Targets of the links of a document that are files of the project, but are not there.
 std::vector<std::string> dead_links(const fs::path& document, const std::string& text) {
   std::vector<std::string> dead;
-  for (const std::string& target : all_matches(text, R"(\]\(([^)#\s]+)[^)]*\))")) {
+  const std::string prose = std::regex_replace(text, std::regex("`[^`]*`"), "code");
+  for (const std::string& target : all_matches(prose, R"(\]\(([^)#\s]+)[^)]*\))")) {
     const bool elsewhere = target.find("://") != std::string::npos || target.starts_with("mailto:");
     if (!elsewhere && !fs::exists(document.parent_path() / target)) dead.push_back(target);
   }
@@ -112,7 +113,8 @@ TEST(Links, FunctionsOfTheArchitectureAreThere) {
 TEST(Links, DeadOnesAreFound) {
   const TemporaryFolder root;
   write_file(root.path() / "docs/there.md", "");
-  EXPECT_EQ(lines(dead_links(root.path() / "docs/a.md", "[a](there.md) [b](gone.md#x) [c](https://example.org/x)")),
+  EXPECT_EQ(lines(dead_links(root.path() / "docs/a.md",
+                             "[a](there.md) [b](gone.md#x) [`c`](https://example.org/x) `d[](int i)`")),
             "gone.md\n");
   EXPECT_EQ(lines(dead_sections("docs/contact.md, 1 and docs/contact.md, 9", "x\n## 1. A\n", "")), "contact.md, 9\n");
   EXPECT_EQ(lines(dead_sections("(design, \"Audit\") (design, \"Gone\")", "", "# Audit\n")), "design.md, Gone\n");
