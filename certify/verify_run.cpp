@@ -13,9 +13,8 @@
 #include "certify/groups.h"
 #include "certify/proofs/largest_distance.h"
 #include "certify/proofs/prove_frames.h"
-#include "certify/queries/any_query.h"
+#include "certify/sequence.h"
 #include "certify/stopwatch.h"
-#include "proofs/prover/window_verifier.h"
 #include "trajectory/cells.h"
 #include "trajectory/error.h"
 #include "trajectory/formats/frame_inputs.h"
@@ -119,76 +118,44 @@ class Run {
 
   /// What the first step tells about all of them.
   void begin() {
-    mesh_ = sequence_.mesh();
-    const auto unreferenced = unreferenced_vertices(mesh_);
+    Mesh mesh = sequence_.mesh();
+    const auto unreferenced = unreferenced_vertices(mesh);
     if (request_.points) {
-      mesh_.points.insert(mesh_.points.end(), unreferenced.begin(), unreferenced.end());
+      mesh.points.insert(mesh.points.end(), unreferenced.begin(), unreferenced.end());
     } else {
       outcome_.unreferenced_vertices = unreferenced.size();
     }
     if (classes_) {
-      mesh_ = with_merged_vertices(mesh_, *classes_);
+      mesh = with_merged_vertices(mesh, *classes_);
       outcome_.merged_vertices = classes_->merged_count();
     }
-    if (mesh_.cell_count() == 0) {
+    if (mesh.cell_count() == 0) {
       throw InputError(sequence_.path_t0().string(), "",
                        "no faces, edges or points; expected something that can touch (see --points)");
     }
     outcome_.dimension = request_.dimension.value_or(in_plane() ? 2 : 3);
-    if (request_.ignore) leave_out(*request_.ignore);
-    outcome_.vertices = mesh_.vertex_count;
-    outcome_.faces = mesh_.faces.size();
-    outcome_.edges = mesh_.edges.size();
-    outcome_.points = mesh_.points.size();
-    outcome_.claim = claim_of_frames(request_, outcome_, mesh_, groups_ ? &groups_->exclusions : nullptr);
+    if (request_.ignore) leave_out(*request_.ignore, mesh);
+    outcome_.vertices = mesh.vertex_count;
+    outcome_.faces = mesh.faces.size();
+    outcome_.edges = mesh.edges.size();
+    outcome_.points = mesh.points.size();
+    outcome_.claim = claim_of_frames(request_, outcome_, mesh, groups_ ? &groups_->exclusions : nullptr);
+    verifier_.emplace(std::move(mesh), options());
   }
 
   /// Pairs of groups are not compared.
-  void leave_out(const std::filesystem::path& file) {
-    groups_ = read_groups(file, mesh_.vertex_count);
-    for (VertexId v = 0; classes_ && v < mesh_.vertex_count; ++v) {
+  void leave_out(const std::filesystem::path& file, const Mesh& mesh) {
+    groups_ = read_groups(file, mesh.vertex_count);
+    for (VertexId v = 0; classes_ && v < mesh.vertex_count; ++v) {
       const VertexId same = classes_->representative()[v];
       if (groups_->exclusions.groups[v] == groups_->exclusions.groups[same]) continue;
       throw InputError(file.string(), "",
                        fmt::format("vertices {} and {} are merged; expected them in one group", same, v));
     }
-    require_whole_cells(file, *groups_, mesh_);
+    require_whole_cells(file, *groups_, mesh);
     for (const auto& [a, b] : groups_->exclusions.pairs) {
       outcome_.not_compared.excluded.push_back({groups_->names[a], groups_->names[b]});
     }
-    WindowOptions options;
-    options.dimension = outcome_.dimension;
-    options.strict = request_.strict;
-    options.exclusions = &groups_->exclusions;
-    verifier_.emplace(mesh_, sequence_.x_t0(), options);
-  }
-
-  VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
-                              const VerifyOptions& options) const {
-    if (!verifier_) return verify_step(mesh_, x_t0, x_t1, options);
-    WindowOptions window;
-    window.dimension = options.dimension;
-    window.threads = options.threads;
-    window.initial = options.initial;
-    window.first_only = options.first_only;
-    window.strict = options.strict;
-    window.max_reports = options.max_reports;
-    window.exclusions = &groups_->exclusions;
-    window.stop = options.stop;
-    window.deadline = options.deadline;
-    window.progress = options.progress;
-    WindowResult found = verifier_->verify(WorldLines::from_frames(x_t0, x_t1), window);
-    VerifyResult result;
-    result.complete = found.complete;
-    result.contacts = found.contacts;
-    result.initial_intersections = found.initial_intersections;
-    result.reports = std::move(found.reports);
-    result.initial_reports = std::move(found.initial_reports);
-    if (found.first) result.first = found.first->contact;
-    result.stages = found.stages;
-    result.obligations = found.obligations;
-    result.cell_pairs = found.cell_pairs;
-    return result;
   }
 
   bool in_plane() const {
@@ -209,14 +176,15 @@ class Run {
                                    sequence_.path_t1().string(), sequence_.step() + 1));
   }
 
-  VerifyOptions options() const {
-    VerifyOptions options;
+  SequenceOptions options() {
+    SequenceOptions options;
     options.dimension = outcome_.dimension;
+    options.at_rest = request_.constant_motion;
     options.threads = request_.threads;
-    options.initial = request_.constant_motion || sequence_.step() == 0;
     options.first_only = request_.first_only;
     options.strict = request_.strict;
     options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
+    options.exclusions = groups_ ? &groups_->exclusions : nullptr;
     options.stop = request_.stop;
     options.deadline = request_.deadline;
     options.progress = [this](double share) {
@@ -226,28 +194,24 @@ class Run {
   }
 
   void verify() {
-    const VerifyOptions asked = options();
-    VerifyResult result = verify_between(sequence_.x_t0(), sequence_.x_t1(), asked);
-    const bool any_at_begin = meeting_at_end_;
-    meeting_at_end_ = !request_.constant_motion && result.contact_count() > 0;
-    if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(asked, result);
+    const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1());
     outcome_.complete = result.complete;
     add_counts(result);
     add_reports(result);
-    if (result.first && !outcome_.first) outcome_.first = exactly(*result.first);
-    const bool found = result.contact_count() + result.initial_intersections > 0;
-    if (request_.open_proof && (result.complete || found) && !outcome_.no_proof) prove(asked, result);
+    if (result.first && !outcome_.first) outcome_.first = first_of(*result.first);
+    if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(result);
   }
 
-  void prove(const VerifyOptions& options, const VerifyResult& result) {
+  void prove(const StepResult& result) {
+    const VerifyOptions options = verifier_->step_options();
     const Stopwatch watch;
     if (!proof_) {
       outcome_.proof_begun = true;
-      proof_.emplace(request_, outcome_.claim, outcome_.dimension, mesh_, classes_ ? &*classes_ : nullptr,
+      proof_.emplace(request_, outcome_.claim, outcome_.dimension, verifier_->mesh(), classes_ ? &*classes_ : nullptr,
                      groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
     }
     const auto step = sequence_.step();
-    if (result.contact_count() + result.initial_intersections > 0) {
+    if (result.touches()) {
       if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
     } else if (!outcome_.touches()) {
       try {
@@ -257,7 +221,7 @@ class Run {
         if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
         if (step == 0) {
           outcome_.largest_distance =
-              largest_distance(proof_->prover(), mesh_, sequence_.x_t0(), request_.min_distance, options);
+              largest_distance(proof_->prover(), verifier_->mesh(), sequence_.x_t0(), request_.min_distance, options);
         }
       } catch (const NoProof&) {
         outcome_.no_proof = true;
@@ -267,40 +231,7 @@ class Run {
     outcome_.proof_seconds += watch.seconds();
   }
 
-  /// What is in contact at the beginning of a later step was in contact at the end of the step before, and counted
-  /// there. Those pairs are the ones that meet when everything rests where the step begins.
-  void drop_contacts_at_begin(VerifyOptions options, VerifyResult& result) const {
-    options.progress = nullptr;
-    options.first_only = false;
-    options.max_reports = 0;
-    const VerifyResult resting = verify_between(sequence_.x_t0(), sequence_.x_t0(), options);
-    result.complete = result.complete && resting.complete;
-    result.stages += resting.stages;
-    for (std::size_t i = 0; i < result.contacts.size(); ++i) {
-      // Counts of what is not complete are lower bounds, and so must the difference be.
-      const std::uint64_t before = resting.complete ? resting.contacts[i] : result.contacts[i];
-      result.contacts[i] -= std::min(result.contacts[i], before);
-    }
-    std::erase_if(result.reports,
-                  [&](const FeatureContact& contact) { return !resting.complete || meets_at_begin(contact); });
-  }
-
-  bool meets_at_begin(const FeatureContact& contact) const {
-    AnyQuery query = query_of(contact);
-    query.x_t1 = query.x_t0;
-    return visit(query, [](const auto& typed) { return meet(typed); });
-  }
-
-  AnyQuery query_of(const FeatureContact& contact) const {
-    AnyQuery query{contact.pair, outcome_.dimension, {}, {}};
-    for (std::size_t i = 0; i < query.size(); ++i) {
-      query.x_t0[i] = sequence_.x_t0()[contact.vertices[i]];
-      query.x_t1[i] = sequence_.x_t1()[contact.vertices[i]];
-    }
-    return query;
-  }
-
-  void add_counts(const VerifyResult& result) {
+  void add_counts(const StepResult& result) {
     outcome_.steps.push_back({result.contacts, result.initial_intersections});
     for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += result.contacts[i];
     outcome_.initial_intersections += result.initial_intersections;
@@ -309,7 +240,7 @@ class Run {
     outcome_.cell_pairs += result.cell_pairs;
   }
 
-  void add_reports(const VerifyResult& result) {
+  void add_reports(const StepResult& result) {
     const std::size_t step = sequence_.step() + 1;
     for (const auto& contact : result.reports) {
       if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
@@ -319,11 +250,8 @@ class Run {
     }
   }
 
-  /// Kind and time of a contact of the current step.
-  First exactly(const FeatureContact& contact) const {
-    const auto found = visit(query_of(contact), [](const auto& typed) { return first_contact(typed); });
-    if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
-    return {contact, sequence_.step() + 1, found->kind, found->time.lower(), face_of(mesh_, contact)};
+  First first_of(const FirstInStep& first) const {
+    return {first.contact, sequence_.step() + 1, first.kind, first.time, face_of(verifier_->mesh(), first.contact)};
   }
 
   void conclude() {
@@ -356,12 +284,9 @@ class Run {
   FrameInputs inputs_;
   FrameSequence sequence_;  ///< reads by inputs_
   std::optional<IdenticalVertices> classes_;
-  Mesh mesh_;
-  std::optional<Groups> groups_;            ///< with --ignore
-  std::optional<WindowVerifier> verifier_;  ///< the same
+  std::optional<Groups> groups_;  ///< with --ignore
+  std::optional<SequenceVerifier> verifier_;
   std::optional<FrameProof> proof_;
-  /// Whether some pair of features met in the step before: only then can one meet where the next step begins.
-  bool meeting_at_end_ = false;
   std::vector<std::string> at_rest_;  ///< notes on steps in which nothing moves
   VerifyOutcome outcome_;
 };

@@ -118,10 +118,11 @@ void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines&
 }
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                        const VerifyResult& result) {
+                        const StepResult& result) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
   const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &prover_};
-  return write_witness(step, lines, witness_of(what, result.first, result.initial_reports, result.reports));
+  const auto first = result.first ? std::optional(result.first->contact) : std::nullopt;
+  return write_witness(step, lines, witness_of(what, first, result.initial_reports, result.reports));
 }
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,

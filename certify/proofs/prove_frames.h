@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "certify/sequence.h"
 #include "certify/verify_run.h"
 #include "proofs/prover/proof_file.h"
 #include "proofs/prover/step_prover.h"
@@ -32,7 +33,7 @@ class FrameProof {
 
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-              const VerifyResult& result);
+              const StepResult& result);
 
   const StepProver& prover() const { return prover_; }
 

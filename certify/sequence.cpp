@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/sequence.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "certify/queries/any_query.h"
+#include "kernel/contact.h"
+
+namespace noli {
+namespace {
+
+AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
+                  std::span<const Position> x_t1) {
+  AnyQuery query{contact.pair, dimension, {}, {}};
+  for (std::size_t i = 0; i < query.size(); ++i) {
+    query.x_t0[i] = x_t0[contact.vertices[i]];
+    query.x_t1[i] = x_t1[contact.vertices[i]];
+  }
+  return query;
+}
+
+/// Kind and time of a contact that was found.
+FirstInStep exactly(const FeatureContact& contact, const AnyQuery& query) {
+  const auto found = visit(query, [](const auto& typed) { return first_contact(typed); });
+  if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
+  return {contact, found->kind, found->time.lower()};
+}
+
+bool meets(const AnyQuery& query) {
+  return visit(query, [](const auto& typed) { return meet(typed); });
+}
+
+VerifyResult as_step(WindowResult found) {
+  VerifyResult result;
+  result.complete = found.complete;
+  result.contacts = found.contacts;
+  result.initial_intersections = found.initial_intersections;
+  result.reports = std::move(found.reports);
+  result.initial_reports = std::move(found.initial_reports);
+  if (found.first) result.first = found.first->contact;
+  result.stages = found.stages;
+  result.obligations = found.obligations;
+  result.cell_pairs = found.cell_pairs;
+  return result;
+}
+
+}  // namespace
+
+SequenceVerifier::SequenceVerifier(Mesh mesh, SequenceOptions options)
+    : mesh_(std::move(mesh)), options_(std::move(options)) {}
+
+std::optional<StepResult> SequenceVerifier::add(std::span<const Position> x) {
+  if (options_.at_rest) return step(x, x);
+  std::vector<Position> frame(x.begin(), x.end());
+  std::optional<StepResult> result;
+  if (last_) result = step(*last_, frame);
+  last_ = std::move(frame);
+  return result;
+}
+
+VerifyOptions SequenceVerifier::step_options() const {
+  VerifyOptions options;
+  options.dimension = options_.dimension;
+  options.threads = options_.threads;
+  options.initial = options_.at_rest || steps_ == 0;
+  options.first_only = options_.first_only;
+  options.strict = options_.strict;
+  options.max_reports = options_.max_reports;
+  options.stop = options_.stop;
+  options.deadline = options_.deadline;
+  return options;
+}
+
+StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1) {
+  VerifyOptions options = step_options();
+  options.progress = options_.progress;
+  VerifyResult found = verify_between(x_t0, x_t1, options);
+  ++steps_;
+  StepResult result{found.complete,
+                    found.contacts,
+                    found.initial_intersections,
+                    std::move(found.reports),
+                    std::move(found.initial_reports),
+                    {},
+                    found.stages,
+                    found.obligations,
+                    found.cell_pairs};
+  const bool any_at_begin = std::exchange(meeting_at_end_, !options_.at_rest && found.contact_count() > 0);
+  if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(x_t0, result);
+  if (found.first) result.first = exactly(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
+  return result;
+}
+
+/// Exclusions are known to windows alone.
+VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
+                                              const VerifyOptions& options) {
+  if (options_.exclusions == nullptr) return verify_step(mesh_, x_t0, x_t1, options);
+  WindowOptions window;
+  window.dimension = options.dimension;
+  window.threads = options.threads;
+  window.initial = options.initial;
+  window.first_only = options.first_only;
+  window.strict = options.strict;
+  window.max_reports = options.max_reports;
+  window.exclusions = options_.exclusions;
+  window.stop = options.stop;
+  window.deadline = options.deadline;
+  window.progress = options.progress;
+  if (!windows_) windows_.emplace(mesh_, x_t0, window);
+  return as_step(windows_->verify(WorldLines::from_frames(x_t0, x_t1), window));
+}
+
+/// What meets where a later step begins met where the step before ended, and was counted there. Those pairs are the
+/// ones that meet when everything rests where the step begins.
+void SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result) {
+  VerifyOptions options = step_options();
+  options.first_only = false;
+  options.max_reports = 0;
+  const VerifyResult resting = verify_between(x_t0, x_t0, options);
+  result.complete = result.complete && resting.complete;
+  result.stages += resting.stages;
+  for (std::size_t i = 0; i < result.contacts.size(); ++i) {
+    // Counts of what is not complete are lower bounds, and so must the difference be.
+    const std::uint64_t before = resting.complete ? resting.contacts[i] : result.contacts[i];
+    result.contacts[i] -= std::min(result.contacts[i], before);
+  }
+  std::erase_if(result.reports, [&](const FeatureContact& contact) {
+    return !resting.complete || meets(query_of(contact, options_.dimension, x_t0, x_t0));
+  });
+}
+
+}  // namespace noli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Decides a sequence of frames of one mesh, step by step, in memory.
+//
+//   SequenceVerifier verifier(mesh, {});
+//   verifier.add(x);                                 // the first frame: there is no step yet
+//   while (solver.advance(x)) {
+//     if (verifier.add(x)->touches()) break;         // decided exactly: something meets between two frames
+//   }
+//
+// Notation
+//   frame     positions of all vertices at one time; between two frames each vertex moves along a straight line
+//   step k    from frame k to frame k + 1, k = 0, 1, ...; with `at_rest`, frame k alone, which stands still
+//
+// A pair of features that already meets where a later step begins is not counted again.
+//
+// It writes no proof (certify/proofs/prove_frames.h does) and reads no files (certify/verify_run.h does).
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/first_contact.h"
+#include "proofs/prover/verifier.h"
+#include "proofs/prover/window_verifier.h"
+#include "trajectory/exclusions.h"
+#include "trajectory/mesh.h"
+
+namespace noli {
+
+struct SequenceOptions {
+  int dimension = 3;  ///< 2 or 3; in 2 the third coordinate is not looked at
+  bool at_rest = false;
+  int threads = 0;          ///< 0: all there are
+  bool first_only = false;  ///< stop at any contact
+  bool strict = false;      ///< also the vertex-disjoint features of one cell
+  std::size_t max_reports = 100;
+  const Exclusions* exclusions = nullptr;   ///< pairs of groups that are not compared; has to outlive the verifier
+  const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the step is not complete
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
+  std::function<void(double)> progress = {};  ///< called with the share of the current step that is done, in [0, 1]
+};
+
+/// The first contact of a step, exactly.
+struct FirstInStep {
+  FeatureContact contact;
+  ContactKind kind = ContactKind::touching;
+  double time = 0;  ///< the largest double not above the exact time, in [0, 1] of the step
+};
+
+/// What was found in one step; counts are lower bounds unless it is complete.
+struct StepResult {
+  bool complete = true;
+  std::array<std::uint64_t, all_feature_pairs.size()> contacts{};  ///< by FeaturePair: pairs that meet
+  std::uint64_t initial_intersections = 0;  ///< pairs of cells that meet in the first frame, or in this one at rest
+  std::vector<FeatureContact> reports;      ///< at most max_reports
+  std::vector<InitialIntersection> initial_reports;
+  std::optional<FirstInStep> first;
+  StageCounters stages;
+  std::uint64_t obligations = 0, cell_pairs = 0;
+
+  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
+  bool touches() const { return contact_count() + initial_intersections > 0; }
+};
+
+class SequenceVerifier {
+ public:
+  /// Precondition: every index of the mesh is below its vertex_count, and there are fewer than 2^31 cells.
+  SequenceVerifier(Mesh mesh, SequenceOptions options);
+
+  const Mesh& mesh() const { return mesh_; }
+
+  /// The next frame. Nothing for the first one, unless at rest. Precondition: vertex_count finite positions. Throws
+  /// std::bad_alloc.
+  std::optional<StepResult> add(std::span<const Position> x);
+
+  /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before. Precondition and errors as
+  /// for add(), which is not called then.
+  StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1);
+
+  /// The options of the prover for a step. `progress` is not among them.
+  VerifyOptions step_options() const;
+
+ private:
+  VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
+                              const VerifyOptions& options);
+  void drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result);
+
+  Mesh mesh_;
+  SequenceOptions options_;
+  std::optional<WindowVerifier> windows_;  ///< with exclusions
+  std::uint64_t steps_ = 0;
+  bool meeting_at_end_ = false;  ///< some pair met in the step before: only then can one meet where the next begins
+  std::optional<std::vector<Position>> last_;  ///< frame of add()
+};
+
+}  // namespace noli

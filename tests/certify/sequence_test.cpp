@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A sequence of frames in memory, decided step by step.
+#include "certify/sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+namespace noli {
+namespace {
+
+/// A triangle in the plane z = 0, and a loose point above it.
+Mesh triangle_and_point() {
+  Mesh mesh;
+  mesh.vertex_count = 4;
+  mesh.faces = {{0, 1, 2}};
+  mesh.points = {3};
+  return mesh;
+}
+
+std::vector<Position> point_at(double z) { return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, z}}; }
+
+TEST(Sequence, TheFirstFrameIsNoStep) {
+  SequenceVerifier verifier(triangle_and_point(), {});
+  EXPECT_FALSE(verifier.add(point_at(1)));
+  EXPECT_TRUE(verifier.add(point_at(0.5)));
+}
+
+TEST(Sequence, StepsWithoutAndWithContact) {
+  SequenceVerifier verifier(triangle_and_point(), {});
+  verifier.add(point_at(1));
+  const auto apart = verifier.add(point_at(0.25));
+  EXPECT_TRUE(apart->complete);
+  EXPECT_FALSE(apart->touches());
+  EXPECT_FALSE(apart->first);
+  const auto through = verifier.add(point_at(-0.75));
+  EXPECT_TRUE(through->complete);
+  EXPECT_EQ(through->contacts[static_cast<std::size_t>(FeaturePair::vertex_face)], 1U);
+  ASSERT_TRUE(through->first);
+  EXPECT_EQ(through->first->kind, ContactKind::crossing);
+  EXPECT_EQ(through->first->time, 0.25);
+  EXPECT_EQ(through->first->contact.vertices, (std::array<VertexId, 4>{3, 0, 1, 2}));
+}
+
+TEST(Sequence, WhatMetAtTheEndOfAStepIsNotCountedAgain) {
+  SequenceVerifier verifier(triangle_and_point(), {});
+  verifier.add(point_at(1));
+  EXPECT_EQ(verifier.add(point_at(0))->contact_count(), 1U);
+  const auto leaves = verifier.add(point_at(1));
+  EXPECT_EQ(leaves->contact_count(), 0U);
+  EXPECT_TRUE(leaves->reports.empty());
+}
+
+TEST(Sequence, WhatMeetsInTheFirstFrame) {
+  SequenceVerifier verifier(triangle_and_point(), {});
+  verifier.add(point_at(0));
+  const auto leaves = verifier.add(point_at(1));
+  EXPECT_EQ(leaves->contact_count(), 1U);
+  EXPECT_EQ(leaves->initial_intersections, 1U);
+  EXPECT_EQ(leaves->first->time, 0);
+}
+
+TEST(Sequence, FramesAtRest) {
+  SequenceVerifier verifier(triangle_and_point(), {.at_rest = true});
+  EXPECT_FALSE(verifier.add(point_at(1))->touches());
+  EXPECT_TRUE(verifier.add(point_at(0))->touches());
+  EXPECT_FALSE(verifier.add(point_at(-1))->touches());  // nothing moves through the triangle
+}
+
+TEST(Sequence, WhatIsExcludedIsNotCompared) {
+  Exclusions exclusions;
+  exclusions.groups = {0, 0, 0, 1};
+  exclusions.pairs = {{0, 1}};
+  SequenceVerifier verifier(triangle_and_point(), {.exclusions = &exclusions});
+  verifier.add(point_at(1));
+  EXPECT_FALSE(verifier.add(point_at(-1))->touches());
+}
+
+TEST(Sequence, InThePlaneTheThirdCoordinateIsNotLookedAt) {
+  Mesh mesh;
+  mesh.vertex_count = 3;
+  mesh.edges = {{0, 1}};
+  mesh.points = {2};
+  const auto point_over = [](double y) { return std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0.5, y, 7}}; };
+  SequenceVerifier plane(mesh, {.dimension = 2}), space(mesh, {});
+  plane.add(point_over(1));
+  space.add(point_over(1));
+  EXPECT_TRUE(plane.add(point_over(-1))->touches());
+  EXPECT_FALSE(space.add(point_over(-1))->touches());
+}
+
+TEST(Sequence, AStopLeavesTheStepIncomplete) {
+  const std::atomic<bool> stop = true;
+  SequenceVerifier verifier(triangle_and_point(), {.stop = &stop});
+  verifier.add(point_at(1));
+  EXPECT_FALSE(verifier.add(point_at(0.5))->complete);
+}
+
+TEST(Sequence, TwoAtOnceKnowNothingOfEachOther) {
+  SequenceVerifier one(triangle_and_point(), {}), other(triangle_and_point(), {});
+  one.add(point_at(1));
+  other.add(point_at(-1));
+  EXPECT_TRUE(one.add(point_at(0))->touches());
+  EXPECT_FALSE(other.add(point_at(-2))->touches());
+  EXPECT_FALSE(one.add(point_at(0.5))->touches());
+}
+
+}  // namespace
+}  // namespace noli
