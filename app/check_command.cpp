@@ -165,10 +165,8 @@ ExitCode run(const CheckArguments& arguments) {
     ask_for_all_windows(trajectory[0], asked, notes);
   }
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
-  CheckerProcess checker(which, proof, trajectory_for_checker(trajectory), asked);
-  const auto said = checker.finish();
-  if (!said) throw ReadInterrupted(proof.string());
-  const CheckerVerdict& verdict = *said;
+  const CheckerVerdict verdict =
+      check_proof({.checker = which, .proof = proof, .trajectory = trajectory_for_checker(trajectory), .asked = asked});
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";

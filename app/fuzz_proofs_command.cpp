@@ -60,11 +60,10 @@ struct ProofsArguments {
 /// Of a proof and its trajectory, which the checker has to take.
 audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& trajectory) {
   const std::string bytes = read_whole_file(proof);
-  CheckerProcess checker(Checker::plain, proof, trajectory, audit::own_claim(bytes), &interrupted());
-  const auto said = checker.finish();
-  if (!said) throw ReadInterrupted(proof.string());
-  if (said->code == 3) {
-    throw InputError(proof.string(), "", "expected a proof that holds: " + first_line(said->words));
+  const CheckerVerdict said =
+      check_proof({.proof = proof, .trajectory = trajectory, .asked = audit::own_claim(bytes), .stop = &interrupted()});
+  if (said.code == 3) {
+    throw InputError(proof.string(), "", "expected a proof that holds: " + first_line(said.words));
   }
   audit::ProofCase made;
   made.name = proof.filename().string();
@@ -72,7 +71,7 @@ audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& t
   made.groups = parse_proof(made.proof, proof.string());
   made.extension = trajectory[0].extension().string().substr(1);
   for (const fs::path& file : trajectory) made.files.push_back(read_whole_file(file));
-  made.refutes = said->code == 1;
+  made.refutes = said.code == 1;
   return made;
 }
 

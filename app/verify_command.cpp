@@ -122,7 +122,8 @@ class ProofRoute {
     const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);
     if (!request_.check || outcome.not_checked || !whole) return;
     const Stopwatch watch;
-    if (!checker_) checker_.emplace(Checker::plain, file_, trajectory(), fields_of(outcome.claim));
+    if (!checker_)
+      checker_.emplace(CheckRequest{.proof = file_, .trajectory = trajectory(), .asked = fields_of(outcome.claim)});
     if (lines_) lines_->close();
     const auto verdict = checker_->finish();
     outcome.check_seconds = watch.seconds();
@@ -166,7 +167,7 @@ class ProofRoute {
     return std::make_unique<FileSink>(*file_, FileSink::Open::create);
   }
   std::unique_ptr<Sink> to_checker(const Claim& claim) {
-    checker_.emplace(Checker::plain, std::nullopt, trajectory(), fields_of(claim));
+    checker_.emplace(CheckRequest{.trajectory = trajectory(), .asked = fields_of(claim)});
     return std::make_unique<CheckerSink>(*checker_);
   }
 

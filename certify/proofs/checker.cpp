@@ -51,15 +51,15 @@ CheckerVersion version_of(Checker checker) {
   return said;
 }
 
-CheckerProcess::CheckerProcess(Checker checker, const std::optional<fs::path>& proof,
-                               const std::vector<fs::path>& trajectory, const std::vector<std::string>& asked,
-                               const std::atomic<bool>* stop)
-    : checker_(checker), words_(std::make_unique<Pipe>()), stop_(stop) {
-  std::vector<std::string> arguments = {beside_this_program(name_of(checker)).string()};
-  for (const std::string& field : asked) arguments.insert(arguments.end(), {"--require", field});
-  arguments.push_back(proof ? name_of_file(*proof) : "-");
-  for (const fs::path& path : trajectory) arguments.push_back(name_of_file(path));
-  if (!proof) {
+CheckerProcess::CheckerProcess(const CheckRequest& request)
+    : checker_(request.checker), words_(std::make_unique<Pipe>()), stop_(request.stop) {
+  const std::string name = name_of(checker_);
+  std::vector<std::string> arguments = {
+      (request.programs.empty() ? beside_this_program(name) : request.programs / name).string()};
+  for (const std::string& field : request.asked) arguments.insert(arguments.end(), {"--require", field});
+  arguments.push_back(request.proof ? name_of_file(*request.proof) : "-");
+  for (const fs::path& path : request.trajectory) arguments.push_back(name_of_file(path));
+  if (!request.proof) {
     proof_ = std::make_unique<Pipe>();
     proof_->never_wait(1);
   }
@@ -157,6 +157,12 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
         fmt::format("{} ended with code {}, but does not say so", name_of(checker_), verdict.code));
   }
   return verdict;
+}
+
+CheckerVerdict check_proof(const CheckRequest& request) {
+  auto verdict = CheckerProcess(request).finish();
+  if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
+  return *std::move(verdict);
 }
 
 std::vector<fs::path> trajectory_for_checker(const std::vector<fs::path>& trajectory) {

@@ -34,15 +34,22 @@ struct CheckerVerdict {
   std::string words;  ///< its standard output, lines
 };
 
+/// What a checker is asked.
+struct CheckRequest {
+  Checker checker = Checker::plain;
+  std::optional<std::filesystem::path> proof = {};  ///< nothing: it is written to the process
+  std::vector<std::filesystem::path> trajectory =
+      {};                                   ///< the frames in the order of time, or a run's trajectory.blocks
+  std::vector<std::string> asked = {};      ///< fields as they follow its --require (proofs/FORMAT.md, section 6)
+  const std::atomic<bool>* stop = nullptr;  ///< polled, beside trajectory/stop.h
+  std::filesystem::path programs = {};      ///< the folder that the checkers are in; empty: that of this program
+};
+
 /// A checker at work. It does not share the signals of the terminal: this process hears them, and ends it.
 class CheckerProcess {
  public:
-  /// Starts it on a proof in a file, or, without one, on what is written to it. `asked`: fields as they follow its
-  /// --require (proofs/FORMAT.md, section 6). `stop`: a stop beside that of trajectory/stop.h, polled. Throws
-  /// std::runtime_error when the checker is not there.
-  CheckerProcess(Checker checker, const std::optional<std::filesystem::path>& proof,
-                 const std::vector<std::filesystem::path>& trajectory, const std::vector<std::string>& asked,
-                 const std::atomic<bool>* stop = nullptr);
+  /// Starts it. Throws std::runtime_error when the checker is not there.
+  explicit CheckerProcess(const CheckRequest& request);
   /// Ends it if it has not ended.
   ~CheckerProcess();
   CheckerProcess(const CheckerProcess&) = delete;
@@ -82,6 +89,10 @@ class CheckerSink : public Sink {
  private:
   CheckerProcess& checker_;
 };
+
+/// Starts a checker on a proof in a file and waits for its end. Precondition: request.proof. Throws as CheckerProcess,
+/// and Stopped.
+CheckerVerdict check_proof(const CheckRequest& request);
 
 /// The file of a run that checkers read.
 std::vector<std::filesystem::path> trajectory_for_checker(const std::vector<std::filesystem::path>& trajectory);

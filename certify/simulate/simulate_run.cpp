@@ -426,6 +426,7 @@ class Run {
     if (energy_) energy_->add(window.row);
     folder_.log(committed(), window.row, window.deepest);
     if (retries_.committed()) ++outcome_.certificate_defects;
+    if (request_.keep_going && !request_.keep_going(window.row)) outcome_.end = RunEnd::interrupted;
   }
 
   /// With "record": "frames", those within the window.

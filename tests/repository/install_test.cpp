@@ -48,6 +48,10 @@ TEST(InstallSlow, AnInstalledNoliIsFoundAndTheExamplesRun) {
   const auto [exit_code, output] = run(quoted((build / "meet").string()));
   EXPECT_EQ(exit_code, 0);
   EXPECT_EQ(output, "through the face: they meet\nbeside the face: they stay apart\n");
+  EXPECT_EQ(run(quoted((build / "certify_frames").string())).output,
+            "x = 1.25: nothing touches\nx = 0.25: crossing contact at t = 0.5 of the step\n");
+  EXPECT_EQ(run(quoted((build / "certify_in_solver").string())).output,
+            "step 5 is rejected: contact at t = 0.038736 of it\n");
 }
 
 TEST(InstallSlow, WhatIsInstalledStandsOnItsOwn) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Certifies two frames in files, writes the proof, and has the separate checker judge it.
+//   check_proof FOLDER-OF-NOLI_CHECK BEFORE AFTER PROOF
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include <noli/certify/proofs/checker.h>
+#include <noli/certify/proofs/claim.h>
+#include <noli/certify/verify_run.h>
+
+int main(int argc, char** argv) try {
+  if (argc != 5) return 3;
+  noli::VerifyRequest request;
+  request.frames = {argv[2], argv[3]};
+  request.open_proof = [&](const noli::Claim&) {
+    return std::make_unique<noli::FileSink>(argv[4], noli::FileSink::Open::create);
+  };
+  const noli::VerifyOutcome outcome = noli::run_verify(request);
+  const noli::CheckerVerdict verdict = noli::check_proof(
+      {.proof = argv[4], .trajectory = request.frames, .asked = noli::fields_of(outcome.claim), .programs = argv[1]});
+  std::printf("%s", verdict.words.substr(0, verdict.words.find('\n') + 1).c_str());
+  return verdict.code;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 3;
+}
