@@ -78,10 +78,10 @@ audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& t
 /// The proof or witness that `noli verify` writes of a motion with some claim; nothing if it writes none, as for some
 /// degenerate contacts, or if the user would not wait.
 std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, const std::vector<std::string>& claim,
-                                          const fs::path& desk) {
-  fs::create_directories(desk);
-  const fs::path proof = desk / "proof.noli";
-  const std::vector<fs::path> files = audit::write_frames(motion, desk);
+                                          const fs::path& work_folder) {
+  fs::create_directories(work_folder);
+  const fs::path proof = work_folder / "proof.noli";
+  const std::vector<fs::path> files = audit::write_frames(motion, work_folder);
   std::vector<std::string> words = {
       this_program_file().string(), "verify", "--threads", "1", "--no-check", "--force", "--proof", proof};
   if (motion.at_rest()) words.emplace_back("--static");
@@ -192,7 +192,7 @@ std::vector<audit::ProofCase> cases(const ProofsArguments& arguments, const fs::
   }
 }
 
-/// The checkers that lie beside this program, each at a desk of its own in a folder.
+/// The checkers that lie beside this program, each with a folder of its own.
 class CheckersBeside {
  public:
   explicit CheckersBeside(const fs::path& folder) : folder_(folder) {}
@@ -205,20 +205,20 @@ class CheckersBeside {
       ProgramLimits limits;
       limits.stop = &interrupted();
       return audit::Checkers{
-          audit::hosted_checker(beside_this_program("noli_check_host"), new_desk(), std::chrono::seconds(20)),
-          has_verified ? audit::program_checker(verified, new_desk(), limits) : nullptr};
+          audit::hosted_checker(beside_this_program("noli_check_host"), new_folder(), std::chrono::seconds(20)),
+          has_verified ? audit::program_checker(verified, new_folder(), limits) : nullptr};
     };
   }
 
  private:
-  fs::path new_desk() {
-    fs::path desk = folder_ / fmt::format("desk-{}", desks_++);
-    fs::create_directory(desk);
-    return desk;
+  fs::path new_folder() {
+    fs::path work_folder = folder_ / fmt::format("checker-{}", checkers_++);
+    fs::create_directory(work_folder);
+    return work_folder;
   }
 
   fs::path folder_;
-  std::atomic<std::uint64_t> desks_ = 0;
+  std::atomic<std::uint64_t> checkers_ = 0;
 };
 
 ExitCode run(ProofsArguments& arguments) {

@@ -116,7 +116,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
   audit::SceneFuzzOptions options;
   options.limits = arguments.common.limits;
   options.noli = this_program();
-  options.desk = scratch.path();
+  options.work_folder = scratch.path();
   options.out = arguments.common.out;
   options.corpus = corpus_folder(arguments.common);
   const Stopwatch watch;

@@ -84,7 +84,7 @@ class Contact {
   /// Certifies where things are.
   void start(double t) {
     started_ = true;
-    const Doing certifying(*activity_, Phase::certificate);
+    const PhaseScope certifying(*activity_, Phase::certificate);
     ask([t](auto& certificates) { certificates.start(t); });
   }
 
@@ -99,7 +99,7 @@ class Contact {
 
   double next_certificate() { return cells_ ? cells_->next_time() : every_pair_->next_time(); }
   void run_certificate() {
-    const Doing certifying(*activity_, Phase::certificate);
+    const PhaseScope certifying(*activity_, Phase::certificate);
     ask([](auto& certificates) { certificates.run_next(); });
   }
 
@@ -177,7 +177,7 @@ class Contact {
     return layer_thickness(settings_.materials[material], settings_.schedule, l);
   }
   /// For as long as what it returns is there.
-  Doing in_broad_phase() const { return {*activity_, Phase::broad_phase}; }
+  PhaseScope in_broad_phase() const { return {*activity_, Phase::broad_phase}; }
   double look_step(VertexId i) const { return look_steps_[i]; }
   std::uint32_t least_layers() const { return settings_.least_layers; }
   std::size_t many_walls() const { return 64; }
@@ -233,7 +233,7 @@ class Contact {
 
   void drop_if_clear(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double distance,
                      double t) {
-    const Doing certifying(*activity_, Phase::certificate);
+    const PhaseScope certifying(*activity_, Phase::certificate);
     ask([&](auto& certificates) { certificates.drop_if_clear(pair, material, l, distance, t); });
   }
 
@@ -258,7 +258,7 @@ class Contact {
   template <class Recorder>
   std::size_t fire(Recorder& record, Account<double, Dim>& account, std::uint16_t material, std::uint32_t l, double t,
                    double h) {
-    const Doing busy(*activity_, Phase::layer);
+    const PhaseScope busy(*activity_, Phase::layer);
     if (l > settings_.most_layers) {
       watch(material, l, t);
       return 0;
@@ -304,7 +304,7 @@ class Contact {
       now.record.examined(pair, blow.whole_course());
     }
     if (!blow.struck) return blow.distance;
-    const Doing certifying(*activity_, Phase::certificate);
+    const PhaseScope certifying(*activity_, Phase::certificate);
     for (std::size_t i = 0; i < pair.size(); ++i) {
       if (!immovable(pair.vertices[i])) look(pair.vertices[i], now.t);
     }

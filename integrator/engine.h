@@ -92,7 +92,7 @@ class Engine {
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
     open(record);
-    const Doing queueing(*activity_, Phase::queue);
+    const PhaseScope queueing(*activity_, Phase::queue);
     if (windows_ == 0) start(record, books);
     start_contact(record, books);
     std::uint64_t turns = 0, last = events_;
@@ -271,8 +271,8 @@ class Engine {
   template <class Recorder, class F>
   void start_division(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
     for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
-      const Lone half{now.t, 0.5 * division.list.steps[i], i};
-      fire_lone(now.record, division, std::span(&half, 1), books);
+      const DueForce half{now.t, 0.5 * division.list.steps[i], i};
+      fire_single(now.record, division, std::span(&half, 1), books);
     }
   }
 
@@ -325,7 +325,7 @@ class Engine {
   template <class Recorder, class Vertices>
   void look(const Now<Recorder>& now, const Vertices& vertices) const {
     if (!contact_) return;
-    const Doing certifying(*activity_, Phase::certificate);
+    const PhaseScope certifying(*activity_, Phase::certificate);
     for (const VertexId v : vertices) {
       if (particles_[v].inverse_mass != S(0)) contact_->look(v, now.t);
     }
@@ -379,13 +379,13 @@ class Engine {
 
   template <class Recorder, std::size_t... I>
   void fire_row(Recorder& record, Books<S, Dim>& books, std::index_sequence<I...>) {
-    (fire_lone(record, std::get<I>(divisions_), own_.row(I), books), ...);
+    (fire_single(record, std::get<I>(divisions_), own_.row(I), books), ...);
   }
 
   template <class Recorder, class F>
   void fire_group(const Now<Recorder>& now, const Division<F>& division, const Group& group, const S& h,
                   Books<S, Dim>& books) {
-    const Doing firing(*activity_, Phase::force);
+    const PhaseScope firing(*activity_, Phase::force);
     events_ += group.end - group.begin;
     now.record.reserve(group.vertices.size());
     if (division.damped) {
@@ -396,7 +396,7 @@ class Engine {
     look(now, group.vertices);
   }
 
-  /// Flattened, like fire_lone_as: what is called for each force is a few dozen operations on numbers that are best
+  /// Flattened, like fire_single_as: what is called for each force is a few dozen operations on numbers that are best
   /// left in registers. So is the account.
   template <bool Damped, class Recorder, class F>
   [[gnu::flatten]] void fire_group_as(const Now<Recorder>& now, const Division<F>& division, const Group& group,
@@ -411,36 +411,37 @@ class Engine {
   }
 
   template <class Recorder, class F>
-  void fire_lone(Recorder& record, const Division<F>& division, std::span<const Lone> firing, Books<S, Dim>& books) {
+  void fire_single(Recorder& record, const Division<F>& division, std::span<const DueForce> firing,
+                   Books<S, Dim>& books) {
     if (firing.empty()) return;
-    const Doing striking(*activity_, Phase::force);
+    const PhaseScope striking(*activity_, Phase::force);
     events_ += firing.size();
     record.reserve(F::size * firing.size());
-    const LoneBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record};
+    const SingleBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record};
     if (division.damped) {
-      fire_lone_as<true>(blows, books.of(F::kind));
+      fire_single_as<true>(blows, books.of(F::kind));
     } else {
-      fire_lone_as<false>(blows, books.of(F::kind));
+      fire_single_as<false>(blows, books.of(F::kind));
     }
     if (!contact_ || !contact_->started()) return;
-    for (const Lone& lone : firing) {
-      look(Now<Recorder>{particles_, record, lone.t}, division.list.forces[lone.force].vertices);
+    for (const DueForce& due : firing) {
+      look(Now<Recorder>{particles_, record, due.t}, division.list.forces[due.force].vertices);
     }
   }
 
   template <bool Damped, class Recorder, class F>
-  [[gnu::flatten]] void fire_lone_as(const LoneBlows<F, S, Dim, Recorder>& blows, Account<S, Dim>& account) {
+  [[gnu::flatten]] void fire_single_as(const SingleBlows<F, S, Dim, Recorder>& blows, Account<S, Dim>& account) {
     strike<Damped, F, S, Dim>(blows, account, *activity_);
     if constexpr (std::is_same_v<Recorder, detail::Watch>) {
-      for (const Lone& lone : blows.firing) {
-        watch(Now<Recorder>{particles_, blows.record, lone.t}, blows.forces[lone.force]);
+      for (const DueForce& due : blows.firing) {
+        watch(Now<Recorder>{particles_, blows.record, due.t}, blows.forces[due.force]);
       }
     }
   }
 
   template <class Recorder>
   void fall(const Now<Recorder>& now, const S& h, Books<S, Dim>& books) {
-    const Doing falling(*activity_, Phase::kick);
+    const PhaseScope falling(*activity_, Phase::kick);
     Account<S, Dim> sum;
     const Vec<S, Dim> dv = h * gravity_->acceleration;
     now.record.reserve(particles_.size());
@@ -466,7 +467,7 @@ class Engine {
 
   template <class Recorder>
   void open(Recorder& record) {
-    const Doing recording(*activity_, Phase::recording);
+    const PhaseScope recording(*activity_, Phase::recording);
     record.reserve(particles_.size());
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       record.put(static_cast<VertexId>(i), particles_[i].t, particles_[i].x, true);
@@ -476,7 +477,7 @@ class Engine {
 
   template <class Recorder>
   void close(double end, Recorder& record) {
-    const Doing recording(*activity_, Phase::recording);
+    const PhaseScope recording(*activity_, Phase::recording);
     record.reserve(particles_.size());
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       Particle<S, Dim>& p = particles_[i];

@@ -6,7 +6,7 @@
 // Notation
 //   h      step of a force; its impulses are J = -h grad V (a whole kick, or h/2 at the start of a run)
 //   blows  forces that fire, in order, with what becomes of their vertices: those of one step at one time (GroupBlows),
-//          or of any times but without a vertex in common (LoneBlows)
+//          or of any times but without a vertex in common (SingleBlows)
 // In either case no force's positions depend on the velocities that another one leaves, so the impulses of a row of
 // forces are found first, then applied. Short loops keep more forces in flight in the processor: in one loop it took
 // half as long again. The numbers are those of firing one after the other.
@@ -83,16 +83,16 @@ struct GroupBlows {
 };
 
 /// A force that fires by itself.
-struct Lone {
+struct DueForce {
   double t, h;
   std::size_t force;
 };
 
 /// Forces without a vertex in common.
 template <class F, class S, int Dim, class Recorder>
-struct LoneBlows {
+struct SingleBlows {
   std::span<const F> forces;  ///< of which some fire
-  std::span<const Lone> firing;
+  std::span<const DueForce> firing;
   std::span<Particle<S, Dim>> particles;
   Recorder& record;
 

@@ -129,7 +129,7 @@ class OwnClocks {
   }
 
   /// Those of the row that are of this kind.
-  std::span<const Lone> row(std::size_t kind) const { return {row_[kind].data(), sizes_[kind]}; }
+  std::span<const DueForce> row(std::size_t kind) const { return {row_[kind].data(), sizes_[kind]}; }
 
  private:
   template <class Prefetch>
@@ -144,7 +144,7 @@ class OwnClocks {
   Calendar calendar_;
   std::array<Shelf, Kinds> shelves_;
   Claims claims_;
-  std::array<std::array<Lone, longest_row>, Kinds> row_{};
+  std::array<std::array<DueForce, longest_row>, Kinds> row_{};
   std::array<std::size_t, Kinds> sizes_{};
 };
 

@@ -65,12 +65,12 @@ class Activity {
 };
 
 /// A phase that lasts as long as this does; then the one before goes on.
-class Doing {
+class PhaseScope {
  public:
-  Doing(Activity& activity, Phase phase) : activity_(activity), before_(activity.now()) { activity.set(phase); }
-  ~Doing() { activity_.set(before_); }
-  Doing(const Doing&) = delete;
-  Doing& operator=(const Doing&) = delete;
+  PhaseScope(Activity& activity, Phase phase) : activity_(activity), before_(activity.now()) { activity.set(phase); }
+  ~PhaseScope() { activity_.set(before_); }
+  PhaseScope(const PhaseScope&) = delete;
+  PhaseScope& operator=(const PhaseScope&) = delete;
 
  private:
   Activity& activity_;

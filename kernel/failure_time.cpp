@@ -51,7 +51,7 @@ Line<T> seen_along(const Point<Dim>& n, const Ray<Dim>& p) {
 }
 
 template <class T, int Dim>
-Line<T> seen_along(const Point<Dim>& n, const Chord<Dim>& p) {
+Line<T> seen_along(const Point<Dim>& n, const MotionSegment<Dim>& p) {
   const T at_t0 = dot<T, Dim>(n, p.x0), at_t1 = dot<T, Dim>(n, p.x1);
   return {at_t0 * T(p.t1) - at_t1 * T(p.t0), at_t1 - at_t0, T(p.t1) - T(p.t0)};
 }
@@ -127,12 +127,12 @@ double failure_time(const A& a, const B& b, const Point<A::dimension>& n, double
 }
 
 template double failure_time(const Ray<2>&, const Ray<2>&, const Point2&, double, double);
-template double failure_time(const Ray<2>&, const Chord<2>&, const Point2&, double, double);
-template double failure_time(const Chord<2>&, const Ray<2>&, const Point2&, double, double);
-template double failure_time(const Chord<2>&, const Chord<2>&, const Point2&, double, double);
+template double failure_time(const Ray<2>&, const MotionSegment<2>&, const Point2&, double, double);
+template double failure_time(const MotionSegment<2>&, const Ray<2>&, const Point2&, double, double);
+template double failure_time(const MotionSegment<2>&, const MotionSegment<2>&, const Point2&, double, double);
 template double failure_time(const Ray<3>&, const Ray<3>&, const Point3&, double, double);
-template double failure_time(const Ray<3>&, const Chord<3>&, const Point3&, double, double);
-template double failure_time(const Chord<3>&, const Ray<3>&, const Point3&, double, double);
-template double failure_time(const Chord<3>&, const Chord<3>&, const Point3&, double, double);
+template double failure_time(const Ray<3>&, const MotionSegment<3>&, const Point3&, double, double);
+template double failure_time(const MotionSegment<3>&, const Ray<3>&, const Point3&, double, double);
+template double failure_time(const MotionSegment<3>&, const MotionSegment<3>&, const Point3&, double, double);
 
 }  // namespace noli

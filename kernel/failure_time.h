@@ -3,12 +3,12 @@
 // Until when does a certificate hold? The certificate: n . (a(t) - b(t)) > g for two points that move linearly.
 //
 // Notation
-//   Ray               x(t) = x + (t - t_i) v: where an integrator extrapolates to from its last event
-//   Chord             the line through (t0, x0) and (t1, x1), t0 < t1: what was recorded
+//   Ray             x(t) = x + (t - t_i) v: where an integrator extrapolates to from its last event
+//   MotionSegment   the line through (t0, x0) and (t1, x1), t0 < t1: what was recorded
 // Both are lines over the reals, without rounding. The failure time is rounded down: an event may come early, never
 // late.
 //
-// What this does not do: it does not know that a ray ends at the next event or a chord at its last breakpoint.
+// What this does not do: it does not know that a ray ends at the next event or a segment at its last breakpoint.
 #pragma once
 
 #include "kernel/query.h"
@@ -24,7 +24,7 @@ struct Ray {
 };
 
 template <int Dim>
-struct Chord {
+struct MotionSegment {
   static constexpr int dimension = Dim;
   double t0;
   Point<Dim> x0;
@@ -33,8 +33,8 @@ struct Chord {
 };
 
 /// The largest double that is not greater than the least t >= from at which n . (a(t) - b(t)) <= g; `from` if that is
-/// so there; +infinity if it never is. a, b: Ray<Dim> or Chord<Dim>. Preconditions: all numbers are finite; t0 < t1 in
-/// a chord.
+/// so there; +infinity if it never is. a, b: Ray<Dim> or MotionSegment<Dim>. Preconditions: all numbers are finite; t0 < t1 in
+/// a segment.
 template <class A, class B>
 double failure_time(const A& a, const B& b, const Point<A::dimension>& n, double g, double from);
 

@@ -7,6 +7,7 @@
 
 #include "report/report_assets.h"
 #include "trajectory/formats/base64.h"
+#include "trajectory/text.h"
 
 #ifdef NOLI_WITH_REPORT
 #include <zlib.h>
@@ -14,21 +15,6 @@
 
 namespace noli::report {
 namespace {
-
-/// In HTML, between tags.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 /// In an element <script>: a text of the data cannot end it.
 std::string within_script(const Json& json) {
@@ -62,7 +48,7 @@ std::string packed(std::string_view) { throw std::logic_error("built without rep
 
 std::string report_html(const ReportPage& report) {
   const std::array<std::pair<std::string_view, std::string>, 4> parts = {{
-      {"@TITLE@", escaped(report.page.at("title").get<std::string>())},
+      {"@TITLE@", escaped_markup(report.page.at("title").get<std::string>())},
       {"@PAGE@", within_script(report.page)},
       {"@CELLS@", report.cells},
       {"@MOTION@", report.motion},

@@ -63,4 +63,19 @@ bool Lines::next(std::string_view& line) {
 std::string parse_finite(std::string_view word, float& value) { return parse_finite_as(word, value); }
 std::string parse_finite(std::string_view word, double& value) { return parse_finite_as(word, value); }
 
+std::string escaped_markup(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n' || c == '\r') out += c;
+    }
+  }
+  return out;
+}
+
 }  // namespace noli

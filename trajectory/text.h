@@ -75,6 +75,9 @@ class Words {
   std::string_view rest_;
 };
 
+/// The text between the tags, or within an attribute, of XML and HTML. Characters that XML cannot write are left out.
+std::string escaped_markup(std::string_view text);
+
 /// Parses the whole of `word` as a number of type T (a leading '+' is allowed). Returns an error code as
 /// std::from_chars does: invalid_argument when it is no such number, result_out_of_range when it is one that T cannot
 /// hold.

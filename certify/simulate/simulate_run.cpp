@@ -41,8 +41,8 @@ namespace noli {
 namespace {
 
 using integrator::Books;
-using integrator::Doing;
 using integrator::Phase;
+using integrator::PhaseScope;
 using integrator::Recording;
 using integrator::Simulation;
 using integrator::Snapshot;
@@ -316,7 +316,7 @@ class Run {
     next.index = before_.windows;
     next.before = before_;
     next.deepest = simulation_->certificates().deepest;
-    const Doing recording(activity_, Phase::recording);
+    const PhaseScope recording(activity_, Phase::recording);
     next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
     next.velocities = positions_of<Dim>(simulation_->snapshot().v);
     next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, labels_);
@@ -407,18 +407,18 @@ class Run {
   }
 
   WindowResult verdict_of(Candidate<Dim>& window) {
-    const Doing proving(activity_, Phase::proof);
+    const PhaseScope proving(activity_, Phase::proof);
     return window.verdict.get();
   }
 
   void write(const Candidate<Dim>& window) {
-    const Doing writing(activity_, Phase::writing);
+    const PhaseScope writing(activity_, Phase::writing);
     const std::vector<RunFrame> frames = frames_of(window);
     writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
   }
 
   void commit(const Candidate<Dim>& window) {
-    const Doing writing(activity_, Phase::writing);
+    const PhaseScope writing(activity_, Phase::writing);
     if (proof_) proof_->commit();
     writer_->commit();
     outcome_.events += window.row.events_in_all();
@@ -487,7 +487,7 @@ class Run {
   /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it. What keeps it from
   /// being written is returned: the run has ended all the same.
   std::exception_ptr write_series() {
-    const Doing writing(activity_, Phase::writing);
+    const PhaseScope writing(activity_, Phase::writing);
     const int before = stops();
     tell("series.h5", 0);
     try {

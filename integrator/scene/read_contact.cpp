@@ -68,11 +68,11 @@ BodyPair read_pair(const Field& f, const std::vector<Body>& bodies) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-bool excludes(const Contact& contact, const BodyPair& pair) {
+bool excludes(const SceneContact& contact, const BodyPair& pair) {
   return std::find(contact.excluded.begin(), contact.excluded.end(), pair) != contact.excluded.end();
 }
 
-ContactPair read_contact_pair(const Field& f, const Scene& scene, const Contact& contact) {
+ContactPair read_contact_pair(const Field& f, const Scene& scene, const SceneContact& contact) {
   const Field bodies = f["bodies"];
   const ContactPair pair{read_pair(bodies, scene.bodies), read_values(f, scene.allow_unstable)};
   if (excludes(contact, pair.bodies)) bodies.fail("expected bodies that \"exclude\" does not name");
@@ -85,8 +85,9 @@ ContactPair read_contact_pair(const Field& f, const Scene& scene, const Contact&
 
 }  // namespace
 
-Contact read_contact(const Field& f, const Scene& scene) {
-  Contact contact{read_values(f, scene.allow_unstable), read_layers(f["layers"]), f["most_layers"].count(), {}, {}};
+SceneContact read_contact(const Field& f, const Scene& scene) {
+  SceneContact contact{
+      read_values(f, scene.allow_unstable), read_layers(f["layers"]), f["most_layers"].count(), {}, {}};
   for (const Field& pair : f["exclude"].items()) contact.excluded.push_back(read_pair(pair, scene.bodies));
   for (const Field& pair : f["pairs"].items()) contact.pairs.push_back(read_contact_pair(pair, scene, contact));
   return contact;

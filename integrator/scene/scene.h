@@ -244,13 +244,13 @@ struct ContactPair {
   friend bool operator==(const ContactPair&, const ContactPair&) = default;
 };
 
-struct Contact {
+struct SceneContact {
   ContactValues values;  ///< of all pairs that say nothing else
   LayerSchedule layers;
   std::uint32_t most_layers = 1000;
   std::vector<ContactPair> pairs;  ///< each pair at most once
   std::vector<BodyPair> excluded;  ///< none of `pairs`
-  friend bool operator==(const Contact&, const Contact&) = default;
+  friend bool operator==(const SceneContact&, const SceneContact&) = default;
 };
 
 enum class Record : std::uint8_t { full, frames };
@@ -270,8 +270,8 @@ struct Scene {
   std::optional<double> gravity_step;
   std::vector<Body> bodies;
   std::vector<ScriptedVertices> scripts;
-  std::optional<Contact> contact;  ///< nothing: a contact ends the run
-  Json document;                   ///< what was read: overrides applied, defaults filled in
+  std::optional<SceneContact> contact;  ///< nothing: a contact ends the run
+  Json document;                        ///< what was read: overrides applied, defaults filled in
   std::vector<DefaultTaken> defaults;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/figures/svg.h"
+#include "trajectory/text.h"
 
 #include <fmt/format.h>
 
@@ -8,22 +9,6 @@
 
 namespace noli::report {
 namespace {
-
-/// What XML takes. Characters that it has no way to write are left out.
-std::string escaped(const std::string& words) {
-  std::string text;
-  for (const char c : words) {
-    switch (c) {
-      case '&': text += "&amp;"; break;
-      case '<': text += "&lt;"; break;
-      case '>': text += "&gt;"; break;
-      case '"': text += "&quot;"; break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20) text += c;
-    }
-  }
-  return text;
-}
 
 /// To a hundredth of a pixel.
 std::string number(double x) { return fmt::format("{:g}", std::round(100 * x) / 100); }
@@ -49,7 +34,7 @@ Svg::Svg(double width, double height, const std::string& title) {
  font-family="Helvetica, Arial, sans-serif" font-size="13" fill="#222222">
 <title>{2}</title>
 )",
-      number(width), number(height), escaped(title));
+      number(width), number(height), escaped_markup(title));
   rectangle({0, 0}, {width, height}, "#ffffff");
 }
 
@@ -85,7 +70,7 @@ void Svg::text(Point at, const std::string& words, Anchor anchor, bool turned) {
   const std::string x = number(at[0]), y = number(at[1]);
   out_ += fmt::format(R"(<text x="{}" y="{}" text-anchor="{}")", x, y, names[static_cast<int>(anchor)]);
   if (turned) out_ += fmt::format(" transform=\"rotate(-90 {} {})\"", x, y);
-  out_ += fmt::format(">{}</text>\n", escaped(words));
+  out_ += fmt::format(">{}</text>\n", escaped_markup(words));
 }
 
 std::string Svg::finish() { return std::move(out_) + "</svg>\n"; }

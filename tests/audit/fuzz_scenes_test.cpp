@@ -44,10 +44,10 @@ class FuzzScenes : public testing::Test {
     options.limits.seed = 1;
     options.limits.count = 22;
     options.limits.threads = 1;
-    options.desk = folder / "desk";
+    options.work_folder = folder / "work_folder";
     options.out = folder / "out";
     options.max_findings = 1;
-    std::filesystem::create_directory(options.desk);
+    std::filesystem::create_directory(options.work_folder);
   }
 
   /// Of valid scenes.
@@ -104,9 +104,9 @@ TEST_F(FuzzScenes, APlaceIsNotNamedByALongerNumber) {
     };
   };
   const auto judged = [&](const char* place) {
-    std::filesystem::remove_all(options.desk);
-    std::filesystem::create_directory(options.desk);
-    return judge_scene(wrong, refusing(place), options.desk).difference;
+    std::filesystem::remove_all(options.work_folder);
+    std::filesystem::create_directory(options.work_folder);
+    return judge_scene(wrong, refusing(place), options.work_folder).difference;
   };
   EXPECT_FALSE(judged("/bodies/1"));
   EXPECT_FALSE(judged("/bodies/1/mesh"));

@@ -3,7 +3,7 @@
 // Bodies that are kicked at random times and never meet: something for certificates to follow that is no physics, has
 // no forces to cost time, and comes near and parts as often as one likes.
 //
-// Notation: that of certificates_troupe.h, and
+// Notation: that of certificates_bodies.h, and
 //   drift     all boxes move with it
 //   due       of a vertex: by then it is kicked again, at the latest; until then it does not get past where it heads
 //   window    all vertices are advanced to its end, as in integrator/engine.h. What is recorded is what the engine
@@ -23,8 +23,8 @@
 
 #include "certificates/features.h"
 #include "certificates/near_pair.h"
+#include "certificates_bodies.h"
 #include "certificates_replay.h"
-#include "certificates_troupe.h"
 #include "tests/kernel/random_numbers.h"
 
 namespace noli::certificates::test {
@@ -70,15 +70,15 @@ template <int Dim, template <int, class> class Certificates>
 class Dance {
  public:
   explicit Dance(const DanceOptions& o) : options_(o), random_(o.seed) {
-    const Troupe<Dim> troupe = TroupeMaker<Dim>(random_, o.eta).make(o.bodies);
-    mesh_ = troupe.mesh;
-    group_ = troupe.group;
-    immovable_ = troupe.immovable;
-    reach_ = troupe.reach;
+    const MovingBodies<Dim> bodies = BodiesMaker<Dim>(random_, o.eta).make(o.bodies);
+    mesh_ = bodies.mesh;
+    group_ = bodies.group;
+    immovable_ = bodies.immovable;
+    reach_ = bodies.reach;
     t_ = o.start * o.beat;
     choose_frame();
     const Vector<Dim> origin = Vector<Dim>::Constant(0.7 * o.offset * o.eta);
-    for (const Vector<Dim>& home : troupe.home) home_.push_back(origin + frame_ * home);
+    for (const Vector<Dim>& home : bodies.home) home_.push_back(origin + frame_ * home);
     for (std::size_t i = 0; i < home_.size(); ++i) bodies_.push_back({home_[i], t_, drift_});
     excluded_ = random_.below(4) == 0;
     follow_all();

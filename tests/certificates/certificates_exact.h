@@ -21,7 +21,7 @@ namespace noli::certificates::test {
 
 /// From x0 at t0 to x1 at t1, t0 < t1.
 template <int Dim>
-struct Chord {
+struct MotionSegment {
   double t0 = 0, t1 = 0;
   Vector<Dim> x0 = Vector<Dim>::Zero(), x1 = Vector<Dim>::Zero();
 
@@ -37,12 +37,12 @@ struct Scale {
 };
 
 template <int Dim>
-Scale scale_of(std::span<const Chord<Dim>> chords, double begin, double end, double eta) {
+Scale scale_of(std::span<const MotionSegment<Dim>> chords, double begin, double end, double eta) {
   Scale scale;
   scale.time.add(begin);
   scale.time.add(end);
   scale.space.add(eta);
-  for (const Chord<Dim>& chord : chords) {
+  for (const MotionSegment<Dim>& chord : chords) {
     scale.time.add(chord.t0);
     scale.time.add(chord.t1);
     for (int d = 0; d < Dim; ++d) {
@@ -55,7 +55,7 @@ Scale scale_of(std::span<const Chord<Dim>> chords, double begin, double end, dou
 
 /// The coordinate d at time t, times (t1 - t0).
 template <int Dim>
-Integer place(const Chord<Dim>& chord, int d, double t, const Scale& scale) {
+Integer place(const MotionSegment<Dim>& chord, int d, double t, const Scale& scale) {
   const Integer time = integer_coordinate(t, scale.time);
   return (integer_coordinate(chord.t1, scale.time) - time) * integer_coordinate(chord.x0[d], scale.space) +
          (time - integer_coordinate(chord.t0, scale.time)) * integer_coordinate(chord.x1[d], scale.space);
@@ -71,7 +71,7 @@ inline bool within(const std::vector<distance::Part>& parts, const AlgebraicNumb
 }
 
 template <FeaturePair Pair, int Dim>
-bool comes_within(std::span<const Chord<Dim>> chords, double begin, double end, double eta) {
+bool comes_within(std::span<const MotionSegment<Dim>> chords, double begin, double end, double eta) {
   const Scale scale = scale_of(chords, begin, end, eta);
   std::array<Integer, point_count(Pair)> lengths;
   Integer common(1);
@@ -105,7 +105,7 @@ bool comes_within(std::span<const Chord<Dim>> chords, double begin, double end, 
 /// Whether the distance is <= eta at some time in [begin, end]. Preconditions: all numbers are finite, eta >= 0, t0 <=
 /// begin < end <= t1 for each chord; in the plane no faces and no edge against edge.
 template <int Dim>
-bool comes_within(FeaturePair kind, std::span<const Chord<Dim>> chords, double begin, double end, double eta) {
+bool comes_within(FeaturePair kind, std::span<const MotionSegment<Dim>> chords, double begin, double end, double eta) {
   if constexpr (Dim == 3) {
     if (kind == FeaturePair::vertex_face) {
       return detail::comes_within<FeaturePair::vertex_face, 3>(chords, begin, end, eta);

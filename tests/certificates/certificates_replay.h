@@ -67,7 +67,7 @@ class Replay {
       low_.push_back(low);
       high_.push_back(high);
     }
-    // n . (a - b) of positions from Chord::at: below 60 units of 2^-53 of the greatest coordinate.
+    // n . (a - b) of positions from MotionSegment::at: below 60 units of 2^-53 of the greatest coordinate.
     error_ = 0x1p-46 * greatest;
   }
 
@@ -81,7 +81,7 @@ class Replay {
     std::array<std::size_t, 4> at{};
     for (std::size_t k = 0; k < s.size(); ++k) at[k] = chord_after(tracks_[s.vertices[k]], begin);
     for (double t = begin; t < end;) {
-      std::array<Chord<Dim>, 4> chords;
+      std::array<MotionSegment<Dim>, 4> chords;
       double next = end;
       for (std::size_t k = 0; k < s.size(); ++k) {
         chords[k] = chord(tracks_[s.vertices[k]], at[k]);
@@ -120,11 +120,11 @@ class Replay {
     return static_cast<std::size_t>(after - track.begin()) - 1;
   }
 
-  static Chord<Dim> chord(const Track<Dim>& track, std::size_t k) {
+  static MotionSegment<Dim> chord(const Track<Dim>& track, std::size_t k) {
     return {track[k].t, track[k + 1].t, track[k].x, track[k + 1].x};
   }
 
-  bool piece_farther(const Stencil& s, std::span<const Chord<Dim>> chords, double begin, double end, double eta,
+  bool piece_farther(const Stencil& s, std::span<const MotionSegment<Dim>> chords, double begin, double end, double eta,
                      Vector<Dim>& n, int cuts) {
     const auto x0 = places(chords, begin), x1 = places(chords, end);
     const double need = (eta + error_) * (1 + 0x1p-40);
@@ -152,7 +152,7 @@ class Replay {
     return true;
   }
 
-  static std::array<Vector<Dim>, 4> places(std::span<const Chord<Dim>> chords, double t) {
+  static std::array<Vector<Dim>, 4> places(std::span<const MotionSegment<Dim>> chords, double t) {
     std::array<Vector<Dim>, 4> x;
     for (std::size_t k = 0; k < chords.size(); ++k) x[k] = chords[k].at(t);
     return x;

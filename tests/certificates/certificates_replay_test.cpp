@@ -19,10 +19,10 @@ namespace noli::certificates {
 namespace {
 
 using test::Breakpoint;
-using test::Chord;
 using test::Dance;
 using test::DanceOptions;
 using test::Fault;
+using test::MotionSegment;
 using test::Replay;
 using test::ReplayCounts;
 using test::Track;
@@ -66,9 +66,9 @@ TEST(Replay, TellsTheLastBitHoweverFarOut) {
 
 /// Between breakpoints that are not common to all, ends of pieces are no doubles.
 TEST(Replay, ChordsThatBeginWheneverAreExact) {
-  const Chord<2> vertex{0, 3, {0.5, 1}, {0.5, -0.5}};  // 0.5 (2 - t)
-  const Chord<2> left{0.1, 5, {0, 0}, {0, 0}}, right{-1, 7, {1, 0}, {1, 0}};
-  const std::array<Chord<2>, 3> chords{vertex, left, right};
+  const MotionSegment<2> vertex{0, 3, {0.5, 1}, {0.5, -0.5}};  // 0.5 (2 - t)
+  const MotionSegment<2> left{0.1, 5, {0, 0}, {0, 0}}, right{-1, 7, {1, 0}, {1, 0}};
+  const std::array<MotionSegment<2>, 3> chords{vertex, left, right};
   const auto within = [&chords](double begin, double end) {
     return test::comes_within<2>(FeaturePair::vertex_edge, chords, begin, end, 0.25);
   };
@@ -100,7 +100,7 @@ TEST(Replay, AgreesWithDistancesAtManyTimes) {
       for (std::size_t i = 0; i < s.size(); ++i) {
         std::size_t b = 0;
         while (b + 2 < tracks[i].size() && tracks[i][b + 1].t < t) ++b;
-        x[i] = Chord<3>{tracks[i][b].t, tracks[i][b + 1].t, tracks[i][b].x, tracks[i][b + 1].x}.at(t);
+        x[i] = MotionSegment<3>{tracks[i][b].t, tracks[i][b + 1].t, tracks[i][b].x, tracks[i][b + 1].x}.at(t);
       }
       least = std::min(least, closest<3>(kind, std::span<const Vector<3>>(x.data(), s.size())).distance());
     }

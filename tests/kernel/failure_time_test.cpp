@@ -22,7 +22,7 @@ mpq_class coordinate(const Ray<Dim>& p, std::size_t i, const mpq_class& t) {
   return mpq_class(p.x[i]) + (t - mpq_class(p.t)) * mpq_class(p.v[i]);
 }
 template <int Dim>
-mpq_class coordinate(const Chord<Dim>& p, std::size_t i, const mpq_class& t) {
+mpq_class coordinate(const MotionSegment<Dim>& p, std::size_t i, const mpq_class& t) {
   const mpq_class part = (t - mpq_class(p.t0)) / (mpq_class(p.t1) - mpq_class(p.t0));
   return (1 - part) * mpq_class(p.x0[i]) + part * mpq_class(p.x1[i]);
 }
@@ -79,7 +79,7 @@ struct Numbers {
     return {value(), point<Dim>(), point<Dim>()};
   }
   template <int Dim>
-  Chord<Dim> chord() {
+  MotionSegment<Dim> chord() {
     double t0 = value(), t1 = value();
     if (t0 > t1) std::swap(t0, t1);
     if (t0 == t1) t1 = std::nextafter(t1, infinity);
@@ -138,7 +138,7 @@ TEST(FailureTime, LaterThanAllDoublesIsTheLargest) {
 }
 
 TEST(FailureTime, ChordsMeetWhereTheyWereRecorded) {
-  const Chord<3> down{1, {1, 0, 0}, 2, {-1, 0, 0}}, up{0, {-2, 0, 0}, 4, {2, 0, 0}};
+  const MotionSegment<3> down{1, {1, 0, 0}, 2, {-1, 0, 0}}, up{0, {-2, 0, 0}, 4, {2, 0, 0}};
   EXPECT_EQ(failure_time(down, up, Point3{1, 0, 0}, 0, 1), 0x1.aaaaaaaaaaaaap0);
 }
 

@@ -39,7 +39,7 @@ const std::map<std::string, Row>& table() {
       {"oracle", {}},
       {"audit", answers},
       {"app", with(answers, {"audit"})},
-      {"examples", with(geometry, {"include", "proofs"})},  // what is installed
+      {"examples", with(geometry, {"include", "proofs", "certify"})},  // what is installed
   };
   return rows;
 }

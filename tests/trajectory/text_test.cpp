@@ -99,5 +99,11 @@ TEST(Text, WholeFiles) {
   }
 }
 
+TEST(EscapedMarkup, SaysWhatXmlTakes) {
+  EXPECT_EQ(escaped_markup("a < b & \"c\" > d"), "a &lt; b &amp; &quot;c&quot; &gt; d");
+  EXPECT_EQ(escaped_markup(std::string("a\x01\x1f\0b\tc\n", 8)), "ab\tc\n");
+  EXPECT_EQ(escaped_markup("\xc3\xa9"), "\xc3\xa9");
+}
+
 }  // namespace
 }  // namespace noli

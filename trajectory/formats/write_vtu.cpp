@@ -10,6 +10,7 @@
 
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/formats/base64.h"
+#include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
 namespace noli {
@@ -93,20 +94,6 @@ std::string format_grid(const Frame& frame, Arrays arrays) {
   return text + "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n" + arrays.appended() + "</VTKFile>\n";
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string format_vtu(const Frame& frame, VtuEncoding encoding) {
@@ -118,8 +105,8 @@ std::string format_pvd(std::span<const PvdEntry> entries) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n  <Collection>\n";
   for (const PvdEntry& entry : entries) {
-    text +=
-        fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", entry.time, escaped(entry.file));
+    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", entry.time,
+                        escaped_markup(entry.file));
   }
   return text + "  </Collection>\n</VTKFile>\n";
 }

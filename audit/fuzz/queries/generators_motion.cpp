@@ -16,7 +16,7 @@ constexpr QueryType vertex_face = {FeaturePair::vertex_face, 3};
 constexpr QueryType edge_edge = {FeaturePair::edge_edge, 3};
 constexpr QueryType vertex_edge_3d = {FeaturePair::vertex_edge, 3};
 constexpr QueryType vertex_edge_2d = {FeaturePair::vertex_edge, 2};
-constexpr Flavour plain = {any_directions, 1 << 16, 1 << 16, any_hour};
+constexpr Flavour plain = {any_directions, 1 << 16, 1 << 16, any_time};
 
 std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
 
@@ -27,8 +27,8 @@ Directions independent_in_floor(Random& random) {
 }
 
 /// Everything stays in the floor. Both features keep their shape and the first one arrives at the border of the second
-/// at that hour, having been strictly beyond it before.
-WholeQuery arriving(const QueryType& type, Random& random, Hour hour) {
+/// at that time, having been strictly beyond it before.
+WholeQuery arriving(const QueryType& type, Random& random, StepTime when) {
   const Directions d = independent_in_floor(random);
   Whole r = random_direction(random, 2, 1 << 12);
   const Whole border = type.pair == FeaturePair::vertex_face ? d.p : d.q;
@@ -39,7 +39,7 @@ WholeQuery arriving(const QueryType& type, Random& random, Hour hour) {
   if (wrong) r = Whole{} - r;
   WholePoints v{};
   for (std::size_t i = 0; i < first_size(type.pair); ++i) v[i] = r;
-  return passing(type, meeting(type, Place::border, random_ratios(random), d).x, v, hour);
+  return passing(type, meeting(type, Place::border, random_ratios(random), d).x, v, when);
 }
 
 Meeting random_meeting(const QueryType& type, Place place, Random& random) {
@@ -54,7 +54,7 @@ Made flat(const QueryType& type, Random& random) {
   for (Whole& displacement : v) displacement = random_whole(random, 2, 1 << 14);
   const Place place = random.one_in(2) ? Place::inside : Place::missed;
   const Meeting m = meeting(type, place, random_ratios(random), d);
-  return {passing(type, m.x, v, any_hour(random)), {}};
+  return {passing(type, m.x, v, any_time(random)), {}};
 }
 
 Made flat_with(ContactKind kind, const QueryType& type, Random& random) {
@@ -87,7 +87,7 @@ Generated coplanar(const QueryType& type, const Answers& declared, Random& rando
   return finish(made, random);
 }
 
-Hour first_or_last_moment(Random& random) {
+StepTime first_or_last_moment(Random& random) {
   const std::int64_t n = std::int64_t{1} << random.between(6, 24);
   return {random.one_in(2) ? 1 : n - 1, n};
 }
@@ -100,10 +100,10 @@ Generated at_the_ends(const QueryType& type, const Answers& declared, Random& ra
     return finish(recipe(kind, type, flavour, random), random);
   }
   const Meeting m = random_meeting(type, random.one_of(meeting_places), random);
-  Hour hour = first_or_last_moment(random);
+  StepTime when = first_or_last_moment(random);
   const bool beyond = kind == ContactKind::apart;
-  hour.k = hour.k == 1 ? (beyond ? -1 : 0) : hour.n + (beyond ? 1 : 0);
-  return finish({passing(type, m.x, approach(random, type, flavour), hour), kind}, random);
+  when.k = when.k == 1 ? (beyond ? -1 : 0) : when.n + (beyond ? 1 : 0);
+  return finish({passing(type, m.x, approach(random, type, flavour), when), kind}, random);
 }
 
 /// Heights whose weighted sum is zero, so that the orientation has a double root at the contact, or a triple one.
@@ -129,7 +129,7 @@ Generated double_roots(const QueryType& type, const Answers& declared, Random& r
   if (random.one_in(3)) return finish(recipe(random_answer(declared, random), type, plain, random), random);
   const Meeting m = random_meeting(type, random.one_in(4) ? Place::border : Place::inside, random);
   const WholePoints v = tangential(type, m, random);
-  return finish({passing(type, m.x, v, any_hour(random)), {}}, random);
+  return finish({passing(type, m.x, v, any_time(random)), {}}, random);
 }
 
 /// In contact at 1/4 and at 3/4, or nearly so; the orientation has the same sign at both ends if its third root is not
@@ -186,7 +186,7 @@ Generated rotations(const QueryType& type, const Answers& declared, Random& rand
                       : kind == ContactKind::crossing ? Place::inside
                                                       : random.one_of(meeting_places);
   const Meeting m = random_meeting(type, place, random);
-  WholePoints v = approach(random, type, {any_directions, 1, 4, any_hour});
+  WholePoints v = approach(random, type, {any_directions, 1, 4, any_time});
   const std::int64_t turn = random.between(-3, 3), shrink = random.between(-2, 2);
   for (std::size_t i = 0; i < v.size(); ++i) {
     const Whole& x = m.x[i];
@@ -211,7 +211,7 @@ Generated motionless(const QueryType& type, const Answers& declared, Random& ran
 
 /// The paths are nearly parallel to the plane in which the features meet.
 Generated grazing(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {any_directions, 1 << 28, 1, any_hour};
+  constexpr Flavour flavour = {any_directions, 1 << 28, 1, any_time};
   return finish(recipe(random_answer(declared, random), type, flavour, random), random);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Answers every_answer = {true, true, true, true};
 constexpr Answers generic_answers = {true, false, true, false};
-constexpr Flavour plain = {any_directions, 1 << 16, 1 << 16, any_hour};
+constexpr Flavour plain = {any_directions, 1 << 16, 1 << 16, any_time};
 
 std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
 
@@ -33,7 +33,7 @@ Directions roomy_directions(Random& random, int axes) {
 
 /// What nobody constructed: all bits of all coordinates are random, and nothing ever coincides.
 Generated generic(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {roomy_directions, 1 << 6, 1 << 6, any_hour};
+  constexpr Flavour flavour = {roomy_directions, 1 << 6, 1 << 6, any_time};
   Generated generated = finish(recipe(random_answer(declared, random), type, flavour, random), random, {0, 0, 0});
   for_each_coordinate(generated.query, [&](double& x) { x += 8 * random.unit() - 4; });
   generated.truth.reset();

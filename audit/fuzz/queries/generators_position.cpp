@@ -16,7 +16,7 @@ constexpr QueryType edge_edge = {FeaturePair::edge_edge, 3};
 
 std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
 
-Hour coarse_hour(Random& random) {
+StepTime coarse_time(Random& random) {
   const std::int64_t n = random.between(2, 4);
   return {random.between(1, n - 1), n};
 }
@@ -36,7 +36,7 @@ Made scattered(const QueryType& type, Random& random) {
 }
 
 Generated grid(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {grid_directions, 2, 2, coarse_hour};
+  constexpr Flavour flavour = {grid_directions, 2, 2, coarse_time};
   const Made made =
       random.one_in(3) ? scattered(type, random) : recipe(random_answer(declared, random), type, flavour, random);
   return finish(made, random, {0, 0, 0});
@@ -52,7 +52,7 @@ Directions nearly_parallel_directions(Random& random, int axes) {
 }
 
 Generated nearly_parallel(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {nearly_parallel_directions, 1 << 12, 1 << 12, any_hour};
+  constexpr Flavour flavour = {nearly_parallel_directions, 1 << 12, 1 << 12, any_time};
   return finish(recipe(random_answer(declared, random), type, flavour, random), random);
 }
 
@@ -65,7 +65,7 @@ Directions sliver_directions(Random& random, int axes) {
 }
 
 Generated slivers(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {sliver_directions, 1 << 10, 4, any_hour};
+  constexpr Flavour flavour = {sliver_directions, 1 << 10, 4, any_time};
   return finish(recipe(random_answer(declared, random), type, flavour, random), random);
 }
 
@@ -98,7 +98,7 @@ Made lifted(const QueryType& type, ContactKind kind, const Flavour& flavour, Ran
 
 /// Features that are less than they are named all the time.
 Generated degenerate(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {any_directions, 1 << 16, 1 << 16, any_hour};
+  constexpr Flavour flavour = {any_directions, 1 << 16, 1 << 16, any_time};
   return finish(lifted(type, random_answer(declared, random), flavour, random), random);
 }
 
@@ -110,13 +110,13 @@ Directions collapsed_directions(Random& random, int axes) {
 
 /// Features that are degenerate, or edges that are parallel, at the very time of contact.
 Generated collapsing(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {collapsed_directions, 1 << 10, 1 << 10, any_hour};
+  constexpr Flavour flavour = {collapsed_directions, 1 << 10, 1 << 10, any_time};
   return finish(recipe(random_answer(declared, random), type, flavour, random), random);
 }
 
 /// Edges that stay parallel to each other: a vertex against an edge, the vertex prolonged along the edge.
 Generated parallel_edges(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {any_directions, 1 << 10, 1 << 10, any_hour};
+  constexpr Flavour flavour = {any_directions, 1 << 10, 1 << 10, any_time};
   Made made = recipe(random_answer(declared, random), {FeaturePair::vertex_edge, 3}, flavour, random);
   const std::int64_t m = random.one_in(2) ? random.between(1, 3) : random.between(-3, -1);
   WholeQuery& query = made.query;
@@ -132,7 +132,7 @@ Generated parallel_edges(const QueryType& type, const Answers& declared, Random&
 
 /// Points of different features, or single coordinates, that are equal.
 Generated shared(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {grid_directions, 8, 8, any_hour};
+  constexpr Flavour flavour = {grid_directions, 8, 8, any_time};
   Made made = recipe(random_answer(declared, random), type, flavour, random);
   if (random.one_in(2)) return finish(made, random, {0, 0, 0});
   made.truth.reset();

@@ -59,12 +59,12 @@ Point<Dim> cut(const Point3& x) {
   return result;
 }
 
-/// Calls ask(line) for the line of a or b, a Ray or a Chord.
+/// Calls ask(line) for the line of a or b, a Ray or a MotionSegment.
 template <int Dim, class Ask>
 double with_line(const AnyQuery& query, const Probe& probe, std::size_t which, const Ask& ask) {
   const std::size_t i = probe.points[which];
   const Point<Dim> x = cut<Dim>(query.x_t0[i]), y = cut<Dim>(query.x_t1[i]);
-  return probe.rays[which] ? ask(Ray<Dim>{0, x, y}) : ask(Chord<Dim>{0, x, 1, y});
+  return probe.rays[which] ? ask(Ray<Dim>{0, x, y}) : ask(MotionSegment<Dim>{0, x, 1, y});
 }
 
 template <int Dim>

@@ -21,35 +21,35 @@ Directions floor_directions(Random& random, const QueryType& type, const Flavour
   return d;
 }
 
-Made approaching(Random& random, const QueryType& type, const Flavour& flavour, Place place, Hour hour,
+Made approaching(Random& random, const QueryType& type, const Flavour& flavour, Place place, StepTime when,
                  ContactKind truth, bool independent = false) {
   const Directions d = floor_directions(random, type, flavour, independent);
   const Meeting m = meeting(type, place, random_ratios(random), d);
-  return {passing(type, m.x, approach(random, type, flavour), hour), truth};
+  return {passing(type, m.x, approach(random, type, flavour), when), truth};
 }
 
 Made crossing(const QueryType& type, const Flavour& flavour, Random& random) {
-  return approaching(random, type, flavour, Place::inside, flavour.hour(random), ContactKind::crossing, true);
+  return approaching(random, type, flavour, Place::inside, flavour.when(random), ContactKind::crossing, true);
 }
 
 /// Not inside of both features, or at an end of the step.
 Made touching(const QueryType& type, const Flavour& flavour, Random& random) {
-  Hour hour = flavour.hour(random);
-  if (random.one_in(4)) hour.k = random.one_in(2) ? 0 : hour.n;
-  const bool may_cross = hour.k != 0 && hour.k != hour.n && exists(ContactKind::crossing, type);
+  StepTime when = flavour.when(random);
+  if (random.one_in(4)) when.k = random.one_in(2) ? 0 : when.n;
+  const bool may_cross = when.k != 0 && when.k != when.n && exists(ContactKind::crossing, type);
   const Place place = may_cross ? (random.one_in(2) ? Place::border : Place::corner) : random.one_of(meeting_places);
-  return approaching(random, type, flavour, place, hour, ContactKind::touching);
+  return approaching(random, type, flavour, place, when, ContactKind::touching);
 }
 
 /// Too late for the step, or beside each other when they pass.
 Made apart(const QueryType& type, const Flavour& flavour, Random& random) {
-  Hour hour = flavour.hour(random);
+  StepTime when = flavour.when(random);
   if (random.one_in(3)) {
-    hour.k = hour.n + 1;
-    return approaching(random, type, flavour, random.one_of(meeting_places), hour, ContactKind::apart);
+    when.k = when.n + 1;
+    return approaching(random, type, flavour, random.one_of(meeting_places), when, ContactKind::apart);
   }
   const Place place = random.one_in(3) ? Place::outside : Place::missed;
-  return approaching(random, type, flavour, place, hour, ContactKind::apart);
+  return approaching(random, type, flavour, place, when, ContactKind::apart);
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ Made recipe(ContactKind kind, const QueryType& type, const Flavour& flavour, Ran
   return carried(type, random.one_of(meeting_places), flavour, random);
 }
 
-Hour any_hour(Random& random) {
+StepTime any_time(Random& random) {
   const std::int64_t n = random.between(2, 64);
   return {random.between(1, n - 1), n};
 }

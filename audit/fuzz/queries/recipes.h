@@ -31,7 +31,7 @@ struct Flavour {
   Directions (*directions)(Random& random, int axes);
   std::int64_t speed = 1 << 16;         ///< greatest displacement within the floor in an n-th of the step
   std::int64_t height_speed = 1 << 16;  ///< the same across the floor, at least 1
-  Hour (*hour)(Random& random);         ///< an hour strictly inside the step
+  StepTime (*when)(Random& random);     ///< a time strictly inside the step
 };
 
 /// Whether that kind of contact exists for that type at all: crossing needs codimension one.
@@ -46,8 +46,8 @@ Made recipe(ContactKind kind, const QueryType& type, const Flavour& flavour, Ran
 /// `carried` with the given place: persistent.
 Made carried(const QueryType& type, Place place, const Flavour& flavour, Random& random);
 
-/// Hours k / n with n up to 64.
-Hour any_hour(Random& random);
+/// Times k / n with n up to 64.
+StepTime any_time(Random& random);
 
 /// Directions with components up to 2^4, 2^10, 2^20, 2^30 in size, the exponent chosen each time.
 Directions any_directions(Random& random, int axes);

@@ -27,11 +27,11 @@ bool parallel(const Whole& a, const Whole& b) {
          sign_of_difference(a[2], b[0], a[0], b[2]) == 0;
 }
 
-WholeQuery passing(const QueryType& type, const WholePoints& x, const WholePoints& v, Hour hour) {
+WholeQuery passing(const QueryType& type, const WholePoints& x, const WholePoints& v, StepTime when) {
   WholeQuery query{type, {}, {}};
   for (std::size_t i = 0; i < query.size(); ++i) {
-    query.x_t0[i] = x[i] - hour.k * v[i];
-    query.x_t1[i] = x[i] + (hour.n - hour.k) * v[i];
+    query.x_t0[i] = x[i] - when.k * v[i];
+    query.x_t1[i] = x[i] + (when.n - when.k) * v[i];
   }
   return query;
 }

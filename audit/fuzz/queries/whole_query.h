@@ -38,12 +38,12 @@ struct WholeQuery {
 };
 
 /// A time k / n, perhaps outside of the step.
-struct Hour {
+struct StepTime {
   std::int64_t k = 1, n = 2;
 };
 
-/// The query whose points are at x at the hour and move with v.
-WholeQuery passing(const QueryType& type, const WholePoints& x, const WholePoints& v, Hour hour);
+/// The query whose points are at x at that time and move with v.
+WholeQuery passing(const QueryType& type, const WholePoints& x, const WholePoints& v, StepTime when);
 
 /// A whole vector with components in [-size, size] on the first `axes` axes, zero on the others.
 Whole random_whole(Random& random, int axes, std::int64_t size);

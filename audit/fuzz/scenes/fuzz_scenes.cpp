@@ -184,7 +184,7 @@ class SceneFuzzing {
 
  private:
   SceneJudgement judge(const GeneratedScene& scene) const {
-    const fs::path folder = options_.desk / fmt::format("scene-{}", number_++);
+    const fs::path folder = options_.work_folder / fmt::format("scene-{}", number_++);
     fs::create_directories(folder);
     SceneJudgement judgement = judge_scene(scene, options_.noli, folder);
     fs::remove_all(folder);

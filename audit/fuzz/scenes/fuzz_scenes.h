@@ -36,7 +36,7 @@ using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
 struct SceneFuzzOptions {
   FuzzLimits limits;
   RunNoli noli;
-  std::filesystem::path desk;                   ///< folder that is there, for runs
+  std::filesystem::path work_folder;            ///< folder that is there, for runs
   std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
   std::size_t max_findings = 20;                ///< shrink and save at most that many; all are counted
   std::size_t max_alike = 3;                    ///< and at most so many whose difference has the same words
@@ -66,7 +66,7 @@ struct SceneFuzzReport {
 };
 
 /// Runs until a limit. What cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read,
-/// std::system_error when the desk cannot be used.
+/// std::system_error when the folder cannot be used.
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options);
 
 /// What came of one scene.

@@ -102,7 +102,7 @@ InFloor meeting_in_floor(int axes, Random& random) {
   const auto directions = [](Random& r, int n) {
     return Directions{random_direction(r, n, 8), random_direction(r, n, 8)};
   };
-  const Flavour flavour = {directions, 8, 8, any_hour};
+  const Flavour flavour = {directions, 8, 8, any_time};
   const QueryType type{random.one_in(3) ? FeaturePair::vertex_vertex : FeaturePair::vertex_edge, 2};
   const Place place_of_meeting = random.one_of(meeting_places);
   const Ratios ratios = random_ratios(random);

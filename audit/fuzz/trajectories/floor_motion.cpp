@@ -107,7 +107,7 @@ class Builder {
   std::int64_t link() const { return 64 * plan_.size; }
 
   FloorMotion assemble(const std::array<std::size_t, 2>& sizes) {
-    const auto [k, n] = plan_.hour;
+    const auto [k, n] = plan_.when;
     FloorMotion made;
     WholeMotion& motion = made.motion;
     motion.dimension = plan_.type.dimension;
@@ -147,7 +147,7 @@ class Builder {
   }
 
   void plant(const std::array<std::size_t, 2>& sizes, VertexId shift, PlantedTruth& planted) const {
-    const auto [k, n] = plan_.hour;
+    const auto [k, n] = plan_.when;
     planted.contact = meets() && k <= n;
     planted.step = planted.contact.value() && !plan_.at_rest ? plan_.before : 0;
     planted.initial = planted.contact.value() && (plan_.at_rest || (k == 0 && plan_.before == 0));

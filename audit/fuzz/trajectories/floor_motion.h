@@ -20,7 +20,7 @@ namespace noli::audit {
 struct FloorPlan {
   QueryType type{};              ///< of the features in the floor
   Place place = Place::inside;   ///< how they lie to each other at t*
-  Hour hour;                     ///< k > n: they do not come as far
+  StepTime when;                 ///< k > n: they do not come as far
   bool rigid = false;            ///< each body a tetrahedron (in 2D a triangle) that only translates
   bool joined = false;           ///< rigid, and a face beside them is joined to both: one body
   bool away = false;             ///< the upper body rises instead: k = 0, contact at the first time only
@@ -37,7 +37,7 @@ struct FloorMotion {
   PlantedTruth planted;
 };
 
-/// Preconditions: hour.n is a power of two up to 64; joined only in 3D; what follows a step without a contact rises,
+/// Preconditions: when.n is a power of two up to 64; joined only in 3D; what follows a step without a contact rises,
 /// what follows a contact is random.
 FloorMotion floor_motion(const FloorPlan& plan, Random& random);
 

@@ -16,13 +16,13 @@ namespace noli::audit {
 namespace {
 
 /// k / n with n = 2, 4, ..., 64 and 0 < k < n.
-Hour hour_inside(Random& random) {
+StepTime time_inside(Random& random) {
   const std::int64_t n = std::int64_t{1} << random.between(1, 6);
   return {random.between(1, n - 1), n};
 }
 
 /// The end of a step of so many parts.
-Hour hour_at_end(Random& random) {
+StepTime time_at_end(Random& random) {
   const std::int64_t n = std::int64_t{1} << random.between(0, 4);
   return {n, n};
 }
@@ -31,7 +31,7 @@ FloorPlan plan_of_a_contact(Random& random) {
   FloorPlan plan;
   plan.type = random.one_of(all_query_types);
   plan.place = random.one_of(meeting_places);
-  plan.hour = hour_inside(random);
+  plan.when = time_inside(random);
   plan.rigid = random.one_in(2);
   plan.before = random.below(3);
   plan.after = random.below(2);
@@ -41,11 +41,11 @@ FloorPlan plan_of_a_contact(Random& random) {
 /// They come up to each other, but for the last unit: beside each other in the floor, or one unit above it.
 FloorPlan plan_of_a_near_miss(Random& random) {
   FloorPlan plan = plan_of_a_contact(random);
-  plan.hour = hour_at_end(random);
+  plan.when = time_at_end(random);
   if (random.one_in(2)) {
     plan.place = Place::missed;
   } else {
-    ++plan.hour.k;
+    ++plan.when.k;
     plan.fall = 1;
   }
   return plan;
@@ -78,14 +78,14 @@ GeneratedMotion tunnel(Random& random) {
 
 GeneratedMotion border(Random& random) {
   FloorPlan plan = plan_of_a_contact(random);
-  plan.hour = hour_at_end(random);
+  plan.when = time_at_end(random);
   plan.after = 1 + random.below(2);
   return finished(plan, random);
 }
 
 GeneratedMotion begin_only(Random& random) {
   FloorPlan plan = plan_of_a_contact(random);
-  plan.hour = {0, 1};
+  plan.when = {0, 1};
   plan.away = true;
   plan.before = 0;
   return finished(plan, random);
@@ -94,7 +94,7 @@ GeneratedMotion begin_only(Random& random) {
 GeneratedMotion at_rest(Random& random) {
   FloorPlan plan = plan_of_a_contact(random);
   plan.at_rest = true;
-  plan.hour = {0, 1};
+  plan.when = {0, 1};
   if (random.one_in(2)) plan.place = Place::missed;
   return finished(plan, random);
 }
@@ -153,7 +153,7 @@ GeneratedMotion pierced(Random& random) {
 GeneratedMotion hinge(Random& random) {
   const bool share_edge = random.one_in(2);
   const std::int64_t side = random.between(-1, 1), size = 64;
-  const Hour hour = hour_inside(random);
+  const StepTime when = time_inside(random);
   const auto somewhere = [&](std::int64_t sign, std::int64_t z) {
     return Whole{sign * random.between(1, size), random.between(-size, size), z};
   };
@@ -182,10 +182,10 @@ GeneratedMotion hinge(Random& random) {
   motion.frames = {x, x};
   const Whole carried = random_whole(random, 3, size);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    motion.frames[0][i] = x[i] - hour.k * v[i];
-    motion.frames[1][i] = x[i] + (hour.n - hour.k) * v[i] + carried;
+    motion.frames[0][i] = x[i] - when.k * v[i];
+    motion.frames[1][i] = x[i] + (when.n - when.k) * v[i] + carried;
   }
-  if (truth.contact.value()) truth.time = static_cast<double>(hour.k) / static_cast<double>(hour.n);
+  if (truth.contact.value()) truth.time = static_cast<double>(when.k) / static_cast<double>(when.n);
   truth.initial = false;
   return finish(std::move(motion), std::move(truth), Numbers::small, random);
 }

@@ -66,15 +66,15 @@ void read_answer(const Json& said, MotionAnswer& answer) {
 }
 
 /// A folder for one motion.
-class Desk {
+class WorkFolder {
  public:
-  explicit Desk(fs::path path) : path_(std::move(path)) { fs::create_directory(path_); }
-  ~Desk() {
+  explicit WorkFolder(fs::path path) : path_(std::move(path)) { fs::create_directory(path_); }
+  ~WorkFolder() {
     std::error_code error;
     fs::remove_all(path_, error);
   }
-  Desk(const Desk&) = delete;
-  Desk& operator=(const Desk&) = delete;
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
   const fs::path& path() const { return path_; }
 
  private:
@@ -93,10 +93,10 @@ VerifyProgram::VerifyProgram(std::uint64_t verified_every, const std::atomic<boo
 
 MotionAnswer VerifyProgram::operator()(const FrameMotion& motion) {
   const std::uint64_t number = number_++;
-  const Desk desk(folder_.path() / std::to_string(number));
-  const std::string proof = desk.path() / "proof.noli";
+  const WorkFolder work_folder(folder_.path() / std::to_string(number));
+  const std::string proof = work_folder.path() / "proof.noli";
   std::vector<std::string> files;
-  for (const fs::path& file : write_frames(motion, desk.path())) files.push_back(file.string());
+  for (const fs::path& file : write_frames(motion, work_folder.path())) files.push_back(file.string());
   std::vector<std::string> words = {noli_.string(), "verify", "--threads", "1", "--no-check",
                                     "--proof",      proof,    "--json",    "-", "--time-limit",
                                     time_to_decide};

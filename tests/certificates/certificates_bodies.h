@@ -20,7 +20,7 @@ namespace noli::certificates::test {
 
 /// The bodies: a mesh, the box of each vertex, and its group.
 template <int Dim>
-struct Troupe {
+struct MovingBodies {
   Mesh mesh;
   std::vector<Vector<Dim>> home, reach;  ///< box: home +- reach, in the frame of the bands
   std::vector<std::uint16_t> group;
@@ -28,11 +28,11 @@ struct Troupe {
 };
 
 template <int Dim>
-class TroupeMaker {
+class BodiesMaker {
  public:
-  TroupeMaker(noli::test::Random& random, double eta) : random_(random), eta_(eta) {}
+  BodiesMaker(noli::test::Random& random, double eta) : random_(random), eta_(eta) {}
 
-  Troupe<Dim> make(int bodies) {
+  MovingBodies<Dim> make(int bodies) {
     for (int b = 0; b < bodies; ++b) add_body();
     troupe_.mesh.vertex_count = troupe_.home.size();
     return std::move(troupe_);
@@ -128,7 +128,7 @@ class TroupeMaker {
 
   noli::test::Random& random_;
   double eta_;
-  Troupe<Dim> troupe_;
+  MovingBodies<Dim> troupe_;
   double top_ = 0, up_ = 0, sway_ = 0;
   std::uint16_t group_ = 0;
   bool immovable_ = false;
