@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Collision detection by others, for plug-ins of `noli audit ccd` over it (audit/ccd/plugins).
 find_package(fcl QUIET)
-option(NOLI_WITH_FCL "Build the plug-in over FCL for `noli audit ccd` (needs FCL)" ${fcl_FOUND})
-if(NOLI_WITH_FCL AND NOT fcl_FOUND)
-  message(FATAL_ERROR "NOLI_WITH_FCL is ON, but there is no FCL; expected its fcl-config.cmake (Debian: libfcl-dev)")
-endif()
+noli_part(NOLI_WITH_FCL "Build the plug-in over FCL for `noli audit ccd`" "${fcl_FOUND}" "FCL's fcl-config.cmake (Debian: libfcl-dev)")
 
 option(NOLI_WITH_IPC_TOOLKIT "Build the plug-in over the IPC Toolkit for `noli audit ccd` (needs the toolkit)" OFF)
 set(NOLI_IPC_TOOLKIT_SOURCE "" CACHE PATH "The IPC Toolkit's sources, where it is no package that CMake finds")

@@ -15,7 +15,8 @@ foreach(layer kernel trajectory certificates integrator proofs certify)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/noli FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(FILES include/noli/ccd_plugin.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/noli)
-install(TARGETS ${NOLI_CCD_PLUGINS} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/noli/ccd)
+# Nothing that ships stands on these, so a build of `noli` alone is installed without them.
+install(TARGETS ${NOLI_CCD_PLUGINS} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/noli/ccd OPTIONAL)
 install(DIRECTORY scenes schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/noli)
 install(FILES LICENSE README.md THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -88,6 +88,15 @@ TEST_F(Setup, AllWantsTheToolsToo) {
   EXPECT_EQ(setup("--all").exit_code, 3);
 }
 
+TEST_F(Setup, WhatBuildsNoliAloneNeedsNoTools) {
+  packages("coq");
+  user(1000);
+  EXPECT_EQ(setup("--demo").exit_code, 0);
+  EXPECT_EQ(setup().exit_code, 3);
+  packages("libcgal-dev");
+  EXPECT_EQ(setup("--demo").exit_code, 3);
+}
+
 TEST_F(Setup, RefusesWhatItDoesNotKnow) {
   packages("nothing");
   user(0);
