@@ -32,6 +32,7 @@ const std::map<std::string, FeaturePair> kinds = {{"vertex-face", FeaturePair::v
                                                   {"vertex-vertex", FeaturePair::vertex_vertex}};
 
 struct CcdArguments {
+  std::string time_limit;
   CcdRequest request;
   std::string kind;
   OutputOptions results;
@@ -124,7 +125,7 @@ report::Answer ccd_answer(const CcdOutcome& outcome) {
 }
 
 ExitCode run(CcdArguments& arguments) {
-  hear_stops_everywhere();
+  begin_work(arguments.time_limit);
   CcdRequest& request = arguments.request;
   if (!arguments.kind.empty()) request.pair = kinds.at(arguments.kind);
   const Output output(arguments.results, request.files);
@@ -159,6 +160,7 @@ Command add_ccd(CLI::App& app) {
       ->capture_default_str()
       ->type_name("N");
   add_output_options(*command, arguments->results);
+  add_time_limit_option(*command, arguments->time_limit);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -49,7 +49,7 @@ ExitCode run(const ExplainArguments& arguments) {
   begin_work(arguments.time_limit);
   if (std::filesystem::is_directory(arguments.scene)) return explain_folder(arguments);
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
-  const Output output(arguments.results, {arguments.scene});
+  const Output output(arguments.results, inputs_of_scene(arguments.scene));
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
   const integrator::Explanation explanation = integrator::explain(scene);
   if (arguments.brief) note_missing_short_form(scene);

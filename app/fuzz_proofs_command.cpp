@@ -187,7 +187,7 @@ std::vector<audit::ProofCase> cases(const ProofsArguments& arguments, const fs::
     if (arguments.files.empty()) return made_cases(folder);
     return {
         read_case(arguments.files[0], trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()}))};
-  } catch (const ReadInterrupted&) {
+  } catch (const Stopped&) {
     return {};
   }
 }

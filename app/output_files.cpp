@@ -7,6 +7,8 @@
 #include "certify/errors.h"
 #include "certify/result_file.h"
 #include "certify/runs/run_folder.h"
+#include "integrator/scene/read_scene.h"
+#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {
@@ -91,6 +93,17 @@ void require_new(const OutputFile& output, bool force) {
 std::vector<OutputFile> outputs(const std::string& option, const std::optional<std::string>& path) {
   if (!path) return {};
   return {{option, *path}};
+}
+
+std::vector<fs::path> inputs_of_scene(const fs::path& scene) {
+  std::vector<fs::path> inputs = {scene};
+  std::error_code error;
+  if (!fs::is_regular_file(scene, error)) return inputs;  // a pipe is read once
+  try {
+    for (const fs::path& file : integrator::files_of(integrator::read_scene(scene))) inputs.push_back(file);
+  } catch (const InputError&) {
+  }
+  return inputs;
 }
 
 void require_output_files(const std::vector<OutputFile>& outputs, const std::vector<fs::path>& inputs, bool force) {

@@ -87,7 +87,9 @@ ExitCode run(SimulateArguments& arguments) {
   SimulateRequest& request = arguments.request;
   request.deadline = begin_work(arguments.time_limit);
   if (arguments.reproduce) return reproduce(arguments);
-  const Output output(arguments.results, {request.scene, request.run});
+  auto inputs = inputs_of_scene(request.scene);
+  inputs.push_back(request.run);
+  const Output output(arguments.results, inputs);
   request.force = arguments.results.force;
   request.begun = [&arguments, &request](const integrator::Scene& scene, const integrator::Explanation& explanation,
                                          const std::string& space) {

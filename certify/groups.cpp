@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <limits>
 
 #include "certify/json.h"
 #include "integrator/scene/json_text.h"
 #include "proofs/prover/features.h"
 #include "trajectory/error.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {
@@ -45,9 +45,9 @@ class GroupsReader {
   }
 
   std::string text() const {
-    std::ifstream in(file_, std::ios::binary);
-    require(in.good(), "", "cannot be opened; expected a JSON file");
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::error_code error;
+    require(std::filesystem::is_regular_file(file_, error), "", "cannot be opened; expected a JSON file");
+    return read_whole_file(file_);
   }
 
   void group(const std::string& name, const Json& list) {

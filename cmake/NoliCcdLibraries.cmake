@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Collision detection by others, for plug-ins of `noli audit ccd` over it (audit/ccd/plugins).
+include("${CMAKE_CURRENT_LIST_DIR}/NoliPart.cmake")
 find_package(fcl QUIET)
-noli_part(NOLI_WITH_FCL "Build the plug-in over FCL for `noli audit ccd`" "${fcl_FOUND}" "FCL's fcl-config.cmake (Debian: libfcl-dev)")
+noli_part(NOLI_WITH_FCL FCL "${fcl_FOUND}" "Build the plug-in over FCL for `noli audit ccd`" "its fcl-config.cmake (Debian: libfcl-dev)")
 
 option(NOLI_WITH_IPC_TOOLKIT "Build the plug-in over the IPC Toolkit for `noli audit ccd` (needs the toolkit)" OFF)
 set(NOLI_IPC_TOOLKIT_SOURCE "" CACHE PATH "The IPC Toolkit's sources, where it is no package that CMake finds")

@@ -11,12 +11,13 @@
 #include "kernel/contact.h"
 #include "trajectory/error.h"
 #include "trajectory/formats/query_csv.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {
 
 bool stopped(const CcdRequest& request) {
-  return request.stop != nullptr && request.stop->load(std::memory_order_relaxed);
+  return stop_asked() || (request.stop != nullptr && request.stop->load(std::memory_order_relaxed));
 }
 
 constexpr std::size_t passes = 5;

@@ -115,4 +115,18 @@ Scene read_scene(const std::filesystem::path& path, Form form) {
   return parse_scene(read_whole_file(path), path, form);
 }
 
+std::vector<std::filesystem::path> files_of(const Scene& scene) {
+  const std::filesystem::path folder = scene.path.parent_path();
+  std::vector<std::filesystem::path> files;
+  for (const Body& body : scene.bodies) {
+    if (const auto* const mesh = std::get_if<MeshFile>(&body.mesh)) files.push_back(folder / mesh->path);
+  }
+  for (const ScriptedVertices& script : scene.scripts) {
+    const auto* const frames = std::get_if<ScriptFrames>(&script.motion);
+    if (frames == nullptr) continue;
+    for (const std::string& file : frames->files) files.push_back(folder / file);
+  }
+  return files;
+}
+
 }  // namespace noli::integrator

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "integrator/scene/scene.h"
 
@@ -23,5 +24,8 @@ Scene read_scene(const std::filesystem::path& path, Form form = Form::full);
 
 /// The same for a text in memory; `path` is what errors call it, and where relative paths begin.
 Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form form = Form::full);
+
+/// The meshes and frames that a scene names, where they are looked for.
+std::vector<std::filesystem::path> files_of(const Scene& scene);
 
 }  // namespace noli::integrator

@@ -137,6 +137,10 @@ const Endless long_work[] = {
        return {"explain", pipe_in(folder, "s.json")};
      },
      false},
+    {"CcdAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"ccd", pipe_in(folder, "vertex-vertex.csv")};
+     }},
     {"VerifyAPipe",
      [](const Folder& folder) -> std::vector<std::string> {
        return {"verify", folder.write("a.ply", two_triangles(1)), pipe_in(folder, "b.ply")};

@@ -131,6 +131,22 @@ TEST_F(OutputFiles, NoneIsRead) {
   expect_refused(forced({"verify", run_folder, "--json", run_path("blocks")}), "is read too");
 }
 
+TEST_F(OutputFiles, NoneIsReadByAScene) {
+  Json json = resting_bar(0.04, 0.01);
+  const std::string mesh = folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  json["dimension"] = 3;
+  json["gravity"] = {0, 0, 0};
+  json["bodies"] = {{{"name", "triangle"},
+                     {"mesh", {{"file", "mesh.obj"}}},
+                     {"material", {{"young", 1e4}, {"density", 200}, {"thickness", 0.001}}}}};
+  const std::string scene = folder.write("named.json", json.dump(2));
+  EXPECT_EQ(run_noli({"explain", scene}).exit_code, 0);
+  expect_refused({"explain", scene, "--json", mesh, "--force"}, "is read too");
+  expect_refused({"simulate", scene, "-o", run_path("named"), "--json", mesh, "--force"}, "is read too");
+  EXPECT_EQ(bytes_of(mesh), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(run_noli({"simulate", scene, "-o", run_path("named"), "--json", run_path("result")}).exit_code, 0);
+}
+
 TEST_F(OutputFiles, ALinkToNothingExists) {
   fs::create_symlink("nowhere", run_path("link"));
   expect_refused(verify({"--json", run_path("link")}), "is there already");

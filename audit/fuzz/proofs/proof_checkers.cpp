@@ -159,6 +159,7 @@ class HostedChecker : public ProofChecker {
     if (!head) return std::nullopt;
     std::uint32_t length;
     std::memcpy(&length, head->data() + 1, 4);
+    if (length > most_words) return std::nullopt;
     const auto words = host_->receive(length, limit_);
     if (!words) return std::nullopt;
     ProofAnswer answer = answer_of(static_cast<unsigned char>((*head)[0]));
