@@ -24,8 +24,8 @@ struct OutputFile {
 /// The output of an option that may not be given.
 std::vector<OutputFile> outputs(const std::string& option, const std::optional<std::string>& path);
 
-/// The file of a scene and all files that it names, which a command reads; the first alone where it is no regular file, or
-/// no scene: reading it says so later.
+/// The file of a scene and all files that it names, which a command reads; the first alone where it is no regular file,
+/// or no scene: reading it says so later.
 std::vector<std::filesystem::path> inputs_of_scene(const std::filesystem::path& scene);
 
 /// Throws UsageError, naming the option, when one of the outputs breaks the rule or cannot be written. Leaves nothing

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The integrator against a plain synchronous loop over the same forces (audit/numerics/plain_loop.h), time for time per force
-// fired, in one run: grouped steps, a step for each force, recording, and what certifying the recorded windows costs.
-// Beside them the time of one textbook query on armadillo-rollers-vertex-face, where the data is there.
+// The integrator against a plain synchronous loop over the same forces (audit/numerics/plain_loop.h), time for time per
+// force fired, in one run: grouped steps, a step for each force, recording, and what certifying the recorded windows
+// costs. Beside them the time of one textbook query on armadillo-rollers-vertex-face, where the data is there.
 #include <fmt/format.h>
 
 #include <algorithm>

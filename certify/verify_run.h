@@ -3,7 +3,8 @@
 // `noli verify` without its words: goes through the steps of a sequence and gathers what the verifier finds.
 //
 // Notation
-//   step k     as in trajectory/formats/frames.h, but counted from 1 in what is reported: step 1 begins at the first frame
+//   step k     as in trajectory/formats/frames.h, but counted from 1 in what is reported: step 1 begins at the first
+//              frame
 //
 // What this does not do: it prints nothing (verify_report.h).
 #pragma once
@@ -186,8 +187,8 @@ struct VerifyOutcome {
   bool stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline);
 };
 
-/// Runs it. Stops early, with what was settled so far, when it is asked to stop (stop, trajectory/stop.h) or at the time limit.
-/// Throws InputError, UsageError (options that do not go together), std::bad_alloc.
+/// Runs it. Stops early, with what was settled so far, when it is asked to stop (stop, trajectory/stop.h) or at the
+/// time limit. Throws InputError, UsageError (options that do not go together), std::bad_alloc.
 VerifyOutcome run_verify(const VerifyRequest& request);
 
 /// The same for a run: window by window, and that each begins where the one before it ended.

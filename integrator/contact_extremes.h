@@ -2,8 +2,9 @@
 //
 // How near things came in a window, as far as layers of contact that acted have seen it.
 //
-// A layer acts at its own times only, so a pair may have been nearer between them: certify/simulate/exact_gap.h says how near. What
-// is kept is a property of the motion: certificates, which decide how many layers are looked at, do not change it.
+// A layer acts at its own times only, so a pair may have been nearer between them: certify/simulate/exact_gap.h says
+// how near. What is kept is a property of the motion: certificates, which decide how many layers are looked at, do not
+// change it.
 #pragma once
 
 #include <cstdint>

@@ -42,8 +42,8 @@ struct DivisionsOf<std::tuple<const ForceList<F>&...>> {
 struct Watch : NoRecording {};
 }  // namespace detail
 
-/// `Touching` does in a run of other numbers what Contact does (audit/numerics/replayed_contact.h); void: it is Contact. If its
-/// numbers are not S, models with contact are refused.
+/// `Touching` does in a run of other numbers what Contact does (audit/numerics/replayed_contact.h); void: it is
+/// Contact. If its numbers are not S, models with contact are refused.
 template <class S, int Dim, class Touching>
 class Engine {
  public:

@@ -33,8 +33,8 @@ struct MotionSegment {
 };
 
 /// The largest double that is not greater than the least t >= from at which n . (a(t) - b(t)) <= g; `from` if that is
-/// so there; +infinity if it never is. a, b: Ray<Dim> or MotionSegment<Dim>. Preconditions: all numbers are finite; t0 < t1 in
-/// a segment.
+/// so there; +infinity if it never is. a, b: Ray<Dim> or MotionSegment<Dim>. Preconditions: all numbers are finite; t0
+/// < t1 in a segment.
 template <class A, class B>
 double failure_time(const A& a, const B& b, const Point<A::dimension>& n, double g, double from);
 

@@ -15,8 +15,8 @@ namespace noli::report {
 /// the options that `statement` repeats alone.
 Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome);
 
-/// Contacts and notes; with --verbose also the statement, the files, and the work. The place of the verdict is a step, a
-/// time and two features.
+/// Contacts and notes; with --verbose also the statement, the files, and the work. The place of the verdict is a step,
+/// a time and two features.
 Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome);
 
 }  // namespace noli::report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Audits libraries of continuous collision detection: what they answer (audit/ccd/ccd_library.h) against what is true. The
-// truth is the kernel's exact answer and exact first time.
+// Audits libraries of continuous collision detection: what they answer (audit/ccd/ccd_library.h) against what is true.
+// The truth is the kernel's exact answer and exact first time.
 //
 // Words
 //   false positive   "hit" where the features stay apart

@@ -189,7 +189,8 @@ Json layer_steps(double stability, bool unstable) {
 }
 
 /// A mass between a stiff spring and a soft one whose step is ten times as long, both held at their other ends:
-/// scenes/resonance.json has the two ends of this row. With contact a free point bounces off the soft spring on its way.
+/// scenes/resonance.json has the two ends of this row. With contact a free point bounces off the soft spring on its
+/// way.
 Json resonance(bool contact, double step) {
   const Json soft = {{"box", {{0, -0.5}, {1, 0.5}}}, {"stiffness_factor", 0.25}, {"steps", {{"stretch", 10 * step}}}};
   const Json body = {{"name", "mass"},

@@ -11,8 +11,8 @@ namespace noli {
 /// Vanishes, with all that is in it, with this.
 class ScratchFolder {
  public:
-  /// `disk`: where the system keeps temporary files. `memory`: where the machine has files in memory, for who writes and
-  /// syncs thousands of small ones a second; else the same.
+  /// `disk`: where the system keeps temporary files. `memory`: where the machine has files in memory, for who writes
+  /// and syncs thousands of small ones a second; else the same.
   enum class Place : std::uint8_t { disk, memory };
 
   /// Throws std::system_error when no folder can be made there.

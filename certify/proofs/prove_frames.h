@@ -20,8 +20,8 @@ Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome
 
 class FrameProof {
  public:
-  /// `mesh` is what is compared (after merging), `exclusions` or none what of it is not, which has to outlive this; the rest is what the claim says of it. Writes to
-  /// request.open_proof(claim).
+  /// `mesh` is what is compared (after merging), `exclusions` or none what of it is not, which has to outlive this; the
+  /// rest is what the claim says of it. Writes to request.open_proof(claim).
   FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
              const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x_t0,
              std::span<const Position> x_t1);

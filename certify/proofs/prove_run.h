@@ -42,7 +42,8 @@ class RunProof {
                                           const VerifyOptions& options);
 
   /// Writes the proof of a window in which nothing touches; it does not count before commit(). `hash`: of its group in
-  /// trajectory.blocks. False if it was stopped; that, and TooNear and NoProof, which it throws, leave the file as it was.
+  /// trajectory.blocks. False if it was stopped; that, and TooNear and NoProof, which it throws, leave the file as it
+  /// was.
   bool prove(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const VerifyOptions& options);
   void commit();
 

@@ -9,8 +9,9 @@
 
 namespace noli {
 
-/// The files of a run that `noli verify` reads and that do not change once it has ended: trajectory.blocks and, where it
-/// is there, manifest.json, each with the SHA-256 of its bytes. Throws InputError; ReadInterrupted when `stop` says true.
+/// The files of a run that `noli verify` reads and that do not change once it has ended: trajectory.blocks and, where
+/// it is there, manifest.json, each with the SHA-256 of its bytes. Throws InputError; ReadInterrupted when `stop` says
+/// true.
 std::vector<FrameFacts> run_facts(const std::filesystem::path& run, const std::function<bool()>& stop);
 
 }  // namespace noli

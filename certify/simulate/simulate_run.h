@@ -51,8 +51,8 @@ struct SimulateRequest {
   const std::atomic<bool>* stop =
       nullptr;                 ///< polled by the verifier; who sets it also asks to stop (trajectory/stop.h)
   std::function<int()> stops;  ///< how often one has asked to stop so far; empty: nobody asks twice
-  /// Called behind each window that was committed, with its energies, momenta and counts; false ends the run there, as an
-  /// interruption does. Empty: nobody asks.
+  /// Called behind each window that was committed, with its energies, momenta and counts; false ends the run there, as
+  /// an interruption does. Empty: nobody asks.
   std::function<bool(const SeriesRow&)> keep_going;
   /// Called with what is done, and the share of it in [0, 1]: "simulate", then "series.h5". Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;

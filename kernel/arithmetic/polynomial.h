@@ -7,7 +7,8 @@
 //   content           the greatest common divisor of the coefficients; a polynomial of content 1 is primitive
 //   form              the homogeneous form of formula.h on s + t = 1
 //
-// What this does not do: no polynomials of high degree (everything is quadratic in n), no roots (kernel/arithmetic/algebraic.h).
+// What this does not do: no polynomials of high degree (everything is quadratic in n), no roots
+// (kernel/arithmetic/algebraic.h).
 #pragma once
 
 #include <array>

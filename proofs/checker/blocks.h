@@ -119,8 +119,8 @@ class Sha256 {
   }
 
 #ifdef __x86_64__
-  /// The same by the processor's instructions, four rounds at a time, which want the words a b e f and c d g h together,
-  /// the first of each highest.
+  /// The same by the processor's instructions, four rounds at a time, which want the words a b e f and c d g h
+  /// together, the first of each highest.
   struct Halves {
     __m128i first, second;
   };

@@ -26,8 +26,8 @@ Poly primitive(Poly f);
 Poly greatest_common_divisor(Poly f, Poly g);
 /// With the same roots, each once. Precondition: f is not 0.
 Poly square_free(const Poly& f);
-/// f / g, whose coefficients are integers by Gauss's lemma. Precondition: g is primitive, and divides f over the rational
-/// numbers.
+/// f / g, whose coefficients are integers by Gauss's lemma. Precondition: g is primitive, and divides f over the
+/// rational numbers.
 Poly quotient(Poly f, const Poly& g);
 /// Whether g divides f over the rational numbers. Precondition: g is not 0.
 bool divides(const Poly& g, Poly f);

@@ -153,8 +153,8 @@ class ProofParts {
     halve(a, b, pair, span_, tokens);
   }
 
-  /// Parts that are certainly nearer than the least distance at one of a few times of the piece, whose chords they have.
-  /// (In three dimensions a vertex strays from its chord by less than two radii.)
+  /// Parts that are certainly nearer than the least distance at one of a few times of the piece, whose chords they
+  /// have. (In three dimensions a vertex strays from its chord by less than two radii.)
   void refuse_near(const Pair& pair, const Piece& piece, int times) const {
     for (int k = 0; k <= times; ++k) {
       const double part = static_cast<double>(k) / times;

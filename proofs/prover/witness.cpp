@@ -87,7 +87,8 @@ Sides sides_of(const FeatureContact& contact) {
 }
 
 /// 1: f is positive at the root of g, and none of its Bernstein coefficients is negative on the enclosure that is left
-/// of it; `strictly`: all of them are positive. 0: f vanishes there; -1: as for 1, with -f; nothing if that is not seen.
+/// of it; `strictly`: all of them are positive. 0: f vanishes there; -1: as for 1, with -f; nothing if that is not
+/// seen.
 std::optional<int> sign_at_root(const Poly& f, const Poly& g, Root& root, bool strictly) {
   if (f.empty()) return 0;
   const Poly negative = difference({}, f);

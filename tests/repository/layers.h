@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Who may include whom. The table is that of the design: geometry and trajectories know nothing of the project, physics
-// and proof never meet below certify, the checker knows nobody, the oracle knows nobody, and only the command knows all.
+// and proof never meet below certify, the checker knows nobody, the oracle knows nobody, and only the command knows
+// all.
 //
 // What this does not do: it does not run the preprocessor. An include counts even where an #if leaves it out.
 #pragma once

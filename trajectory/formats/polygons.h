@@ -5,8 +5,8 @@
 // Notation
 //   fan             the triangles (p0, p1, p2), (p0, p2, p3), ... of a polygon p0 p1 ... pn (cells.h)
 //   non-planarity   the largest distance of a corner from the plane of the fan's first triangle that has an area; 0
-//                   where no triangle has one. It is 0 exactly where all corners are in that plane. Another first corner
-//                   gives other triangles, and may give another distance
+//                   where no triangle has one. It is 0 exactly where all corners are in that plane. Another first
+//                   corner gives other triangles, and may give another distance
 //
 // What this does not do: it does not look whether a polygon is convex. A flat one that is not folds over itself.
 #pragma once

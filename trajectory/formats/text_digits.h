@@ -6,9 +6,9 @@
 //   digits     of one number: from its first digit that is not 0 to its last one, zeros at the end included; the most
 //              of all numbers is what the text is said to have
 //   decimals   of one number: digits behind the point, where an exponent moves it; the most of all numbers
-//   unit       10^k. The place of the last of so many digits in the number of the largest magnitude: with %.6f 10^-6; with %g
-//              or %e that of the coarsest coordinate. Where all numbers with decimals have as many, and more than there
-//              are digits (0.000001 beside 4), it is the place of the last decimal
+//   unit       10^k. The place of the last of so many digits in the number of the largest magnitude: with %.6f 10^-6;
+//              with %g or %e that of the coarsest coordinate. Where all numbers with decimals have as many, and more
+//              than there are digits (0.000001 beside 4), it is the place of the last decimal
 //
 // What this does not do: it cannot know whether numbers were rounded. 0.5 may be a half, or 0.46 with one decimal.
 #pragma once

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fuzzing of the checkers of proofs: mutants of good proofs and of the trajectories that they are about
-// (audit/fuzz/proofs/proof_mutations.h), on which the checkers have to agree, and none of which may be accepted that says what is
-// not true.
+// (audit/fuzz/proofs/proof_mutations.h), on which the checkers have to agree, and none of which may be accepted that
+// says what is not true.
 //
 // Notation
 //   case     a good proof that mutants are made of

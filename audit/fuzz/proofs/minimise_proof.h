@@ -25,7 +25,8 @@ struct JudgedProof {
   ProofJudgement judgement;  ///< of these files
 };
 
-/// The same of a finding, for as long as it is one of its kind (audit/fuzz/proofs/proof_judge.h), and until `stop` is set.
+/// The same of a finding, for as long as it is one of its kind (audit/fuzz/proofs/proof_judge.h), and until `stop` is
+/// set.
 JudgedProof minimise_finding(JudgedProof finding, const Checkers& checkers, const std::atomic<bool>& stop,
                              std::size_t budget);
 

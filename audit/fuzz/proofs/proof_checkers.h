@@ -3,8 +3,8 @@
 // The checkers of proofs as `noli fuzz proofs` asks them: thousands of times a second.
 //
 // Notation
-//   host      noli_check_host (audit/fuzz/check_host), the plain checker in a process that checks one proof after another.
-//             When it crashes or hangs, that is its answer, and another is started
+//   host      noli_check_host (audit/fuzz/check_host), the plain checker in a process that checks one proof after
+//             another. When it crashes or hangs, that is its answer, and another is started
 //   program   a checker that is started for each proof: noli_check_verified
 #pragma once
 

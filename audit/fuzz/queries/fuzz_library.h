@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of somebody else's library of continuous collision detection: adversarial queries (audit/fuzz/queries/query_generators.h),
-// those about vertex and face or two edges in 3D, asked of the library in a process of its own
-// (audit/ccd/library_answers.h). The truth is the kernel's exact answer and first time; of a finding that is saved it is
-// the oracle's too.
+// Fuzzing of somebody else's library of continuous collision detection: adversarial queries
+// (audit/fuzz/queries/query_generators.h), those about vertex and face or two edges in 3D, asked of the library in a
+// process of its own (audit/ccd/library_answers.h). The truth is the kernel's exact answer and first time; of a finding
+// that is saved it is the oracle's too.
 //
 // Notation
 //   block    as in audit/fuzz/block_loop.h; block b is of generator b mod (number of those generators)

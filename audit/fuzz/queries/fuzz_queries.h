@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of the predicates: adversarial queries (audit/fuzz/queries/query_generators.h), each decided by the kernel and by the slow
-// oracle (oracle): contact, nearness, and the failure time of a certificate (audit/fuzz/queries/probe.h). A difference is
-// shrunk and saved as a file that `noli ccd` reads and `noli fuzz queries --replay` asks again.
+// Fuzzing of the predicates: adversarial queries (audit/fuzz/queries/query_generators.h), each decided by the kernel
+// and by the slow oracle (oracle): contact, nearness, and the failure time of a certificate
+// (audit/fuzz/queries/probe.h). A difference is shrunk and saved as a file that `noli ccd` reads and `noli fuzz queries
+// --replay` asks again.
 //
 // Notation
-//   block    queries of one generator (audit/fuzz/block_loop.h). Block b is of generator b mod (number of generators). What
-//            else each of them is asked comes from another stream of the same seed and block
+//   block    queries of one generator (audit/fuzz/block_loop.h). Block b is of generator b mod (number of generators).
+//            What else each of them is asked comes from another stream of the same seed and block
 //   answer   apart, touching, crossing or persistent: the oracle's
 //   finding  a query on which the subject's answer is wrong: it is in contact or not, the kind, the least time rounded
 //            down to double, the enclosure of that time; within eta or not, and the least such time rounded down; the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of the whole program with scenes (audit/fuzz/scenes/scene_generators.h): each is simulated, the run verified and its
-// proof checked, and simulated again with an interruption, after which it has to go on with the same bytes.
+// Fuzzing of the whole program with scenes (audit/fuzz/scenes/scene_generators.h): each is simulated, the run verified
+// and its proof checked, and simulated again with an interruption, after which it has to go on with the same bytes.
 //
 // Notation
 //   finding  of a valid scene: an exit code that is not documented, or does not agree with the verdict; a run that is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Motions whose answer hangs on last bits, for audit/fuzz/trajectories/motion_generators.h: no whole numbers and no disguise that rounds.
-// The oracle judges them; nothing is planted.
+// Motions whose answer hangs on last bits, for audit/fuzz/trajectories/motion_generators.h: no whole numbers and no
+// disguise that rounds. The oracle judges them; nothing is planted.
 #pragma once
 
 #include "audit/fuzz/random.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of somebody else's library as a whole pipeline: the motions of audit/fuzz/trajectories/motion_generators.h, step by step, each
-// in a process of its own (audit/fuzz/trajectories/library_motion.h). The truth is every contact of a step, from the verifier, with its
-// exact first time from the kernel; it has to agree with what was planted, and the oracle with what is told of a
-// finding.
+// Fuzzing of somebody else's library as a whole pipeline: the motions of audit/fuzz/trajectories/motion_generators.h,
+// step by step, each in a process of its own (audit/fuzz/trajectories/library_motion.h). The truth is every contact of
+// a step, from the verifier, with its exact first time from the kernel; it has to agree with what was planted, and the
+// oracle with what is told of a finding.
 //
 // Notation
 //   block    16 motions, each of another generator; a block depends on the seed and its number alone

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fuzzing of everything between a file of frames and a checked proof: motions of meshes whose answer is known
-// (audit/fuzz/trajectories/motion_generators.h), written, read, verified, proved, and the proof checked by both checkers.
+// (audit/fuzz/trajectories/motion_generators.h), written, read, verified, proved, and the proof checked by both
+// checkers.
 //
 // Notation
 //   subject  the code under test, from files to the checkers' words

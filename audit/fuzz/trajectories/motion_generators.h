@@ -24,7 +24,8 @@ struct MotionGenerator {
 /// All generators; the order never depends on anything.
 std::span<const MotionGenerator> motion_generators();
 
-/// The generators with these names, in that order; without names, all of them. Throws std::invalid_argument for other names.
+/// The generators with these names, in that order; without names, all of them. Throws std::invalid_argument for other
+/// names.
 std::vector<MotionGenerator> motion_generators(std::span<const std::string> names);
 
 }  // namespace noli::audit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The libraries that `noli audit ccd` and `noli fuzz --library` are tested with, and what both fuzzers that ask one have
-// to do alike.
+// The libraries that `noli audit ccd` and `noli fuzz --library` are tested with, and what both fuzzers that ask one
+// have to do alike.
 #pragma once
 
 #include <chrono>

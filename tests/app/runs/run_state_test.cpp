@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs whose states (certify/runs/run_series.h) hold numbers that cannot be, under checksums that fit: every command that reads
-// a run refuses them and names the window.
+// Runs whose states (certify/runs/run_series.h) hold numbers that cannot be, under checksums that fit: every command
+// that reads a run refuses them and names the window.
 #include <gtest/gtest.h>
 
 #include <functional>
