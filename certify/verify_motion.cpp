@@ -86,7 +86,7 @@ class MotionRun {
   }
 
  private:
-  bool stopped() { return outcome_.stop_at(request_.deadline); }
+  bool stopped() { return outcome_.stop_for(request_); }
 
   void verify_windows() {
     if (request_.reproduce) make_again();

@@ -62,7 +62,7 @@ class Run {
   }
 
  private:
-  bool stopped() { return outcome_.stop_at(request_.deadline); }
+  bool stopped() { return outcome_.stop_for(request_); }
 
   void tell(std::string_view work, double share) const {
     if (request_.progress) request_.progress(work, share);
@@ -312,10 +312,11 @@ void VerifyRequest::put_in_order() {
   order_notes = std::move(in_order.notes);
 }
 
-bool VerifyOutcome::stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline) {
+bool VerifyOutcome::stop_for(const VerifyRequest& request) {
+  interrupted |= request.stop != nullptr && request.stop->load(std::memory_order_relaxed);
   interrupted |= stop_asked() == StopReason::interrupted;
   out_of_time |= stop_asked() == StopReason::out_of_time;
-  out_of_time |= deadline && std::chrono::steady_clock::now() >= *deadline;
+  out_of_time |= request.deadline && std::chrono::steady_clock::now() >= *request.deadline;
   return interrupted || out_of_time;
 }
 

@@ -183,8 +183,8 @@ struct VerifyOutcome {
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }
-  /// Whether it is time to stop, for the user or for the time limit; notes which.
-  bool stop_at(const std::optional<std::chrono::steady_clock::time_point>& deadline);
+  /// Whether it is time to stop, for who asked or for the time limit; notes which.
+  bool stop_for(const VerifyRequest& request);
 };
 
 /// Runs it. Stops early, with what was settled so far, when it is asked to stop (stop, trajectory/stop.h) or at the

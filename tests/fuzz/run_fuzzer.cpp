@@ -22,6 +22,7 @@
 #include "report/figures/run_figure.h"
 #include "report/report_assets.h"
 #include "report/report_run.h"
+#include "report/run_explanation_report.h"
 #include "tests/app/runs/bouncing_point.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/trajectory/mutate_run.h"
@@ -59,7 +60,7 @@ struct Runs {
     request.scene = scene;
     request.run = to;
     request.threads = 1;
-    request.time_limit = std::chrono::seconds(5);
+    request.deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     return request;
   }
 
@@ -92,7 +93,7 @@ void verify(const fs::path& run) {
 }
 
 /// Into a page that says nothing yet.
-void report(const fs::path& run) {
+void report_page(const fs::path& run) {
   ReportPage page;
   page.page = {{"title", ""}, {"verdict", {{"word", "report"}, {"tone", "neutral"}, {"lines", Json::array()}}}};
   report_run(run, {}, page);
@@ -105,10 +106,10 @@ void all_commands(const Runs& runs) {
     const RunExplanation explanation = explain_run(run);
     noli::fuzz::require(!answer_of(explanation).text.empty() && to_json(explanation).is_object());
   });
-  if (has_report_page()) ends([&] { report(run); });
+  if (has_report_page()) ends([&] { report_page(run); });
   ends([&] { run_export({run, 20, (runs.folder / "frame%d.obj").string(), true}); });
   for (const char* const figure : figure_names) {
-    ends([&] { report::run_figure({run, figure, (runs.folder / "figure.svg").string(), true}); });
+    ends([&] { run_figure({run, figure, (runs.folder / "figure.svg").string(), true}); });
   }
   ends([&] { run_info(run); });
   ends([&] { run_reproduce({runs.scene, false, run, 6, runs.folder / "block"}); });

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene as a program runs it: conditions, progress, stops.
+#include "certify/simulate/simulate_run.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "certify/errors.h"
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
+
+namespace noli {
+namespace {
+
+/// A bar in the plane at rest: four windows.
+constexpr const char* resting_bar = R"({
+  "noli_scene": 1, "dimension": 2, "duration": 0.04, "window": 0.01, "gravity": [0, 0],
+  "bodies": [{"name": "bar", "mesh": {"chain": {"points": [[0, 0], [1, 0]], "segments": 1}}, "steps": {"stretch": 1e-3},
+              "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})";
+
+class SimulateInProcess : public testing::Test {
+ protected:
+  SimulateRequest request() const {
+    SimulateRequest request;
+    request.scene = folder.write("scene.json", resting_bar);
+    request.run = folder / "run";
+    request.threads = 1;
+    return request;
+  }
+
+  test::TemporaryFolder folder;
+};
+
+TEST_F(SimulateInProcess, RunsToTheEnd) {
+  const SimulateOutcome outcome = run_simulate(request());
+  EXPECT_EQ(outcome.end, RunEnd::done);
+  EXPECT_EQ(outcome.windows, 4U);
+  EXPECT_TRUE(outcome.proved);
+}
+
+TEST_F(SimulateInProcess, StopsAtACondition) {
+  std::vector<double> times;
+  SimulateRequest asked = request();
+  asked.keep_going = [&](const SeriesRow& row) {
+    times.push_back(row.time);
+    return times.size() < 2;
+  };
+  const SimulateOutcome outcome = run_simulate(asked);
+  EXPECT_EQ(outcome.end, RunEnd::interrupted);
+  EXPECT_EQ(outcome.windows, 2U);
+  EXPECT_EQ(times, (std::vector<double>{0.01, 0.02}));
+
+  asked.keep_going = [](const SeriesRow&) { return true; };
+  asked.resume = true;
+  const SimulateOutcome rest = run_simulate(asked);
+  EXPECT_EQ(rest.end, RunEnd::done);
+  EXPECT_EQ(rest.windows, 4U);
+  EXPECT_EQ(rest.windows_before, 2U);
+}
+
+TEST_F(SimulateInProcess, AConditionAtTheEndChangesNothing) {
+  SimulateRequest asked = request();
+  asked.keep_going = [](const SeriesRow& row) { return row.time < 0.035; };
+  EXPECT_EQ(run_simulate(asked).end, RunEnd::done);
+}
+
+TEST_F(SimulateInProcess, TellsItsProgress) {
+  std::vector<double> shares;
+  SimulateRequest asked = request();
+  asked.progress = [&](std::string_view work, double share) {
+    if (work == "simulate") shares.push_back(share);
+  };
+  run_simulate(asked);
+  ASSERT_FALSE(shares.empty());
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    EXPECT_GE(shares[i], i == 0 ? 0 : shares[i - 1]);
+    EXPECT_LE(shares[i], 1);
+  }
+}
+
+TEST_F(SimulateInProcess, ErrorsAreExceptions) {
+  SimulateRequest asked = request();
+  run_simulate(asked);
+  EXPECT_THROW(run_simulate(asked), UsageError);  // the run is there
+  asked.scene = folder.write("none.json", "{}");
+  asked.run = folder / "other";
+  EXPECT_THROW(run_simulate(asked), InputError);
+}
+
+}  // namespace
+}  // namespace noli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files of frames as a program verifies them: outcome, proof, progress, stops.
+#include "certify/verify_run.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+#include "trajectory/error.h"
+
+namespace noli {
+namespace {
+
+class VerifyInProcess : public testing::Test {
+ protected:
+  /// A triangle in the plane z = 0, and another one whose lowest corner is at (x, 0.25, z).
+  std::string frame(const std::string& name, double x, double z) const {
+    const auto corner = [&](double y, double up) {
+      return "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z + up) + "\n";
+    };
+    return folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + corner(0.25, 0) + corner(0.75, 1) + corner(0.25, 1) +
+                                  "f 1 2 3\nf 4 5 6\n");
+  }
+
+  VerifyRequest falling(double x) const {
+    VerifyRequest request;
+    request.frames = {frame("0.obj", x, 1), frame("1.obj", x, 0.5), frame("2.obj", x, -1)};
+    return request;
+  }
+
+  test::TemporaryFolder folder;
+};
+
+TEST_F(VerifyInProcess, NothingTouches) {
+  const VerifyOutcome outcome = run_verify(falling(1.5));
+  EXPECT_EQ(outcome.verdict, Verdict::no_contact);
+  EXPECT_TRUE(outcome.complete);
+  EXPECT_EQ(outcome.steps.size(), 2U);
+  EXPECT_EQ(outcome.claim.steps, 2U);
+}
+
+TEST_F(VerifyInProcess, SomethingTouches) {
+  const VerifyOutcome outcome = run_verify(falling(0.25));
+  EXPECT_EQ(outcome.verdict, Verdict::contact);
+  ASSERT_TRUE(outcome.first);
+  EXPECT_EQ(outcome.first->step, 2U);
+  EXPECT_EQ(outcome.first->kind, ContactKind::crossing);
+}
+
+TEST_F(VerifyInProcess, WritesItsProofWhereItIsTold) {
+  VerifyRequest request = falling(1.5);
+  const std::filesystem::path proof = folder / "proof.noli";
+  request.open_proof = [&](const Claim& claim) {
+    EXPECT_EQ(claim.motion, "linear");
+    return std::make_unique<FileSink>(proof, FileSink::Open::create);
+  };
+  EXPECT_EQ(run_verify(request).verdict, Verdict::no_contact);
+  EXPECT_GT(std::filesystem::file_size(proof), 100U);
+}
+
+TEST_F(VerifyInProcess, TellsItsProgress) {
+  VerifyRequest request = falling(1.5);
+  std::set<std::string> works;
+  double last = 0;
+  request.progress = [&](std::string_view work, double share) {
+    works.insert(std::string(work));
+    last = share;
+  };
+  run_verify(request);
+  EXPECT_EQ(works, (std::set<std::string>{"look", "verify"}));
+  EXPECT_EQ(last, 1);
+}
+
+TEST_F(VerifyInProcess, AStopLeavesItUndecided) {
+  VerifyRequest request = falling(1.5);
+  const std::atomic<bool> stop = true;
+  request.stop = &stop;
+  const VerifyOutcome outcome = run_verify(request);
+  EXPECT_EQ(outcome.verdict, Verdict::undecided);
+  EXPECT_FALSE(outcome.complete);
+  EXPECT_TRUE(outcome.interrupted);
+}
+
+TEST_F(VerifyInProcess, BadInputIsAnException) {
+  VerifyRequest request = falling(1.5);
+  request.frames.push_back(folder.write("3.obj", "v 0 0\n"));
+  EXPECT_THROW(run_verify(request), InputError);
+}
+
+}  // namespace
+}  // namespace noli
