@@ -73,8 +73,9 @@ VerifyOptions SequenceVerifier::step_options() const {
   return options;
 }
 
-StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1) {
+StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove) {
   VerifyOptions options = step_options();
+  options.prove = prove;
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;
@@ -86,7 +87,8 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
                     {},
                     found.stages,
                     found.obligations,
-                    found.cell_pairs};
+                    found.cell_pairs,
+                    std::move(found.proof)};
   const bool any_at_begin = std::exchange(meeting_at_end_, !options_.at_rest && found.contact_count() > 0);
   if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(x_t0, result);
   if (found.first) result.first = exactly(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));

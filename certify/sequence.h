@@ -22,6 +22,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -64,6 +65,7 @@ struct StepResult {
   std::optional<FirstInStep> first;
   StageCounters stages;
   std::uint64_t obligations = 0, cell_pairs = 0;
+  std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }
@@ -81,8 +83,8 @@ class SequenceVerifier {
   std::optional<StepResult> add(std::span<const Position> x);
 
   /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before. Precondition and errors as
-  /// for add(), which is not called then.
-  StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1);
+  /// for add(), which is not called then. `prove`: as in VerifyOptions.
+  StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false);
 
   /// The options of the prover for a step. `progress` is not among them.
   VerifyOptions step_options() const;

@@ -194,7 +194,9 @@ class Run {
   }
 
   void verify() {
-    const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1());
+    const bool by_verifier = request_.open_proof && FrameProof::is_by_verifier(request_);
+    const bool wanted = !outcome_.touches() && !outcome_.no_proof;
+    const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
     outcome_.complete = result.complete;
     add_counts(result);
     add_reports(result);
@@ -203,32 +205,47 @@ class Run {
   }
 
   void prove(const StepResult& result) {
-    const VerifyOptions options = verifier_->step_options();
     const Stopwatch watch;
     if (!proof_) {
       outcome_.proof_begun = true;
       proof_.emplace(request_, outcome_.claim, outcome_.dimension, verifier_->mesh(), classes_ ? &*classes_ : nullptr,
                      groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
     }
-    const auto step = sequence_.step();
     if (result.touches()) {
-      if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
+      if (proof_->refute(sequence_.step(), sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
     } else if (!outcome_.touches()) {
-      try {
-        outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
-      } catch (const TooNear& near) {
-        outcome_.near = ListedNear{step + 1, near};
-        if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
-        if (step == 0) {
-          outcome_.largest_distance =
-              largest_distance(proof_->prover(), verifier_->mesh(), sequence_.x_t0(), request_.min_distance, options);
-        }
-      } catch (const NoProof&) {
-        outcome_.no_proof = true;
-        outcome_.complete = !request_.needs_proof();
-      }
+      prove_untouched(result);
     }
     outcome_.proof_seconds += watch.seconds();
+  }
+
+  void prove_untouched(const StepResult& result) {
+    if (!FrameProof::is_by_verifier(request_)) return search_proof();
+    if (!result.proof) return note_no_proof();
+    proof_->write(sequence_.step(), sequence_.x_t0(), sequence_.x_t1(), *result.proof);
+  }
+
+  /// With a least distance or exclusions.
+  void search_proof() {
+    const VerifyOptions options = verifier_->step_options();
+    const auto step = sequence_.step();
+    try {
+      outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
+    } catch (const TooNear& near) {
+      outcome_.near = ListedNear{step + 1, near};
+      if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
+      if (step == 0) {
+        outcome_.largest_distance =
+            largest_distance(proof_->prover(), verifier_->mesh(), sequence_.x_t0(), request_.min_distance, options);
+      }
+    } catch (const NoProof&) {
+      note_no_proof();
+    }
+  }
+
+  void note_no_proof() {
+    outcome_.no_proof = true;
+    outcome_.complete = !request_.needs_proof();
   }
 
   void add_counts(const StepResult& result) {

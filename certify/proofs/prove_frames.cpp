@@ -61,6 +61,7 @@ ProofFile make_file(const VerifyRequest& request, const Claim& claim, int dimens
   header.mesh = &mesh;
   const std::vector<std::uint32_t> labels = labels_of(mesh, exclusions);
   header.labels = labels;
+  header.cells = digest_of_hex(claim.cells);
   header.excluded = excluded_pairs(labels, exclusions);
   if (classes != nullptr) {
     const auto& same = classes->representative();
@@ -99,15 +100,25 @@ FrameProof::FrameProof(const VerifyRequest& request, const Claim& claim, int dim
       ring_(request.ring),
       strict_(request.strict),
       rest_(request.constant_motion),
-      prover_(make_prover(request, dimension, mesh, exclusions, x_t0, x_t1)),
-      file_(make_file(request, claim, dimension, mesh, classes, exclusions)) {}
+      file_(make_file(request, claim, dimension, mesh, classes, exclusions)) {
+  if (!is_by_verifier(request)) prover_.emplace(make_prover(request, dimension, mesh, exclusions, x_t0, x_t1));
+}
+
+void FrameProof::write(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                       const StepProof& proof) {
+  begin(step, ProofFile::Kind::proof, WorldLines::from_frames(x_t0, x_t1));
+  if (leaf_cells_ != proof.leaf_cells) file_.tree(encoded_tree(proof.leaf_cells));
+  file_.tokens(proof.tokens);
+  file_.commit();
+  leaf_cells_ = proof.leaf_cells;
+}
 
 bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                        const VerifyOptions& options) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
   begin(step, ProofFile::Kind::proof, lines);
-  if (!tree_written_) file_.tree(prover_.tree().encoded());
-  if (!write_tokens(file_, prover_, lines, options)) return false;
+  if (!tree_written_) file_.tree(prover_->tree().encoded());
+  if (!write_tokens(file_, *prover_, lines, options)) return false;
   file_.commit();
   tree_written_ = true;
   return true;
@@ -120,7 +131,7 @@ void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines&
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const StepResult& result) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &prover_};
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, prover_ ? &*prover_ : nullptr};
   const auto first = result.first ? std::optional(result.first->contact) : std::nullopt;
   return write_witness(step, lines, witness_of(what, first, result.initial_reports, result.reports));
 }
@@ -128,8 +139,8 @@ bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::s
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const TooNear& near) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &prover_};
-  return write_witness(step, lines, witness_of(what, near, MeshPaths(prover_.tree(), mesh_.vertex_count, ring_)));
+  const WitnessStep what{mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &*prover_};
+  return write_witness(step, lines, witness_of(what, near, MeshPaths(prover_->tree(), mesh_.vertex_count, ring_)));
 }
 
 bool FrameProof::write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness) {

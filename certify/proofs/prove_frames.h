@@ -26,8 +26,14 @@ class FrameProof {
              const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x_t0,
              std::span<const Position> x_t1);
 
-  /// Writes the proof of a step that has no contact and commits it. False if it was stopped, which leaves the file as
-  /// it was.
+  /// Whether the verifier's proofs do for a request: those that know neither a least distance nor exclusions.
+  static bool is_by_verifier(const VerifyRequest& request) { return request.min_distance == 0 && !request.ignore; }
+
+  /// Writes the proof of a step that has no contact and commits it. Precondition: is_by_verifier(request).
+  void write(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1, const StepProof& proof);
+
+  /// Finds the proof of a step that has no contact, writes and commits it. False if it was stopped, which leaves the
+  /// file as it was. Precondition: not is_by_verifier(request).
   bool prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
              const VerifyOptions& options);
 
@@ -35,7 +41,8 @@ class FrameProof {
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
               const StepResult& result);
 
-  const StepProver& prover() const { return prover_; }
+  /// Precondition: not is_by_verifier(request).
+  const StepProver& prover() const { return *prover_; }
 
   /// The same for one in which something comes nearer than the least distance.
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1, const TooNear& near);
@@ -53,7 +60,8 @@ class FrameProof {
   bool strict_;
   bool rest_;
   bool tree_written_ = false;
-  StepProver prover_;
+  std::vector<std::uint32_t> leaf_cells_;  ///< of the tree that was written last, with the verifier's proofs
+  std::optional<StepProver> prover_;
   ProofFile file_;
 };
 

@@ -118,12 +118,16 @@ ProjectionsAround<Count> project(const PointsAround<Dim, Count>& around, const D
   return p;
 }
 
+/// What is done to a direction before it is tested.
+constexpr auto as_it_is = [](const auto& n) { return n; };
+
 /// Points b, c, d, e: a direction that separates (bc, ade) and (abc, de).
-template <int Dim>
-std::optional<std::array<double, Dim>> around_corner(const PointsAround<Dim, 4>& points) {
+template <int Dim, class Round = decltype(as_it_is)>
+std::optional<std::array<double, Dim>> around_corner(const PointsAround<Dim, 4>& points, const Round& round = {}) {
   const auto& [b, c, d, e] = points.d;
   std::array<double, Dim> n;
   for (std::size_t k = 0; k < Dim; ++k) n[k] = detail::twice_middle((b[k] + c[k]) - (d[k] + e[k]));
+  n = round(n);
   const auto p = project(points, n);
   if (p.above_origin(0) && p.above_origin(1) && p.below_origin(2) && p.below_origin(3)) return n;
   return std::nullopt;
@@ -168,8 +172,8 @@ struct AroundEdge {
 };
 
 /// Points b, c, d, and perhaps d again: directions that separate the four pairs of parts.
-template <int Dim, std::size_t Count>
-AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points) {
+template <int Dim, std::size_t Count, class Round = decltype(as_it_is)>
+AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points, const Round& round = {}) {
   constexpr std::size_t b = 0, c = 1, d = 2;
   std::array<double, Dim> edge, across;
   double along = 0, length = 0;
@@ -181,10 +185,12 @@ AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points) {
   }
   AroundEdge<Dim> result;
   for (std::size_t k = 0; k < Dim; ++k) {
-    result.n[0][k] = result.n[3][k] = across[k] - along / length * edge[k];
+    result.n[0][k] = across[k] - along / length * edge[k];
     result.n[1][k] = across[k] + edge[k];  // b, c above a, d
     result.n[2][k] = across[k] - edge[k];  // a, c above b, d
   }
+  for (std::size_t i = 0; i < 3; ++i) result.n[i] = round(result.n[i]);
+  result.n[3] = result.n[0];
   const auto p = project(points, result.n[0]);
   result.found[0] = p.above_origin(c) && p.above(c, b) && p.above(c, d);
   result.found[3] = p.below_origin(d) && p.above(b, d) && p.above(c, d);

@@ -10,7 +10,11 @@
 //   open     a pair of parts for which no direction was found, over the whole step or over pieces of it
 //
 // The features of an open pair are taken to the kernel one by one, and whether it meets at the beginning of the step is
-// decided by a direction at that time or by the exact static predicate.
+// decided by a direction at that time or by the exact static predicate. Its tokens, if it has any, are found later
+// (proofs/prover/step_tokens.h).
+//
+// With tokens, a direction is rounded to the bits of a short token before it is tested, so that what settles an
+// obligation is its token.
 //
 // What this does not do: it never looks at cells other than the two.
 #pragma once
@@ -19,7 +23,8 @@
 #include "proofs/prover/direction_search.h"
 #include "proofs/prover/feature_pairs.h"
 #include "proofs/prover/initial.h"
-#include "proofs/prover/step_record.h"
+#include "proofs/prover/short_direction.h"
+#include "proofs/prover/step_tokens.h"
 #include "proofs/prover/tally.h"
 
 namespace noli {
@@ -30,13 +35,14 @@ struct CellOptions {
   bool strict = false;
 };
 
-template <int Dim>
+/// `Out`: Tokens, or NoTokens.
+template <int Dim, class Out>
 class CellPairs {
  public:
   using Cell = StepCell<Dim>;
 
-  CellPairs(CellOptions options, const Leftovers& leftovers, Tally& tally, StepRecord& record)
-      : options_(options), leftovers_(leftovers), tally_(tally), record_(record) {}
+  CellPairs(CellOptions options, const Leftovers& leftovers, Tally& tally, WalkTokens<Dim, Out>& out)
+      : options_(options), leftovers_(leftovers), tally_(tally), tokens_(out.tokens), open_(out.open) {}
 
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
@@ -53,7 +59,7 @@ class CellPairs {
       const MovingCell<Dim> at = gather(c);
       examine({FeaturePair::vertex_vertex, &at, corner_feature(0), &at, corner_feature(1)});
     }
-    record_.cell();
+    if constexpr (Out::on) write_self(c);
   }
 
  private:
@@ -115,12 +121,19 @@ class CellPairs {
     return shared;
   }
 
-  void close(const Direction<Dim>& n, double sign) {
+  /// To the bits of a short token, if there are tokens.
+  static constexpr auto rounded = [](const std::array<double, Dim>& n) __attribute__((always_inline)) {
+    if constexpr (Out::on) {
+      return shortened(n);
+    } else {
+      return n;
+    }
+  };
+
+  /// Closes an obligation with a direction that was rounded.
+  [[gnu::always_inline]] void close(const Direction<Dim>& n, double sign) {
     ++tally_.obligations;
-    if (!record_.on()) return;
-    std::array<double, 3> signed_n{};
-    for (std::size_t k = 0; k < Dim; ++k) signed_n[k] = sign * n[k];
-    record_.direction(signed_n);
+    if constexpr (Out::on) put_short(n, sign, tokens_);
   }
 
   static std::size_t place(unsigned mask) { return static_cast<std::size_t>(std::countr_zero(mask)); }
@@ -148,9 +161,10 @@ class CellPairs {
   bool settle_around_corner(const Cell& a, const Cell& b, unsigned same) {
     if (!are_faces(a, b)) return false;
     const std::size_t i = place(same) / 3, j = place(same) % 3;
-    const auto n = around_corner(points_around<Dim, 2, 2>(a, b, i, {next(i), next(next(i))}, {next(j), next(next(j))}));
+    const auto n = around_corner<Dim>(
+        points_around<Dim, 2, 2>(a, b, i, {next(i), next(next(i))}, {next(j), next(next(j))}), rounded);
     if (!n) return false;
-    record_.drop_vertex(a.vertices[i]);
+    tokens_.drop(0);
     close(*n, 1);
     close(*n, 1);
     return true;
@@ -171,17 +185,23 @@ class CellPairs {
   }
 
   static AroundEdge<Dim> around_hinge(const Cell& a, const Cell& b, const Hinge& hinge) {
-    return around_edge(points_around<Dim, 2, 1>(a, b, hinge.a, {hinge.b, hinge.c}, {hinge.d}));
+    return around_edge<Dim>(points_around<Dim, 2, 1>(a, b, hinge.a, {hinge.b, hinge.c}, {hinge.d}), rounded);
   }
 
-  /// Whether the usual directions settle a hinge; if steps are recorded, settle_unusual does it.
+  /// Whether the usual directions settle a hinge.
   bool settle_around_edge(const Cell& a, const Cell& b, unsigned same) {
-    if (record_.on()) return false;
     const auto hinge = hinge_of(a, b, same);
     if (!hinge) return false;
-    const auto& found = around_hinge(a, b, *hinge).found;
+    const AroundEdge<Dim> around = around_hinge(a, b, *hinge);
+    const auto& found = around.found;
     if (!(found[0] && found[1] && found[2] && found[3])) return false;
-    tally_.obligations += found.size();
+    tokens_.drop(a.vertices[hinge->a] < a.vertices[hinge->b] ? 0 : 1);
+    tokens_.drop(0);
+    close(around.n[0], 1);
+    close(around.n[1], 1);
+    tokens_.drop(0);
+    close(around.n[2], 1);
+    close(around.n[3], 1);
     return true;
   }
 
@@ -198,6 +218,24 @@ class CellPairs {
     if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
   }
 
+  /// The tokens about the features of one cell.
+  void write_self(const Cell& c) {
+    if (!options_.strict) return tokens_.one();
+    tokens_.both();
+    Progress progress{c, c, 0};
+    const std::uint64_t obligations = tally_.obligations;
+    settle_parts(progress, find_shared(c, c), {});
+    tally_.obligations = obligations;  // the kernel decides these pairs, whoever wants tokens
+  }
+
+  /// The place of shared vertex `from` among those from it on, ascending.
+  static std::size_t rank(const Cell& a, const Shared& shared, std::size_t from) {
+    const VertexId v = a.vertices[place(shared.in_a[from])];
+    std::size_t smaller = 0;
+    for (std::size_t i = from + 1; i < shared.count; ++i) smaller += a.vertices[place(shared.in_a[i])] < v ? 1 : 0;
+    return smaller;
+  }
+
   static std::size_t next(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
 
   void settle_parts(Progress& progress, const Shared& shared, const AroundEdge<Dim>& known) {
@@ -210,7 +248,7 @@ class CellPairs {
                    const AroundEdge<Dim>& known, std::size_t& number) {
     if (from < shared.count) {
       const CornerMask in_a = shared.in_a[from], in_b = shared.in_b[from];
-      record_.drop_vertex(progress.a.vertices[place(in_a)]);
+      tokens_.drop(rank(progress.a, shared, from));
       const Parts without_a = {static_cast<CornerMask>(parts.a & ~in_a), parts.b};
       const Parts without_b = {parts.a, static_cast<CornerMask>(parts.b & ~in_b)};
       drop_shared(progress, without_a, shared, from + 1, known, number);
@@ -219,7 +257,7 @@ class CellPairs {
     }
     const std::size_t i = number++;
     if (parts.a == 0 || parts.b == 0) {
-      record_.empty();
+      tokens_.empty();
     } else if (i < known.found.size() && known.found[i]) {
       close(known.n[i], 1);
       progress.left &= ~pairs_within<Dim>(progress.a, parts.a, progress.b, parts.b);
@@ -247,15 +285,16 @@ class CellPairs {
       if (counted_here(todo, a, b, leftovers_)) examine(first_of(todo, a, b));
     }
     progress.left &= ~within;
-    if (options_.initial && !progress.meets_at_begin) {
-      progress.meets_at_begin = !apart_at_begin && meet_at_begin(a, parts.a, b, parts.b);
-      record_.at_begin(progress.meets_at_begin);
+    if constexpr (Out::on) {
+      if (!tally_.found_any()) open_.push_back({tokens_.place(), &progress.a, &progress.b, parts.a, parts.b});
     }
-    record_.features();
+    if (&progress.a == &progress.b || !options_.initial || progress.meets_at_begin) return;
+    progress.meets_at_begin = !apart_at_begin && meet_at_begin(a, parts.a, b, parts.b);
   }
 
   template <class Points>
-  bool try_direction(const Points& pair, const Direction<Dim>& n) {
+  bool try_direction(const Points& pair, const Direction<Dim>& full) {
+    const Direction<Dim> n = rounded(full);
     const int sign = separates(pair, n);
     if (sign != 0) close(n, sign);
     return sign != 0;
@@ -269,21 +308,25 @@ class CellPairs {
   /// Looks for a direction over the interval, else over its halves.
   bool search(const PartPair<Dim>& pair, const Direction<Dim>& guess, Interval interval, int depth) {
     if (const auto n = find_direction(pair, guess, interval, search_rounds)) {
-      close(*n, 1);
+      ++tally_.obligations;
+      if constexpr (Out::on) {
+        put_direction(
+            *n, [&](const Direction<Dim>& m) { return separates<Dim>(pair, m, interval) > 0; }, tokens_);
+      }
       return true;
     }
     return depth > 0 && search_halves(pair, guess, interval, depth);
   }
 
   bool search_halves(const PartPair<Dim>& pair, const Direction<Dim>& guess, Interval interval, int depth) {
-    const std::size_t recorded = record_.size();
+    const std::size_t written = tokens_.place();
     const std::uint64_t obligations = tally_.obligations;
-    record_.halve();
+    tokens_.halve();
     if (search(pair, guess, {interval.begin, interval.middle()}, depth - 1) &&
         search(pair, guess, {interval.middle(), interval.end}, depth - 1)) {
       return true;
     }
-    record_.truncate(recorded);
+    tokens_.truncate(written);
     tally_.obligations = obligations;
     return false;
   }
@@ -306,13 +349,13 @@ class CellPairs {
   void examine(const FeatureQuestion<Dim>& question) {
     const auto enclosure = ask(question, tally_.stages);
     if (enclosure) tally_.add_contact(canonical(question.pair, question.vertices(), *enclosure));
-    if (record_.on()) record_.decided(question.pair, question.vertices(), enclosure.has_value());
   }
 
   CellOptions options_;
   const Leftovers& leftovers_;
   Tally& tally_;
-  StepRecord& record_;
+  Out& tokens_;
+  std::vector<OpenParts<Dim>>& open_;
 };
 
 }  // namespace noli

@@ -165,15 +165,6 @@ std::vector<Group> split_top(Builder& builder, Group root, std::size_t wanted, i
 
 }  // namespace
 
-std::array<double, 3> separating_axis(const GroupBox& a, const GroupBox& b) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::array<double, 3> n{};
-    n[k] = a.low_t0[k] > b.high_t0[k] && a.low_t1[k] > b.high_t1[k] ? 1 : -1;
-    if (n[k] > 0 || (b.low_t0[k] > a.high_t0[k] && b.low_t1[k] > a.high_t1[k])) return n;
-  }
-  return {};
-}
-
 Hierarchy::Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
                      int threads)
     : count_(static_cast<std::uint32_t>(mesh.cell_count())),

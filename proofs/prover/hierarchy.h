@@ -57,8 +57,24 @@ inline bool axis_separates(const GroupBox& a, const GroupBox& b) {
   return any_lane(over | under);
 }
 
-/// The axis on which they are, with the sign that makes a the upper one. Precondition: axis_separates(a, b).
-std::array<double, 3> separating_axis(const GroupBox& a, const GroupBox& b);
+/// The bits of the lanes in which a comparison holds.
+template <class Comparison>
+unsigned lanes_where(const Comparison& lanes) {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(lanes)));
+#else
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 4; ++k) bits |= lanes[k] != 0 ? 1U << k : 0;
+  return bits;
+#endif
+}
+
+/// The axes on which they are: bit k, or bit 4 + k where b is the upper one.
+inline unsigned separating_axes(const GroupBox& a, const GroupBox& b) {
+  const auto over = (a.low_t0 > b.high_t0) & (a.low_t1 > b.high_t1);
+  const auto under = (b.low_t0 > a.high_t0) & (b.low_t1 > a.high_t1);
+  return lanes_where(over) | lanes_where(under) << 4;
+}
 
 /// A node and the number of leaves below it.
 struct Group {

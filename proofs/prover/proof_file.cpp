@@ -34,7 +34,7 @@ std::string claim_payload(const ProofHeader& header) {
   put(bytes, std::uint8_t{0});
   put(bytes, header.ring);
   put(bytes, header.eta);
-  bytes.append(bytes_of(cells_hash(header)));
+  bytes.append(bytes_of(header.cells ? *header.cells : cells_hash(header)));
   put(bytes, static_cast<std::uint32_t>(header.merged.size()));
   for (const auto& [v, same] : header.merged) {
     put(bytes, v);
@@ -123,6 +123,13 @@ void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& li
   put(bytes, static_cast<std::uint8_t>(kind));
   bytes.append(bytes_of(hash));
   blocks_.append(four_letters("STEP"), bytes);
+}
+
+void ProofFile::tokens(const JoinedTokens& all) {
+  const std::function<void(std::string_view)> put = [this](std::string_view payload) { tokens(payload); };
+  TokenBlocks blocks(put);
+  all.give([&](std::string_view bytes) { blocks(bytes); });
+  blocks.flush();
 }
 
 }  // namespace noli

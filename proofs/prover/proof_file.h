@@ -6,9 +6,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "proofs/prover/proof_walk.h"
+#include "proofs/prover/tokens.h"
 #include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/sha256.h"
 
@@ -24,6 +26,7 @@ struct ProofHeader {
   std::size_t vertices = 0;
   const Mesh* mesh = nullptr;                   ///< after merging
   std::span<const std::uint32_t> labels;        ///< of its cells
+  std::optional<Sha256Digest> cells = {};       ///< cells_hash, where it is known
   std::vector<std::array<VertexId, 2>> merged;  ///< a vertex and the one that stands for it, ascending
   LabelPairs excluded;
   double eta = 0;
@@ -51,6 +54,8 @@ class ProofFile {
   void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift, const Sha256Digest& hash);
   void tree(std::string_view payload) { blocks_.append(four_letters("TREE"), payload); }
   void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
+  /// All tokens of a step.
+  void tokens(const JoinedTokens& tokens);
   void witness(std::string_view payload) { blocks_.append(four_letters("WITN"), payload); }
   void commit() { blocks_.commit(); }
   /// Drops the step that was begun.

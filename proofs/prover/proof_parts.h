@@ -21,12 +21,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kernel/arithmetic/scaled_integers.h"
 #include "proofs/prover/around.h"
 #include "proofs/prover/direction_search.h"
 #include "proofs/prover/exact_direction.h"
 #include "proofs/prover/mesh_paths.h"
 #include "proofs/prover/proof_tree.h"
+#include "proofs/prover/short_direction.h"
 #include "proofs/prover/tokens.h"
 #include "proofs/prover/too_near.h"
 #include "proofs/prover/traversal.h"
@@ -66,9 +66,9 @@ struct Piece {
 template <int Dim>
 class ProofParts {
  public:
-  /// `eta`, `paths`: the least distance, and who may be nearer than that.
+  /// `eta`, `paths`: the least distance, and who may be nearer than that (nobody needs it where it is 0).
   ProofParts(const WorldLines& lines, const std::vector<ProofChord<Dim>>& chords, const Piece& span, double eta,
-             const MeshPaths& paths, const StopSignal& stop)
+             const MeshPaths* paths, const StopSignal& stop)
       : lines_(lines), chords_(chords), span_(span), eta_(eta), paths_(paths), stop_(stop) {}
 
   /// Writes the tokens for two cells; not all of them if it was stopped. Throws TooNear, NoProof.
@@ -138,7 +138,7 @@ class ProofParts {
     for (std::size_t i = 0; i < a.cell.corners; ++i) {
       for (std::size_t j = 0; j < b.cell.corners; ++j) {
         if (!a.has(i) || !b.has(j)) continue;
-        const auto path = paths_.find(a.cell.vertices[i], b.cell.vertices[j]);
+        const auto path = paths_->find(a.cell.vertices[i], b.cell.vertices[j]);
         if (!path) continue;
         tokens.ring(a.cell.vertices[i], *path);
         drop_common(a.without(i), b, tokens);
@@ -270,48 +270,12 @@ class ProofParts {
     });
   }
 
-  /// As few bits as separate by the same test. The first of them are the ten of the short token.
+  /// As few bits as separate by the same test.
   void write(const Pair& pair, const Direction<Dim>& n, const Interval& interval, Tokens& tokens) {
     known_ = true;
     last_ = n;
-    double most = 0;
-    for (const double part : n) most = std::max(most, std::abs(part));
-    for (const double scale : {0x1p9 - 1, 0x1p20, 0x1p31, 0x1p45}) {
-      Direction<Dim> m;
-      for (std::size_t k = 0; k < Dim; ++k) m[k] = std::nearbyint(n[k] / most * scale);
-      if (!above(pair, m, interval)) continue;
-      return scale < 512 ? put_short(m, tokens) : put_long(m, tokens);
-    }
-    put_long(n, tokens);
-  }
-
-  static void put_short(const Direction<Dim>& m, Tokens& tokens) {
-    std::array<int, 3> n{};
-    int used = 0;
-    for (std::size_t k = 0; k < Dim; ++k) {
-      n[k] = static_cast<int>(m[k]);
-      used += n[k] != 0 ? 1 : 0;
-    }
-    for (std::size_t k = 0; k < Dim; ++k) {
-      if (used == 1 && n[k] != 0) return tokens.axis(k, n[k] > 0);
-    }
-    tokens.direction(n);
-  }
-
-  /// The components as they are, times one power of two.
-  static void put_long(const Direction<Dim>& m, Tokens& tokens) {
-    exact::ExponentRange range;
-    for (const double part : m) range.add(part);
-    IntegerVector n;
-    for (std::size_t k = 0; k < Dim; ++k) n[k] = integer(m[k], range.low);
-    tokens.direction(n);
-  }
-
-  /// x / 2^low.
-  static Integer integer(double x, int low) {
-    if (x == 0) return Integer(0);
-    const exact::OddBinary parts(x);
-    return Integer(parts.mantissa) << static_cast<std::size_t>(parts.exponent - low);
+    put_direction(
+        n, [&](const Direction<Dim>& m) { return above(pair, m, interval); }, tokens);
   }
 
   /// D and least2 of proofs/prover/exact_direction.h.
@@ -332,7 +296,7 @@ class ProofParts {
     int low;
     unsigned e;
 
-    Integer operator()(double t) const { return integer(t, low) << e; }
+    Integer operator()(double t) const { return scaled_integer(t, low) << e; }
   };
 
   /// At both ends of the piece and at each breakpoint of the parts between. Nothing if they are too many.
@@ -383,7 +347,7 @@ class ProofParts {
     }
     make_common(result, denominators);
     if (distance_ > 0) {
-      const Integer least = integer(distance_, space.low) * denominators[0];
+      const Integer least = scaled_integer(distance_, space.low) * denominators[0];
       result.least2 = least * least;
     }
     return result;
@@ -391,7 +355,8 @@ class ProofParts {
 
   /// The time k / 2^e of the way through the step, in the unit, whose e is the same.
   Integer time_of(const Integer& k, const Unit& unit) const {
-    const Integer first = integer(lines_.first_time(), unit.low), last = integer(lines_.last_time(), unit.low);
+    const Integer first = scaled_integer(lines_.first_time(), unit.low),
+                  last = scaled_integer(lines_.last_time(), unit.low);
     return (first << unit.e) + (last - first) * k;
   }
 
@@ -428,7 +393,8 @@ class ProofParts {
     const Integer before = c - unit(v.times[s]), after = unit(v.times[s + 1]) - c;
     IntegerVector numerators;
     for (std::size_t k = 0; k < Dim; ++k)
-      numerators[k] = integer(v.positions[s][k], low) * after + integer(v.positions[s + 1][k], low) * before;
+      numerators[k] =
+          scaled_integer(v.positions[s][k], low) * after + scaled_integer(v.positions[s + 1][k], low) * before;
     return {std::move(numerators), before + after};
   }
 
@@ -436,7 +402,7 @@ class ProofParts {
   const std::vector<ProofChord<Dim>>& chords_;
   Piece span_;
   double eta_;
-  const MeshPaths& paths_;
+  const MeshPaths* paths_;
   const StopSignal& stop_;
   bool stopped_ = false;
   double distance_ = 0;  ///< eta_, or 0 where parts need only be disjoint

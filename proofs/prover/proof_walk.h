@@ -51,7 +51,7 @@ template <int Dim>
 class ProofWalk {
  public:
   ProofWalk(const ProofScene<Dim>& scene, const StopSignal& stop)
-      : scene_(scene), stop_(stop), parts_(scene.lines, scene.chords, scene.span, scene.eta, scene.paths, stop) {}
+      : scene_(scene), stop_(stop), parts_(scene.lines, scene.chords, scene.span, scene.eta, &scene.paths, stop) {}
 
   /// Writes the tokens of an obligation. What is about at most `grain` cells is put on `tasks` instead, if there is
   /// such a list: then `cut` is called where its tokens have to be put. False if it was stopped.

@@ -39,7 +39,7 @@ class Proof {
     if (restless && span.half(0).times(lines_) && span.half(1).times(lines_)) {
       Tokens halve;
       halve.halve();
-      take_(halve.pieces().front());
+      halve.give(take_);
       scene.chords = {};
       return settle(span.half(0)) && settle(span.half(1));
     }
@@ -144,9 +144,8 @@ class Proof {
   }
 
   void give(Share& share) const {
-    for (const Tokens* tokens : {&share.before, &share.own}) {
-      for (const std::string& piece : tokens->pieces()) take_(piece);
-    }
+    share.before.give(take_);
+    share.own.give(take_);
     share = {};
   }
 
@@ -159,36 +158,19 @@ class Proof {
   StopSignal stop_;
 };
 
-/// Small payloads are put together, so that a block is some 64 kB or one large piece.
-class Blocks {
- public:
-  explicit Blocks(const Take& take) : take_(take) {}
-  void operator()(std::string_view bytes) {
-    if (bytes_.size() + bytes.size() > 1 << 20) flush();
-    bytes_ += bytes;
-    if (bytes_.size() > 1 << 16) flush();
-  }
-  void flush() {
-    if (!bytes_.empty()) take_(bytes_);
-    bytes_.clear();
-  }
-
- private:
-  const Take& take_;
-  std::string bytes_;
-};
-
 }  // namespace
 
 StepProver::StepProver(const Mesh& mesh, std::span<const std::uint32_t> order, std::span<const std::uint32_t> ends,
                        std::span<const std::uint32_t> labels, ProofClaim claim)
-    : claim_(std::move(claim)), tree_(mesh, order, ends, labels), paths_(tree_, mesh.vertex_count, claim_.ring) {}
+    : claim_(std::move(claim)),
+      tree_(std::make_shared<ProofTree>(mesh, order, ends, labels)),
+      paths_(*tree_, mesh.vertex_count, claim_.ring) {}
 
 bool StepProver::prove(const WorldLines& lines, const VerifyOptions& options, const Take& take) const {
-  Blocks blocks(take);
+  TokenBlocks blocks(take);
   const Take put = [&](std::string_view bytes) { blocks(bytes); };
-  const bool whole = claim_.dimension == 2 ? Proof<2>(tree_, paths_, claim_, lines, options, put).run()
-                                           : Proof<3>(tree_, paths_, claim_, lines, options, put).run();
+  const bool whole = claim_.dimension == 2 ? Proof<2>(*tree_, paths_, claim_, lines, options, put).run()
+                                           : Proof<3>(*tree_, paths_, claim_, lines, options, put).run();
   blocks.flush();
   return whole;
 }

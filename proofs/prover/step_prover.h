@@ -14,6 +14,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string_view>
 
 #include "proofs/prover/proof_walk.h"
@@ -36,7 +37,7 @@ class StepProver {
   StepProver(const Mesh& mesh, std::span<const std::uint32_t> order, std::span<const std::uint32_t> ends,
              std::span<const std::uint32_t> labels, ProofClaim claim);
 
-  const ProofTree& tree() const { return tree_; }
+  const ProofTree& tree() const { return *tree_; }
   const ProofClaim& claim() const { return claim_; }
   /// The same with another least distance.
   StepProver with_distance(double eta) const {
@@ -53,7 +54,7 @@ class StepProver {
 
  private:
   ProofClaim claim_;
-  ProofTree tree_;
+  std::shared_ptr<const ProofTree> tree_;  ///< paths_ refers to it, in copies too
   MeshPaths paths_;
 };
 

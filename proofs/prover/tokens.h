@@ -7,7 +7,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/arithmetic/integer.h"
@@ -19,40 +23,141 @@ namespace noli {
 void put_uint(std::string& bytes, std::uint64_t value);
 /// Appends a sint.
 void put_sint(std::string& bytes, const Integer& value);
+/// The payload of block TREE, where each node over m > 1 leaves has the first m / 2 of them in its left child.
+std::string encoded_tree(std::span<const std::uint32_t> leaf_cells);
 
-/// Tokens in pieces that fit a block each.
+/// The first byte of each token; what follows it is in proofs/FORMAT.md.
+enum class TokenCode : std::uint8_t {
+  halve = 0x00,
+  left = 0x01,
+  right = 0x02,
+  parts = 0x03,
+  one = 0x04,
+  both = 0x05,
+  excluded = 0x06,
+  axis = 0x08,  ///< and 2 k more along axis k, and 1 more where the first group is the lower one
+  empty = 0x0e,
+  short_direction = 0x10,
+  direction = 0x11,
+  drop = 0x20,  ///< and k more for common vertex k
+  ring = 0x30
+};
+
+/// A list of tokens, in pieces that are added as it grows: what was written is never moved.
 class Tokens {
  public:
-  /// A piece ends before it is longer than the 2^20 bytes of a block: the longest token has less than 4,096.
-  static constexpr std::size_t piece_size = (1 << 20) - 4096;
+  static constexpr bool on = true;
+  /// A payload of TOKS is no longer than this, and no token goes beyond its payload.
+  static constexpr std::size_t longest_payload = 1 << 20;
+  /// A place in the list: the number of a piece times this, and an offset.
+  static constexpr std::size_t longest_piece = 1 << 16;
 
-  void halve() { put(0x00); }
-  void left() { put(0x01); }
-  void right() { put(0x02); }
-  void parts() { put(0x03); }
-  void one() { put(0x04); }
-  void both() { put(0x05); }
-  void excluded() { put(0x06); }
+  void halve() { put(TokenCode::halve); }
+  void left() { put(TokenCode::left); }
+  void right() { put(TokenCode::right); }
+  void parts() { put(TokenCode::parts); }
+  void one() { put(TokenCode::one); }
+  void both() { put(TokenCode::both); }
+  void excluded() { put(TokenCode::excluded); }
   /// S along an axis; `up`: the first group is the one with the greater coordinates.
-  void axis(std::size_t k, bool up) { put(static_cast<std::uint8_t>(0x08 + 2 * k + (up ? 0 : 1))); }
-  void empty() { put(0x0e); }
-  void drop(std::uint8_t k) { put(static_cast<std::uint8_t>(0x20 + k)); }
+  void axis(std::size_t k, bool up) { axis(axis_code(k, up)); }
+  void axis(std::uint8_t code) { put(static_cast<TokenCode>(code)); }
+  static constexpr std::uint8_t axis_code(std::size_t k, bool up) {
+    return static_cast<std::uint8_t>(static_cast<std::size_t>(TokenCode::axis) + 2 * k + (up ? 0 : 1));
+  }
+  void empty() { put(TokenCode::empty); }
+  void drop(std::size_t k) { put(static_cast<TokenCode>(static_cast<std::size_t>(TokenCode::drop) + k)); }
   /// W along a path from v: the cell and the vertex of each of its steps.
   void ring(VertexId v, const std::vector<std::array<std::uint32_t, 2>>& steps);
   /// S with components of at most ten bits, -512 to 511.
-  void direction(const std::array<int, 3>& n);
+  void direction(const std::array<int, 3>& n) {
+    char* const at = room(5);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word |= (static_cast<std::uint32_t>(n[k]) & 0x3ff) << (10 * k);
+    at[0] = static_cast<char>(TokenCode::short_direction);
+    for (std::size_t i = 0; i < 4; ++i) at[1 + i] = static_cast<char>(word >> (8 * i));
+    end_ += 5;
+  }
   void direction(const std::array<Integer, 3>& n);
 
-  const std::vector<std::string>& pieces() const { return pieces_; }
+  /// Where the next token comes.
+  std::size_t place() const { return pieces_.empty() ? 0 : (pieces_.size() - 1) * longest_piece + used(); }
+  /// Forgets the tokens from a place on.
+  void truncate(std::size_t place);
+  /// Gives `take` the tokens between two places, in pieces that fit a payload each.
+  void give(std::size_t begin, std::size_t end, const std::function<void(std::string_view)>& take) const;
+  void give(const std::function<void(std::string_view)>& take) const { give(0, place(), take); }
 
  private:
-  std::string& room() {
-    if (pieces_.empty() || pieces_.back().size() > piece_size) pieces_.emplace_back();
-    return pieces_.back();
-  }
-  void put(std::uint8_t byte) { room().push_back(static_cast<char>(byte)); }
+  struct Piece {
+    std::unique_ptr<char[]> bytes;  // not a string: that would be filled with zeros first
+    std::size_t size;               ///< capacity while it is the last one, then what is used
+  };
 
-  std::vector<std::string> pieces_;
+  std::size_t used() const { return static_cast<std::size_t>(end_ - pieces_.back().bytes.get()); }
+  /// Room for a token of so many bytes.
+  char* room(std::size_t bytes) {
+    if (static_cast<std::size_t>(limit_ - end_) < bytes) add_piece(bytes);
+    return end_;
+  }
+  void add_piece(std::size_t bytes);
+  [[gnu::always_inline]] void put(TokenCode code) {
+    *room(1) = static_cast<char>(code);
+    ++end_;
+  }
+  void append(const std::string& token);
+
+  std::vector<Piece> pieces_;
+  char* end_ = nullptr;    ///< in the last piece: where the next token comes
+  char* limit_ = nullptr;  ///< its end
+};
+
+/// Takes tokens and does nothing.
+struct NoTokens {
+  static constexpr bool on = false;
+
+  void left() {}
+  void right() {}
+  void parts() {}
+  void one() {}
+  void both() {}
+  void empty() {}
+  void halve() {}
+  void drop(std::size_t /*k*/) {}
+  void axis(std::uint8_t /*code*/) {}
+  void direction(const std::array<int, 3>& /*n*/) {}
+  static constexpr std::size_t place() { return 0; }
+  void truncate(std::size_t /*place*/) {}
+};
+
+/// Tokens, and others put in between.
+struct JoinedTokens {
+  Tokens tokens;
+  std::vector<std::size_t> places;     ///< in the tokens, ascending: where the others come
+  std::vector<JoinedTokens> inserted;  ///< one for each place
+
+  void give(const std::function<void(std::string_view)>& take) const;
+};
+
+/// Puts small pieces together, so that a payload has some 64 kB.
+class TokenBlocks {
+ public:
+  explicit TokenBlocks(const std::function<void(std::string_view)>& take) : take_(take) {}
+  void operator()(std::string_view bytes) {
+    bytes_ += bytes;
+    if (bytes_.size() >= enough) flush();
+  }
+  void flush() {
+    if (!bytes_.empty()) take_(bytes_);
+    bytes_.clear();
+  }
+
+ private:
+  static constexpr std::size_t enough = 1 << 16;
+  static_assert(enough + Tokens::longest_piece <= Tokens::longest_payload);
+
+  const std::function<void(std::string_view)>& take_;
+  std::string bytes_;
 };
 
 }  // namespace noli

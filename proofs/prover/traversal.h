@@ -3,7 +3,7 @@
 // The verifier's walk over pairs of groups.
 //
 // Notation
-//   obligation  as in proofs/prover/events.h: a pair of groups, or one with itself
+//   obligation  as in proofs/FORMAT.md: a pair of groups, or one with itself
 //   grain       obligations about at most so many cells are put off, when a list to put them on is given: that is how
 //               the work is cut into tasks which do not depend on the number of threads
 //
@@ -29,10 +29,10 @@ struct Obligation {
   bool self = false;
 };
 
-/// An obligation that was put off, after so many recorded steps.
+/// An obligation that was put off, behind so many bytes of tokens.
 struct Deferred {
   Obligation obligation;
-  std::size_t steps_before = 0;
+  std::size_t tokens_before = 0;
 };
 
 /// What a traversal reads.
@@ -58,18 +58,18 @@ class StopSignal {
   std::optional<std::chrono::steady_clock::time_point> deadline_;
 };
 
-template <int Dim>
+/// `Out`: Tokens, or NoTokens.
+template <int Dim, class Out>
 class Traversal {
  public:
   Traversal(const Scene<Dim>& scene, const VerifyOptions& options, const StopSignal& stop, Tally& tally,
-            StepRecord& record)
+            WalkTokens<Dim, Out>& out)
       : scene_(scene),
         first_only_(options.first_only),
         stop_(stop),
         tally_(tally),
-        record_(record),
-        recording_(record.on()),
-        cell_pairs_({options.initial, options.strict}, scene.leftovers, tally, record) {}
+        tokens_(out.tokens),
+        cell_pairs_({options.initial, options.strict}, scene.leftovers, tally, out) {}
 
   /// From now on puts obligations about at most `grain` cells on the list.
   void defer(std::uint32_t grain, std::vector<Deferred>& list) {
@@ -94,17 +94,18 @@ class Traversal {
   /// Each of at most 32 levels leaves two obligations behind where a self is split, and three where a pair is.
   static constexpr std::size_t stack_size = 32 * (2 + 3);
 
-  enum : std::uint8_t {
-    closed = 1,      ///< an axis separates the two; such obligations are kept only to be recorded
-    after_split = 2  ///< `split_second` has to be recorded before it
-  };
+  /// Notes about a pair on the stack, with tokens: it has been closed by the axis with this code, if not 0; before it
+  /// the second group was split.
+  static constexpr std::uint8_t axis_code = 0x0f, after_split = 0x80;
 
   [[gnu::always_inline]] void take_next() {
     stack_.pop();
     const GroupPair pair = stack_.popped();
-    const std::uint8_t notes = stack_.popped_notes();
-    if ((notes & after_split) != 0) record_.split_second();
-    if ((notes & closed) != 0) return record_.direction(separating_axis(first_box(pair), second_box(pair)));
+    if constexpr (Out::on) {
+      const std::uint8_t notes = stack_.popped_notes();
+      if ((notes & after_split) != 0) tokens_.right();
+      if ((notes & axis_code) != 0) return tokens_.axis(notes & axis_code);
+    }
     if (put_off(pair)) return;
     if (pair.is_self()) return take_self(pair);
     if (++since_look_ >= patience) look_at_clock();
@@ -114,7 +115,7 @@ class Traversal {
   bool put_off(const GroupPair& pair) {
     if (deferred_ == nullptr) return false;
     const std::uint32_t size = pair.first().count + (pair.is_self() ? 0 : pair.second().count);
-    if (size <= grain_) deferred_->push_back({{pair.first(), pair.second(), pair.is_self()}, record_.size()});
+    if (size <= grain_) deferred_->push_back({{pair.first(), pair.second(), pair.is_self()}, tokens_.place()});
     return size <= grain_;
   }
 
@@ -124,7 +125,7 @@ class Traversal {
       return look_around();
     }
     const Group left = pair.first().left(), right = pair.first().right();
-    record_.split_self();
+    tokens_.parts();
     stack_.push({right, right}, 0);
     push_tested({left, right});
     stack_.push({left, left}, 0);
@@ -137,31 +138,67 @@ class Traversal {
       cell_pairs_.settle(scene_.cells[pair.first().begin], scene_.cells[pair.second().begin]);
       look_around();
     } else if (pair.second_is_leaf()) {
-      record_.split_first();
+      tokens_.left();
       push_tested(pair.right_whole());
       push_tested(pair.left_whole());
     } else if (pair.first_is_leaf()) {
-      record_.split_second();
+      tokens_.right();
       push_tested(pair.whole_right());
       push_tested(pair.whole_left());
     } else {
-      record_.split_first();
-      record_.split_second();
-      push_tested(pair.right_right());
-      push_tested(pair.right_left(), after_split);
-      push_tested(pair.left_right());
-      push_tested(pair.left_left());
+      tokens_.left();
+      push_halves(pair.right_left(), pair.right_right());
+      push_halves(pair.left_left(), pair.left_right());
+    }
+  }
+
+  /// Half of the first group with both halves of the second.
+  [[gnu::always_inline]] void push_halves(const GroupPair& left, const GroupPair& right) {
+    if constexpr (!Out::on) {
+      push_tested(right);
+      push_tested(left);
+    } else {
+      const unsigned of_left = order_of(left), of_right = order_of(right);
+      closed_ += (of_left != 0 ? 1 : 0) + (of_right != 0 ? 1 : 0);
+      // What separates both separates the whole: one token.
+      if ((of_left & of_right) != 0) return stack_.push(left, axis_code_of(of_left & of_right));
+      stack_.push(right, axis_code_of(of_right));
+      stack_.push(left, axis_code_of(of_left) | after_split);
     }
   }
 
   const GroupBox& first_box(const GroupPair& pair) const { return scene_.hierarchy.box_of(pair.first_node()); }
   const GroupBox& second_box(const GroupPair& pair) const { return scene_.hierarchy.box_of(pair.second_node()); }
 
-  /// Whether an axis separates the two is not branched on, because it cannot be predicted.
-  [[gnu::always_inline]] void push_tested(const GroupPair& pair, std::uint8_t notes = 0) {
-    const bool separated = axis_separates(first_box(pair), second_box(pair));
-    closed_ += separated ? 1 : 0;
-    stack_.push(pair, static_cast<std::uint8_t>(notes | (separated ? closed : 0)), !separated || recording_);
+  /// Whether an axis separates the two is not branched on, because it cannot be predicted. What is closed is kept only
+  /// for its token.
+  [[gnu::always_inline]] void push_tested(const GroupPair& pair) {
+    if constexpr (Out::on) {
+      const unsigned order = order_of(pair);
+      closed_ += order != 0 ? 1 : 0;
+      stack_.push(pair, axis_code_of(order));
+    } else {
+      const bool separated = axis_separates(first_box(pair), second_box(pair));
+      closed_ += separated ? 1 : 0;
+      stack_.push(pair, 0, !separated);
+    }
+  }
+
+  [[gnu::always_inline]] unsigned order_of(const GroupPair& pair) const {
+    return separating_axes(first_box(pair), second_box(pair));
+  }
+
+  /// The code of the least axis; 0 if there is none.
+  static std::uint8_t axis_code_of(unsigned axes) {
+    static constexpr auto codes = [] {
+      std::array<std::uint8_t, 9> all{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        all[k] = Tokens::axis_code(k, true);
+        all[4 + k] = Tokens::axis_code(k, false);
+      }
+      return all;
+    }();
+    return codes[static_cast<std::size_t>(std::countr_zero(axes | 1U << 8))];
   }
 
   void look_around() {
@@ -177,9 +214,8 @@ class Traversal {
   bool first_only_;
   const StopSignal& stop_;
   Tally& tally_;
-  StepRecord& record_;
-  bool recording_;
-  CellPairs<Dim> cell_pairs_;
+  Out& tokens_;
+  CellPairs<Dim, Out> cell_pairs_;
   std::uint32_t grain_ = 0;
   std::vector<Deferred>* deferred_ = nullptr;
   unsigned since_look_ = 0;

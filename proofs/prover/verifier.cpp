@@ -18,40 +18,34 @@ constexpr std::uint32_t grain_share = 256;
 constexpr std::uint32_t least_grain = 256;
 
 /// What one task leaves behind.
+template <int Dim, class Out>
 struct Outcome {
   Tally tally;
-  StepRecord record;
+  WalkTokens<Dim, Out> out;
   bool finished = false;
 };
 
 /// What tells the caller how it goes: one thread at a time.
 class Reporter {
  public:
-  Reporter(const VerifyOptions& options, std::size_t tasks) : options_(options), ready_(tasks, false) {}
+  Reporter(const VerifyOptions& options, std::size_t tasks) : options_(options), tasks_(tasks) {}
 
-  /// Task i is done; `play(k)` is called for each k, in order, as soon as the tasks up to k are done. k does not go
-  /// beyond `last`.
-  template <class Play>
-  void done(std::size_t i, std::size_t last, const Play& play) {
-    if (options_.sink == nullptr && !options_.progress) return;
+  /// One task more is done.
+  void done() {
+    if (!options_.progress) return;
     const std::lock_guard lock(mutex_);
-    ready_[i] = true;
-    ++done_;
-    if (options_.progress) options_.progress(static_cast<double>(done_) / static_cast<double>(ready_.size()));
-    if (options_.sink == nullptr) return;
-    for (; played_ < ready_.size() && played_ <= last && ready_[played_]; ++played_) play(played_);
+    options_.progress(static_cast<double>(++done_) / static_cast<double>(tasks_));
   }
 
  private:
   const VerifyOptions& options_;
   std::mutex mutex_;
-  std::vector<bool> ready_;
+  std::size_t tasks_;
   std::size_t done_ = 0;
-  std::size_t played_ = 0;
 };
 
-/// One verification of one step.
-template <int Dim>
+/// One verification of one step. `Out`: Tokens, or NoTokens.
+template <int Dim, class Out>
 class Verification {
  public:
   Verification(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
@@ -66,18 +60,24 @@ class Verification {
   }
 
   VerifyResult run() {
-    if (options_.sink != nullptr) options_.sink->begin_step(hierarchy_->leaf_cells());
     cut_into_tasks();
     outcomes_.resize(tasks_.size());
     reporter_.emplace(options_, tasks_.size());
     parallel_for(tasks_.size(), options_.threads, [this](std::size_t i) { run_task(i); });
     VerifyResult result = add_up();
-    if (options_.sink != nullptr) finish_playing(result.complete);
+    if constexpr (Out::on) {
+      if (result.complete && !top_.tally.found_any()) {
+        result.proof = prove();
+        result.complete = result.proof != nullptr || !stop_.raised();
+      }
+    }
     return result;
   }
 
  private:
-  Outcome blank() const { return {Tally(options_.max_reports, none_), StepRecord(options_.sink != nullptr), false}; }
+  using TaskOutcome = Outcome<Dim, Out>;
+
+  TaskOutcome blank() const { return {Tally(options_.max_reports, none_), {}, false}; }
 
   void gather_vertices(std::span<const Position> x_t0, std::span<const Position> x_t1) {
     vertices_ = std::make_unique_for_overwrite<MovingVertex<Dim>[]>(x_t0.size());
@@ -99,7 +99,7 @@ class Verification {
   /// Walks the top of the tree, where there is little to do, and lists what is below.
   void cut_into_tasks() {
     const Scene<Dim> scene{*hierarchy_, cells_.get(), *leftovers_};
-    Traversal<Dim> traversal(scene, options_, stop_, top_.tally, top_.record);
+    Traversal<Dim, Out> traversal(scene, options_, stop_, top_.tally, top_.out);
     const Group root = hierarchy_->root();
     traversal.defer(std::max(root.count / grain_share, least_grain), tasks_);
     top_.finished = traversal.run({root, root, true});
@@ -108,12 +108,12 @@ class Verification {
   void run_task(std::size_t i) {
     if (i > first_found_) return;
     const Scene<Dim> scene{*hierarchy_, cells_.get(), *leftovers_};
-    outcomes_[i] = std::make_unique<Outcome>(blank());
-    Outcome& outcome = *outcomes_[i];
-    Traversal<Dim> traversal(scene, options_, stop_, outcome.tally, outcome.record);
+    outcomes_[i] = std::make_unique<TaskOutcome>(blank());
+    TaskOutcome& outcome = *outcomes_[i];
+    Traversal<Dim, Out> traversal(scene, options_, stop_, outcome.tally, outcome.out);
     outcome.finished = traversal.run(tasks_[i].obligation);
     if (options_.first_only && outcome.tally.found_any()) lower_first_found(i);
-    reporter_->done(i, first_found_, [this](std::size_t k) { play_task(k); });
+    reporter_->done();
   }
 
   void lower_first_found(std::size_t i) {
@@ -122,16 +122,32 @@ class Verification {
     }
   }
 
-  void play_task(std::size_t i) {
-    top_.record.play(i == 0 ? 0 : tasks_[i - 1].steps_before, tasks_[i].steps_before, *options_.sink);
-    outcomes_[i]->record.play(*options_.sink);
-    outcomes_[i]->record.release();
+  /// Puts together what the tasks have written. Nothing where parts are left that no direction separates, or it was
+  /// stopped.
+  std::shared_ptr<const StepProof> prove() {
+    auto proof = std::make_shared<StepProof>();
+    const auto order = hierarchy_->leaf_cells();
+    proof->leaf_cells.assign(order.begin(), order.end());
+    JoinedTokens& all = proof->tokens;
+    all.tokens = std::move(top_.out.tokens);
+    for (const Deferred& task : tasks_) all.places.push_back(task.tokens_before);
+    all.inserted.resize(tasks_.size());
+    std::atomic<bool> whole = true;
+    parallel_for(tasks_.size(), options_.threads, [&](std::size_t i) {
+      if (whole && !close_open_parts(outcomes_[i]->out, all.inserted[i])) whole = false;
+    });
+    return whole ? proof : nullptr;
   }
 
-  void finish_playing(bool complete) {
-    const std::size_t last = tasks_.empty() ? 0 : tasks_.back().steps_before;
-    if (complete) top_.record.play(last, top_.record.size(), *options_.sink);
-    options_.sink->end_step(complete);
+  bool close_open_parts(WalkTokens<Dim, Out>& out, JoinedTokens& tokens) const {
+    tokens.tokens = std::move(out.tokens);
+    for (const OpenParts<Dim>& parts : out.open) {
+      auto closing = prove_apart(parts, stop_);
+      if (!closing) return false;
+      tokens.places.push_back(parts.at);
+      tokens.inserted.push_back({std::move(*closing), {}, {}});
+    }
+    return true;
   }
 
   /// Tasks after the one that first_only ended at do not count: whether they ran depends on the threads.
@@ -150,7 +166,8 @@ class Verification {
             sum.earliest.first(),
             sum.stages,
             sum.obligations,
-            sum.cell_pairs};
+            sum.cell_pairs,
+            nullptr};
   }
 
   const VerifyOptions& options_;
@@ -160,20 +177,26 @@ class Verification {
   std::unique_ptr<StepCell<Dim>[]> cells_;  ///< in the order of the leaves
   std::optional<Leftovers> leftovers_;
   std::vector<Deferred> tasks_;
-  std::vector<std::unique_ptr<Outcome>> outcomes_;  ///< of the tasks that have begun
+  std::vector<std::unique_ptr<TaskOutcome>> outcomes_;  ///< of the tasks that have begun
   std::optional<Reporter> reporter_;
   std::atomic<std::size_t> first_found_ = std::numeric_limits<std::size_t>::max();
   Earliest none_;
-  Outcome top_;  ///< of the walk over the top, then the sum of all
+  TaskOutcome top_;  ///< of the walk over the top, then the sum of all
 };
+
+template <class Out>
+VerifyResult verify(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
+                    const VerifyOptions& options) {
+  return options.dimension == 2 ? Verification<2, Out>(mesh, x_t0, x_t1, options).run()
+                                : Verification<3, Out>(mesh, x_t0, x_t1, options).run();
+}
 
 }  // namespace
 
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options) {
   if (mesh.cell_count() == 0) return {};
-  return options.dimension == 2 ? Verification<2>(mesh, x_t0, x_t1, options).run()
-                                : Verification<3>(mesh, x_t0, x_t1, options).run();
+  return options.prove ? verify<Tokens>(mesh, x_t0, x_t1, options) : verify<NoTokens>(mesh, x_t0, x_t1, options);
 }
 
 }  // namespace noli

@@ -30,8 +30,8 @@
 // of vertex ids, whichever cells list it and how often; a face that is listed twice is two faces. Of two cells that
 // meet, some pair meets, or they do so from the beginning. Vertices are who they are by index.
 //
-// What this does not do: it writes no proof file (it reports its steps to a StepSink, from which one can be written),
-// it knows no thickness, and it does not read files.
+// What this does not do: it writes no proof file (it can hand out the tokens of one), it knows no thickness, and it does
+// not read files.
 #pragma once
 
 #include <array>
@@ -39,6 +39,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,7 +47,7 @@
 #include "kernel/contact.h"
 #include "kernel/query.h"
 #include "kernel/stages.h"
-#include "proofs/prover/events.h"
+#include "proofs/prover/tokens.h"
 #include "trajectory/mesh.h"
 
 namespace noli {
@@ -82,7 +83,13 @@ struct VerifyOptions {
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the result is incomplete
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<void(double)> progress;  ///< called from any thread, serialised, with the share of work done in [0, 1]
-  StepSink* sink = nullptr;              ///< receives the steps of the proof in prefix order; nullptr: nobody listens
+  bool prove = false;                    ///< also writes the proof that nothing touches, if nothing does
+};
+
+/// That nothing touches in a step (proofs/FORMAT.md, TREE and TOKS).
+struct StepProof {
+  std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree
+  JoinedTokens tokens;
 };
 
 struct VerifyResult {
@@ -97,6 +104,9 @@ struct VerifyResult {
   StageCounters stages;           ///< which stage decided each pair of features that reached the kernel
   std::uint64_t obligations = 0;  ///< obligations closed by a direction
   std::uint64_t cell_pairs = 0;   ///< pairs of cells taken apart into features
+  /// If `prove` was set, the step is complete and nothing touches. Nothing there too if parts come so near each other
+  /// that no proof was found.
+  std::shared_ptr<const StepProof> proof;
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
 };
@@ -104,8 +114,9 @@ struct VerifyResult {
 /// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is
 /// below that, and there are fewer than 2^31 cells. Deterministic: the result depends on the input and on `dimension`,
 /// `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by `stop` or `deadline`), not on the number
-/// of threads or on who listens. Memory is linear in the mesh. Throws std::bad_alloc, and what `sink` and `progress`
-/// throw.
+/// of threads. With `prove`, directions are rounded to the bits of short tokens, so `obligations`, `cell_pairs` and
+/// `stages` may differ from those without, and nothing else does. Memory is linear in the mesh and the proof. Throws
+/// std::bad_alloc, and what `progress` throws.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 
@@ -57,9 +58,14 @@ bool above(const Step& step, const std::vector<Position>& x, const Hierarchy& h,
 
 /// Goes down the tree and counts the pairs that were separated and the claims that do not hold.
 void check_pairs(const Step& step, const Hierarchy& h, Group p, Group q, int& separated, int& open, int& wrong) {
+  EXPECT_EQ(axis_separates(h.box(p), h.box(q)), separating_axes(h.box(p), h.box(q)) != 0);
   if (axis_separates(h.box(p), h.box(q))) {
     ++separated;
-    const auto n = separating_axis(h.box(p), h.box(q));
+    const unsigned axes = separating_axes(h.box(p), h.box(q));
+    ASSERT_NE(axes, 0u);
+    const auto bit = static_cast<std::size_t>(std::countr_zero(axes));
+    std::array<double, 3> n{};
+    n[bit % 4] = bit < 4 ? 1 : -1;
     if (!above(step, step.x_t0, h, p, q, n) || !above(step, step.x_t1, h, p, q, n)) ++wrong;
     return;
   }
