@@ -110,6 +110,7 @@ class ProofRoute {
       request.open_proof = [this](const Claim&) { return to_file(); };
     } else if (can_check_) {
       request.open_proof = [this](const Claim& claim) { return to_checker(claim); };
+      request.open_proof_at_once = true;
     } else if (request.min_distance > 0) {
       request.open_proof = [](const Claim&) { return std::make_unique<NoSink>(); };
     }

@@ -196,6 +196,7 @@ class Run {
   void verify() {
     const bool by_verifier = request_.open_proof && FrameProof::is_by_verifier(request_);
     const bool wanted = !outcome_.touches() && !outcome_.no_proof;
+    if (by_verifier && request_.open_proof_at_once) begin_proof();
     const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
     outcome_.complete = result.complete;
     add_counts(result);
@@ -206,17 +207,20 @@ class Run {
 
   void prove(const StepResult& result) {
     const Stopwatch watch;
-    if (!proof_) {
-      outcome_.proof_begun = true;
-      proof_.emplace(request_, outcome_.claim, outcome_.dimension, verifier_->mesh(), classes_ ? &*classes_ : nullptr,
-                     groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
-    }
+    begin_proof();
     if (result.touches()) {
       if (proof_->refute(sequence_.step(), sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
     } else if (!outcome_.touches()) {
       prove_untouched(result);
     }
     outcome_.proof_seconds += watch.seconds();
+  }
+
+  void begin_proof() {
+    if (proof_) return;
+    outcome_.proof_begun = true;
+    proof_.emplace(request_, outcome_.claim, outcome_.dimension, verifier_->mesh(), classes_ ? &*classes_ : nullptr,
+                   groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
   }
 
   void prove_untouched(const StepResult& result) {

@@ -70,6 +70,8 @@ struct VerifyRequest {
   bool check = true;                           ///< have the checker look at the proof
   /// Where the proof of a claim is written to, called once at most; empty: none is made.
   std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
+  /// Call it before the first step of frames is decided, so that whoever reads the proof looks at them meanwhile.
+  bool open_proof_at_once = false;
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
