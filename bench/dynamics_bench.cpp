@@ -17,7 +17,7 @@
 #include "bench/textbook.h"
 #include "bench/timing.h"
 #include "integrator/simulation.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli::bench {
 namespace {

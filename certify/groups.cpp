@@ -9,7 +9,7 @@
 
 #include "certify/json.h"
 #include "integrator/scene/json_text.h"
-#include "proofs/prover/features.h"
+#include "proofs/prover/cells/features.h"
 #include "trajectory/error.h"
 #include "trajectory/text.h"
 

@@ -29,7 +29,7 @@
 
 #include "kernel/first_contact.h"
 #include "proofs/prover/verifier.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/exclusions.h"
 #include "trajectory/mesh.h"
 

@@ -19,7 +19,7 @@
 #include "certify/stopwatch.h"
 #include "certify/verify_run.h"
 #include "integrator/scene/window_count.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/error.h"

@@ -26,7 +26,7 @@
 #include "certify/proofs/claim.h"
 #include "certify/proofs/largest_distance.h"
 #include "kernel/first_contact.h"
-#include "proofs/prover/too_near.h"
+#include "proofs/prover/tokens/too_near.h"
 #include "proofs/prover/verifier.h"
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/formats/frame_look.h"

@@ -8,6 +8,7 @@
 // but by an exception.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -24,6 +25,17 @@ int hardware_threads();
 /// then, those of a lower one are not. Calls may be nested. Throws also std::system_error or std::bad_alloc when the
 /// machine has no thread or memory left.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
+
+/// Calls each(i) for each i in [0, count), consecutive ones together, which may not depend on each other: for many small
+/// items.
+template <class Each>
+void for_each_in_pieces(std::size_t count, int threads, const Each& each) {
+  constexpr std::size_t piece = 2048;
+  parallel_for((count + piece - 1) / piece, threads, [&](std::size_t p) {
+    const std::size_t end = std::min(count, (p + 1) * piece);
+    for (std::size_t i = p * piece; i < end; ++i) each(i);
+  });
+}
 
 /// Calls both, at the same time unless `threads` is 1, and returns when both have returned; exceptions as in
 /// parallel_for, `first` before `second`. The other thread is a plain one whatever the back end, so one of the two goes

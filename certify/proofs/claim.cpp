@@ -9,8 +9,8 @@
 #include <set>
 
 #include "integrator/scene/json_text.h"
-#include "proofs/prover/features.h"
-#include "proofs/prover/proof_file.h"
+#include "proofs/prover/cells/features.h"
+#include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/error.h"
 #include "trajectory/text.h"
 

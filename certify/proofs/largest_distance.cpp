@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "certify/simulate/exact_gap.h"
-#include "proofs/prover/feature_sides.h"
-#include "proofs/prover/mesh_paths.h"
-#include "proofs/prover/too_near.h"
+#include "proofs/prover/tokens/mesh_paths.h"
+#include "proofs/prover/tokens/too_near.h"
+#include "proofs/prover/witness/feature_sides.h"
 
 namespace noli {
 namespace {

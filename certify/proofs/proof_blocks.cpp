@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/proof_blocks.h"
 
-#include "proofs/prover/proof_file.h"
+#include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/error.h"
 

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <set>
 
-#include "proofs/prover/features.h"
+#include "proofs/prover/cells/features.h"
 #include "proofs/prover/hierarchy.h"
-#include "proofs/prover/witness.h"
-#include "proofs/prover/write_tokens.h"
+#include "proofs/prover/witness/witness.h"
 
 namespace noli {
 namespace {
@@ -118,7 +117,7 @@ bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::sp
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
   begin(step, ProofFile::Kind::proof, lines);
   if (!tree_written_) file_.tree(prover_->tree().encoded());
-  if (!write_tokens(file_, *prover_, lines, options)) return false;
+  if (!prover_->write(file_, lines, options)) return false;
   file_.commit();
   tree_written_ = true;
   return true;

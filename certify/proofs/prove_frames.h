@@ -8,8 +8,8 @@
 
 #include "certify/sequence.h"
 #include "certify/verify_run.h"
-#include "proofs/prover/proof_file.h"
-#include "proofs/prover/step_prover.h"
+#include "proofs/prover/tokens/proof_file.h"
+#include "proofs/prover/tokens/step_prover.h"
 #include "trajectory/merge.h"
 
 namespace noli {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/prove_run.h"
 
-#include "proofs/prover/features.h"
-#include "proofs/prover/forest.h"
-#include "proofs/prover/write_tokens.h"
+#include "proofs/prover/cells/features.h"
+#include "proofs/prover/windows/forest.h"
 #include "trajectory/error.h"
 
 namespace noli {
@@ -119,7 +118,7 @@ bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256
                      const VerifyOptions& options) {
   file_.begin_step(window, ProofFile::Kind::proof, lines, 0, hash);
   if (file_.committed().groups == 1) file_.tree(prover_.tree().encoded());
-  return write_tokens(file_, prover_, lines, options);
+  return prover_.write(file_, lines, options);
 }
 
 void RunProof::commit() { file_.commit(); }

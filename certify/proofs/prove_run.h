@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "certify/proofs/claim.h"
-#include "proofs/prover/proof_file.h"
-#include "proofs/prover/step_prover.h"
-#include "proofs/prover/window_verifier.h"
-#include "proofs/prover/witness.h"
+#include "proofs/prover/tokens/proof_file.h"
+#include "proofs/prover/tokens/step_prover.h"
+#include "proofs/prover/windows/window_verifier.h"
+#include "proofs/prover/witness/witness.h"
 #include "trajectory/blocks/run_file.h"
 
 namespace noli {

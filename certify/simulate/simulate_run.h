@@ -32,7 +32,7 @@
 #include "integrator/scene/explain.h"
 #include "integrator/scene/scene.h"
 #include "integrator/simulation.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 

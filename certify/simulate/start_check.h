@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "certify/body_names.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 

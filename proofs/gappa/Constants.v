@@ -31,6 +31,6 @@ Definition error_3d := 2 * (7 + 56 * bpow radix2 (-53)) * bpow radix2 (-53).
 Definition underflow_2d := bpow radix2 (-1000).
 Definition underflow_3d := bpow radix2 (-1060).
 
-(* proofs/prover/direction.h *)
+(* proofs/prover/cells/direction.h *)
 Definition error_share := bpow radix2 (-49).
 Definition error_least := bpow radix2 (-1022).

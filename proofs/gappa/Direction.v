@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(** * proofs/prover/direction.h (and around.h, direction_search.h): what is said to separate
+(** * proofs/prover/cells/direction.h (and around.h, direction_search.h): what is said to separate
     does
 
     Notation: that of Rounding.v and Formulas.v.
@@ -11,7 +11,7 @@
 
     There is no condition on sizes: that underflow is covered is what [error_least] is for.
 
-    Not here: overflow, where the code's comparison fails; raised reaches (proofs/prover/window_cell.h). *)
+    Not here: overflow, where the code's comparison fails; raised reaches (proofs/prover/windows/window_cell.h). *)
 Require Import Reals Psatz.
 From Flocq Require Import Core Mult_error.
 From NoliGappa Require Import Constants Rounding Formulas Differences Bernstein.

@@ -11,7 +11,7 @@
 //
 // The features of an open pair are taken to the kernel one by one, and whether it meets at the beginning of the step is
 // decided by a direction at that time or by the exact static predicate. Its tokens, if it has any, are found later
-// (proofs/prover/step_tokens.h).
+// (proofs/prover/tokens/step_tokens.h).
 //
 // With tokens, a direction is rounded to the bits of a short token before it is tested, so that what settles an
 // obligation is its token.
@@ -19,13 +19,13 @@
 // What this does not do: it never looks at cells other than the two.
 #pragma once
 
-#include "proofs/prover/around.h"
-#include "proofs/prover/direction_search.h"
+#include "proofs/prover/cells/around.h"
+#include "proofs/prover/cells/direction_search.h"
 #include "proofs/prover/feature_pairs.h"
 #include "proofs/prover/initial.h"
-#include "proofs/prover/short_direction.h"
-#include "proofs/prover/step_tokens.h"
 #include "proofs/prover/tally.h"
+#include "proofs/prover/tokens/short_direction.h"
+#include "proofs/prover/tokens/step_tokens.h"
 
 namespace noli {
 

@@ -9,7 +9,7 @@
 //              a; 40 + 3 i + j: a_i against b_j
 //
 // Which pairs of features there are is said in proofs/prover/verifier.h. The last, and in 3D the last two kinds, are
-// pairs that may be left over (proofs/prover/leftover.h).
+// pairs that may be left over (proofs/prover/cells/leftover.h).
 //
 // What this does not do: it does not know which features share vertices; the parts it is given do not
 // (proofs/prover/cell_pair.h).
@@ -20,8 +20,8 @@
 #include <cstdint>
 
 #include "kernel/contact.h"
-#include "proofs/prover/direction.h"
-#include "proofs/prover/moving_cell.h"
+#include "proofs/prover/cells/direction.h"
+#include "proofs/prover/cells/moving_cell.h"
 
 namespace noli {
 

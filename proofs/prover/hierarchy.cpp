@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "proofs/prover/features.h"
+#include "kernel/parallel.h"
+#include "proofs/prover/cells/features.h"
 #include "proofs/prover/median.h"
-#include "proofs/prover/pieces.h"
 
 namespace noli {
 

@@ -9,8 +9,8 @@
 // its corners and edges, and in 2D a point may be inside a face.
 #pragma once
 
-#include "proofs/prover/direction.h"
-#include "proofs/prover/moving_cell.h"
+#include "proofs/prover/cells/direction.h"
+#include "proofs/prover/cells/moving_cell.h"
 
 namespace noli {
 

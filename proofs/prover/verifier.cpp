@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 
-#include "proofs/prover/pieces.h"
+#include "kernel/parallel.h"
 #include "proofs/prover/traversal.h"
 
 namespace noli {

@@ -22,7 +22,7 @@
 // loose edge; c against ab for loose edges ac and ab (whether or not the edge_edge pair (cd, ab) of other cells is
 // there as well), or where one of the two is a loose cell and the other the face abc or part of it, or the face abc is
 // listed twice. vertex_vertex is two loose points; p against q for the loose edge pq and a loose point p, or the edge
-// listed twice. A face that has a vertex twice is treated alike (proofs/prover/leftover.h). A closed or bordered mesh
+// listed twice. A face that has a vertex twice is treated alike (proofs/prover/cells/leftover.h). A closed or bordered mesh
 // of faces, each with three vertices and listed once, has only vertex_face and edge_edge.
 //
 // With `strict` also: in 3D each corner of a face against the edge opposite to it, as vertex_edge; in 2D the pairs of
@@ -30,8 +30,8 @@
 // of vertex ids, whichever cells list it and how often; a face that is listed twice is two faces. Of two cells that
 // meet, some pair meets, or they do so from the beginning. Vertices are who they are by index.
 //
-// What this does not do: it writes no proof file (it can hand out the tokens of one), it knows no thickness, and it does
-// not read files.
+// What this does not do: it writes no proof file (it can hand out the tokens of one), it knows no thickness, and it
+// does not read files.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@
 #include "kernel/contact.h"
 #include "kernel/query.h"
 #include "kernel/stages.h"
-#include "proofs/prover/tokens.h"
+#include "proofs/prover/tokens/tokens.h"
 #include "trajectory/mesh.h"
 
 namespace noli {

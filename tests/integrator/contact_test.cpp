@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "contact_models.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "running.h"
 
 namespace noli::integrator {

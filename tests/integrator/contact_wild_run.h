@@ -7,7 +7,7 @@
 
 #include "contact_models.h"
 #include "integrator/contact_limit.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli::integrator::test {
 

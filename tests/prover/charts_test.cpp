@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/charts.h"
+#include "proofs/prover/windows/charts.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "proofs/prover/forest.h"
+#include "proofs/prover/windows/forest.h"
 #include "sheets.h"
 
 namespace noli::testing {

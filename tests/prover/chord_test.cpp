@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // World lines stay within the radius of their chords: in rational arithmetic.
-#include "proofs/prover/chord.h"
+#include "proofs/prover/windows/chord.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

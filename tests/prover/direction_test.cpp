@@ -7,8 +7,8 @@
 #include <deque>
 #include <limits>
 
-#include "proofs/prover/around.h"
-#include "proofs/prover/direction_search.h"
+#include "proofs/prover/cells/around.h"
+#include "proofs/prover/cells/direction_search.h"
 #include "scenes.h"
 
 namespace noli::testing {

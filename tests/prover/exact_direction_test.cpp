@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Directions with as many bits as a proof has room for.
-#include "proofs/prover/exact_direction.h"
+#include "proofs/prover/cells/exact_direction.h"
 
 #include <gtest/gtest.h>
 

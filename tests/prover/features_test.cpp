@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/features.h"
+#include "proofs/prover/cells/features.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "proofs/prover/features.h"
+#include "proofs/prover/cells/features.h"
 #include "scenes.h"
 
 namespace noli::testing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/layout.h"
+#include "proofs/prover/windows/layout.h"
 
 #include <gtest/gtest.h>
 

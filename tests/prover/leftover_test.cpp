@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Pairs of features that no larger pair of the same two cells stands for.
-#include "proofs/prover/leftover.h"
+#include "proofs/prover/cells/leftover.h"
 
 #include <gtest/gtest.h>
 
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "scenes.h"
 
 namespace noli::testing {

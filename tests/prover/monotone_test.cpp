@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/monotone.h"
+#include "proofs/prover/windows/monotone.h"
 
 #include <gtest/gtest.h>
 

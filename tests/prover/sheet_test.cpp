@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/sheet.h"
+#include "proofs/prover/windows/sheet.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/step_prover.h"
+#include "proofs/prover/tokens/step_prover.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/tokens.h"
+#include "proofs/prover/tokens/tokens.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "proofs/prover/short_direction.h"
+#include "proofs/prover/tokens/short_direction.h"
 
 namespace noli {
 namespace {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "scenes.h"
 
 namespace noli::testing {

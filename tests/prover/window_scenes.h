@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "brute_force.h"
-#include "proofs/prover/window_verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "scenes.h"
 #include "trajectory/world_lines.h"
 

@@ -2,7 +2,7 @@
 //
 // Witnesses of contact: one for each contact of random meshes, those of the ends of doubles' range, and what the judge
 // refuses.
-#include "proofs/prover/witness.h"
+#include "proofs/prover/witness/witness.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 #include <limits>
 
 #include "proofs/prover/earliest.h"
-#include "proofs/prover/roots.h"
-#include "proofs/prover/tokens.h"
-#include "proofs/prover/witness_judge.h"
+#include "proofs/prover/tokens/tokens.h"
+#include "proofs/prover/witness/roots.h"
+#include "proofs/prover/witness/witness_judge.h"
 #include "trajectory/blocks/bytes.h"
 #include "window_scenes.h"
 

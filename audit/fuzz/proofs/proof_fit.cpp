@@ -6,7 +6,7 @@
 
 #include "audit/fuzz/proofs/mutating.h"
 #include "certify/proofs/parsed_claim.h"
-#include "proofs/prover/proof_file.h"
+#include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/error.h"
 #include "trajectory/formats/frames.h"
 

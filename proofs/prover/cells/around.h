@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The usual cases of the pairs of cells in which the hierarchy ends, in few operations: most share a corner or an edge,
+// and of the others most are separated by the first directions one thinks of.
+//
+// Notation
+//   a         the point that is the origin: d, q(x) and the error bound are those of proofs/prover/cells/direction.h with
+//             r = a, so q(a) = 0
+//   abc, ade  two faces around a corner: if n has b, c on its upper and d, e on its lower side of a, it separates (bc,
+//             ade) and (abc, de)
+//   abc, abd  two faces around an edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d)
+//             if it has c above and d below both a and b; one direction each is tried for (bc, ad) and (ac, bd)
+//   abc, def  two cells without a common vertex
+//
+// What this does not do: what it does not settle it leaves to proofs/prover/cell_pair.h.
+#pragma once
+
+#include <optional>
+
+#include "proofs/prover/cells/direction.h"
+
+namespace noli {
+
+/// Points relative to a: d[point][axis].
+template <int Dim, std::size_t Count>
+struct PointsAround {
+  std::array<std::array<BothEnds, Dim>, Count> d;
+  double reach;
+};
+
+namespace detail {
+
+template <std::size_t Dim>
+std::array<BothEnds, Dim> relative(const std::array<BothEnds, Dim>& x, const std::array<BothEnds, Dim>& r) {
+  if constexpr (Dim == 3) {
+    return {x[0] - r[0], x[1] - r[1], x[2] - r[2]};
+  } else {
+    return {x[0] - r[0], x[1] - r[1]};
+  }
+}
+
+template <std::size_t Dim>
+BothEnds greatest_of(const std::array<BothEnds, Dim>& d) {
+  const BothEnds most = max(abs(d[0]), abs(d[1]));
+  if constexpr (Dim == 3) return max(most, abs(d[2]));
+  return most;
+}
+
+template <std::size_t Dim, std::size_t Count>
+double reach_of(const std::array<std::array<BothEnds, Dim>, Count>& d) {
+  BothEnds most = greatest_of(d[0]);
+  for (std::size_t i = 1; i < Count; ++i) most = max(most, greatest_of(d[i]));
+  return max(most, most.swapped()).at_t0();
+}
+
+/// Twice the value at mid-time.
+inline double twice_middle(BothEnds x) { return x.at_t0() + x.at_t1(); }
+
+}  // namespace detail
+
+/// b, c and d, e, or b, c and d, d.
+template <int Dim>
+using FourAround = PointsAround<Dim, 4>;
+
+/// Which corner of which of the two cells (false: the first).
+struct CornerOf {
+  bool second;
+  std::size_t corner;
+};
+
+/// Corners by number: `origin` is that of a in the first cell; `of_first`, `of_second` are those of the other points.
+template <int Dim, std::size_t First, std::size_t Second>
+PointsAround<Dim, First + Second> points_around(const StepCell<Dim>& first, const StepCell<Dim>& second,
+                                                std::size_t origin, const std::array<std::size_t, First>& of_first,
+                                                const std::array<std::size_t, Second>& of_second) {
+  PointsAround<Dim, First + Second> around;
+  const std::array<BothEnds, Dim>& r = first.x(origin);
+  for (std::size_t i = 0; i < First; ++i) around.d[i] = detail::relative(first.x(of_first[i]), r);
+  for (std::size_t i = 0; i < Second; ++i) around.d[First + i] = detail::relative(second.x(of_second[i]), r);
+  around.reach = detail::reach_of(around.d);
+  return around;
+}
+
+/// The same for cells with their positions.
+template <int Dim>
+FourAround<Dim> four_around(const MovingCell<Dim>& first, const MovingCell<Dim>& second, std::size_t origin,
+                            const std::array<CornerOf, 4>& points) {
+  FourAround<Dim> four;
+  const std::array<BothEnds, Dim> r = first.ends(origin);
+  for (std::size_t i = 0; i < 4; ++i) {
+    four.d[i] = detail::relative((points[i].second ? second : first).ends(points[i].corner), r);
+  }
+  four.reach = detail::reach_of(four.d);
+  return four;
+}
+
+/// Projections of the points at both ends, and what they may be wrong by.
+template <std::size_t Count>
+struct ProjectionsAround {
+  std::array<BothEnds, Count> q;
+  BothEnds bound;
+
+  /// Whether point i is certainly above point j.
+  bool above(std::size_t i, std::size_t j) const { return below(bound, q[i] - q[j]); }
+  bool above_origin(std::size_t i) const { return below(bound, q[i]); }
+  bool below_origin(std::size_t i) const { return below(bound, BothEnds(0) - q[i]); }
+};
+
+template <int Dim, std::size_t Count>
+ProjectionsAround<Count> project(const PointsAround<Dim, Count>& around, const Direction<Dim>& n) {
+  ProjectionsAround<Count> p;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const std::array<BothEnds, Dim>& d = around.d[i];
+    p.q[i] = BothEnds(n[0]) * d[0] + BothEnds(n[1]) * d[1];
+    if constexpr (Dim == 3) p.q[i] = p.q[i] + BothEnds(n[2]) * d[2];
+  }
+  p.bound = BothEnds(error_bound<Dim>(n, around.reach));
+  return p;
+}
+
+/// What is done to a direction before it is tested.
+constexpr auto as_it_is = [](const auto& n) { return n; };
+
+/// Points b, c, d, e: a direction that separates (bc, ade) and (abc, de).
+template <int Dim, class Round = decltype(as_it_is)>
+std::optional<std::array<double, Dim>> around_corner(const PointsAround<Dim, 4>& points, const Round& round = {}) {
+  const auto& [b, c, d, e] = points.d;
+  std::array<double, Dim> n;
+  for (std::size_t k = 0; k < Dim; ++k) n[k] = detail::twice_middle((b[k] + c[k]) - (d[k] + e[k]));
+  n = round(n);
+  const auto p = project(points, n);
+  if (p.above_origin(0) && p.above_origin(1) && p.below_origin(2) && p.below_origin(3)) return n;
+  return std::nullopt;
+}
+
+/// Points b, c, d, e, f: +1 if n, -1 if -n certainly separates abc (above) from def; 0 if neither could be shown.
+template <int Dim>
+int separates(const PointsAround<Dim, 5>& points, const Direction<Dim>& n) {
+  const auto p = project(points, n);
+  const BothEnds origin(0);
+  const BothEnds least_abc = min(origin, min(p.q[0], p.q[1])), most_abc = max(origin, max(p.q[0], p.q[1]));
+  const BothEnds least_def = min(p.q[2], min(p.q[3], p.q[4])), most_def = max(p.q[2], max(p.q[3], p.q[4]));
+  if (below(p.bound, least_abc - most_def)) return 1;
+  return below(p.bound, least_def - most_abc) ? -1 : 0;
+}
+
+/// Points b, c, d, e, f: from the middle of def to that of abc, at mid-time, six times as long.
+template <int Dim>
+std::array<double, Dim> between_middles(const PointsAround<Dim, 5>& points) {
+  const auto& [b, c, d, e, f] = points.d;
+  std::array<double, Dim> n;
+  for (std::size_t k = 0; k < Dim; ++k) n[k] = detail::twice_middle((b[k] + c[k]) - (d[k] + e[k] + f[k]));
+  return n;
+}
+
+/// Four times a normal of the triangle on three points at mid-time, as rounding has it.
+inline std::array<double, 3> mid_normal(const std::array<BothEnds, 3>& p, const std::array<BothEnds, 3>& q,
+                                        const std::array<BothEnds, 3>& r) {
+  std::array<double, 3> u, v;
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = detail::twice_middle(q[k] - p[k]);
+    v[k] = detail::twice_middle(r[k] - p[k]);
+  }
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// What was found around an edge, in the order (c, abd), (bc, ad), (ac, bd), (abc, d).
+template <int Dim>
+struct AroundEdge {
+  std::array<std::array<double, Dim>, 4> n;
+  std::array<bool, 4> found{};
+};
+
+/// Points b, c, d, and perhaps d again: directions that separate the four pairs of parts.
+template <int Dim, std::size_t Count, class Round = decltype(as_it_is)>
+AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points, const Round& round = {}) {
+  constexpr std::size_t b = 0, c = 1, d = 2;
+  std::array<double, Dim> edge, across;
+  double along = 0, length = 0;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    edge[k] = detail::twice_middle(points.d[b][k]);
+    across[k] = detail::twice_middle(points.d[c][k] - points.d[d][k]);
+    along += across[k] * edge[k];
+    length += edge[k] * edge[k];
+  }
+  AroundEdge<Dim> result;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    result.n[0][k] = across[k] - along / length * edge[k];
+    result.n[1][k] = across[k] + edge[k];  // b, c above a, d
+    result.n[2][k] = across[k] - edge[k];  // a, c above b, d
+  }
+  for (std::size_t i = 0; i < 3; ++i) result.n[i] = round(result.n[i]);
+  result.n[3] = result.n[0];
+  const auto p = project(points, result.n[0]);
+  result.found[0] = p.above_origin(c) && p.above(c, b) && p.above(c, d);
+  result.found[3] = p.below_origin(d) && p.above(b, d) && p.above(c, d);
+  const auto q = project(points, result.n[1]);
+  result.found[1] = q.above_origin(b) && q.above_origin(c) && q.above(b, d) && q.above(c, d);
+  const auto r = project(points, result.n[2]);
+  result.found[2] = r.below_origin(b) && r.below_origin(d) && r.above(c, b) && r.above(c, d);
+  return result;
+}
+
+}  // namespace noli

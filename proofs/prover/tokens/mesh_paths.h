@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Short paths along a mesh, for the ring rule: features that a path of fewer than K edges joins may be nearer than the
+// least distance.
+//
+// Notation
+//   K       the ring, at least 1
+//   step    an edge of a path: the cell that has both of its ends, and the end
+//
+// What this does not do: with K = 1 there are no paths but from a vertex to itself, and nothing is kept for it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "proofs/prover/tokens/proof_tree.h"
+
+namespace noli {
+
+class MeshPaths {
+ public:
+  using Steps = std::vector<std::array<std::uint32_t, 2>>;
+
+  MeshPaths(const ProofTree& tree, std::size_t vertices, std::uint32_t ring);
+
+  /// A shortest path from v to w, of fewer than K edges; nothing if there is none.
+  std::optional<Steps> find(VertexId v, VertexId w) const;
+
+ private:
+  const ProofTree& tree_;
+  std::uint32_t ring_;
+  std::vector<std::uint32_t> begin_, cells_;  ///< those of vertex v are cells_[begin_[v]] to cells_[begin_[v + 1]]
+};
+
+}  // namespace noli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writes proof files (proofs/FORMAT.md): the claim, then step after step, each committed when it is complete.
+//
+// What this does not do: it makes no proof (proofs/prover/tokens/step_prover.h) and reads none.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "proofs/prover/tokens/proof_walk.h"
+#include "proofs/prover/tokens/tokens.h"
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/sha256.h"
+
+namespace noli {
+
+enum class ProofSource : std::uint8_t { frames = 0, frames_at_rest = 1, run = 2 };
+
+/// Blocks CLAM and, for frames whose labels are not all 0, LABL.
+struct ProofHeader {
+  ProofSource source = ProofSource::frames;
+  int dimension = 3;
+  bool strict = false, points = false;
+  std::size_t vertices = 0;
+  const Mesh* mesh = nullptr;                   ///< after merging
+  std::span<const std::uint32_t> labels;        ///< of its cells
+  std::optional<Sha256Digest> cells = {};       ///< cells_hash, where it is known
+  std::vector<std::array<VertexId, 2>> merged;  ///< a vertex and the one that stands for it, ascending
+  LabelPairs excluded;
+  double eta = 0;
+  std::uint32_t ring = 1;
+};
+
+/// Of the cells with their labels, as the claim has it.
+Sha256Digest cells_hash(const ProofHeader& header);
+
+class ProofFile {
+ public:
+  static constexpr FourLetters content = four_letters("PROF");
+
+  /// Writes the header. Throws what the sink throws, here and below.
+  ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header);
+  /// Goes on behind a commit, as BlockWriter.
+  ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, const ProofHeader& header);
+
+  enum class Kind : std::uint8_t { proof = 0, witness = 1 };
+
+  /// Begins step `number`, whose times are those of `lines` and `shift` more. In two dimensions third coordinates count
+  /// as 0.
+  void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift);
+  /// The same for a window of a run, with the hash of its group.
+  void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift, const Sha256Digest& hash);
+  void tree(std::string_view payload) { blocks_.append(four_letters("TREE"), payload); }
+  void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
+  /// All tokens of a step.
+  void tokens(const JoinedTokens& tokens);
+  void witness(std::string_view payload) { blocks_.append(four_letters("WITN"), payload); }
+  void commit() { blocks_.commit(); }
+  /// Drops the step that was begun.
+  void discard() { blocks_.discard(); }
+  const CommitPoint& committed() const { return blocks_.committed(); }
+
+ private:
+  BlockWriter blocks_;
+  int dimension_;
+  double eta_;
+};
+
+}  // namespace noli

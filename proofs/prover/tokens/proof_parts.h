@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is left of two cells: the directions that separate the two parts, piece of time by piece.
+//
+// Notation
+//   part     vertices of a cell, by a mask of its corners
+//   piece    the share [k / 2^e, (k + 1) / 2^e] of the step
+//   span     a piece for whose ends, or times a little outside it, there are chords of all vertices
+//   chord, radius   as in proofs/prover/windows/chord.h; of a vertex without breakpoints inside the radius is 0, and its chord
+//            is its motion
+//   margin   as in proofs/prover/windows/window_cell.h
+//
+// A piece is halved until a direction is found: as long as doubles do, by the proved test of proofs/prover/cells/direction.h,
+// with a margin for the radii; where they do not and the piece is short, in exact arithmetic. The direction is then
+// written with as few bits as pass the same test.
+//
+// What this does not do: it decides no contact. Two parts that meet are halved until it gives up.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "proofs/prover/cells/around.h"
+#include "proofs/prover/cells/direction_search.h"
+#include "proofs/prover/cells/exact_direction.h"
+#include "proofs/prover/tokens/mesh_paths.h"
+#include "proofs/prover/tokens/proof_tree.h"
+#include "proofs/prover/tokens/short_direction.h"
+#include "proofs/prover/tokens/tokens.h"
+#include "proofs/prover/tokens/too_near.h"
+#include "proofs/prover/traversal.h"
+#include "proofs/prover/windows/window_cell.h"
+
+namespace noli {
+
+/// Two parts for which no direction was found, however short the piece.
+struct NoProof : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A vertex over the span.
+template <int Dim>
+using ProofChord = Chord<Dim>;
+
+/// A share of the step.
+struct Piece {
+  Integer k;
+  unsigned e = 0;
+
+  Piece half(long which) const { return {k * Integer(2) + Integer(which), e + 1}; }
+
+  /// Doubles around it: exact for the whole step, else at most a little outside it. Nothing where doubles cannot tell
+  /// its ends apart.
+  std::optional<Span> times(const WorldLines& lines) const {
+    const double first = lines.first_time(), last = lines.last_time();
+    if (e == 0) return Span{first, last};
+    if (e > 45 || !std::isfinite(last - first)) return std::nullopt;
+    const double width = std::ldexp(last - first, -static_cast<int>(e)), from = first + width * mpz_get_d(k.get());
+    const double slack = 8 * std::max(std::abs(first), std::abs(last)) * 0x1p-53;
+    const Span span{std::max(from - slack, first), std::min(from + width + slack, last)};
+    return span.begin < span.end ? std::optional(span) : std::nullopt;
+  }
+};
+
+template <int Dim>
+class ProofParts {
+ public:
+  /// `eta`, `paths`: the least distance, and who may be nearer than that (nobody needs it where it is 0).
+  ProofParts(const WorldLines& lines, const std::vector<ProofChord<Dim>>& chords, const Piece& span, double eta,
+             const MeshPaths* paths, const StopSignal& stop)
+      : lines_(lines), chords_(chords), span_(span), eta_(eta), paths_(paths), stop_(stop) {}
+
+  /// Writes the tokens for two cells; not all of them if it was stopped. Throws TooNear, NoProof.
+  void settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b, Tokens& tokens) {
+    known_ = false;
+    first_cell_ = i;
+    second_cell_ = j;
+    distance_ = eta_;
+    drop_common({a, all_corners(a.corners)}, {b, all_corners(b.corners)}, tokens);
+  }
+
+  bool stopped() const { return stopped_; }
+
+ private:
+  struct Part {
+    const ProofCell& cell;
+    CornerMask mask;
+
+    Part without(std::size_t corner) const { return {cell, static_cast<CornerMask>(mask & ~(1U << corner))}; }
+    bool has(std::size_t corner) const { return (mask >> corner & 1) != 0; }
+  };
+
+  struct Pair {
+    PartPair<Dim> points;
+    bool exact = true;  ///< all radii are 0
+    double strays = 0;  ///< the greatest radii of both parts, added
+  };
+
+  /// Rounds of the search for a direction, as in proofs/prover/cell_pair.h; from which depth on exact arithmetic is
+  /// asked; and when to give up: at that depth neighbouring doubles are farther apart than anything moves.
+  static constexpr int search_rounds = 10;
+  static constexpr unsigned exact_from = 6, give_up = 1000, give_up_near = 120, interval_bits = 20;
+  static constexpr std::size_t most_exact = 60;
+
+  /// The first vertex that both have is dropped from one and from the other.
+  void drop_common(Part a, Part b, Tokens& tokens) {
+    for (std::size_t i = 0; i < a.cell.corners; ++i) {
+      if (!a.has(i)) continue;
+      for (std::size_t j = 0; j < b.cell.corners; ++j) {
+        if (!b.has(j) || a.cell.vertices[i] != b.cell.vertices[j]) continue;
+        tokens.drop(0);
+        drop_common(a.without(i), b, tokens);
+        drop_common(a, b.without(j), tokens);
+        return;
+      }
+    }
+    if (a.mask == 0 || b.mask == 0) return tokens.empty();
+    const auto pair = pair_over(a, b, [&](VertexId v) -> const ProofChord<Dim>& { return chords_[v]; });
+    if (distance_ > 0 && !closed_at_once(pair, tokens)) return go_around(a, b, pair, tokens);
+    if (distance_ == 0) separate(a, b, pair, tokens);
+  }
+
+  /// Whether a direction is found for the whole span.
+  bool closed_at_once(const Pair& pair, Tokens& tokens) {
+    if (known_ && above(pair, last_, {})) {
+      write(pair, last_, {}, tokens);
+      return true;
+    }
+    const auto n = find(pair, {});
+    if (n) write(pair, *n, {}, tokens);
+    return n.has_value();
+  }
+
+  /// Two parts that are not seen to be far enough apart: where a path joins two of their vertices, what has both need
+  /// only be disjoint.
+  void go_around(const Part& a, const Part& b, const Pair& pair, Tokens& tokens) {
+    for (std::size_t i = 0; i < a.cell.corners; ++i) {
+      for (std::size_t j = 0; j < b.cell.corners; ++j) {
+        if (!a.has(i) || !b.has(j)) continue;
+        const auto path = paths_->find(a.cell.vertices[i], b.cell.vertices[j]);
+        if (!path) continue;
+        tokens.ring(a.cell.vertices[i], *path);
+        drop_common(a.without(i), b, tokens);
+        drop_common(a, b.without(j), tokens);
+        const double distance = std::exchange(distance_, 0);
+        drop_common(a, b, tokens);
+        distance_ = distance;
+        return;
+      }
+    }
+    refuse_near(pair, span_, 8);
+    halve(a, b, pair, span_, tokens);
+  }
+
+  /// Parts that are certainly nearer than the least distance at one of a few times of the piece, whose chords they
+  /// have. (In three dimensions a vertex strays from its chord by less than two radii.)
+  void refuse_near(const Pair& pair, const Piece& piece, int times) const {
+    for (int k = 0; k <= times; ++k) {
+      const double part = static_cast<double>(k) / times;
+      if (distance_at_most(pair.points, part, search_rounds) + 2 * pair.strays >= distance_ * (1 - 0x1p-30)) continue;
+      throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()) + part, -static_cast<int>(piece.e))};
+    }
+  }
+
+  /// What n.(a - b) has to exceed: rounding and radii, and the least distance.
+  double bound_of(const Pair& pair, const Direction<Dim>& n) const {
+    const double bound = error_bound<Dim>(n, pair.points.reach);
+    return distance_ == 0 ? bound : bound + distance_ * std::sqrt(detail::inner(n, n)) * (1 + 0x1p-48);
+  }
+
+  bool above(const Pair& pair, const Direction<Dim>& n, const Interval& interval) const {
+    const Projections p = at_ends(project(pair.points, n), interval);
+    const double bound = bound_of(pair, n);
+    return gap_above(p.q[0]) > bound && gap_above(p.q[1]) > bound;
+  }
+
+  template <class ChordOf>
+  static Pair pair_over(const Part& a, const Part& b, const ChordOf& chord) {
+    Pair pair;
+    double margin_a = 0, margin_b = 0;
+    const auto origin = chord(a.cell.vertices[static_cast<std::size_t>(std::countr_zero(a.mask))]).x_t0;
+    const auto origin_t1 = chord(a.cell.vertices[static_cast<std::size_t>(std::countr_zero(a.mask))]).x_t1;
+    const auto put = [&](const Part& part, std::size_t lane, double& margin) {
+      const auto& lanes = detail::lanes_of(part.mask);
+      for (std::size_t l = 0; l < 4; ++l) {
+        const auto& c = chord(part.cell.vertices[lanes[l]]);
+        for (std::size_t k = 0; k < Dim; ++k) {
+          pair.points.d[0][k][lane + l] = c.x_t0[k] - origin[k];
+          pair.points.d[1][k][lane + l] = c.x_t1[k] - origin_t1[k];
+          margin = std::max(margin, c.radius[k]);
+        }
+      }
+    };
+    put(a, 0, margin_a);
+    put(b, 4, margin_b);
+    pair.strays = margin_a + margin_b;
+    pair.exact = pair.strays == 0;
+    pair.points.reach = detail::reach_of<Dim>(pair.points.d);
+    if (!pair.exact) pair.points.reach = raised(pair.points.reach, margin_a + margin_b);
+    return pair;
+  }
+
+  /// Over the whole span the directions of the cells' other parts are tried first.
+  void separate(const Part& a, const Part& b, const Pair& pair, Tokens& tokens) {
+    if (!closed_at_once(pair, tokens)) halve(a, b, pair, span_, tokens);
+  }
+
+  std::optional<Direction<Dim>> find(const Pair& pair, const Interval& interval) const {
+    return find_direction<Dim>(pair.points, between_middles(pair.points), interval, search_rounds,
+                               [&](const Direction<Dim>& n) { return bound_of(pair, n); });
+  }
+
+  /// Parts that are just as far apart as the least distance are not farther.
+  [[noreturn]] void give_up_at(const Piece& piece) const {
+    if (distance_ == 0) throw NoProof("no direction separates two parts, however short the time");
+    const Integer at = piece.k.is_zero() ? piece.k : piece.k + Integer(1);
+    throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(at.get()), -static_cast<int>(piece.e))};
+  }
+
+  void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece, Tokens& tokens) {
+    if (piece.e == (distance_ == 0 ? give_up : give_up_near)) give_up_at(piece);
+    stopped_ = stopped_ || stop_.raised();  // two cells with many breakpoints can take minutes
+    tokens.halve();
+    for (long which = 0; which < 2 && !stopped_; ++which) over_piece(a, b, pair, piece.half(which), tokens);
+  }
+
+  void over_piece(const Part& a, const Part& b, const Pair& whole, const Piece& piece, Tokens& tokens) {
+    if (whole.exact && piece.e <= span_.e + interval_bits) {
+      const unsigned deeper = piece.e - span_.e;
+      const double width = std::ldexp(1.0, -static_cast<int>(deeper));
+      const double begin = width * mpz_get_d((piece.k - (span_.k << deeper)).get());
+      const Interval interval{begin, begin + width};
+      if (const auto n = find(whole, interval)) return write(whole, *n, interval, tokens);
+      if (distance_ > 0 && distance_at_most(whole.points, begin, search_rounds) < distance_ * (1 - 0x1p-30)) {
+        throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()), -static_cast<int>(piece.e))};
+      }
+    } else if (!whole.exact) {
+      if (const auto pair = pair_in(a, b, piece)) {
+        if (const auto n = find(*pair, {})) return write(*pair, *n, {}, tokens);
+        if (distance_ > 0) refuse_near(*pair, piece, 1);
+      }
+    }
+    if (piece.e >= exact_from) {
+      if (const auto differences = differences_in(a, b, piece)) {
+        if (const auto n = exact_direction(differences->w, differences->least2)) return tokens.direction(*n);
+      }
+    }
+    halve(a, b, whole, piece, tokens);
+  }
+
+  /// With chords over the piece.
+  std::optional<Pair> pair_in(const Part& a, const Part& b, const Piece& piece) const {
+    const auto times = piece.times(lines_);
+    if (!times) return std::nullopt;
+    std::array<ProofChord<Dim>, 6> chords;
+    std::array<VertexId, 6> ids;
+    std::size_t n = 0;
+    for (const Part* part : {&a, &b}) {
+      for (std::size_t i = 0; i < part->cell.corners; ++i) {
+        if (!part->has(i)) continue;
+        ids[n] = part->cell.vertices[i];
+        chords[n] = chord_of<Dim>(WorldLine(lines_, ids[n]), times->begin, times->end);
+        ++n;
+      }
+    }
+    return pair_over(a, b, [&](VertexId v) -> const ProofChord<Dim>& {
+      return chords[static_cast<std::size_t>(std::find(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(n), v) -
+                                             ids.begin())];
+    });
+  }
+
+  /// As few bits as separate by the same test.
+  void write(const Pair& pair, const Direction<Dim>& n, const Interval& interval, Tokens& tokens) {
+    known_ = true;
+    last_ = n;
+    put_direction(
+        n, [&](const Direction<Dim>& m) { return above(pair, m, interval); }, tokens);
+  }
+
+  /// D and least2 of proofs/prover/cells/exact_direction.h.
+  struct Differences {
+    std::vector<IntegerVector> w;
+    Integer least2;
+  };
+
+  /// A vertex and its breakpoints from the last one not after the piece's begin to the first one not before its end:
+  /// all that say where it is within the piece.
+  struct Stretch {
+    std::span<const double> times;
+    std::span<const Position> positions;
+  };
+
+  /// Times of the step as whole numbers of one unit, 2^(low - e).
+  struct Unit {
+    int low;
+    unsigned e;
+
+    Integer operator()(double t) const { return scaled_integer(t, low) << e; }
+  };
+
+  /// At both ends of the piece and at each breakpoint of the parts between. Nothing if they are too many.
+  std::optional<Differences> differences_in(const Part& a, const Part& b, const Piece& piece) const {
+    std::vector<Stretch> vertices;
+    std::size_t of_a = 0, breakpoints = 2;
+    for (const Part* part : {&a, &b}) {
+      for (std::size_t i = 0; i < part->cell.corners; ++i) {
+        if (!part->has(i)) continue;
+        vertices.push_back(stretch(part->cell.vertices[i], piece));
+        breakpoints += vertices.back().times.size() - 2;
+      }
+      if (part == &a) of_a = vertices.size();
+    }
+    if (breakpoints * of_a * (vertices.size() - of_a) > most_exact) return std::nullopt;
+    return differences_at(vertices, of_a, piece);
+  }
+
+  Differences differences_at(const std::vector<Stretch>& vertices, std::size_t of_a, const Piece& piece) const {
+    exact::ExponentRange space, time;
+    for (const Stretch& v : vertices) {
+      for (const Position& x : v.positions) {
+        for (std::size_t k = 0; k < Dim; ++k) space.add(x[k]);
+      }
+      for (const double t : v.times) time.add(t);
+    }
+    if (distance_ > 0) space.add(distance_);
+    time.add(lines_.first_time());
+    time.add(lines_.last_time());
+    const Unit unit{time.low, piece.e};
+    std::vector<Integer> times = {time_of(piece.k, unit), time_of(piece.k + Integer(1), unit)};
+    for (const Stretch& v : vertices) {
+      for (std::size_t s = 1; s + 1 < v.times.size(); ++s) times.push_back(unit(v.times[s]));
+    }
+    Differences result;
+    std::vector<Integer> denominators;
+    for (const Integer& c : times) {
+      std::vector<std::pair<IntegerVector, Integer>> at;  // numerators, denominator > 0
+      for (const Stretch& v : vertices) at.push_back(position(v, c, space.low, unit));
+      for (std::size_t i = 0; i < of_a; ++i) {
+        for (std::size_t j = of_a; j < vertices.size(); ++j) {
+          IntegerVector w;
+          for (std::size_t k = 0; k < Dim; ++k) w[k] = at[i].first[k] * at[j].second - at[j].first[k] * at[i].second;
+          result.w.push_back(std::move(w));
+          denominators.push_back(at[i].second * at[j].second);
+        }
+      }
+    }
+    make_common(result, denominators);
+    if (distance_ > 0) {
+      const Integer least = scaled_integer(distance_, space.low) * denominators[0];
+      result.least2 = least * least;
+    }
+    return result;
+  }
+
+  /// The time k / 2^e of the way through the step, in the unit, whose e is the same.
+  Integer time_of(const Integer& k, const Unit& unit) const {
+    const Integer first = scaled_integer(lines_.first_time(), unit.low),
+                  last = scaled_integer(lines_.last_time(), unit.low);
+    return (first << unit.e) + (last - first) * k;
+  }
+
+  /// By search, as breakpoints of the whole step can be many.
+  Stretch stretch(VertexId v, const Piece& piece) const {
+    const auto t = lines_.times(v);
+    const auto order = [&](double time, const Integer& k) {
+      exact::ExponentRange range;
+      for (const double of : {time, lines_.first_time(), lines_.last_time()}) range.add(of);
+      const Unit unit{range.low, piece.e};
+      return mpz_cmp(unit(time).get(), time_of(k, unit).get());
+    };
+    const Integer begin = piece.k, end = piece.k + Integer(1);
+    const auto from = std::partition_point(t.begin() + 1, t.end() - 1, [&](double x) { return order(x, begin) <= 0; });
+    const auto to = std::partition_point(from, t.end() - 1, [&](double x) { return order(x, end) < 0; });
+    const auto first = static_cast<std::size_t>(from - t.begin()) - 1, last = static_cast<std::size_t>(to - t.begin());
+    return {t.subspan(first, last + 1 - first), lines_.positions(v).subspan(first, last + 1 - first)};
+  }
+
+  /// Multiplies each vector so that all have the same denominator, which takes the place of the first.
+  static void make_common(Differences& differences, std::vector<Integer>& denominators) {
+    Integer common = denominators[0];
+    for (const Integer& d : denominators) mpz_lcm(common.get(), common.get(), d.get());
+    for (std::size_t i = 0; i < denominators.size(); ++i) {
+      const Integer factor = divide_exactly(common, denominators[i]);
+      for (Integer& part : differences.w[i]) part *= factor;
+    }
+    denominators[0] = common;
+  }
+
+  static std::pair<IntegerVector, Integer> position(const Stretch& v, const Integer& c, int low, const Unit& unit) {
+    std::size_t s = 0;
+    while (s + 2 < v.times.size() && unit(v.times[s + 1]) <= c) ++s;
+    const Integer before = c - unit(v.times[s]), after = unit(v.times[s + 1]) - c;
+    IntegerVector numerators;
+    for (std::size_t k = 0; k < Dim; ++k)
+      numerators[k] =
+          scaled_integer(v.positions[s][k], low) * after + scaled_integer(v.positions[s + 1][k], low) * before;
+    return {std::move(numerators), before + after};
+  }
+
+  const WorldLines& lines_;
+  const std::vector<ProofChord<Dim>>& chords_;
+  Piece span_;
+  double eta_;
+  const MeshPaths* paths_;
+  const StopSignal& stop_;
+  bool stopped_ = false;
+  double distance_ = 0;  ///< eta_, or 0 where parts need only be disjoint
+  std::uint32_t first_cell_ = 0, second_cell_ = 0;
+  bool known_ = false;  ///< last_ separated two parts of the same cells
+  Direction<Dim> last_{};
+};
+
+}  // namespace noli

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proofs/prover/windows/forest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "proofs/prover/windows/layout.h"
+#include "proofs/prover/windows/window_owners.h"
+
+namespace noli {
+
+namespace {
+
+/// Smaller parts gain nothing from a tree of their own, and pairs of trees are looked at one by one.
+constexpr std::size_t least_part = 32;
+constexpr std::size_t most_parts = 256;
+
+/// What the median split looks at.
+struct Entry {
+  std::array<float, 3> centre{};
+  std::uint32_t cell = 0;
+};
+using Entries = std::span<Entry>;
+
+float rounded(double x) {
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -most, most));
+}
+
+/// Scaled into [-1, 1], all axes alike.
+std::vector<std::array<double, 3>> scaled(std::span<const Position> x) {
+  std::array<double, 3> middle{};
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax_element(x.begin(), x.end(), [k](auto& p, auto& q) { return p[k] < q[k]; });
+    middle[k] = 0.5 * (*low)[k] + 0.5 * (*high)[k];
+    most = std::max(most, 0.5 * (*high)[k] - 0.5 * (*low)[k]);
+  }
+  int exponent = 0;
+  std::frexp(most, &exponent);
+  const double scale = std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
+  std::vector<std::array<double, 3>> result(x.size());
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    for (std::size_t k = 0; k < 3; ++k) result[v][k] = (x[v][k] - middle[k]) * scale;
+  }
+  return result;
+}
+
+std::size_t longest_axis(Entries entries) {
+  std::array<float, 3> low = entries[0].centre, high = low;
+  for (const Entry& e : entries) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], e.centre[k]);
+      high[k] = std::max(high[k], e.centre[k]);
+    }
+  }
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (high[k] - low[k] > high[best] - low[best]) best = k;
+  }
+  return best;
+}
+
+/// Puts entries into the order of the leaves: each group split at the median of the centres along its longest axis.
+void sort_leaves(Entries entries) {
+  if (entries.size() < 2) return;
+  const std::size_t axis = longest_axis(entries), half = entries.size() / 2;
+  std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(half), entries.end(),
+                   [axis](const Entry& a, const Entry& b) {
+                     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.cell < b.cell;
+                   });
+  sort_leaves(entries.first(half));
+  sort_leaves(entries.subspan(half));
+}
+
+template <class Place>
+Entry entry_of(const Mesh& mesh, std::uint32_t cell, std::size_t axes, const Place& place) {
+  Entry entry{{}, cell};
+  for (const VertexId v : corners(mesh, cell)) {
+    for (std::size_t k = 0; k < axes; ++k) entry.centre[k] += rounded(place(v)[k] / 3);
+  }
+  return entry;
+}
+
+float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::max()); }
+float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max()); }
+
+Extent extent_of(const std::array<VertexId, 3>& v, std::span<const Point2> r) {
+  return {below(std::min({r[v[0]][0], r[v[1]][0], r[v[2]][0]})), below(std::min({r[v[0]][1], r[v[1]][1], r[v[2]][1]})),
+          above(std::max({r[v[0]][0], r[v[1]][0], r[v[2]][0]})), above(std::max({r[v[0]][1], r[v[1]][1], r[v[2]][1]}))};
+}
+
+Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features, bool scripted,
+             const Exclusions& exclusions) {
+  return {corners(mesh, cell),
+          cell,
+          features.owned[cell],
+          features.shared[cell],
+          static_cast<std::uint8_t>(corner_count(mesh, cell)),
+          scripted,
+          exclusions.empty() ? std::uint16_t{0} : exclusions.groups[corners(mesh, cell)[0]]};
+}
+
+/// For each vertex the length of the shortest edge of a cell that it is an end of; infinite if there is none.
+std::vector<float> sizes_of(const Mesh& mesh, std::span<const Position> x, int dimension) {
+  std::vector<float> size(x.size(), std::numeric_limits<float>::infinity());
+  const auto add = [&](VertexId a, VertexId b) {
+    double square = 0;
+    for (int k = 0; k < dimension; ++k) {
+      const double d = x[a][static_cast<std::size_t>(k)] - x[b][static_cast<std::size_t>(k)];
+      square += d * d;
+    }
+    const auto length = static_cast<float>(std::sqrt(square));
+    size[a] = std::min(size[a], length);
+    size[b] = std::min(size[b], length);
+  };
+  for (const auto& [a, b, c] : mesh.faces) {
+    add(a, b);
+    add(b, c);
+    add(c, a);
+  }
+  for (const auto& [a, b] : mesh.edges) add(a, b);
+  return size;
+}
+
+/// Sheets and other parts, no more than so many.
+Sheets parts_of(const Mesh& mesh, std::span<const Position> x, int dimension) {
+  Sheets parts = find_sheets(mesh, x, dimension, least_part);
+  parts.faces.resize(std::min(parts.faces.size(), most_parts));
+  parts.others.resize(std::min(parts.others.size(), most_parts - parts.faces.size()));
+  return parts;
+}
+
+/// The cells that are in no part.
+std::vector<std::uint32_t> rest_of(const Mesh& mesh, const Sheets& parts) {
+  std::vector<bool> taken(mesh.cell_count(), false);
+  for (const auto* list : {&parts.faces, &parts.others}) {
+    for (const auto& faces : *list) {
+      for (const std::uint32_t f : faces) taken[f] = true;
+    }
+  }
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t cell = 0; cell < taken.size(); ++cell) {
+    if (!taken[cell]) result.push_back(cell);
+  }
+  return result;
+}
+
+}  // namespace
+
+Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options)
+    : exclusions_(options.exclusions != nullptr ? *options.exclusions : Exclusions{}),
+      leftovers_(mesh.cell_count(),
+                 [this](std::size_t i) {
+                   return Leftovers::NumberedShape{{leaves_[i].vertices, leaves_[i].corners}, leaves_[i].cell};
+                 }),
+      part_of_(mesh.vertex_count, no_part),
+      sizes_(sizes_of(mesh, x, options.dimension)) {
+  CellFeatures features = find_owners(mesh, options.strict);
+  const std::vector<std::uint8_t> scripted = scripted_cells(mesh, options.scripted);
+  prefer_free_owners(mesh, scripted, features);
+
+  const Sheets parts = parts_of(mesh, x, options.dimension);
+  const std::vector<std::uint32_t> rest = rest_of(mesh, parts);
+  const auto places = scaled(x);
+  const auto axes = static_cast<std::size_t>(options.dimension);
+  std::vector<Entry> entries;
+  const auto grow = [&](const std::vector<std::uint32_t>& cells, bool sheet, bool part) {
+    const std::size_t begin = entries.size();
+    for (const std::uint32_t cell : cells) {
+      entries.push_back(sheet ? entry_of(mesh, cell, 2, [&](VertexId v) { return parts.layout[v]; })
+                              : entry_of(mesh, cell, axes, [&](VertexId v) { return places[v]; }));
+    }
+    sort_leaves(Entries(entries).subspan(begin));
+    for (std::size_t i = begin; i < entries.size(); ++i) {
+      const std::uint32_t cell = entries[i].cell;
+      leaves_.push_back(leaf_of(mesh, cell, features, scripted[cell] != 0, exclusions_));
+    }
+    add_tree(sheet, part, begin, entries.size());
+  };
+  for (const auto& faces : parts.faces) grow(faces, true, true);
+  for (const Leaf& leaf : leaves_) {
+    const auto& v = leaf.vertices;
+    laid_faces_.push_back(noli::laid_face(v, parts.layout[v[0]], parts.layout[v[1]], parts.layout[v[2]]));
+  }
+  for (const auto& faces : parts.others) grow(faces, false, true);
+  if (!rest.empty()) grow(rest, false, false);
+  for (const Tree& tree : trees_) finish(tree.root, parts.layout, tree.sheet);
+  make_charts(mesh, x, options.dimension);
+}
+
+void Forest::make_charts(const Mesh& mesh, std::span<const Position> x, int dimension) {
+  std::vector<std::uint32_t> cells;
+  for (const Leaf& leaf : leaves_) cells.push_back(leaf.cell);
+  std::vector<Group> roots;
+  for (const Tree& tree : trees_) {
+    if (tree.part && !tree.sheet) roots.push_back(tree.root);
+  }
+  charts_.emplace(mesh, x, dimension, cells, roots);
+}
+
+void Forest::add_tree(bool sheet, bool part, std::size_t begin, std::size_t end) {
+  Tree tree;
+  tree.sheet = sheet;
+  tree.part = part;
+  tree.root = {static_cast<std::uint32_t>(scripted_.size()), static_cast<std::uint32_t>(begin),
+               static_cast<std::uint32_t>(end - begin)};
+  scripted_.resize(scripted_.size() + 2 * (end - begin) - 1);
+  if (sheet) extents_.resize(scripted_.size());
+  for (std::size_t i = begin; i < end; ++i) {
+    tree.vertices.insert(tree.vertices.end(), leaves_[i].vertices.begin(), leaves_[i].vertices.end());
+  }
+  std::sort(tree.vertices.begin(), tree.vertices.end());
+  tree.vertices.erase(std::unique(tree.vertices.begin(), tree.vertices.end()), tree.vertices.end());
+  for (const VertexId v : tree.vertices) {
+    if (part) part_of_[v] = static_cast<std::uint32_t>(trees_.size());
+  }
+  trees_.push_back(std::move(tree));
+}
+
+void Forest::finish(Group g, std::span<const Point2> layout, bool sheet) {
+  if (g.is_leaf()) {
+    scripted_[g.node] = leaf(g).scripted ? 1 : 0;
+    if (sheet) extents_[g.node] = extent_of(leaf(g).vertices, layout);
+    return;
+  }
+  finish(g.left(), layout, sheet);
+  finish(g.right(), layout, sheet);
+  scripted_[g.node] = scripted(g.left()) && scripted(g.right()) ? 1 : 0;
+  if (sheet) extents_[g.node] = merged(extent(g.left()), extent(g.right()));
+}
+
+}  // namespace noli

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The cells of a mesh in binary trees: one for each sheet, one for each other part of some size, one for all the rest.
+// It depends on the mesh and one set of positions only, so it is made once for a run.
+//
+// Notation
+//   tree     as in proofs/prover/hierarchy.h: a node over m > 1 leaves has the first m / 2 in its left child; nodes and
+//            leaves of all trees are numbered through
+//   part, sheet   as in proofs/prover/windows/layout.h and sheet.h; the tree of a sheet splits the layout, the others the
+//            positions. Parts that are no sheets have charts (proofs/prover/windows/charts.h)
+//   extent   of a group of a sheet: the rectangle that its layout fills, rounded outwards
+//
+// What this does not do: it knows of no motion.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "proofs/prover/cells/features.h"
+#include "proofs/prover/cells/leftover.h"
+#include "proofs/prover/windows/charts.h"
+#include "proofs/prover/windows/monotone.h"
+#include "trajectory/exclusions.h"
+
+namespace noli {
+
+/// What is known of a cell whatever it does.
+struct Leaf {
+  std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/cells/features.h
+  std::uint32_t cell;
+  FeatureMask owned, shared;
+  std::uint8_t corners;
+  bool scripted;        ///< all its vertices are
+  std::uint16_t group;  ///< as in Exclusions
+};
+
+/// A closed rectangle.
+struct Extent {
+  float low_u, low_v, high_u, high_v;
+
+  bool meets(const Extent& other) const {
+    return low_u <= other.high_u && other.low_u <= high_u && low_v <= other.high_v && other.low_v <= high_v;
+  }
+};
+
+inline Extent merged(const Extent& a, const Extent& b) {
+  return {std::min(a.low_u, b.low_u), std::min(a.low_v, b.low_v), std::max(a.high_u, b.high_u),
+          std::max(a.high_v, b.high_v)};
+}
+
+struct Tree {
+  Group root;
+  bool sheet = false;
+  bool part = false;               ///< a sheet or another part
+  std::vector<VertexId> vertices;  ///< those of its cells, ascending
+};
+
+struct ForestOptions {
+  int dimension = 3;
+  bool strict = false;                     ///< as in VerifyOptions
+  std::span<const std::uint8_t> scripted;  ///< as in WindowOptions
+  const Exclusions* exclusions = nullptr;  ///< as in WindowOptions
+};
+
+/// Preconditions: as verify_window; `x` has a position for each vertex; at least one cell.
+class Forest {
+ public:
+  Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options);
+
+  /// Sheets first.
+  const std::vector<Tree>& trees() const { return trees_; }
+  std::size_t node_count() const { return scripted_.size(); }
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+  const Leaf& leaf(Group g) const { return leaves_[g.begin]; }
+  /// Whether all cells of a group are scripted.
+  bool scripted(Group g) const { return scripted_[g.node] != 0; }
+  /// Whether two cells, or a cell and itself, are not to be compared.
+  bool excluded(const Leaf& a, const Leaf& b) const {
+    return !exclusions_.empty() && exclusions_.excluded(a.group, b.group);
+  }
+
+  /// The tree of the part that a vertex is in.
+  static constexpr std::uint32_t no_part = ~std::uint32_t{0};
+  std::uint32_t part_of(VertexId v) const { return part_of_[v]; }
+  /// Of the edges of cells that end in a vertex, the shortest one's length at the given positions; infinite if none
+  /// does.
+  float size(VertexId v) const { return sizes_[v]; }
+
+  const Charts& charts() const { return *charts_; }
+  const Leftovers& leftovers() const { return leftovers_; }
+
+  /// By leaf and by node, for those in sheets.
+  const LaidFace& laid_face(std::size_t leaf) const { return laid_faces_[leaf]; }
+  const Extent& extent(Group g) const { return extents_[g.node]; }
+
+ private:
+  void add_tree(bool sheet, bool part, std::size_t begin, std::size_t end);
+  void finish(Group g, std::span<const Point2> layout, bool sheet);
+  void make_charts(const Mesh& mesh, std::span<const Position> x, int dimension);
+
+  std::vector<Tree> trees_;
+  std::vector<Leaf> leaves_;
+  std::vector<LaidFace> laid_faces_;
+  Exclusions exclusions_;
+  std::vector<std::uint8_t> scripted_;
+  std::vector<Extent> extents_;
+  std::optional<Charts> charts_;
+  Leftovers leftovers_;
+  std::vector<std::uint32_t> part_of_;
+  std::vector<float> sizes_;
+};
+
+}  // namespace noli

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proofs/prover/windows/window_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel/parallel.h"
+
+namespace noli {
+
+namespace {
+
+/// Takes about [low, high] into [-1, 1].
+Phi phi_onto_unit(double low, double high) {
+  const double half = 0.5 * high - 0.5 * low;
+  int exponent = 0;
+  std::frexp(half, &exponent);
+  return {0.5 * low + 0.5 * high, std::ldexp(1.0, std::clamp(-exponent, -1022, 1022))};
+}
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+GroupBox empty_box() { return {lanes(infinity), lanes(infinity), lanes(-infinity), lanes(-infinity)}; }
+
+GroupBox merged(const GroupBox& a, const GroupBox& b) {
+  return {least(a.low_t0, b.low_t0), least(a.low_t1, b.low_t1), greatest(a.high_t0, b.high_t0),
+          greatest(a.high_t1, b.high_t1)};
+}
+
+/// Bounds of [0, count), made piece by piece in parallel and merged in order.
+template <class Bounds, class Of>
+Bounds merged_over(std::size_t count, int threads, const Bounds& none, const Of& of) {
+  constexpr std::size_t piece = 1024;
+  std::vector<Bounds> parts((count + piece - 1) / piece, none);
+  parallel_for(parts.size(), threads, [&](std::size_t p) {
+    Bounds sum = none;
+    for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) sum = merged(sum, of(i));
+    parts[p] = sum;
+  });
+  Bounds sum = none;
+  for (const Bounds& part : parts) sum = merged(sum, part);
+  return sum;
+}
+
+}  // namespace
+
+template <int Dim>
+WindowBoxes<Dim>::WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads)
+    : forest_(forest), chords_(chords), threads_(threads) {
+  if (forest.trees().size() > 1) find_phi();
+  bound_roots();
+}
+
+template <int Dim>
+void WindowBoxes<Dim>::find_phi() {
+  for (std::size_t k = 0; k < Dim; ++k) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const auto& chord : chords_.of) {
+      low = std::min(low, std::min(chord.x_t0[k], chord.x_t1[k]));
+      high = std::max(high, std::max(chord.x_t0[k], chord.x_t1[k]));
+    }
+    phi_[k] = phi_onto_unit(low, high);
+  }
+}
+
+template <int Dim>
+void WindowBoxes<Dim>::bound_roots() {
+  const auto& trees = forest_.trees();
+  for (const Tree& tree : trees) {
+    const auto box = [&](std::size_t i) { return box_of(chords_.of[tree.vertices[i]]); };
+    root_boxes_.push_back(trees.size() == 1 ? GroupBox{}
+                                            : merged_over(tree.vertices.size(), threads_, empty_box(), box));
+    root_monotone_.push_back(tree.sheet && sheet_monotone(tree) ? 1 : 0);
+  }
+}
+
+/// The box of all faces is quick; that of each with the same functionals is sharper when the sheet is bent and askew.
+template <int Dim>
+bool WindowBoxes<Dim>::sheet_monotone(const Tree& tree) const {
+  const auto tangents = [&](std::size_t i) { return tangents_at(forest_.laid_face(tree.root.begin + i)); };
+  const TangentBox box = merged_over(tree.root.count, threads_, empty_tangents(), tangents);
+  const Functionals functionals = functionals_for(box, Dim);
+  if (hold(products(functionals, box, Dim))) return true;
+  const auto of_face = [&](std::size_t i) { return products(functionals, tangents(i), Dim); };
+  return hold(merged_over(tree.root.count, threads_, of_face(0), of_face));
+}
+
+/// With the functionals for the mean of a few faces.
+template <int Dim>
+bool WindowBoxes<Dim>::chart_monotone(std::span<const LaidFace> faces) const {
+  Lanes u{}, v{};
+  for (std::size_t i = 0; i < faces.size(); i += 1 + faces.size() / 32) {
+    const TangentBox box = tangents_at(faces[i]);
+    u += box.low_u + box.high_u;
+    v += box.low_v + box.high_v;
+  }
+  // Their length does not matter.
+  const Functionals functionals = functionals_for({u, u, v, v}, Dim);
+  Products all = products(functionals, tangents_at(faces[0]), Dim);
+  for (const LaidFace& face : faces) all = merged(all, products(functionals, tangents_at(face), Dim));
+  return hold(all);
+}
+
+/// The radius has room for rounding (proofs/prover/windows/chord.h).
+template <int Dim>
+GroupBox WindowBoxes<Dim>::box_of(const VertexChord<Dim>& chord) const {
+  GroupBox box{};
+  for (std::size_t k = 0; k < Dim; ++k) {
+    const double r = chord.radius[k];
+    box.low_t0[k] = phi_[k](chord.x_t0[k] - r);
+    box.low_t1[k] = phi_[k](chord.x_t1[k] - r);
+    box.high_t0[k] = phi_[k](chord.x_t0[k] + r);
+    box.high_t1[k] = phi_[k](chord.x_t1[k] + r);
+  }
+  return box;
+}
+
+template <int Dim>
+TangentBox WindowBoxes<Dim>::tangents_at(const LaidFace& face) const {
+  const auto& near = chords_.near;
+  return tangents_of(face, near[face.vertices[0]], near[face.vertices[1]], near[face.vertices[2]]);
+}
+
+template <int Dim>
+void WindowBoxes<Dim>::join(Group g, bool sheet) {
+  boxes_[g.node] = merged(box(g.left()), box(g.right()));
+  if (sheet) tangents_[g.node] = merged(tangents(g.left()), tangents(g.right()));
+}
+
+template <int Dim>
+void WindowBoxes<Dim>::fit(Group g, bool sheet) {
+  if (!g.is_leaf()) {
+    fit(g.left(), sheet);
+    fit(g.right(), sheet);
+    return join(g, sheet);
+  }
+  const auto& [a, b, c] = forest_.leaf(g).vertices;
+  boxes_[g.node] = merged(merged(box_of(chords_.of[a]), box_of(chords_.of[b])), box_of(chords_.of[c]));
+  if (sheet) tangents_[g.node] = tangents_at(forest_.laid_face(g.begin));
+}
+
+template <int Dim>
+void WindowBoxes<Dim>::look_at_charts() {
+  constexpr std::size_t piece = 16;
+  const Charts& charts = forest_.charts();
+  monotone_.resize(charts.size());
+  parallel_for((charts.size() + piece - 1) / piece, threads_, [&](std::size_t p) {
+    for (std::size_t c = p * piece; c < std::min(charts.size(), (p + 1) * piece); ++c) {
+      monotone_[c] = chart_monotone(charts.faces(c)) ? 1 : 0;
+    }
+  });
+}
+
+template <int Dim>
+void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
+  if (trees.empty()) return;
+  if (forest_.trees().size() == 1) find_phi();
+  boxes_.resize(forest_.node_count());
+  for (const std::size_t t : trees) {
+    const Tree& tree = forest_.trees()[t];
+    if (tree.part && !tree.sheet && monotone_.empty()) look_at_charts();
+    if (tree.sheet && tangents_.empty()) tangents_.resize(forest_.node_count());
+    std::vector<Group> level = {tree.root}, inner;
+    while (level.size() < 64 && level.back().count >= 64) {
+      inner.insert(inner.end(), level.begin(), level.end());
+      std::vector<Group> next;
+      for (const Group g : level) {
+        next.push_back(g.left());
+        next.push_back(g.right());
+      }
+      level = std::move(next);
+    }
+    parallel_for(level.size(), threads_, [&](std::size_t i) { fit(level[i], tree.sheet); });
+    for (auto g = inner.rbegin(); g != inner.rend(); ++g) join(*g, tree.sheet);
+  }
+}
+
+template class WindowBoxes<2>;
+template class WindowBoxes<3>;
+
+}  // namespace noli

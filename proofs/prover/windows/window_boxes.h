@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bounds of the groups of a forest over a span: boxes around the chords with their radii, for sheets boxes around the
+// tangents, and which charts are monotone.
+//
+// Notation
+//   box      as in proofs/prover/hierarchy.h: if on one axis the boxes of two groups are in the same strict order at
+//            both ends of the span, it separates the world lines throughout
+//   phi      as there, the same at both ends and for all trees
+//
+// What this does not do: bounds below the roots are made only for the trees for which that is asked.
+#pragma once
+
+#include <vector>
+
+#include "proofs/prover/windows/window_cell.h"
+
+namespace noli {
+
+/// phi, for one axis.
+struct Phi {
+  double middle = 0, scale = 1;
+  float operator()(double x) const { return static_cast<float>((x - middle) * scale); }
+};
+
+template <int Dim>
+class WindowBoxes {
+ public:
+  WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads);
+
+  /// Makes the bounds of all groups of some trees, given by their numbers.
+  void make(const std::vector<std::size_t>& trees);
+
+  /// Of the whole of a tree.
+  const GroupBox& root_box(std::size_t tree) const { return root_boxes_[tree]; }
+  /// Whether a sheet is monotone as a whole.
+  bool root_monotone(std::size_t tree) const { return root_monotone_[tree] != 0; }
+  /// Of a group of a tree for which they were made; tangents only of groups of sheets.
+  const GroupBox& box(Group g) const { return boxes_[g.node]; }
+  const TangentBox& tangents(Group g) const { return tangents_[g.node]; }
+  /// Whether a chart of such a tree is monotone.
+  bool monotone(std::uint32_t chart) const { return monotone_[chart] != 0; }
+
+ private:
+  void find_phi();
+  void bound_roots();
+  bool sheet_monotone(const Tree& tree) const;
+  bool chart_monotone(std::span<const LaidFace> faces) const;
+  void look_at_charts();
+  GroupBox box_of(const VertexChord<Dim>& chord) const;
+  TangentBox tangents_at(const LaidFace& face) const;
+  void fit(Group g, bool sheet);
+  void join(Group g, bool sheet);
+
+  const Forest& forest_;
+  const WindowChords<Dim>& chords_;
+  int threads_;
+  std::array<Phi, Dim> phi_;
+  std::vector<GroupBox> root_boxes_, boxes_;
+  std::vector<TangentBox> tangents_;
+  std::vector<std::uint8_t> root_monotone_;
+  std::vector<std::uint8_t> monotone_;
+};
+
+}  // namespace noli

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Did anything touch in this window of a run? Exact, for vertices with breakpoints of their own.
+//
+// Notation
+//   window   [T0, T1], the common first and last time of all world lines; between its own breakpoints each vertex moves
+//            linearly
+//   span     a part of the window. Where many vertices stray far from straight lines the window is cut in spans, unless
+//            something meets: then it is walked through once more in one, so that each pair counts once
+//   chord    a straight line near a world line over a while, with the radius by which it strays (proofs/prover/windows/chord.h)
+//   scripted pairs   pairs of cells all of whose vertices are scripted: not looked at; nor are excluded ones
+//
+// Which pairs of features are counted: as in proofs/prover/verifier.h, each once if it meets anywhere in the closed
+// window. In order of cost: sheets that are monotone as a whole (proofs/prover/windows/monotone.h); the walk over pairs of
+// groups, over chords, where boxes and directions have to hold with the radii added, and where what is monotone around
+// both (proofs/prover/windows/window_traversal.h) is settled at once; time cut for the pair of cells in question, until a
+// direction holds or no breakpoint is left inside; each of its pairs of features the same way; and what resists in a
+// piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
+//
+// What this does not do: it writes no proof, knows no thickness, and reads no files.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/first_contact.h"
+#include "kernel/moment.h"
+#include "proofs/prover/verifier.h"
+#include "trajectory/exclusions.h"
+#include "trajectory/mesh.h"
+#include "trajectory/world_lines.h"
+
+namespace noli {
+
+class Forest;
+
+/// Fields as in VerifyOptions where they are called so.
+struct WindowOptions {
+  int dimension = 3;
+  int threads = 0;
+  bool initial = true;  ///< look for intersections at T0
+  bool first_only = false;
+  bool strict = false;
+  std::size_t max_reports = 100;
+  std::span<const std::uint8_t> scripted;  ///< one per vertex, not 0 if scripted; empty: none is
+  const Exclusions* exclusions = nullptr;  ///< or none; for the mesh's vertices
+  const std::atomic<bool>* stop = nullptr;
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  std::function<void(double)> progress;
+};
+
+/// The first contact of a window.
+struct FirstInWindow {
+  FeatureContact contact;  ///< `first` are neighbouring doubles, or equal if the time is a double
+  ContactKind kind;
+  Moment time;
+
+  /// The largest double that is not greater than the exact time.
+  double lower() const { return contact.first.begin; }
+};
+
+/// As VerifyResult; times are in the unit of the world lines.
+struct WindowResult {
+  bool complete = true;
+  std::array<std::uint64_t, all_feature_pairs.size()> contacts{};
+  std::uint64_t initial_intersections = 0;
+  std::vector<FeatureContact> reports;  ///< `first` contains the first time at which they meet, in [T0, T1]
+  std::vector<InitialIntersection> initial_reports;
+  std::optional<FirstInWindow> first;
+  StageCounters stages;  ///< counts each pair of features once for each piece in which it reached the kernel
+  std::uint64_t obligations = 0;
+  std::uint64_t cell_pairs = 0;
+
+  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
+};
+
+/// Verifies windows of one run, one after another.
+class WindowVerifier {
+ public:
+  /// Takes what does not change from window to window: `x`, a position for each vertex, decides how cells are grouped
+  /// and laid out, not what is answered; best is where the run begins, or a rest shape. Of the options it takes
+  /// dimension, strict, scripted and exclusions, which hold from now on. Preconditions: there are x.size() =
+  /// mesh.vertex_count vertices, every index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is
+  /// empty or has an entry for each vertex. O(n log n).
+  WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options);
+  ~WindowVerifier();
+  WindowVerifier(WindowVerifier&&) noexcept;
+  WindowVerifier& operator=(WindowVerifier&&) noexcept;
+
+  /// Precondition: the lines have as many vertices as the mesh. In two dimensions the third coordinate is not looked
+  /// at.
+  /// Deterministic, for any number of threads, as verify_step is. Memory is linear in the mesh, beside the lines. May
+  /// be called from several threads at once. Throws std::bad_alloc, and what `progress` throws.
+  WindowResult verify(const WorldLines& lines, const WindowOptions& options) const;
+
+ private:
+  std::unique_ptr<const Forest> forest_;  ///< nullptr if there are no cells
+  int dimension_;
+  bool strict_;
+};
+
+/// The same for one window only, grouped by where it begins.
+WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options);
+
+}  // namespace noli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proofs/prover/witness/dependency.h"
+
+namespace noli::witness {
+
+namespace {
+
+using Matrix = std::vector<std::vector<Poly>>;  ///< by row
+
+/// Without row 0 and a column.
+Matrix minor_of(const Matrix& matrix, std::size_t column) {
+  Matrix smaller(matrix.begin() + 1, matrix.end());
+  for (auto& row : smaller) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
+  return smaller;
+}
+
+Poly determinant(const Matrix& matrix) {
+  if (matrix.empty()) return {1};
+  Poly all;
+  for (std::size_t c = 0; c < matrix.size(); ++c) {
+    const Poly term = product(matrix[0][c], determinant(minor_of(matrix, c)));
+    all = c % 2 == 0 ? sum(all, term) : difference(all, term);
+  }
+  return all;
+}
+
+/// Numbers that add up to 0, and so do they times each of these coordinates of the points.
+std::vector<Poly> affine_dependency(const std::vector<PolyVector>& points,
+                                    const std::vector<std::size_t>& coordinates) {
+  Matrix rows = {{}, std::vector<Poly>(points.size(), Poly{1})};  // row 0 is left out of each minor
+  for (const std::size_t k : coordinates) {
+    auto& row = rows.emplace_back();
+    for (const PolyVector& x : points) row.push_back(x[k]);
+  }
+  std::vector<Poly> numbers;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const Poly minor = determinant(minor_of(rows, c));
+    numbers.push_back(c % 2 == 0 ? minor : difference({}, minor));
+  }
+  return numbers;
+}
+
+/// What vanishes when the dependency holds in the other coordinates too.
+Poly condition_of(const std::vector<PolyVector>& points, const std::vector<std::size_t>& coordinates,
+                  const std::vector<Poly>& numbers) {
+  Poly common;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::ranges::find(coordinates, k) != coordinates.end()) continue;
+    Poly off;
+    for (std::size_t i = 0; i < points.size(); ++i) off = sum(off, product(numbers[i], points[i][k]));
+    common = greatest_common_divisor(common, off);
+  }
+  return common;
+}
+
+/// All choices of so many of the three coordinates, up to two.
+std::vector<std::vector<std::size_t>> choices(std::size_t count) {
+  if (count == 0) return {{}};
+  if (count == 1) return {{0}, {1}, {2}};
+  return {{0, 1}, {0, 2}, {1, 2}};
+}
+
+}  // namespace
+
+std::vector<FeatureSides> parts_of(const FeatureSides& features, std::size_t most) {
+  std::vector<FeatureSides> parts;
+  for (unsigned m = 1; m < 1U << features.p.size(); ++m) {
+    for (unsigned n = 1; n < 1U << features.q.size(); ++n) {
+      FeatureSides part{chosen(features.p, m), chosen(features.q, n)};
+      const bool disjoint = std::ranges::find_first_of(part.p, part.q) == part.p.end();
+      if (disjoint && part.p.size() + part.q.size() <= most) parts.push_back(std::move(part));
+    }
+  }
+  std::ranges::stable_sort(parts, std::greater{}, [](const FeatureSides& s) { return s.p.size() + s.q.size(); });
+  return parts;
+}
+
+bool any_dependency(const FeatureSides& features, const std::function<PolyVector(VertexId)>& position,
+                    const std::function<bool(Dependency)>& take) {
+  for (const FeatureSides& sides : parts_of(features, 4)) {
+    std::vector<PolyVector> points;
+    for (const VertexId v : sides.both()) points.push_back(position(v));
+    for (const auto& coordinates : choices(points.size() - 2)) {
+      Dependency d{sides, affine_dependency(points, coordinates), {}};
+      d.condition = condition_of(points, coordinates, d.weights);
+      for (std::size_t i = sides.p.size(); i < points.size(); ++i) d.weights[i] = difference({}, d.weights[i]);
+      if (take(std::move(d))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace noli::witness

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The features of two cells, tried pair by pair: sets of their vertices.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/query.h"
+#include "proofs/prover/cells/features.h"
+#include "proofs/prover/tokens/mesh_paths.h"
+
+namespace noli {
+
+/// The vertices of two features.
+struct FeatureSides {
+  std::vector<VertexId> p, q;
+
+  std::vector<VertexId> both() const {
+    std::vector<VertexId> all = p;
+    all.insert(all.end(), q.begin(), q.end());
+    return all;
+  }
+};
+
+/// Each once, ascending.
+inline std::vector<VertexId> vertices_of(const Mesh& mesh, std::uint32_t cell) {
+  const auto v = corners(mesh, cell);
+  std::vector<VertexId> result(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(corner_count(mesh, cell)));
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// Those at the bits of the mask that are set.
+inline std::vector<VertexId> chosen(std::span<const VertexId> all, unsigned mask) {
+  std::vector<VertexId> result;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if ((mask >> k & 1) != 0) result.push_back(all[k]);
+  }
+  return result;
+}
+
+/// Of what kind they are; nothing if they are none that is looked at: p has no more vertices than q.
+inline std::optional<FeaturePair> pair_of(const FeatureSides& s) {
+  if (s.p.size() == 1 && s.q.size() == 3) return FeaturePair::vertex_face;
+  if (s.p.size() == 2 && s.q.size() == 2) return FeaturePair::edge_edge;
+  if (s.p.size() == 1 && s.q.size() == 2) return FeaturePair::vertex_edge;
+  if (s.p.size() == 1 && s.q.size() == 1) return FeaturePair::vertex_vertex;
+  return std::nullopt;
+}
+
+/// Whether a path joins a vertex of one to one of the other.
+inline bool joined(const FeatureSides& s, const MeshPaths& paths) {
+  return std::ranges::any_of(s.p, [&](VertexId v) {
+    return std::ranges::any_of(s.q, [&](VertexId w) { return paths.find(v, w).has_value(); });
+  });
+}
+
+}  // namespace noli
