@@ -22,8 +22,8 @@
 // loose edge; c against ab for loose edges ac and ab (whether or not the edge_edge pair (cd, ab) of other cells is
 // there as well), or where one of the two is a loose cell and the other the face abc or part of it, or the face abc is
 // listed twice. vertex_vertex is two loose points; p against q for the loose edge pq and a loose point p, or the edge
-// listed twice. A face that has a vertex twice is treated alike (proofs/prover/cells/leftover.h). A closed or bordered mesh
-// of faces, each with three vertices and listed once, has only vertex_face and edge_edge.
+// listed twice. A face that has a vertex twice is treated alike (proofs/prover/cells/leftover.h). A closed or bordered
+// mesh of faces, each with three vertices and listed once, has only vertex_face and edge_edge.
 //
 // With `strict` also: in 3D each corner of a face against the edge opposite to it, as vertex_edge; in 2D the pairs of
 // one cell; the two ends of a loose edge, as vertex_vertex; not once more if they are counted above. An edge is a pair

@@ -4,8 +4,8 @@
 // and of the others most are separated by the first directions one thinks of.
 //
 // Notation
-//   a         the point that is the origin: d, q(x) and the error bound are those of proofs/prover/cells/direction.h with
-//             r = a, so q(a) = 0
+//   a         the point that is the origin: d, q(x) and the error bound are those of proofs/prover/cells/direction.h
+//             with r = a, so q(a) = 0
 //   abc, ade  two faces around a corner: if n has b, c on its upper and d, e on its lower side of a, it separates (bc,
 //             ade) and (abc, de)
 //   abc, abd  two faces around an edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d)

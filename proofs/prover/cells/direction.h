@@ -23,8 +23,8 @@
 // Between the ends of the interval n.(a - b) is linear, so a direction that separates at both ends separates throughout
 // (design 1).
 //
-// What this does not do: it finds no directions (proofs/prover/cells/direction_search.h), and when it says no that means
-// nothing.
+// What this does not do: it finds no directions (proofs/prover/cells/direction_search.h), and when it says no that
+// means nothing.
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 // Cells and vertices as the verifier reads them.
 //
 // Notation
-//   corner   as in proofs/prover/cells/features.h; corners beyond the cell's own repeat its last one, which changes no hull
+//   corner   as in proofs/prover/cells/features.h; corners beyond the cell's own repeat its last one, which changes no
+//            hull
 //
 // The usual obligations are settled from StepCell: one cache line a cell and one a vertex, and the vertices of a mesh
 // are few enough to stay near. What is left is gathered in a MovingCell.

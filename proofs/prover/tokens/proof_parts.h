@@ -6,13 +6,14 @@
 //   part     vertices of a cell, by a mask of its corners
 //   piece    the share [k / 2^e, (k + 1) / 2^e] of the step
 //   span     a piece for whose ends, or times a little outside it, there are chords of all vertices
-//   chord, radius   as in proofs/prover/windows/chord.h; of a vertex without breakpoints inside the radius is 0, and its chord
+//   chord, radius   as in proofs/prover/windows/chord.h; of a vertex without breakpoints inside the radius is 0, and
+//                   its chord
 //            is its motion
 //   margin   as in proofs/prover/windows/window_cell.h
 //
-// A piece is halved until a direction is found: as long as doubles do, by the proved test of proofs/prover/cells/direction.h,
-// with a margin for the radii; where they do not and the piece is short, in exact arithmetic. The direction is then
-// written with as few bits as pass the same test.
+// A piece is halved until a direction is found: as long as doubles do, by the proved test of
+// proofs/prover/cells/direction.h, with a margin for the radii; where they do not and the piece is short, in exact
+// arithmetic. The direction is then written with as few bits as pass the same test.
 //
 // What this does not do: it decides no contact. Two parts that meet are halved until it gives up.
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Charts: where a part of a mesh is no sheet (proofs/prover/windows/sheet.h), small groups of its faces laid out by themselves,
-// with enough around them that faces next to a group are settled with it.
+// Charts: where a part of a mesh is no sheet (proofs/prover/windows/sheet.h), small groups of its faces laid out by
+// themselves, with enough around them that faces next to a group are settled with it.
 //
 // Notation
 //   group    a node of a tree whose leaves are faces
@@ -13,16 +13,16 @@
 //
 // Claim: r maps the points of S that are laid out in Q one to one to Q if (1) each face of S is laid out strictly
 // counterclockwise; (2) S has no edge twice in one direction; (3) the edges without an opposite do not overlap Q; (4)
-// some point inside Q is inside exactly one face and on no other. Proof. As in proofs/prover/windows/sheet.h: a point off all
-// edges is covered as often as the edges of (3) wind around it, which inside Q is always the same, by (4) once. So the
-// faces cover Q, and do not overlap in it. Around a point in Q (on its border: in the half or quarter disc around it
-// that is in Q) the faces are sectors, each joined to the next by an edge that overlaps Q and so has both of its faces:
-// they share the point.
+// some point inside Q is inside exactly one face and on no other. Proof. As in proofs/prover/windows/sheet.h: a point
+// off all edges is covered as often as the edges of (3) wind around it, which inside Q is always the same, by (4) once.
+// So the faces cover Q, and do not overlap in it. Around a point in Q (on its border: in the half or quarter disc
+// around it that is in Q) the faces are sectors, each joined to the next by an edge that overlaps Q and so has both of
+// its faces: they share the point.
 // So no other point of S is laid out there. All four are decided exactly. (An edge whose face beyond is not in S does
 // not overlap Q, as the rectangle of that face does not.)
 //
-// Then the claim of proofs/prover/windows/monotone.h holds for the faces of S and Q: its proof needs no more than that a
-// segment in Q is the layout of a path. So where S is monotone, nothing that is laid out in Q meets: the group, all
+// Then the claim of proofs/prover/windows/monotone.h holds for the faces of S and Q: its proof needs no more than that
+// a segment in Q is the layout of a path. So where S is monotone, nothing that is laid out in Q meets: the group, all
 // faces next to it, and what else of S is in Q.
 //
 // What this does not do: borders of the mesh mostly have no charts, nor have places where it bends by more than about a

@@ -6,7 +6,8 @@
 // Notation
 //   tree     as in proofs/prover/hierarchy.h: a node over m > 1 leaves has the first m / 2 in its left child; nodes and
 //            leaves of all trees are numbered through
-//   part, sheet   as in proofs/prover/windows/layout.h and sheet.h; the tree of a sheet splits the layout, the others the
+//   part, sheet   as in proofs/prover/windows/layout.h and sheet.h; the tree of a sheet splits the layout, the others
+//                 the
 //            positions. Parts that are no sheets have charts (proofs/prover/windows/charts.h)
 //   extent   of a group of a sheet: the rectangle that its layout fills, rounded outwards
 //

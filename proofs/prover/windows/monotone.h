@@ -3,8 +3,8 @@
 // A sheet that does not touch itself, shown by a few inequalities a face.
 //
 // Notation
-//   K, r, D   a sheet, its layout and the convex polygon that it covers (proofs/prover/windows/sheet.h); R the edges of a face
-//             in the layout, a 2x2 matrix
+//   K, r, D   a sheet, its layout and the convex polygon that it covers (proofs/prover/windows/sheet.h); R the edges of
+//             a face in the layout, a 2x2 matrix
 //   F         the map of K to where the sheet is at some time, linear on each face; E the edges of a face there
 //   f_u, f_v  tangents of a face, the columns of E R^-1: how fast F moves as the layout moves along its first and its
 //             second axis

@@ -6,8 +6,8 @@
 //   radius   per axis, the greatest of the radii of the corners' chords (proofs/prover/windows/chord.h)
 //   margin   the greatest radius of two cells, added, over the axes. If n.(a - b) > margin |n|_1 for the chords at both
 //            ends of a while, then n.(a - b) > 0 for the world lines throughout
-//   reach    as in proofs/prover/cells/direction.h, whose error bound is 2^-47 |n|_1 reach: raised by 2^47 margin it is a
-//            bound for both. (The sum and products round by at most 5 u of the margin's share; 2^-40 is added to it.)
+//   reach    as in proofs/prover/cells/direction.h, whose error bound is 2^-47 |n|_1 reach: raised by 2^47 margin it is
+//            a bound for both. (The sum and products round by at most 5 u of the margin's share; 2^-40 is added to it.)
 //
 // What this does not do: it has no normal; `normal` is zero until somebody needs one.
 #pragma once

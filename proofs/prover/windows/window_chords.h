@@ -4,10 +4,10 @@
 //
 // Notation
 //   span    the part [begin, end] of the window
-//   near    a vertex for proofs/prover/windows/monotone.h: in float, relative to where the first vertex of its part begins. Its
-//           radius has 2^-22 of the greatest coordinate added for that; what is too far away has the place 0 and a
-//           radius of 2^100, at which nothing is monotone: with m the greatest entry of M, its rows add up to 2^-30 m
-//           at least (as |R| |M| <= 2^30), so the tangents may be off by 2^70 m, and are below 2^62 m
+//   near    a vertex for proofs/prover/windows/monotone.h: in float, relative to where the first vertex of its part
+//           begins. Its radius has 2^-22 of the greatest coordinate added for that; what is too far away has the place
+//           0 and a radius of 2^100, at which nothing is monotone: with m the greatest entry of M, its rows add up to
+//           2^-30 m at least (as |R| |M| <= 2^30), so the tangents may be off by 2^70 m, and are below 2^62 m
 //   restless  a vertex that strays by more than a twelfth of its shortest edge
 //
 // What this does not do: it keeps nothing of the breakpoints.

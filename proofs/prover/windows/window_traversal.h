@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The recursion over pairs of groups in a span of a window: as proofs/prover/traversal.h, over bounds with radii.
-// Groups of one part are settled at once where the part is monotone (proofs/prover/windows/monotone.h): a sheet in a rectangle
-// around both, another part in a chart that holds both.
+// Groups of one part are settled at once where the part is monotone (proofs/prover/windows/monotone.h): a sheet in a
+// rectangle around both, another part in a chart that holds both.
 //
 // What this does not do: it makes no threads and adds nothing up.
 #pragma once

@@ -7,15 +7,16 @@
 //            linearly
 //   span     a part of the window. Where many vertices stray far from straight lines the window is cut in spans, unless
 //            something meets: then it is walked through once more in one, so that each pair counts once
-//   chord    a straight line near a world line over a while, with the radius by which it strays (proofs/prover/windows/chord.h)
+//   chord    a straight line near a world line over a while, with the radius by which it strays
+//            (proofs/prover/windows/chord.h)
 //   scripted pairs   pairs of cells all of whose vertices are scripted: not looked at; nor are excluded ones
 //
 // Which pairs of features are counted: as in proofs/prover/verifier.h, each once if it meets anywhere in the closed
-// window. In order of cost: sheets that are monotone as a whole (proofs/prover/windows/monotone.h); the walk over pairs of
-// groups, over chords, where boxes and directions have to hold with the radii added, and where what is monotone around
-// both (proofs/prover/windows/window_traversal.h) is settled at once; time cut for the pair of cells in question, until a
-// direction holds or no breakpoint is left inside; each of its pairs of features the same way; and what resists in a
-// piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
+// window. In order of cost: sheets that are monotone as a whole (proofs/prover/windows/monotone.h); the walk over pairs
+// of groups, over chords, where boxes and directions have to hold with the radii added, and where what is monotone
+// around both (proofs/prover/windows/window_traversal.h) is settled at once; time cut for the pair of cells in
+// question, until a direction holds or no breakpoint is left inside; each of its pairs of features the same way; and
+// what resists in a piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
 //
 // What this does not do: it writes no proof, knows no thickness, and reads no files.
 #pragma once

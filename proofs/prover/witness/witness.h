@@ -12,9 +12,9 @@
 // Each vertex is looked at on one segment between two of its breakpoints; the time at which the features meet is cut
 // where one of them has a breakpoint.
 //
-// Algorithm: all ways in which some vertices of the two features can meet (proofs/prover/witness/dependency.h) are tried, first
-// at the time of the contact and then during the whole step: at the roots of their conditions, and at rest at
-// breakpoints. Cells that meet at the beginning are looked at, at rest. A witness that is found is judged
+// Algorithm: all ways in which some vertices of the two features can meet (proofs/prover/witness/dependency.h) are
+// tried, first at the time of the contact and then during the whole step: at the roots of their conditions, and at rest
+// at breakpoints. Cells that meet at the beginning are looked at, at rest. A witness that is found is judged
 // (proofs/prover/witness/witness_judge.h) before it is given away; where it does not hold, the search goes on.
 //
 // What this does not do: it does not find contacts.

@@ -2,8 +2,8 @@
 //
 // Judges a witness before it is written: all conditions and limits of proofs/FORMAT.md, section 5.
 //
-// It starts from the bytes, and shares no arithmetic with the search (proofs/prover/witness/witness.h): rational numbers
-// instead of integers, polynomials of its own.
+// It starts from the bytes, and shares no arithmetic with the search (proofs/prover/witness/witness.h): rational
+// numbers instead of integers, polynomials of its own.
 #pragma once
 
 #include <optional>
