@@ -54,15 +54,10 @@ constexpr const char* queries_footer =
     "  noli fuzz queries --library ./mine.so --minimise queries-edge-edge.csv\n"
     "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv";
 
-constexpr const char* default_folder = "fuzz-findings";
-
-struct FuzzArguments : LibraryArguments {
-  audit::FuzzOptions kernel;  ///< what the run against a library does not use is in here
-  std::string duration = "60s";
-  std::string out = default_folder;
-  std::optional<std::string> corpus, replay, minimise;
-  OutputOptions results;
-  bool for_given = false, out_given = false;
+struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon {
+  std::size_t max_findings = audit::FuzzOptions().max_findings;
+  std::optional<std::string> replay, minimise;
+  bool out_given = false;
 };
 
 /// "noli fuzz queries --library ./mine.so --tolerance 1e-06 --replay FILE"
@@ -70,12 +65,6 @@ std::string again(const FuzzArguments& arguments, const fs::path& file) {
   std::string command = "noli fuzz queries";
   for (const std::string& word : library_words(arguments)) command += " " + audit::quoted(word);
   return on_one_line(command + " --replay " + audit::quoted(file.string()));
-}
-
-/// Share of the run that is done, by count or by time, whichever is further.
-double share(const audit::FuzzOptions& options, const audit::FuzzProgress& progress) {
-  if (options.count) return static_cast<double>(progress.queries) / static_cast<double>(*options.count);
-  return progress.seconds / options.time_limit->count();
 }
 
 std::vector<fs::path> inputs(const FuzzArguments& arguments) {
@@ -235,39 +224,29 @@ ExitCode minimise(const FuzzArguments& arguments) {
 
 // --- runs ------------------------------------------------------------------------------------------------------------
 
-ExitCode run_kernel(const FuzzArguments& arguments, const Output& output) {
-  audit::FuzzOptions options = arguments.kernel;
-  const Stopwatch watch;
-  const audit::FuzzReport report = with_progress("fuzz queries", [&](const auto& show) {
-    options.progress = [&](const audit::FuzzProgress& progress) { show(share(options, progress)); };
-    return audit::fuzz_queries(options);
-  });
-  const double seconds = watch.seconds();
-  output.write("fuzz-queries", audit::fuzz_answer(options, report, seconds),
-               audit::fuzz_json(options, report, seconds));
-  report.not_saved.require_nothing();
-  return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
+/// What both kinds of runs are told. `progress` is added.
+template <class Options>
+Options options_of(const FuzzArguments& arguments) {
+  Options options;
+  options.limits = arguments.limits;
+  options.max_findings = arguments.max_findings;
+  options.out = arguments.out;
+  options.corpus = arguments.corpus.value_or("");
+  options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
+  return options;
 }
 
-ExitCode run_library(const FuzzArguments& arguments, const Output& output) {
-  const audit::FuzzOptions& kernel = arguments.kernel;
-  audit::LibraryFuzzOptions options;
-  options.asked = arguments.asked;
-  options.seed = kernel.seed;
-  options.limits = {kernel.count, kernel.time_limit, kernel.threads, kernel.stop};
-  options.first_only = arguments.first_only;
-  options.max_findings = kernel.max_findings;
-  options.out = kernel.out;
-  options.corpus = kernel.corpus;
-  options.command = kernel.command;
+/// Runs a fuzzer, shows how far it is, and says what came of it.
+template <class Options, class Fuzz, class AnswerOf, class JsonOf>
+ExitCode run(Options options, const Output& output, const char* schema, const Fuzz& fuzz, const AnswerOf& answer_of,
+             const JsonOf& json_of) {
   const Stopwatch watch;
-  const audit::LibraryFuzzReport report = with_progress("fuzz queries", [&](const auto& show) {
-    options.progress = [&](const audit::FuzzProgress& progress) { show(share(kernel, progress)); };
-    return audit::fuzz_library(options);
+  const auto report = with_progress("fuzz queries", [&](const auto& show) {
+    options.limits.progress = show;
+    return fuzz(options);
   });
   const double seconds = watch.seconds();
-  output.write("fuzz-library-queries", audit::library_fuzz_answer(options, report, seconds),
-               audit::library_fuzz_json(options, report, seconds));
+  output.write(schema, answer_of(options, report, seconds), json_of(options, report, seconds));
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
 }
@@ -276,39 +255,19 @@ ExitCode run(FuzzArguments& arguments) {
   settle_library(arguments);
   if (arguments.replay) return replay(arguments);
   if (arguments.minimise) return minimise(arguments);
-  audit::FuzzOptions& options = arguments.kernel;
-  if (arguments.for_given || !options.count) options.time_limit = parse_duration(arguments.duration, "--for");
+  settle_limits(arguments);
   const Output output(arguments.results, inputs(arguments));
   require_writable_folder(arguments.out, "--out");
-  if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
-  options.out = arguments.out;
-  options.corpus = arguments.corpus.value_or("");
-  options.stop = &interrupted();
-  options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
-  return arguments.asks_a_library() ? run_library(arguments, output) : run_kernel(arguments, output);
-}
-
-void add_run_options(CLI::App& command, FuzzArguments& arguments, std::vector<CLI::Option*>& of_runs) {
-  audit::FuzzOptions& options = arguments.kernel;
-  of_runs.push_back(command.add_option("--for", arguments.duration, "Stop after this time: 500ms, 60s, 5m, 1h")
-                        ->capture_default_str()
-                        ->type_name("TIME"));
-  of_runs.push_back(command.add_option("--count", options.count, "Stop after so many queries")
-                        ->check(whole_number(1, std::uint64_t{1} << 60))
-                        ->type_name("N"));
-  of_runs.push_back(command.add_option("--seed", options.seed, "What the queries depend on")
-                        ->capture_default_str()
-                        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
-                        ->type_name("S"));
-  of_runs.push_back(command
-                        .add_option("--corpus", arguments.corpus,
-                                    "Folder of queries that reached something new: asked first, and added to")
-                        ->type_name("DIR"));
-  of_runs.push_back(command.add_option("--max-findings", options.max_findings, "Shrink and save at most so many")
-                        ->check(CLI::Range(0, 1'000'000))
-                        ->capture_default_str()
-                        ->type_name("N"));
-  add_threads_option(command, options.threads);
+  corpus_folder(arguments);
+  if (!arguments.asks_a_library()) {
+    return run(options_of<audit::FuzzOptions>(arguments), output, "fuzz-queries", audit::fuzz_queries,
+               audit::fuzz_answer, audit::fuzz_json);
+  }
+  auto options = options_of<audit::LibraryFuzzOptions>(arguments);
+  options.asked = arguments.asked;
+  options.first_only = arguments.first_only;
+  return run(std::move(options), output, "fuzz-library-queries", audit::fuzz_library, audit::library_fuzz_answer,
+             audit::library_fuzz_json);
 }
 
 }  // namespace
@@ -318,13 +277,13 @@ Command add_fuzz_queries(CLI::App& fuzz) {
       "queries", "Contact, distance, failure times of two features: kernel against oracle, or somebody's library");
   command->footer(queries_footer);
   const auto arguments = std::make_shared<FuzzArguments>();
-  std::vector<CLI::Option*> of_runs;
-  add_run_options(*command, *arguments, of_runs);
-  CLI::Option* const out = command->add_option("--out", arguments->out, "Folder for findings, made when there is one")
-                               ->capture_default_str()
-                               ->type_name("DIR");
+  add_fuzz_options(*command, *arguments, "queries");
+  command->add_option("--max-findings", arguments->max_findings, "Shrink and save at most so many")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str()
+      ->type_name("N");
   add_library_options(*command, *arguments, "the kernel");
-  of_runs.push_back(command->get_option("--first-only"));
+  CLI::Option* const out = command->get_option("--out");
   CLI::Option* const again =
       command->add_option("--replay", arguments->replay, "Decide the queries of this file again instead")
           ->type_name("FILE");
@@ -334,10 +293,12 @@ Command add_fuzz_queries(CLI::App& fuzz) {
                                                 "the file or in --out")
                                    ->type_name("FILE");
   again->excludes(smaller)->excludes(out);
-  for (CLI::Option* const option : of_runs) again->excludes(option), smaller->excludes(option);
-  add_output_options(*command, arguments->results);
-  return {command, [arguments, command, out] {
-            arguments->for_given = command->get_option("--for")->count() > 0;
+  for (const char* const name :
+       {"--for", "--count", "--seed", "--corpus", "--max-findings", "--threads", "--first-only"}) {
+    again->excludes(command->get_option(name));
+    smaller->excludes(command->get_option(name));
+  }
+  return {command, [arguments, out] {
             arguments->out_given = out->count() > 0;
             return run(*arguments);
           }};

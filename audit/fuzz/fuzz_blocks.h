@@ -6,7 +6,7 @@
 //   block    a few items; block b depends on the seed and b alone, so that a run gives the same items whatever the
 //            number of threads
 //
-// What this does not do: it knows nothing of what an item is. (fuzz_queries.cpp has a loop of its own.)
+// What this does not do: it knows nothing of what an item is.
 #pragma once
 
 #include <algorithm>

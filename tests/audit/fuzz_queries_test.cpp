@@ -46,9 +46,9 @@ class FuzzQueries : public testing::Test {
   FuzzQueries() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     options.out = std::filesystem::temp_directory_path() / ("noli-" + std::to_string(getpid()) + "-" + test->name());
-    options.seed = 5;
-    options.threads = 1;
-    options.count = 6000;  // two dozen blocks, the last one not whole
+    options.limits.seed = 5;
+    options.limits.threads = 1;
+    options.limits.count = 6000;  // two dozen blocks, the last one not whole
     options.decide = decide_with_oracle;
     options.decide_probe = probe_with_oracle;
   }
@@ -59,7 +59,7 @@ class FuzzQueries : public testing::Test {
 
 TEST_F(FuzzQueries, FindsNothingWhereNothingIsWrong) {
   const FuzzReport report = fuzz_queries(options);
-  EXPECT_EQ(report.queries, *options.count);
+  EXPECT_EQ(report.queries, *options.limits.count);
   EXPECT_EQ(report.findings_total, 0U);
   EXPECT_FALSE(report.interrupted);
   EXPECT_FALSE(std::filesystem::exists(options.out)) << "nothing to save, and yet a folder";
@@ -121,7 +121,7 @@ TEST_F(FuzzQueries, FindsWrongKindsTimesAndEnclosures) {
       {"threw", [](const AnyQuery&, StageCounters&) -> Decision { throw std::runtime_error("planted"); }},
   }};
   options.max_findings = 1;
-  options.count = 200;
+  options.limits.count = 200;
   for (const auto& [word, decide] : subjects) {
     options.decide = decide;
     const FuzzReport report = fuzz_queries(options);
@@ -150,7 +150,7 @@ TEST_F(FuzzQueries, FindsWrongDistancesAndFailureTimes) {
       {"threw", [](const AnyQuery&, const Probe&) -> ProbeDecision { throw std::runtime_error("planted"); }},
   }};
   options.max_findings = 2;
-  options.count = 6000;
+  options.limits.count = 6000;
   for (const auto& [word, decide] : subjects) {
     options.decide_probe = decide;
     const FuzzReport report = fuzz_queries(options);
@@ -173,7 +173,7 @@ TEST_F(FuzzQueries, ProbesLeaveTheStreamsOfQueriesAsTheyAre) {
   ASSERT_FALSE(report.findings.empty());
   const Finding& finding = report.findings[0];
   const auto generators = query_generators();
-  Random random(options.seed, finding.block);
+  Random random(options.limits.seed, finding.block);
   AnyQuery query;
   for (std::size_t i = 0; i <= finding.index; ++i) query = generators[finding.block % generators.size()](random).query;
   EXPECT_EQ(query, finding.query);
@@ -225,7 +225,7 @@ TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
   options.max_findings = 4;
   const FuzzReport one = fuzz_queries(options);
   for (const int threads : {2, 5}) {
-    options.threads = threads;
+    options.limits.threads = threads;
     const FuzzReport many = fuzz_queries(options);
     EXPECT_EQ(many.queries, one.queries);
     EXPECT_EQ(many.answers, one.answers);
@@ -246,12 +246,12 @@ TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
 
 TEST_F(FuzzQueries, AsksTheCorpusFirst) {
   options.corpus = options.out / "corpus";
-  options.count = 1000;
+  options.limits.count = 1000;
   const FuzzReport first = fuzz_queries(options);
   EXPECT_GT(first.corpus.kept, 20U);
   EXPECT_EQ(first.corpus.signatures, first.corpus.kept);
   options.decide = forgets_the_end;
-  options.count = 1;
+  options.limits.count = 1;
   options.max_findings = 1;
   const FuzzReport second = fuzz_queries(options);
   EXPECT_EQ(second.corpus.replayed, first.corpus.kept);
@@ -283,34 +283,32 @@ TEST_F(FuzzQueries, ShrinksSingleQueries) {
 
 TEST_F(FuzzQueries, AnotherSeedGivesOtherQueries) {
   const FuzzReport report = fuzz_queries(options);
-  options.seed = 6;
+  options.limits.seed = 6;
   EXPECT_NE(fuzz_queries(options).answers, report.answers);
 }
 
 TEST_F(FuzzQueries, StopsWhenTold) {
   std::atomic<bool> stop = false;
-  options.count.reset();
-  options.stop = &stop;
+  options.limits.count.reset();
+  options.limits.stop = &stop;
   int calls = 0;
-  options.progress = [&](const FuzzProgress& progress) {
-    EXPECT_GT(progress.queries, 0U);
-    stop = ++calls == 2;
-  };
+  options.limits.progress = [&](double) { stop = ++calls == 3; };
   const FuzzReport report = fuzz_queries(options);
   EXPECT_TRUE(report.interrupted);
-  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(calls, 3);
+  EXPECT_GT(report.queries, 0U);
 }
 
 TEST_F(FuzzQueries, StopsWhenTimeIsUp) {
-  options.count.reset();
-  options.time_limit = std::chrono::milliseconds(1);
+  options.limits.count.reset();
+  options.limits.time_limit = std::chrono::milliseconds(1);
   const FuzzReport report = fuzz_queries(options);
   EXPECT_GT(report.queries, 0U);
   EXPECT_FALSE(report.interrupted);
 }
 
 TEST_F(FuzzQueries, WantsToKnowWhenToStop) {
-  options.count.reset();
+  options.limits.count.reset();
   EXPECT_THROW(fuzz_queries(options), std::invalid_argument);
 }
 
@@ -328,7 +326,7 @@ TEST_F(FuzzQueries, SaysWhereItCannotSave) {
 TEST_F(FuzzQueries, TheKernelPassesABlockOfEachGenerator) {
   options.decide = decide_with_kernel;
   options.decide_probe = probe_with_kernel;
-  options.count = query_generators().size() * queries_per_block;
+  options.limits.count = query_generators().size() * queries_per_block;
   const FuzzReport report = fuzz_queries(options);
   EXPECT_EQ(report.findings_total, 0U) << report.findings.at(0).generator << ": " << report.findings.at(0).difference;
 }
@@ -336,12 +334,12 @@ TEST_F(FuzzQueries, TheKernelPassesABlockOfEachGenerator) {
 TEST_F(FuzzQueries, SlowTheKernelPassesHalfAMillion) {
   options.decide = decide_with_kernel;
   options.decide_probe = probe_with_kernel;
-  options.seed = 2;
-  options.threads = 0;
+  options.limits.seed = 2;
+  options.limits.threads = 0;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  options.count = 100000;  // they take twenty times as long
+  options.limits.count = 100000;  // they take twenty times as long
 #else
-  options.count = 500000;
+  options.limits.count = 500000;
 #endif
   const FuzzReport report = fuzz_queries(options);
   EXPECT_EQ(report.findings_total, 0U) << report.findings.at(0).generator << ": " << report.findings.at(0).difference;

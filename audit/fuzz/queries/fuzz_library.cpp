@@ -158,16 +158,14 @@ class LibraryFuzzing {
     situation_.with_corpus = corpus_.has_value();
     replay_corpus();
     if (!enough()) {
-      const auto end = run_blocks(
-          options_.limits, [&](std::uint64_t block, std::size_t queries) { return run_block(block, queries); },
+      const FuzzExtent extent = fuzz_blocks(
+          options_.limits, queries_per_block,
+          [&](std::uint64_t block, std::size_t queries) { return run_block(block, queries); },
           [&](Asked asked) {
             take(std::move(asked), &report_.generators[next_block_++ % generators_.size()]);
             return !enough();
-          },
-          [&](double seconds) {
-            if (options_.progress) options_.progress({report_.queries, report_.findings_total, seconds});
           });
-      report_.interrupted = end == BlockEnd::interrupted;
+      report_.interrupted = extent.interrupted;
     }
     shrink_findings();
     report_.interrupted |= options_.limits.stop != nullptr && options_.limits.stop->load();  // while they were shrunk
@@ -187,7 +185,7 @@ class LibraryFuzzing {
 
   Asked run_block(std::uint64_t block, std::size_t count) const {
     const QueryGenerator& generator = generators_[block % generators_.size()];
-    Random random(options_.seed, block);
+    Random random(options_.limits.seed, block);
     std::vector<AnyQuery> queries;
     for (std::size_t i = 0; i < count; ++i) queries.push_back(generator(random).query);
     LibraryFinding blank;
@@ -263,7 +261,7 @@ class LibraryFuzzing {
   std::string file_name(const LibraryFinding& finding) {
     const bool corpus = finding.generator.starts_with("corpus/");
     const std::string origin = corpus ? fmt::format("corpus{}", ++corpus_findings_)
-                                      : fmt::format("seed{}-block{}", options_.seed, finding.block);
+                                      : fmt::format("seed{}-block{}", options_.limits.seed, finding.block);
     std::string fault(name(finding.found.fault));
     std::replace(fault.begin(), fault.end(), '_', '-');
     return fmt::format("{}-{}-index{}-{}.csv", fault, origin, finding.index,

@@ -26,7 +26,6 @@
 #include <vector>
 
 #include "audit/ccd/library_answers.h"
-#include "audit/fuzz/block_loop.h"
 #include "audit/fuzz/queries/fuzz_queries.h"
 #include "audit/fuzz/queries/query_corpus.h"
 
@@ -34,14 +33,12 @@ namespace noli::audit {
 
 struct LibraryFuzzOptions {
   LibraryUnderTest asked;
-  std::uint64_t seed = 1;
-  BlockLimits limits;
+  FuzzLimits limits;              ///< in queries
   bool first_only = false;        ///< stop behind the first block that has a finding
   std::size_t max_findings = 20;  ///< shrink and save at most that many
   std::filesystem::path out;      ///< folder for them, made when there is one; empty: they are not saved
   std::filesystem::path corpus;   ///< folder that is replayed first and added to; empty: none
   std::function<std::string(const std::filesystem::path& file)> command;  ///< that asks a saved finding again
-  std::function<void(const FuzzProgress&)> progress;
 };
 
 using FaultCounts = std::array<std::uint64_t, library_fault_count>;
@@ -49,7 +46,7 @@ using FaultCounts = std::array<std::uint64_t, library_fault_count>;
 struct LibraryFinding {
   FaultFound found{};          ///< of the shrunk query
   std::string generator;       ///< or "corpus/NAME"
-  std::uint64_t block = 0;     ///< options.seed, block and index make the query again
+  std::uint64_t block = 0;     ///< options.limits.seed, block and index make the query again
   std::size_t index = 0;       ///< within the block, or the corpus' file
   AnyQuery query, shrunk;      ///< as generated; simpler, with the same fault
   std::uint64_t alike = 0;     ///< how many findings were like it, with this generator

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 #include "audit/fuzz/finding_name.h"
@@ -109,7 +108,7 @@ void judge(const FuzzOptions& options, const Item& item, BlockResult& result) {
 BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size_t queries) {
   const auto generators = query_generators();
   const QueryGenerator& generator = generators[block % generators.size()];
-  Random random(options.seed, block), probe_random(options.seed, probe_stream + block);
+  Random random(options.limits.seed, block), probe_random(options.limits.seed, probe_stream + block);
   BlockResult result;
   for (std::size_t index = 0; index < queries; ++index) {
     const Generated generated = generator(random);
@@ -121,7 +120,7 @@ BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size
 
 /// A query of the corpus that was saved without a probe gets one that depends on its number.
 Item corpus_item(const FuzzOptions& options, const CorpusQuery& one, std::size_t number) {
-  Random random(options.seed, corpus_stream + number);
+  Random random(options.limits.seed, corpus_stream + number);
   const AnyQuery& query = one.saved.query;
   const Probe probe = one.saved.probe ? *one.saved.probe : make_probe(query, true, random);
   return {{query, {}}, probe, "corpus/" + one.name, number, one.index};
@@ -167,7 +166,7 @@ void shrink_probe(Finding& finding, const DecideProbe& decide) {
 
 std::string file_name(const FuzzOptions& options, const Finding& finding) {
   const bool corpus = finding.generator.starts_with("corpus/");
-  return fmt::format("{}-{}{}-index{}-{}.csv", corpus ? "corpus" : fmt::format("seed{}", options.seed),
+  return fmt::format("{}-{}{}-index{}-{}.csv", corpus ? "corpus" : fmt::format("seed{}", options.limits.seed),
                      corpus ? "query" : "block", finding.block, finding.index,
                      file_suffix({finding.query.pair, finding.query.dimension}));
 }
@@ -191,17 +190,13 @@ class Fuzzing {
 
   FuzzReport run() {
     replay_corpus();
-    const BlockEnd end = run_blocks(
-        BlockLimits{options_.count, options_.time_limit, options_.threads, options_.stop},
+    const FuzzExtent extent = fuzz_blocks(
+        options_.limits, queries_per_block,
         [&](std::uint64_t block, std::size_t queries) { return run_block(options_, block, queries); },
         [&](BlockResult result) {
           take(std::move(result), &report_.generators[next_block_++ % report_.generators.size()]);
-          return true;
-        },
-        [&](double seconds) {
-          if (options_.progress) options_.progress({report_.queries, report_.findings_total, seconds});
         });
-    report_.interrupted = end == BlockEnd::interrupted;
+    report_.interrupted = extent.interrupted;
     if (corpus_) report_.corpus.signatures = corpus_->signatures();
     if (corpus_) report_.corpus.kept = corpus_->kept();
     return std::move(report_);
@@ -212,7 +207,7 @@ class Fuzzing {
     if (!corpus_) return;
     const std::vector<CorpusQuery>& queries = corpus_->queries();
     std::vector<BlockResult> results(queries.size());
-    parallel_for(queries.size(), options_.threads,
+    parallel_for(queries.size(), options_.limits.threads,
                  [&](std::size_t i) { judge(options_, corpus_item(options_, queries[i], i), results[i]); });
     for (BlockResult& result : results) {
       for (const Reached& reached : result.reached) corpus_->reached(reached.signature);
@@ -300,11 +295,6 @@ std::optional<Finding> shrunk_finding(const AnyQuery& query, const std::optional
   return finding;
 }
 
-FuzzReport fuzz_queries(const FuzzOptions& options) {
-  if (!options.count && !options.time_limit && !options.stop) {
-    throw std::invalid_argument("fuzz_queries: neither count, nor time limit, nor stop flag");
-  }
-  return Fuzzing(options).run();
-}
+FuzzReport fuzz_queries(const FuzzOptions& options) { return Fuzzing(options).run(); }
 
 }  // namespace noli::audit

@@ -17,8 +17,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -27,7 +25,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/fuzz/block_loop.h"
+#include "audit/fuzz/fuzz_blocks.h"
 #include "audit/fuzz/not_saved.h"
 #include "audit/fuzz/queries/probe.h"
 #include "audit/fuzz/queries/query_corpus.h"
@@ -67,24 +65,16 @@ using DecideProbe = std::function<ProbeDecision(const AnyQuery&, const Probe&)>;
 /// noli::within_distance, noli::first_within and noli::failure_time.
 ProbeDecision probe_with_kernel(const AnyQuery& query, const Probe& probe);
 
-struct FuzzProgress {
-  std::uint64_t queries = 0;
-  std::uint64_t findings = 0;
-  double seconds = 0;
-};
+/// Queries of a block.
+constexpr std::uint64_t queries_per_block = 256;
 
 struct FuzzOptions {
-  std::uint64_t seed = 1;
-  std::optional<std::uint64_t> count;                       ///< stop after that many queries
-  std::optional<std::chrono::duration<double>> time_limit;  ///< stop after that time, at the end of a few blocks
-  int threads = 0;                                          ///< <= 0: all there are
+  FuzzLimits limits;              ///< in queries
   std::filesystem::path out;      ///< folder, made when the first finding is saved; empty: findings are not saved
   std::size_t max_findings = 20;  ///< shrink and save at most that many; all are counted
   std::filesystem::path
       corpus;  ///< folder that is replayed first and added to (audit/fuzz/queries/query_corpus.h); empty: none
   std::function<std::string(const std::filesystem::path& file)> command;  ///< that asks a saved finding again
-  const std::atomic<bool>* stop = nullptr;                                ///< polled after every few blocks
-  std::function<void(const FuzzProgress&)> progress;  ///< called from the caller's thread now and then
   Decide decide = decide_with_kernel;
   DecideProbe decide_probe = probe_with_kernel;
 };
@@ -92,7 +82,7 @@ struct FuzzOptions {
 /// One query on which the subject is wrong.
 struct Finding {
   std::string generator;                   ///< its name, or "corpus/NAME"
-  std::uint64_t block = 0;                 ///< where it was made: options.seed, block and index make it again
+  std::uint64_t block = 0;                 ///< where it was made: options.limits.seed, block and index make it again
   std::size_t index = 0;                   ///< within the block
   std::string difference;                  ///< in words: "contact: subject says apart, the oracle touching", ...
   AnyQuery query;                          ///< as generated

@@ -140,7 +140,7 @@ std::string generators_text(const LibraryFuzzOptions& options, const LibraryFuzz
 
 Json fuzz_json(const FuzzOptions& options, const FuzzReport& report, double seconds) {
   Json json = {{"verdict", verdict(report, "no_difference")},
-               {"seed", options.seed},
+               {"seed", options.limits.seed},
                {"queries", report.queries},
                {"findings", report.findings_total},
                {"answers", answers_json(report.answers)}};
@@ -153,13 +153,14 @@ Json fuzz_json(const FuzzOptions& options, const FuzzReport& report, double seco
   for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
   json["stages"] = stages_json(report.stages);
   if (!options.corpus.empty()) json["corpus"] = corpus_json(report.corpus);
-  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.threads)}};
+  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.limits.threads)}};
   return json;
 }
 
 report::Answer fuzz_answer(const FuzzOptions& options, const FuzzReport& report, double seconds) {
-  report::Answer answer(verdict(report, "no_difference"),
-                        {{"queries", report.queries}, {"findings", report.findings_total}, {"seed", options.seed}});
+  report::Answer answer(
+      verdict(report, "no_difference"),
+      {{"queries", report.queries}, {"findings", report.findings_total}, {"seed", options.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
@@ -184,7 +185,7 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
                {"tolerance", options.asked.tolerance},
                {"exact", options.asked.exact},
                {"knows_times", report.knows_times},
-               {"seed", options.seed},
+               {"seed", options.limits.seed},
                {"queries", report.queries},
                {"contacts", report.contacts},
                {"findings", report.findings_total},
@@ -213,7 +214,7 @@ report::Answer library_fuzz_answer(const LibraryFuzzOptions& options, const Libr
   for (const LibraryFault fault : faults) {
     answer.add({name(fault), report.faults[static_cast<std::size_t>(fault)]});
   }
-  answer.add({"seed", options.seed});
+  answer.add({"seed", options.limits.seed});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
