@@ -13,7 +13,7 @@
 //   changed          asked again, the library gave another answer
 // Findings are all of these but false positives and early times, and failures, crashes, hangs and leaks.
 //
-// What this does not do: it writes nothing (app/audit_ccd_command.cpp).
+// What this does not do: it writes nothing (app/audit/audit_ccd_command.cpp).
 #pragma once
 
 #include <cstdint>

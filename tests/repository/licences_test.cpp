@@ -47,7 +47,7 @@ CompileCommand kernel_command() {
 std::string all_headers(const std::string& layer) {
   std::string text;
   for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) {
-    const bool of_series = in_project(file).parent_path() == fs::path("app") / "series";
+    const bool of_series = in_project(file).parent_path() == fs::path("certify") / "series";
     if (file.extension() == ".h" && layer_of(in_project(file)) == layer && !of_series)
       text += "#include \"" + file.string() + "\"\n";
   }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/exit_code.h"
-#include "app/fuzz_options.h"
+#include "app/fuzz/fuzz_options.h"
 #include "app/library_options.h"
 
 namespace noli::app {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/fuzz_library_motions_run.h"
+#include "app/fuzz/fuzz_library_motions_run.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/fuzz_options.h"
+#include "app/fuzz/fuzz_options.h"
 #include "app/output.h"
 #include "app/output_files.h"
 #include "app/process.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/commands.h"
-#include "app/fuzz_options.h"
+#include "app/fuzz/fuzz_options.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"

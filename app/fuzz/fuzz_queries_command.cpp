@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/fuzz_options.h"
+#include "app/fuzz/fuzz_options.h"
 #include "app/library_options.h"
 #include "app/options.h"
 #include "app/output.h"

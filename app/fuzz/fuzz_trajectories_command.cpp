@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/fuzz_library_motions_run.h"
-#include "app/fuzz_options.h"
+#include "app/fuzz/fuzz_library_motions_run.h"
+#include "app/fuzz/fuzz_options.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/fuzz_options.h"
+#include "app/fuzz/fuzz_options.h"
 
 #include <limits>
 #include <system_error>
