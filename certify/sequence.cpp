@@ -32,20 +32,6 @@ bool meets(const AnyQuery& query) {
   return visit(query, [](const auto& typed) { return meet(typed); });
 }
 
-VerifyResult as_step(WindowResult found) {
-  VerifyResult result;
-  result.complete = found.complete;
-  result.contacts = found.contacts;
-  result.initial_intersections = found.initial_intersections;
-  result.reports = std::move(found.reports);
-  result.initial_reports = std::move(found.initial_reports);
-  if (found.first) result.first = found.first->contact;
-  result.stages = found.stages;
-  result.obligations = found.obligations;
-  result.cell_pairs = found.cell_pairs;
-  return result;
-}
-
 }  // namespace
 
 SequenceVerifier::SequenceVerifier(Mesh mesh, SequenceOptions options)
@@ -79,16 +65,7 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;
-  StepResult result{found.complete,
-                    found.contacts,
-                    found.initial_intersections,
-                    std::move(found.reports),
-                    std::move(found.initial_reports),
-                    {},
-                    found.stages,
-                    found.obligations,
-                    found.cell_pairs,
-                    std::move(found.proof)};
+  StepResult result{std::move(static_cast<Findings&>(found)), {}, std::move(found.proof)};
   const bool any_at_begin = std::exchange(meeting_at_end_, !options_.at_rest && found.contact_count() > 0);
   if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(x_t0, result);
   if (found.first) result.first = exactly(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
@@ -99,19 +76,12 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
 VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                                               const VerifyOptions& options) {
   if (options_.exclusions == nullptr) return verify_step(mesh_, x_t0, x_t1, options);
-  WindowOptions window;
-  window.dimension = options.dimension;
-  window.threads = options.threads;
-  window.initial = options.initial;
-  window.first_only = options.first_only;
-  window.strict = options.strict;
-  window.max_reports = options.max_reports;
-  window.exclusions = options_.exclusions;
-  window.stop = options.stop;
-  window.deadline = options.deadline;
-  window.progress = options.progress;
+  const WindowOptions window{options, {}, options_.exclusions};
   if (!windows_) windows_.emplace(mesh_, x_t0, window);
-  return as_step(windows_->verify(WorldLines::from_frames(x_t0, x_t1), window));
+  WindowResult found = windows_->verify(WorldLines::from_frames(x_t0, x_t1), window);
+  std::optional<FeatureContact> first;
+  if (found.first) first = found.first->contact;
+  return {std::move(static_cast<Findings&>(found)), first, nullptr};
 }
 
 /// What meets where a later step begins met where the step before ended, and was counted there. Those pairs are the

@@ -56,19 +56,10 @@ struct FirstInStep {
 };
 
 /// What was found in one step; counts are lower bounds unless it is complete.
-struct StepResult {
-  bool complete = true;
-  std::array<std::uint64_t, all_feature_pairs.size()> contacts{};  ///< by FeaturePair: pairs that meet
-  std::uint64_t initial_intersections = 0;  ///< pairs of cells that meet in the first frame, or in this one at rest
-  std::vector<FeatureContact> reports;      ///< at most max_reports
-  std::vector<InitialIntersection> initial_reports;
+/// Initial intersections are those of the first frame, or of each one at rest.
+struct StepResult : Findings {
   std::optional<FirstInStep> first;
-  StageCounters stages;
-  std::uint64_t obligations = 0, cell_pairs = 0;
   std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions
-
-  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
-  bool touches() const { return contact_count() + initial_intersections > 0; }
 };
 
 class SequenceVerifier {

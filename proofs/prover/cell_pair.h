@@ -8,6 +8,8 @@
 //            by dropping each shared vertex from one side or the other: (bc, ade) and (abc, de) for abc and ade; (c,
 //            abd), (bc, ad), (ac, bd), (abc, d) for abc and abd
 //   open     a pair of parts for which no direction was found, over the whole step or over pieces of it
+//   positions   as in proofs/prover/traversal.h; where they stray from straight lines, directions have to hold with the
+//            radii added, and pieces of time are cut at breakpoints (proofs/prover/windows/pieces.h)
 //
 // The features of an open pair are taken to the kernel one by one, and whether it meets at the beginning of the step is
 // decided by a direction at that time or by the exact static predicate. Its tokens, if it has any, are found later
@@ -23,7 +25,7 @@
 #include "proofs/prover/cells/direction_search.h"
 #include "proofs/prover/feature_pairs.h"
 #include "proofs/prover/initial.h"
-#include "proofs/prover/tally.h"
+#include "proofs/prover/straight.h"
 #include "proofs/prover/tokens/short_direction.h"
 #include "proofs/prover/tokens/step_tokens.h"
 
@@ -35,14 +37,17 @@ struct CellOptions {
   bool strict = false;
 };
 
-/// `Out`: Tokens, or NoTokens.
-template <int Dim, class Out>
+/// `Positions`: Straight or Chords. `Out`: Tokens, or NoTokens.
+template <class Positions, class Out>
 class CellPairs {
  public:
-  using Cell = StepCell<Dim>;
+  static constexpr int Dim = Positions::dim;
+  using Cell = typename Positions::Cell;
+  using Moving = typename Positions::Gathered;
+  using Tally = typename Positions::Tally;
 
-  CellPairs(CellOptions options, const Leftovers& leftovers, Tally& tally, WalkTokens<Dim, Out>& out)
-      : options_(options), leftovers_(leftovers), tally_(tally), tokens_(out.tokens), open_(out.open) {}
+  CellPairs(CellOptions options, const Positions& positions, Tally& tally, WalkTokens<Dim, Out>& out)
+      : options_(options), positions_(positions), tally_(tally), tokens_(out.tokens), open_(out.open) {}
 
   /// Settles the obligation about two different cells.
   void settle(const Cell& a, const Cell& b) {
@@ -55,9 +60,9 @@ class CellPairs {
     if (c.corners == 3) {
       for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
     } else if (options_.strict && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1] &&
-               !leftovers_.place_of(vertex_vertex_pair(c.vertices[0], c.vertices[1]))) {
-      const MovingCell<Dim> at = gather(c);
-      examine({FeaturePair::vertex_vertex, &at, corner_feature(0), &at, corner_feature(1)});
+               !positions_.leftovers().place_of(vertex_vertex_pair(c.vertices[0], c.vertices[1]))) {
+      const Moving at = gather(c);
+      examine({FeaturePair::vertex_vertex, &at, corner_feature(0), &at, corner_feature(1)}, positions_.begin_time());
     }
     if constexpr (Out::on) write_self(c);
   }
@@ -75,7 +80,13 @@ class CellPairs {
 
   struct Gathered {
     Gathered(const Cell& first, const Cell& second) : a(gather(first)), b(gather(second)) {}
-    MovingCell<Dim> a, b;
+    Moving a, b;
+  };
+
+  /// Where parts resist: the piece begins here.
+  struct Resistance {
+    double begin;
+    bool apart_at_begin;  ///< they are known to be apart where the span begins
   };
 
   struct Progress {
@@ -207,6 +218,7 @@ class CellPairs {
 
   [[gnu::noinline]] void settle_unusual(const Cell& a, const Cell& b, unsigned same) {
     Progress progress{a, b, pairs_owned<Dim>(a, b)};
+    if (needless(progress.left)) return;
     if (same == 0) {
       settle_part(progress, {all_corners(a.corners), all_corners(b.corners)}, true);
     } else {
@@ -217,6 +229,9 @@ class CellPairs {
     ++tally_.cell_pairs;
     if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
   }
+
+  /// Whether nothing has to be known of pairs of features that are not these.
+  bool needless(PairSet wanted) const { return !Positions::straight && !Out::on && wanted == 0 && !options_.initial; }
 
   /// The tokens about the features of one cell.
   void write_self(const Cell& c) {
@@ -268,28 +283,42 @@ class CellPairs {
 
   /// `tried`: the usual directions have been tried in vain.
   void settle_part(Progress& progress, Parts parts, bool tried) {
+    const PairSet within = pairs_within<Dim>(progress.a, parts.a, progress.b, parts.b);
+    if (needless(progress.left & within)) return;
     if (!progress.gathered) progress.gathered.emplace(progress.a, progress.b);
     const auto& [a, b] = *progress.gathered;
     const PartPair<Dim> pair = pair_of(a, parts.a, b, parts.b, place(parts.a));
     const Direction<Dim> guess = between_middles(pair);
-    const PairSet within = pairs_within(a, parts.a, b, parts.b);
     const bool usual = !tried && (try_direction(pair, guess) || try_normals(pair, a, b));
-    const bool closed = usual || search(pair, guess, {}, 0);
-    const bool apart_at_begin = closed || find_direction(pair, guess, {0, 0}, search_rounds).has_value();
-    if (closed || (apart_at_begin && search_halves(pair, guess, {}, halvings))) {
-      progress.left &= ~within;
-      return;
-    }
-    progress.open = true;
-    for (PairSet todo = progress.left & within; todo != 0; todo &= todo - 1) {
-      if (counted_here(todo, a, b, leftovers_)) examine(first_of(todo, a, b));
-    }
+    const auto resistance =
+        usual || search(pair, guess, {}, 0) ? std::nullopt : resist(pair, guess, *progress.gathered, parts);
+    const PairSet left = progress.left & within;
     progress.left &= ~within;
+    if (!resistance) return;
+    progress.open = true;
+    for (PairSet todo = left; todo != 0; todo &= todo - 1) {
+      if (counted_here(todo, a, b, positions_.leftovers())) examine(first_of(todo, a, b), resistance->begin);
+    }
     if constexpr (Out::on) {
       if (!tally_.found_any()) open_.push_back({tokens_.place(), &progress.a, &progress.b, parts.a, parts.b});
     }
     if (&progress.a == &progress.b || !options_.initial || progress.meets_at_begin) return;
-    progress.meets_at_begin = !apart_at_begin && meet_at_begin(a, parts.a, b, parts.b);
+    progress.meets_at_begin = !resistance->apart_at_begin &&
+                              meet_at_begin<Dim>(positions_.at_begin(a), parts.a, positions_.at_begin(b), parts.b);
+  }
+
+  /// Parts that no direction separates throughout. Nothing if they are settled over pieces of time.
+  std::optional<Resistance> resist(const PartPair<Dim>& pair, const Direction<Dim>& guess, const Gathered& cells,
+                                   Parts parts) {
+    if constexpr (Positions::straight) {
+      const bool apart_at_begin = find_direction(pair, guess, {0, 0}, search_rounds).has_value();
+      if (apart_at_begin && search_halves(pair, guess, {}, halvings)) return std::nullopt;
+      return Resistance{positions_.begin_time(), apart_at_begin};
+    } else {
+      const auto begin = positions_.resisting(cells.a, parts.a, cells.b, parts.b, tally_);
+      if (!begin) return std::nullopt;
+      return Resistance{*begin, *begin != positions_.begin_time()};
+    }
   }
 
   template <class Points>
@@ -341,18 +370,18 @@ class CellPairs {
     const bool wanted = options_.strict || (Dim == 2 && (c.shared & mask) != 0);
     const VertexId v = c.vertices[corner];
     if (!belongs || !wanted || v == c.vertices[(corner + 1) % 3] || v == c.vertices[(corner + 2) % 3]) return;
-    if (Dim == 3 && leftovers_.place_of(vertex_edge_pair(v, shape_of(c).edge(edge)))) return;
-    const MovingCell<Dim> at = gather(c);
-    examine({FeaturePair::vertex_edge, &at, corner_feature(corner), &at, edge_feature(edge)});
+    if (Dim == 3 && positions_.leftovers().place_of(vertex_edge_pair(v, shape_of(c).edge(edge)))) return;
+    const Moving at = gather(c);
+    examine({FeaturePair::vertex_edge, &at, corner_feature(corner), &at, edge_feature(edge)}, positions_.begin_time());
   }
 
-  void examine(const FeatureQuestion<Dim>& question) {
-    const auto enclosure = ask(question, tally_.stages);
+  void examine(const FeatureQuestion<Dim>& question, double begin) {
+    const auto enclosure = positions_.meet(question, begin, tally_);
     if (enclosure) tally_.add_contact(canonical(question.pair, question.vertices(), *enclosure));
   }
 
   CellOptions options_;
-  const Leftovers& leftovers_;
+  const Positions& positions_;
   Tally& tally_;
   Out& tokens_;
   std::vector<OpenParts<Dim>>& open_;

@@ -16,6 +16,12 @@
 
 namespace noli {
 
+/// A pair of groups, or a group with itself (then both are the same).
+struct Obligation {
+  Group first;
+  Group second;
+};
+
 class GroupPair {
  public:
   GroupPair(Group first, Group second)

@@ -62,6 +62,12 @@ struct TallyWith {
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
 
+  /// Leaves no reports behind.
+  Findings findings(bool complete) {
+    return {complete,    contacts,  initial_intersections, reports.take(), initial_reports.take(), stages,
+            obligations, cell_pairs};
+  }
+
   bool found_any() const {
     return initial_intersections > 0 || std::any_of(contacts.begin(), contacts.end(), [](auto n) { return n > 0; });
   }

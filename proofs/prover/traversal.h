@@ -6,6 +6,8 @@
 //   obligation  as in proofs/FORMAT.md: a pair of groups, or one with itself
 //   grain       obligations about at most so many cells are put off, when a list to put them on is given: that is how
 //               the work is cut into tasks which do not depend on the number of threads
+//   positions   where vertices are, and which boxes hold them: Straight (proofs/prover/straight.h) between two frames,
+//               Chords (proofs/prover/windows/chords.h) in a window
 //
 // What this does not do: it makes no threads and adds nothing up.
 #pragma once
@@ -22,25 +24,10 @@
 
 namespace noli {
 
-/// A pair of groups, or a group with itself (then both are the same).
-struct Obligation {
-  Group first;
-  Group second;
-  bool self = false;
-};
-
 /// An obligation that was put off, behind so many bytes of tokens.
 struct Deferred {
   Obligation obligation;
   std::size_t tokens_before = 0;
-};
-
-/// What a traversal reads.
-template <int Dim>
-struct Scene {
-  const Hierarchy& hierarchy;
-  const StepCell<Dim>* cells;  ///< in the order of the leaves
-  const Leftovers& leftovers;
 };
 
 /// When to give up. One object for all threads.
@@ -58,18 +45,20 @@ class StopSignal {
   std::optional<std::chrono::steady_clock::time_point> deadline_;
 };
 
-/// `Out`: Tokens, or NoTokens.
-template <int Dim, class Out>
+/// `Positions`: Straight or Chords. `Out`: Tokens, or NoTokens.
+template <class Positions, class Out>
 class Traversal {
  public:
-  Traversal(const Scene<Dim>& scene, const VerifyOptions& options, const StopSignal& stop, Tally& tally,
-            WalkTokens<Dim, Out>& out)
-      : scene_(scene),
+  using Tally = typename Positions::Tally;
+
+  Traversal(const Positions& positions, const VerifyOptions& options, const StopSignal& stop, Tally& tally,
+            WalkTokens<Positions::dim, Out>& out)
+      : positions_(positions),
         first_only_(options.first_only),
         stop_(stop),
         tally_(tally),
         tokens_(out.tokens),
-        cell_pairs_({options.initial, options.strict}, scene.leftovers, tally, out) {}
+        cell_pairs_({options.initial && positions.from_the_beginning(), options.strict}, positions_, tally, out) {}
 
   /// From now on puts obligations about at most `grain` cells on the list.
   void defer(std::uint32_t grain, std::vector<Deferred>& list) {
@@ -81,6 +70,7 @@ class Traversal {
   bool run(const Obligation& obligation) {
     stopped_ = stop_.raised();
     closed_ = 0;
+    positions_.begin(obligation);
     stack_.clear();
     stack_.push({obligation.first, obligation.second}, 0);
     while (!stack_.empty() && !stopped_) take_next();
@@ -106,6 +96,11 @@ class Traversal {
       if ((notes & after_split) != 0) tokens_.right();
       if ((notes & axis_code) != 0) return tokens_.axis(notes & axis_code);
     }
+    if (positions_.left_out(pair)) return;
+    if (positions_.settled_at_once(pair)) {
+      ++closed_;
+      return;
+    }
     if (put_off(pair)) return;
     if (pair.is_self()) return take_self(pair);
     if (++since_look_ >= patience) look_at_clock();
@@ -115,13 +110,13 @@ class Traversal {
   bool put_off(const GroupPair& pair) {
     if (deferred_ == nullptr) return false;
     const std::uint32_t size = pair.first().count + (pair.is_self() ? 0 : pair.second().count);
-    if (size <= grain_) deferred_->push_back({{pair.first(), pair.second(), pair.is_self()}, tokens_.place()});
+    if (size <= grain_) deferred_->push_back({{pair.first(), pair.second()}, tokens_.place()});
     return size <= grain_;
   }
 
   void take_self(const GroupPair& pair) {
     if (pair.both_leaves()) {
-      cell_pairs_.settle_self(scene_.cells[pair.first().begin]);
+      cell_pairs_.settle_self(positions_.cell(pair.first()));
       return look_around();
     }
     const Group left = pair.first().left(), right = pair.first().right();
@@ -135,7 +130,7 @@ class Traversal {
   /// fails.
   [[gnu::always_inline]] void take_apart(const GroupPair& pair) {
     if (pair.both_leaves()) {
-      cell_pairs_.settle(scene_.cells[pair.first().begin], scene_.cells[pair.second().begin]);
+      cell_pairs_.settle(positions_.cell(pair.first()), positions_.cell(pair.second()));
       look_around();
     } else if (pair.second_is_leaf()) {
       tokens_.left();
@@ -167,8 +162,8 @@ class Traversal {
     }
   }
 
-  const GroupBox& first_box(const GroupPair& pair) const { return scene_.hierarchy.box_of(pair.first_node()); }
-  const GroupBox& second_box(const GroupPair& pair) const { return scene_.hierarchy.box_of(pair.second_node()); }
+  const GroupBox& first_box(const GroupPair& pair) const { return positions_.box_of(pair.first_node()); }
+  const GroupBox& second_box(const GroupPair& pair) const { return positions_.box_of(pair.second_node()); }
 
   /// Whether an axis separates the two is not branched on, because it cannot be predicted. What is closed is kept only
   /// for its token.
@@ -210,12 +205,12 @@ class Traversal {
     if (stop_.raised()) stopped_ = true;
   }
 
-  const Scene<Dim>& scene_;
+  Positions positions_;
   bool first_only_;
   const StopSignal& stop_;
   Tally& tally_;
   Out& tokens_;
-  CellPairs<Dim, Out> cell_pairs_;
+  CellPairs<Positions, Out> cell_pairs_;
   std::uint32_t grain_ = 0;
   std::vector<Deferred>* deferred_ = nullptr;
   unsigned since_look_ = 0;

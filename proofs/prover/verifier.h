@@ -92,23 +92,28 @@ struct StepProof {
   JoinedTokens tokens;
 };
 
-struct VerifyResult {
+/// What is found in a step, or in a window.
+struct Findings {
   bool complete = true;  ///< false: stopped early (stop, deadline, first_only); counts are then lower bounds
   std::array<std::uint64_t, all_feature_pairs.size()>
       contacts{};  ///< by FeaturePair: pairs that meet in the closed step
   std::uint64_t initial_intersections = 0;
   std::vector<FeatureContact> reports;               ///< the first max_reports in canonical order (pair, then vertices)
   std::vector<InitialIntersection> initial_reports;  ///< the first max_reports in ascending order
-  /// A contact whose first time is the least of all, when there is any; ties: the least in canonical order.
-  std::optional<FeatureContact> first;
   StageCounters stages;           ///< which stage decided each pair of features that reached the kernel
   std::uint64_t obligations = 0;  ///< obligations closed by a direction
   std::uint64_t cell_pairs = 0;   ///< pairs of cells taken apart into features
+
+  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
+  bool touches() const { return contact_count() + initial_intersections > 0; }
+};
+
+struct VerifyResult : Findings {
+  /// A contact whose first time is the least of all, when there is any; ties: the least in canonical order.
+  std::optional<FeatureContact> first;
   /// If `prove` was set, the step is complete and nothing touches. Nothing there too if parts come so near each other
   /// that no proof was found.
   std::shared_ptr<const StepProof> proof;
-
-  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
 };
 
 /// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is

@@ -58,40 +58,17 @@ inline double twice_middle(BothEnds x) { return x.at_t0() + x.at_t1(); }
 
 }  // namespace detail
 
-/// b, c and d, e, or b, c and d, d.
-template <int Dim>
-using FourAround = PointsAround<Dim, 4>;
-
-/// Which corner of which of the two cells (false: the first).
-struct CornerOf {
-  bool second;
-  std::size_t corner;
-};
-
 /// Corners by number: `origin` is that of a in the first cell; `of_first`, `of_second` are those of the other points.
-template <int Dim, std::size_t First, std::size_t Second>
-PointsAround<Dim, First + Second> points_around(const StepCell<Dim>& first, const StepCell<Dim>& second,
-                                                std::size_t origin, const std::array<std::size_t, First>& of_first,
+template <int Dim, std::size_t First, std::size_t Second, class Cell>
+PointsAround<Dim, First + Second> points_around(const Cell& first, const Cell& second, std::size_t origin,
+                                                const std::array<std::size_t, First>& of_first,
                                                 const std::array<std::size_t, Second>& of_second) {
   PointsAround<Dim, First + Second> around;
   const std::array<BothEnds, Dim>& r = first.x(origin);
   for (std::size_t i = 0; i < First; ++i) around.d[i] = detail::relative(first.x(of_first[i]), r);
   for (std::size_t i = 0; i < Second; ++i) around.d[First + i] = detail::relative(second.x(of_second[i]), r);
-  around.reach = detail::reach_of(around.d);
+  around.reach = widened(detail::reach_of(around.d), first, second);
   return around;
-}
-
-/// The same for cells with their positions.
-template <int Dim>
-FourAround<Dim> four_around(const MovingCell<Dim>& first, const MovingCell<Dim>& second, std::size_t origin,
-                            const std::array<CornerOf, 4>& points) {
-  FourAround<Dim> four;
-  const std::array<BothEnds, Dim> r = first.ends(origin);
-  for (std::size_t i = 0; i < 4; ++i) {
-    four.d[i] = detail::relative((points[i].second ? second : first).ends(points[i].corner), r);
-  }
-  four.reach = detail::reach_of(four.d);
-  return four;
 }
 
 /// Projections of the points at both ends, and what they may be wrong by.

@@ -90,10 +90,11 @@ double reach_of(const std::array<std::array<std::array<double, 8>, Dim>, 2>& d) 
 
 }  // namespace detail
 
-/// The pair of two parts, neither of them empty. The origin is corner `origin` of a.
-template <int Dim>
-PartPair<Dim> pair_of(const MovingCell<Dim>& a, CornerMask a_part, const MovingCell<Dim>& b, CornerMask b_part,
-                      std::size_t origin) {
+/// The pair of two parts, neither of them empty. The origin is corner `origin` of a. `Cell`: MovingCell, or one that has
+/// more to it.
+template <class Cell>
+PartPair<Cell::dim> pair_of(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, std::size_t origin) {
+  constexpr int Dim = Cell::dim;
   const auto &a_lanes = detail::lanes_of(a_part), &b_lanes = detail::lanes_of(b_part);
   PartPair<Dim> pair;
   for (std::size_t e = 0; e < 2; ++e) {
@@ -103,7 +104,7 @@ PartPair<Dim> pair_of(const MovingCell<Dim>& a, CornerMask a_part, const MovingC
       for (std::size_t l = 0; l < 4; ++l) pair.d[e][k][4 + l] = b.x[e][k][b_lanes[l]] - r;
     }
   }
-  pair.reach = detail::reach_of<Dim>(pair.d);
+  pair.reach = widened(detail::reach_of<Dim>(pair.d), a, b);
   return pair;
 }
 

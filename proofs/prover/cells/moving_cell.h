@@ -54,6 +54,7 @@ MovingVertex<Dim> moving_vertex(const Position& x_t0, const Position& x_t1) {
 /// A cell of a mesh in a step.
 template <int Dim>
 struct alignas(32) StepCell : CellNames {
+  static constexpr int dim = Dim;
   const MovingVertex<Dim>* mesh_vertices;  ///< those of the whole mesh
 
   const std::array<BothEnds, Dim>& x(std::size_t corner) const { return mesh_vertices[vertices[corner]].x; }
@@ -62,6 +63,8 @@ struct alignas(32) StepCell : CellNames {
 /// A cell with its positions.
 template <int Dim>
 struct alignas(64) MovingCell : CellNames {
+  static constexpr int dim = Dim;
+
   /// x[end][axis][corner]: positions at the beginning (0) and the end (1) of the step.
   std::array<std::array<std::array<double, 4>, Dim>, 2> x;
   /// In 3D: the normal of a face at mid-time, as rounding has it (a guess, never relied on); else zero.
@@ -100,9 +103,9 @@ inline std::array<double, 3> mid_normal(const MovingCell<3>& c) {
 
 }  // namespace detail
 
-template <int Dim>
-MovingCell<Dim> gather(const StepCell<Dim>& cell) {
-  MovingCell<Dim> c{};
+/// Gives a cell the positions of another's corners.
+template <int Dim, class Cell>
+void gather_corners(const Cell& cell, MovingCell<Dim>& c) {
   static_cast<CellNames&>(c) = cell;
   for (std::size_t k = 0; k < Dim; ++k) {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -114,7 +117,23 @@ MovingCell<Dim> gather(const StepCell<Dim>& cell) {
   if constexpr (Dim == 3) {
     if (c.corners == 3) c.normal = detail::mid_normal(c);
   }
+}
+
+template <int Dim>
+MovingCell<Dim> gather(const StepCell<Dim>& cell) {
+  MovingCell<Dim> c{};
+  gather_corners(cell, c);
   return c;
+}
+
+/// The reach of two cells (proofs/prover/cells/direction.h) that stay where their ends say.
+template <int Dim>
+double widened(double reach, const StepCell<Dim>& /*a*/, const StepCell<Dim>& /*b*/) {
+  return reach;
+}
+template <int Dim>
+double widened(double reach, const MovingCell<Dim>& /*a*/, const MovingCell<Dim>& /*b*/) {
+  return reach;
 }
 
 }  // namespace noli

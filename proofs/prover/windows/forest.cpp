@@ -93,12 +93,7 @@ Extent extent_of(const std::array<VertexId, 3>& v, std::span<const Point2> r) {
 
 Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features, bool scripted,
              const Exclusions& exclusions) {
-  return {corners(mesh, cell),
-          cell,
-          features.owned[cell],
-          features.shared[cell],
-          static_cast<std::uint8_t>(corner_count(mesh, cell)),
-          scripted,
+  return {names_of(mesh, features, cell), scripted,
           exclusions.empty() ? std::uint16_t{0} : exclusions.groups[corners(mesh, cell)[0]]};
 }
 
@@ -153,7 +148,7 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOption
     : exclusions_(options.exclusions != nullptr ? *options.exclusions : Exclusions{}),
       leftovers_(mesh.cell_count(),
                  [this](std::size_t i) {
-                   return Leftovers::NumberedShape{{leaves_[i].vertices, leaves_[i].corners}, leaves_[i].cell};
+                   return Leftovers::NumberedShape{shape_of(leaves_[i]), leaves_[i].cell};
                  }),
       part_of_(mesh.vertex_count, no_part),
       sizes_(sizes_of(mesh, x, options.dimension)) {
@@ -188,6 +183,14 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOption
   if (!rest.empty()) grow(rest, false, false);
   for (const Tree& tree : trees_) finish(tree.root, parts.layout, tree.sheet);
   make_charts(mesh, x, options.dimension);
+}
+
+const Tree* Forest::part_of(Group a, Group b) const {
+  const auto tree = std::upper_bound(trees_.begin(), trees_.end(), a.begin,
+                                     [](std::uint32_t leaf, const Tree& t) { return leaf < t.root.begin; }) -
+                    1;
+  const bool both = b.begin >= tree->root.begin && b.begin < tree->root.begin + tree->root.count;
+  return both && tree->part ? &*tree : nullptr;
 }
 
 void Forest::make_charts(const Mesh& mesh, std::span<const Position> x, int dimension) {

@@ -21,6 +21,7 @@
 
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/cells/leftover.h"
+#include "proofs/prover/cells/moving_cell.h"
 #include "proofs/prover/windows/charts.h"
 #include "proofs/prover/windows/monotone.h"
 #include "trajectory/exclusions.h"
@@ -28,11 +29,7 @@
 namespace noli {
 
 /// What is known of a cell whatever it does.
-struct Leaf {
-  std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/cells/features.h
-  std::uint32_t cell;
-  FeatureMask owned, shared;
-  std::uint8_t corners;
+struct Leaf : CellNames {
   bool scripted;        ///< all its vertices are
   std::uint16_t group;  ///< as in Exclusions
 };
@@ -72,6 +69,8 @@ class Forest {
 
   /// Sheets first.
   const std::vector<Tree>& trees() const { return trees_; }
+  /// The part that both groups are of; nullptr if they are of different trees, or of that of the rest.
+  const Tree* part_of(Group a, Group b) const;
   std::size_t node_count() const { return scripted_.size(); }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   const Leaf& leaf(Group g) const { return leaves_[g.begin]; }

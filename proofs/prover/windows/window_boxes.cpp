@@ -57,8 +57,8 @@ void WindowBoxes<Dim>::find_phi() {
   for (std::size_t k = 0; k < Dim; ++k) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (const auto& chord : chords_.of) {
-      low = std::min(low, std::min(chord.x_t0[k], chord.x_t1[k]));
-      high = std::max(high, std::max(chord.x_t0[k], chord.x_t1[k]));
+      low = std::min(low, std::min(chord.x[k].at_t0(), chord.x[k].at_t1()));
+      high = std::max(high, std::max(chord.x[k].at_t0(), chord.x[k].at_t1()));
     }
     phi_[k] = phi_onto_unit(low, high);
   }
@@ -68,7 +68,7 @@ template <int Dim>
 void WindowBoxes<Dim>::bound_roots() {
   const auto& trees = forest_.trees();
   for (const Tree& tree : trees) {
-    const auto box = [&](std::size_t i) { return box_of(chords_.of[tree.vertices[i]]); };
+    const auto box = [&](std::size_t i) { return box_around(chords_.of[tree.vertices[i]]); };
     root_boxes_.push_back(trees.size() == 1 ? GroupBox{}
                                             : merged_over(tree.vertices.size(), threads_, empty_box(), box));
     root_monotone_.push_back(tree.sheet && sheet_monotone(tree) ? 1 : 0);
@@ -104,14 +104,14 @@ bool WindowBoxes<Dim>::chart_monotone(std::span<const LaidFace> faces) const {
 
 /// The radius has room for rounding (proofs/prover/windows/chord.h).
 template <int Dim>
-GroupBox WindowBoxes<Dim>::box_of(const VertexChord<Dim>& chord) const {
+GroupBox WindowBoxes<Dim>::box_around(const VertexChord<Dim>& chord) const {
   GroupBox box{};
   for (std::size_t k = 0; k < Dim; ++k) {
     const double r = chord.radius[k];
-    box.low_t0[k] = phi_[k](chord.x_t0[k] - r);
-    box.low_t1[k] = phi_[k](chord.x_t1[k] - r);
-    box.high_t0[k] = phi_[k](chord.x_t0[k] + r);
-    box.high_t1[k] = phi_[k](chord.x_t1[k] + r);
+    box.low_t0[k] = phi_[k](chord.x[k].at_t0() - r);
+    box.low_t1[k] = phi_[k](chord.x[k].at_t1() - r);
+    box.high_t0[k] = phi_[k](chord.x[k].at_t0() + r);
+    box.high_t1[k] = phi_[k](chord.x[k].at_t1() + r);
   }
   return box;
 }
@@ -136,7 +136,7 @@ void WindowBoxes<Dim>::fit(Group g, bool sheet) {
     return join(g, sheet);
   }
   const auto& [a, b, c] = forest_.leaf(g).vertices;
-  boxes_[g.node] = merged(merged(box_of(chords_.of[a]), box_of(chords_.of[b])), box_of(chords_.of[c]));
+  boxes_[g.node] = merged(merged(box_around(chords_.of[a]), box_around(chords_.of[b])), box_around(chords_.of[c]));
   if (sheet) tangents_[g.node] = tangents_at(forest_.laid_face(g.begin));
 }
 

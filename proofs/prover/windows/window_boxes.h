@@ -36,7 +36,8 @@ class WindowBoxes {
   /// Whether a sheet is monotone as a whole.
   bool root_monotone(std::size_t tree) const { return root_monotone_[tree] != 0; }
   /// Of a group of a tree for which they were made; tangents only of groups of sheets.
-  const GroupBox& box(Group g) const { return boxes_[g.node]; }
+  const GroupBox& box(Group g) const { return box_of(g.node); }
+  const GroupBox& box_of(std::size_t node) const { return boxes_[node]; }
   const TangentBox& tangents(Group g) const { return tangents_[g.node]; }
   /// Whether a chart of such a tree is monotone.
   bool monotone(std::uint32_t chart) const { return monotone_[chart] != 0; }
@@ -47,7 +48,7 @@ class WindowBoxes {
   bool sheet_monotone(const Tree& tree) const;
   bool chart_monotone(std::span<const LaidFace> faces) const;
   void look_at_charts();
-  GroupBox box_of(const VertexChord<Dim>& chord) const;
+  GroupBox box_around(const VertexChord<Dim>& chord) const;
   TangentBox tangents_at(const LaidFace& face) const;
   void fit(Group g, bool sheet);
   void join(Group g, bool sheet);

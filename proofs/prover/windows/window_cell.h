@@ -9,7 +9,8 @@
 //   reach    as in proofs/prover/cells/direction.h, whose error bound is 2^-47 |n|_1 reach: raised by 2^47 margin it is
 //            a bound for both. (The sum and products round by at most 5 u of the margin's share; 2^-40 is added to it.)
 //
-// What this does not do: it has no normal; `normal` is zero until somebody needs one.
+// As in proofs/prover/cells/moving_cell.h, the usual obligations are settled from ChordCell, and what is left is
+// gathered in a WindowCell.
 #pragma once
 
 #include <algorithm>
@@ -20,45 +21,53 @@
 
 namespace noli {
 
+/// A cell of a mesh in a span.
+template <int Dim>
+struct ChordCell : CellNames {
+  static constexpr int dim = Dim;
+  const VertexChord<Dim>* mesh_vertices;  ///< those of the whole mesh
+
+  const VertexChord<Dim>& chord(std::size_t corner) const { return mesh_vertices[vertices[corner]]; }
+  const std::array<BothEnds, Dim>& x(std::size_t corner) const { return chord(corner).x; }
+  double radius_along(std::size_t axis) const {
+    return std::max(chord(0).radius[axis], std::max(chord(1).radius[axis], chord(2).radius[axis]));
+  }
+};
+
+/// The same with its positions.
 template <int Dim>
 struct WindowCell : MovingCell<Dim> {
   std::array<double, Dim> radius;
+
+  double radius_along(std::size_t axis) const { return radius[axis]; }
 };
 
-namespace detail {
+/// Of ChordCell or WindowCell.
+template <class Cell>
+double margin_of(const Cell& a, const Cell& b) {
+  double margin = 0;
+  for (std::size_t k = 0; k < Cell::dim; ++k) margin = std::max(margin, a.radius_along(k) + b.radius_along(k));
+  return margin;
+}
+
+/// A reach that stands for rounding and margin.
+inline double raised(double reach, double margin) { return reach + 0x1p47 * (margin + 0x1p-40 * margin); }
 
 template <int Dim>
-void set_corner(WindowCell<Dim>& cell, std::size_t i, const auto& chord) {
-  for (std::size_t k = 0; k < Dim; ++k) {
-    cell.x[0][k][i] = chord.x_t0[k];
-    cell.x[1][k][i] = chord.x_t1[k];
-    cell.radius[k] = std::max(cell.radius[k], static_cast<double>(chord.radius[k]));
-  }
+double widened(double reach, const ChordCell<Dim>& a, const ChordCell<Dim>& b) {
+  return raised(reach, margin_of(a, b));
+}
+template <int Dim>
+double widened(double reach, const WindowCell<Dim>& a, const WindowCell<Dim>& b) {
+  return raised(reach, margin_of(a, b));
 }
 
 template <int Dim>
-void set_names(WindowCell<Dim>& cell, const Leaf& leaf) {
-  cell.vertices = leaf.vertices;
-  cell.cell = leaf.cell;
-  cell.owned = leaf.owned;
-  cell.shared = leaf.shared;
-  cell.corners = leaf.corners;
-}
-
-}  // namespace detail
-
-/// The cell with the chords of its corners.
-template <int Dim>
-WindowCell<Dim> cell_of(const Leaf& leaf, const WindowChords<Dim>& chords) {
-  WindowCell<Dim> cell;
-  cell.normal = {};
-  cell.radius = {};
-  for (std::size_t i = 0; i < 3; ++i) detail::set_corner(cell, i, chords.of[leaf.vertices[i]]);
-  for (auto& end : cell.x) {
-    for (auto& axis : end) axis[3] = axis[2];
-  }
-  detail::set_names(cell, leaf);
-  return cell;
+WindowCell<Dim> gather(const ChordCell<Dim>& cell) {
+  WindowCell<Dim> c{};
+  gather_corners(cell, c);
+  for (std::size_t k = 0; k < Dim; ++k) c.radius[k] = cell.radius_along(k);
+  return c;
 }
 
 /// The cell with the chords over [begin, end] of the corners in a part; what it says about others is meaningless.
@@ -68,19 +77,15 @@ WindowCell<Dim> over(const WindowCell<Dim>& cell, CornerMask part, const WorldLi
   c.radius = {};
   for (std::size_t i = 0; i < 3; ++i) {
     if ((part >> i & 1) == 0) continue;
-    detail::set_corner(c, i, chord_of<Dim>(WorldLine(lines, c.vertices[i]), begin, end));
+    const Chord<Dim> chord = chord_of<Dim>(WorldLine(lines, c.vertices[i]), begin, end);
+    for (std::size_t k = 0; k < Dim; ++k) {
+      c.x[0][k][i] = chord.x_t0[k];
+      c.x[1][k][i] = chord.x_t1[k];
+      c.radius[k] = std::max(c.radius[k], chord.radius[k]);
+    }
   }
+  if constexpr (Dim == 3) c.normal = part == all_corners(3) ? detail::mid_normal(c) : std::array<double, 3>{};
   return c;
 }
-
-template <int Dim>
-double margin_of(const WindowCell<Dim>& a, const WindowCell<Dim>& b) {
-  double margin = 0;
-  for (std::size_t k = 0; k < Dim; ++k) margin = std::max(margin, a.radius[k] + b.radius[k]);
-  return margin;
-}
-
-/// A reach that stands for rounding and margin.
-inline double raised(double reach, double margin) { return reach + 0x1p47 * (margin + 0x1p-40 * margin); }
 
 }  // namespace noli

@@ -20,8 +20,8 @@ NearVertex near_vertex(const VertexChord<Dim>& chord, const Position& origin) {
   NearVertex near{};
   bool usable = true;
   for (std::size_t k = 0; k < Dim; ++k) {
-    near.x_t0[k] = static_cast<float>(chord.x_t0[k] - origin[k]);
-    near.x_t1[k] = static_cast<float>(chord.x_t1[k] - origin[k]);
+    near.x_t0[k] = static_cast<float>(chord.x[k].at_t0() - origin[k]);
+    near.x_t1[k] = static_cast<float>(chord.x[k].at_t1() - origin[k]);
     const float most = std::max(std::abs(near.x_t0[k]), std::abs(near.x_t1[k]));
     near.radius[k] = chord.radius[k] * (1 + 0x1p-20F) + (most * 0x1p-22F + 0x1p-120F);
     usable = usable && most < 0x1p60F && near.radius[k] < 0x1p60F;
@@ -49,8 +49,7 @@ class Filler {
     VertexChord<Dim>& stored = chords_.of[v];
     float most = 0;
     for (std::size_t k = 0; k < Dim; ++k) {
-      stored.x_t0[k] = chord.x_t0[k];
-      stored.x_t1[k] = chord.x_t1[k];
+      stored.x[k] = BothEnds(chord.x_t0[k], chord.x_t1[k]);
       stored.radius[k] = rounded_up(chord.radius[k]);
       most = std::max(most, stored.radius[k]);
     }

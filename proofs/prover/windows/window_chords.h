@@ -15,6 +15,7 @@
 
 #include <vector>
 
+#include "kernel/both_ends.h"
 #include "proofs/prover/windows/chord.h"
 #include "proofs/prover/windows/forest.h"
 
@@ -27,7 +28,7 @@ struct Span {
 /// A chord in one cache line; radii are rounded upwards.
 template <int Dim>
 struct alignas(64) VertexChord {
-  std::array<double, Dim> x_t0, x_t1;
+  std::array<BothEnds, Dim> x;
   std::array<float, Dim> radius;
 };
 

@@ -14,7 +14,7 @@
 // Which pairs of features are counted: as in proofs/prover/verifier.h, each once if it meets anywhere in the closed
 // window. In order of cost: sheets that are monotone as a whole (proofs/prover/windows/monotone.h); the walk over pairs
 // of groups, over chords, where boxes and directions have to hold with the radii added, and where what is monotone
-// around both (proofs/prover/windows/window_traversal.h) is settled at once; time cut for the pair of cells in
+// around both (proofs/prover/windows/chords.h) is settled at once; time cut for the pair of cells in
 // question, until a direction holds or no breakpoint is left inside; each of its pairs of features the same way; and
 // what resists in a piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
 //
@@ -38,19 +38,10 @@ namespace noli {
 
 class Forest;
 
-/// Fields as in VerifyOptions where they are called so.
-struct WindowOptions {
-  int dimension = 3;
-  int threads = 0;
-  bool initial = true;  ///< look for intersections at T0
-  bool first_only = false;
-  bool strict = false;
-  std::size_t max_reports = 100;
+/// `prove` is not looked at.
+struct WindowOptions : VerifyOptions {
   std::span<const std::uint8_t> scripted;  ///< one per vertex, not 0 if scripted; empty: none is
   const Exclusions* exclusions = nullptr;  ///< or none; for the mesh's vertices
-  const std::atomic<bool>* stop = nullptr;
-  std::optional<std::chrono::steady_clock::time_point> deadline;
-  std::function<void(double)> progress;
 };
 
 /// The first contact of a window.
@@ -63,19 +54,10 @@ struct FirstInWindow {
   double lower() const { return contact.first.begin; }
 };
 
-/// As VerifyResult; times are in the unit of the world lines.
-struct WindowResult {
-  bool complete = true;
-  std::array<std::uint64_t, all_feature_pairs.size()> contacts{};
-  std::uint64_t initial_intersections = 0;
-  std::vector<FeatureContact> reports;  ///< `first` contains the first time at which they meet, in [T0, T1]
-  std::vector<InitialIntersection> initial_reports;
+/// Times are in the unit of the world lines. A pair of features is counted in `stages` once for each piece in which it
+/// reached the kernel.
+struct WindowResult : Findings {
   std::optional<FirstInWindow> first;
-  StageCounters stages;  ///< counts each pair of features once for each piece in which it reached the kernel
-  std::uint64_t obligations = 0;
-  std::uint64_t cell_pairs = 0;
-
-  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
 };
 
 /// Verifies windows of one run, one after another.

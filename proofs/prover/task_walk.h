@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The walk over some obligations, cut into tasks for several threads.
+//
+// What is found does not depend on the threads: it is added up in the order of the tasks. With `first_only`, tasks
+// behind the first that finds something do not count, because whether they ran depends on the threads.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <mutex>
+
+#include "kernel/parallel.h"
+#include "proofs/prover/traversal.h"
+
+namespace noli {
+
+/// Tells the caller how it goes: one thread at a time, never backwards.
+class Progress {
+ public:
+  explicit Progress(const VerifyOptions& options) : tell_(options.progress) {}
+
+  /// The next so many tasks go from one share of the work to another.
+  void begin(double from, double to, std::size_t tasks) {
+    from_ = from;
+    to_ = to;
+    tasks_ = tasks;
+    done_ = 0;
+    if (tasks == 0) tell(to);
+  }
+  void task_done() {
+    if (!tell_) return;
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    const double part = static_cast<double>(done_) / static_cast<double>(tasks_);
+    tell(done_ == tasks_ ? to_ : from_ + part * (to_ - from_));
+  }
+
+ private:
+  void tell(double share) {
+    if (!tell_ || !(share > told_)) return;
+    told_ = share;
+    tell_(share);
+  }
+
+  const std::function<void(double)>& tell_;
+  double from_ = 0, to_ = 0, told_ = 0;
+  std::size_t tasks_ = 0, done_ = 0;
+  std::mutex mutex_;
+};
+
+/// What a walk leaves behind.
+template <class Positions, class Out>
+struct WalkOutcome {
+  typename Positions::Tally tally;
+  WalkTokens<Positions::dim, Out> out{};
+  bool finished = false;
+};
+
+/// `Positions`, `Out`: as in proofs/prover/traversal.h.
+template <class Positions, class Out>
+class TaskWalk {
+ public:
+  using Outcome = WalkOutcome<Positions, Out>;
+
+  /// `none`: a tally of nothing. All have to outlive this.
+  TaskWalk(const Positions& positions, const VerifyOptions& options, const StopSignal& stop,
+           const typename Positions::Tally& none)
+      : positions_(positions), options_(options), stop_(stop), none_(none), top_{none} {}
+
+  /// Walks the top of the trees, where there is little to do, then what is below: tasks about at most `grain` cells.
+  void run(std::span<const Obligation> obligations, std::uint32_t grain, Progress& progress, double from, double to) {
+    cut_into_tasks(obligations, grain);
+    outcomes_.resize(tasks_.size());
+    progress.begin(from, to, tasks_.size());
+    parallel_for(tasks_.size(), options_.threads, [&](std::size_t i) {
+      if (i <= first_found_) run_task(i, progress);
+    });
+    add_up();
+  }
+
+  /// The tally is that of all; the tokens are those of the top, behind which each task has its place.
+  Outcome& sum() { return top_; }
+  const std::vector<Deferred>& tasks() const { return tasks_; }
+  Outcome& outcome(std::size_t task) { return *outcomes_[task]; }
+
+ private:
+  void cut_into_tasks(std::span<const Obligation> obligations, std::uint32_t grain) {
+    Traversal<Positions, Out> traversal(positions_, options_, stop_, top_.tally, top_.out);
+    traversal.defer(grain, tasks_);
+    top_.finished = !stop_.raised();
+    for (const Obligation& obligation : obligations) top_.finished = top_.finished && traversal.run(obligation);
+  }
+
+  void run_task(std::size_t i, Progress& progress) {
+    outcomes_[i] = std::make_unique<Outcome>(Outcome{none_});
+    Outcome& outcome = *outcomes_[i];
+    Traversal<Positions, Out> traversal(positions_, options_, stop_, outcome.tally, outcome.out);
+    outcome.finished = traversal.run(tasks_[i].obligation);
+    if (options_.first_only && outcome.tally.found_any()) lower_first_found(i);
+    progress.task_done();
+  }
+
+  void lower_first_found(std::size_t i) {
+    std::size_t before = first_found_;
+    while (i < before && !first_found_.compare_exchange_weak(before, i)) {
+    }
+  }
+
+  void add_up() {
+    for (std::size_t i = 0; i < outcomes_.size() && i <= first_found_; ++i) {
+      top_.tally += outcomes_[i]->tally;
+      top_.finished = top_.finished && outcomes_[i]->finished;
+    }
+  }
+
+  const Positions& positions_;
+  const VerifyOptions& options_;
+  const StopSignal& stop_;
+  const typename Positions::Tally& none_;
+  std::vector<Deferred> tasks_;
+  std::vector<std::unique_ptr<Outcome>> outcomes_;  ///< of the tasks that have begun
+  std::atomic<std::size_t> first_found_ = std::numeric_limits<std::size_t>::max();
+  Outcome top_;  ///< of the walk over the top, then the sum of all
+};
+
+}  // namespace noli

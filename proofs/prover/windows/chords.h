@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Positions of vertices in a span of a window, for the walk over pairs of groups: along their chords, with radii.
+//
+// Groups of one part are settled at once where the part is monotone (proofs/prover/windows/monotone.h): a sheet in a
+// rectangle around both, another part in a chart that holds both.
+//
+// What this does not do: it makes no bounds (proofs/prover/windows/window_boxes.h).
+#pragma once
+
+#include "proofs/prover/group_pair.h"
+#include "proofs/prover/windows/pieces.h"
+#include "proofs/prover/windows/window_boxes.h"
+
+namespace noli {
+
+/// As Straight in proofs/prover/straight.h.
+template <int Dim>
+class Chords {
+ public:
+  static constexpr int dim = Dim;
+  static constexpr bool straight = false;
+  using Cell = ChordCell<Dim>;
+  using Gathered = WindowCell<Dim>;
+  using Tally = WindowTally;
+
+  Chords(const WorldLines& lines, const Forest& forest, const WindowChords<Dim>& chords, const WindowBoxes<Dim>& boxes)
+      : lines_(lines), forest_(forest), chords_(chords), boxes_(boxes), pieces_(lines, chords.span) {}
+
+  void begin(const Obligation& obligation) { part_ = forest_.part_of(obligation.first, obligation.second); }
+
+  const GroupBox& box_of(std::size_t node) const { return boxes_.box_of(node); }
+  Cell cell(Group leaf) const { return {forest_.leaf(leaf), chords_.of.data()}; }
+  const Leftovers& leftovers() const { return forest_.leftovers(); }
+
+  bool left_out(const GroupPair& pair) const {
+    const Group a = pair.first(), b = pair.second();
+    return (forest_.scripted(a) && forest_.scripted(b)) ||
+           (pair.both_leaves() && forest_.excluded(forest_.leaf(a), forest_.leaf(b)));
+  }
+
+  bool settled_at_once(const GroupPair& pair) const {
+    if (part_ == nullptr) return false;
+    const Group a = pair.first(), b = pair.second();
+    if (!part_->sheet) return holds_both(a, b) || holds_both(b, a);
+    if (a.count + (pair.is_self() ? 0 : b.count) < worth_asking) return false;
+    const TangentBox both = merged(boxes_.tangents(a), boxes_.tangents(b));
+    return monotone_around(both, merged(forest_.extent(a), forest_.extent(b)));
+  }
+
+  double begin_time() const { return chords_.span.begin; }
+  bool from_the_beginning() const { return begin_time() == lines_.first_time(); }
+  Gathered at_begin(const Gathered& cell) const { return pieces_.at_begin(cell); }
+
+  /// Where the first piece begins in which no direction separates two parts, if there is one.
+  std::optional<double> resisting(const Gathered& a, CornerMask a_part, const Gathered& b, CornerMask b_part,
+                                  Tally& tally) const {
+    return pieces_.resisting(a, a_part, b, b_part, tally);
+  }
+  std::optional<TimeEnclosure> meet(const FeatureQuestion<Dim>& question, double begin, Tally& tally) const {
+    return pieces_.meet(question, begin, tally);
+  }
+
+ private:
+  /// Pairs of fewer cells are settled one by one without asking whether the sheet is monotone around them.
+  static constexpr std::uint32_t worth_asking = 8;
+
+  /// Whether the chart of the first group is monotone and covers the second.
+  bool holds_both(Group a, Group b) const {
+    const Charts& charts = forest_.charts();
+    const std::uint32_t chart = charts.chart_of(a);
+    return chart != Charts::none && boxes_.monotone(chart) && charts.covers(chart, b);
+  }
+
+  /// Whether the sheet is monotone in a rectangle, given the tangents of some of its faces.
+  bool monotone_around(TangentBox tangents, const Extent& extent) const {
+    return is_monotone(tangents, Dim) && add_tangents(part_->root, extent, tangents);
+  }
+
+  /// Adds the tangents of the faces of a group that are laid out in a rectangle. False if nothing is monotone then.
+  bool add_tangents(Group g, const Extent& extent, TangentBox& tangents) const {
+    if (!forest_.extent(g).meets(extent)) return true;
+    const TangentBox more = merged(tangents, boxes_.tangents(g));
+    if (is_monotone(more, Dim)) {
+      tangents = more;
+      return true;
+    }
+    return !g.is_leaf() && add_tangents(g.left(), extent, tangents) && add_tangents(g.right(), extent, tangents);
+  }
+
+  const WorldLines& lines_;
+  const Forest& forest_;
+  const WindowChords<Dim>& chords_;
+  const WindowBoxes<Dim>& boxes_;
+  Pieces<Dim> pieces_;
+  const Tree* part_ = nullptr;
+};
+
+}  // namespace noli
