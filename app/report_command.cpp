@@ -23,8 +23,8 @@
 #include "report/report_verdict.h"
 #include "trajectory/error.h"
 #include "trajectory/formats/base64.h"
-#include "trajectory/formats/frame_formats.h"
 #include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

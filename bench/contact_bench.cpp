@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What contact costs: certificates where nothing is near and where sheets hang side by side, against the same run
-// without them; Algorithm 1 read literally (certificates/every_pair.h) against cells; an impulse of a layer, with all
+// without them; Algorithm 1 read literally (tests/support/every_pair.h) against cells; an impulse of a layer, with all
 // that follows from it; and stacks of ten sheets that fall onto each other and onto a pinned one, larger and larger.
 //
 // Gravity steps with the sheets, not with the layers, which would have it make up most of all events.
@@ -17,6 +17,7 @@
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "integrator/simulation.h"
+#include "tests/support/literal_simulation.h"
 
 namespace noli::bench {
 namespace {
@@ -55,8 +56,9 @@ struct Cost {
   std::uint64_t breakpoints = 0, impulses = 0;
 };
 
+template <class Simulation = integrator::Simulation<double, 3>>
 Cost run_windows(const Model& model, int first, int count) {
-  integrator::Simulation<double, 3> simulation(model);
+  Simulation simulation(model);
   integrator::Books<double, 3> books;
   integrator::Recording<double, 3> recording;  // has its room, as in a long run, when the clock starts
   for (int w = 0; w < first; ++w) {
@@ -85,12 +87,13 @@ struct Pair {
   Cost with, without;
 };
 
+template <class With = integrator::Simulation<double, 3>>
 Pair measure(const Model& with, const Model& without, int first, int count) {
   std::vector<double> a, b;
   Pair pair;
   for (int i = 0; i < passes; ++i) {
     pair.without = run_windows(without, first, count);
-    pair.with = run_windows(with, first, count);
+    pair.with = run_windows<With>(with, first, count);
     a.push_back(pair.with.seconds);
     b.push_back(pair.without.seconds);
   }
@@ -105,8 +108,9 @@ void add_certificates(Table& table, const char* name, const Model& model) {
 }
 
 /// Seconds that certificates add to a kick.
+template <class With = integrator::Simulation<double, 3>>
 double per_kick(const Model& with) {
-  const Pair pair = measure(with, without_contact(with), 0, 2);
+  const Pair pair = measure<With>(with, without_contact(with), 0, 2);
   return (pair.with.seconds - pair.without.seconds) / static_cast<double>(pair.without.breakpoints);
 }
 
@@ -137,8 +141,7 @@ bool run() {
   add_certificates(certificates, "two sheets 1.2 edges apart", sheets(70, 2, 1.2, false));
   Model small = sheets(5, 2, 1.2, false);
   const double cells = per_kick(small);
-  small.contact->certificates = integrator::Certificates::every_pair;
-  const double literal = per_kick(small);
+  const double literal = per_kick<test::LiteralSimulation<3>>(small);
   Table layers({"falling onto a pinned one", "impulses of layers", "us each, all included"});
   for (const int n : {15, 31}) add_layers(layers, n, 3);
   Table stacks({"stack of ten sheets on a pinned one, vertices", "impulses a vertex", "us a vertex"});

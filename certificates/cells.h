@@ -49,7 +49,6 @@
 #include "certificates/near_pair.h"
 #include "certificates/near_pairs.h"
 #include "certificates/pen.h"
-#include "certificates/plan.h"
 #include "trajectory/stop.h"
 
 namespace noli::certificates {

@@ -18,7 +18,7 @@
 #include "certify/simulate/windows_again.h"
 #include "certify/stopwatch.h"
 #include "certify/verify_run.h"
-#include "integrator/scene/window_count.h"
+#include "integrator/scene/scene.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"

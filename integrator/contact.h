@@ -16,23 +16,21 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
-#include <optional>
 #include <set>
 #include <span>
 #include <tuple>
 #include <vector>
 
 #include "certificates/cells.h"
-#include "certificates/every_pair.h"
+#include "certificates/stencil.h"
 #include "integrator/books.h"
 #include "integrator/clocks.h"
 #include "integrator/contact_blow.h"
 #include "integrator/contact_extremes.h"
-#include "integrator/contact_limit.h"
 #include "integrator/contact_settings.h"
 #include "integrator/kick.h"
-#include "integrator/pair_list.h"
 #include "integrator/phase.h"
 
 namespace noli::integrator {
@@ -45,7 +43,60 @@ struct Firing {
   LayerTerms terms;
 };
 
-template <int Dim>
+/// The pairs for which a layer is active, in the order of their keys. Many join and leave between two times at which
+/// the layer fires, so these are put into order together, then: n of them among N take O(N + n log n), not O(N n).
+class PairList {
+ public:
+  /// Precondition: the pair is not in the list.
+  void add(const certificates::Stencil& pair) {
+    changes_.push_back({pair, true});
+    ++size_;
+  }
+  /// Precondition: the pair is in the list.
+  void remove(const certificates::Stencil& pair) {
+    changes_.push_back({pair, false});
+    --size_;
+  }
+
+  bool empty() const { return size_ == 0; }
+
+  /// By key. Stays as it is while pairs are added and removed, until it is asked for again.
+  std::span<const certificates::Stencil> in_order() const {
+    if (!changes_.empty()) settle();
+    return pairs_;
+  }
+
+ private:
+  struct Change {
+    certificates::Stencil pair;
+    bool joins;
+  };
+
+  /// Of several changes of one pair the last one holds.
+  void settle() const {
+    std::stable_sort(changes_.begin(), changes_.end(),
+                     [](const Change& a, const Change& b) { return a.pair.key < b.pair.key; });
+    merged_.clear();
+    merged_.reserve(size_);
+    auto old = pairs_.begin();
+    for (auto change = changes_.begin(); change != changes_.end(); ++change) {
+      if (change + 1 != changes_.end() && (change + 1)->pair.key == change->pair.key) continue;
+      for (; old != pairs_.end() && old->key < change->pair.key; ++old) merged_.push_back(*old);
+      if (old != pairs_.end() && old->key == change->pair.key) ++old;
+      if (change->joins) merged_.push_back(change->pair);
+    }
+    merged_.insert(merged_.end(), old, pairs_.end());
+    pairs_.swap(merged_);
+    changes_.clear();
+  }
+
+  std::size_t size_ = 0;
+  mutable std::vector<certificates::Stencil> pairs_, merged_;
+  mutable std::vector<Change> changes_;
+};
+
+/// `Certificates`: certificates::Cells, or what does the same for comparison (tests/support/every_pair.h).
+template <int Dim, template <int, class> class Certificates = certificates::Cells>
 class Contact {
  public:
   using Scalar = double;
@@ -59,13 +110,8 @@ class Contact {
         particles_(particles),
         look_steps_(std::move(look_steps)),
         layers_(settings.materials.size()),
-        greatest_thicknesses_(greatest_thicknesses(settings)) {
-    if (settings.certificates == Certificates::cells) {
-      cells_.emplace(*this, mesh, positions(particles), longest_slice * window_length);
-    } else {
-      every_pair_.emplace(*this, mesh);
-    }
-  }
+        greatest_thicknesses_(greatest_thicknesses(settings)),
+        certificates_(*this, mesh, positions(particles), longest_slice * window_length) {}
 
   Contact(const Contact&) = delete;
   Contact& operator=(const Contact&) = delete;
@@ -85,22 +131,16 @@ class Contact {
   void start(double t) {
     started_ = true;
     const PhaseScope certifying(*activity_, Phase::certificate);
-    ask([t](auto& certificates) { certificates.start(t); });
+    certificates_.start(t);
   }
 
   /// A vertex has been looked at by an event at time t.
-  void look(VertexId i, double t) {
-    if (cells_) {
-      cells_->look(i, t);
-    } else {
-      every_pair_->look(i, t);
-    }
-  }
+  void look(VertexId i, double t) { certificates_.look(i, t); }
 
-  double next_certificate() { return cells_ ? cells_->next_time() : every_pair_->next_time(); }
+  double next_certificate() { return certificates_.next_time(); }
   void run_certificate() {
     const PhaseScope certifying(*activity_, Phase::certificate);
-    ask([](auto& certificates) { certificates.run_next(); });
+    certificates_.run_next();
   }
 
   double next_layer() const { return agenda_.empty() ? never : std::get<0>(*agenda_.begin()); }
@@ -160,7 +200,7 @@ class Contact {
   }
   double step_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].clock.step; }
 
-  const certificates::CertificateCounts& counts() const { return cells_ ? cells_->counts() : every_pair_->counts(); }
+  const certificates::CertificateCounts& counts() const { return certificates_.counts(); }
 
   // --- For the certificates ------------------------------------------------------------------------------------------
 
@@ -222,19 +262,10 @@ class Contact {
     PairList pairs;  ///< for which it is active
   };
 
-  template <class Question>
-  void ask(const Question& question) {
-    if (cells_) {
-      question(*cells_);
-    } else {
-      question(*every_pair_);
-    }
-  }
-
   void drop_if_clear(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double distance,
                      double t) {
     const PhaseScope certifying(*activity_, Phase::certificate);
-    ask([&](auto& certificates) { certificates.drop_if_clear(pair, material, l, distance, t); });
+    certificates_.drop_if_clear(pair, material, l, distance, t);
   }
 
   std::size_t count_of_acting(const std::vector<Layer>& layers) const {
@@ -321,8 +352,7 @@ class Contact {
   Activity unseen_;
   Activity* activity_ = &unseen_;
   bool started_ = false;
-  std::optional<certificates::Cells<Dim, Contact>> cells_;  ///< or:
-  std::optional<certificates::EveryPair<Dim, Contact>> every_pair_;
+  Certificates<Dim, Contact> certificates_;
 };
 
 }  // namespace noli::integrator

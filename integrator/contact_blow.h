@@ -16,8 +16,8 @@
 
 #include "certificates/closest.h"
 #include "integrator/books.h"
+#include "integrator/contact_extremes.h"
 #include "integrator/contact_impulse.h"
-#include "integrator/contact_limit.h"
 #include "integrator/kick.h"
 
 namespace noli::integrator {

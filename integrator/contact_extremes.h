@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 
 #include "certificates/stencil.h"
 
@@ -31,6 +32,15 @@ struct ContactExtremes {
     if (!deepest || action.layer > deepest->layer) deepest = action;
     if (!nearest || action.distance < nearest->distance) nearest = action;
   }
+};
+
+/// A pair came so near that it would need more layers than the scene allows, or one whose steps are too short to tell
+/// one time from the next, or to no distance at all.
+struct ContactLimit : std::runtime_error {
+  ContactLimit(const certificates::Stencil& which, double when)
+      : std::runtime_error("contact: a pair of features needs more layers than allowed"), pair(which), time(when) {}
+  certificates::Stencil pair;
+  double time;  ///< [s]
 };
 
 }  // namespace noli::integrator

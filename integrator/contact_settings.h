@@ -59,9 +59,6 @@ struct ContactMaterial {
   friend bool operator==(const ContactMaterial&, const ContactMaterial&) = default;
 };
 
-/// What keeps certificates: certificates/cells.h, or certificates/every_pair.h.
-enum class Certificates : std::uint8_t { cells, every_pair };
-
 /// Contact in a scene: which material two features have, if they are not excluded from contact. It follows from their
 /// groups, which are bodies, and from their classes, which tell within a body what is light and small and needs short
 /// steps from what does not.
@@ -70,8 +67,7 @@ struct ContactSettings {
 
   LayerSchedule schedule;
   std::uint32_t most_layers = 1000;  ///< a pair that needs more ends the run
-  Certificates certificates = Certificates::cells;
-  std::uint32_t least_layers = 0;  ///< of each pair that is followed; they change nothing but the time it takes
+  std::uint32_t least_layers = 0;    ///< of each pair that is followed; they change nothing but the time it takes
   std::vector<ContactMaterial> materials;
   std::vector<std::uint16_t> groups;  ///< of each vertex: its group, 0, 1, ..., group_count - 1
   std::uint16_t group_count = 1;

@@ -49,7 +49,7 @@ class Ledger {
     for (std::size_t k = 0; k < division.list.forces.size(); ++k) {
       const F& force = division.list.forces[k];
       const double h = division.list.steps[k];
-      Stencil<S, Dim, F::size> x;
+      VertexVectors<S, Dim, F::size> x;
       for (std::size_t i = 0; i < F::size; ++i) x[i] = engine_.particles()[force.vertices[i]].x;
       potential += force.energy(x);
       if (strikes(h)) take_back(force, force.gradient(x), S(0.5) * S(h));
@@ -58,7 +58,7 @@ class Ledger {
   }
 
   template <class F>
-  void take_back(const F& force, const Stencil<S, Dim, F::size>& gradient, const S& half_step) {
+  void take_back(const F& force, const VertexVectors<S, Dim, F::size>& gradient, const S& half_step) {
     for (std::size_t i = 0; i < F::size; ++i) {
       const VertexId v = force.vertices[i];
       v_mean_[v] += (half_step * engine_.particles()[v].inverse_mass) * gradient[i];

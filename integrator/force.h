@@ -40,7 +40,7 @@ constexpr std::string_view name(ForceKind kind) {
 
 /// An elastic force on N = F::size vertices with M = F::measures measures. F::Scalar is its number type, F::dimension
 /// that of space.
-///   f.vertices         std::array<VertexId, N>: different vertices, in the order of the stencil
+///   f.vertices         std::array<VertexId, N>: different vertices, in the order of VertexVectors
 ///   f.gradient(x)      dV/dx_i for each vertex [N]: the force is its negative
 ///   f.energy(x)        V(x) [J]
 ///   f.measure_gradients(x)  ds_j/dx_i for each measure j, for damping
@@ -48,14 +48,14 @@ constexpr std::string_view name(ForceKind kind) {
 ///                      steps
 ///   f.damping          b_j = damping * stiffness()[j]: the damping force is -b_j (ds_j/dt) grad s_j [s]
 template <class F>
-concept ElasticForce = requires(const F f, const Stencil<typename F::Scalar, F::dimension, F::size>& x) {
+concept ElasticForce = requires(const F f, const VertexVectors<typename F::Scalar, F::dimension, F::size>& x) {
   { F::kind } -> std::convertible_to<ForceKind>;
   { f.vertices } -> std::convertible_to<std::array<VertexId, F::size>>;
-  { f.gradient(x) } -> std::same_as<Stencil<typename F::Scalar, F::dimension, F::size>>;
+  { f.gradient(x) } -> std::same_as<VertexVectors<typename F::Scalar, F::dimension, F::size>>;
   { f.energy(x) } -> std::same_as<typename F::Scalar>;
   {
     f.measure_gradients(x)
-    } -> std::same_as<std::array<Stencil<typename F::Scalar, F::dimension, F::size>, F::measures>>;
+    } -> std::same_as<std::array<VertexVectors<typename F::Scalar, F::dimension, F::size>, F::measures>>;
   { f.stiffness() } -> std::same_as<std::array<typename F::Scalar, F::measures>>;
   { f.damping } -> std::convertible_to<typename F::Scalar>;
 };

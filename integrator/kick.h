@@ -11,20 +11,76 @@
 // forces are found first, then applied. Short loops keep more forces in flight in the processor: in one loop it took
 // half as long again. The numbers are those of firing one after the other.
 //
+// Damping is along the gradients of what a force measures: a measure is unchanged by rigid motions, so its damping
+// leaves linear and angular momentum alone, and rigid motion undamped.
+//   s, g_i   a measure and its gradient at vertex i; w_i the inverse mass there
+//   rate     ds/dt = sum g_i.v_i
+//   a        sum w_i |g_i|^2: an impulse -J g_i on each vertex lowers the rate by J a
+//   b        damping * stiffness of the measure
+//   J        h b rate / (1 + h b a): the rate falls to rate / (1 + h b a) and keeps its sign, whatever h and b are; it
+//            is the implicit Euler step for the rate
+// Measures take their turn, each on the velocities that the one before has left. Between masses in motion that no
+// impulse moves (scripted ones) and free ones it is a force like any other, which may do work on the free ones. It is
+// no smooth function of time: it belongs to the force's events.
+//
 // What this does not do: it keeps no clocks.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "integrator/books.h"
-#include "integrator/damping.h"
 #include "integrator/force.h"
-#include "integrator/particle.h"
 #include "integrator/phase.h"
+#include "integrator/vector.h"
 
 namespace noli::integrator {
+
+/// In space and double precision, a cache line: forces that fire by themselves come to particles in no order.
+template <class S, int Dim>
+constexpr std::size_t particle_alignment = sizeof(S) == 8 && Dim == 3 ? 64 : alignof(S);
+
+/// A vertex as a point mass with a clock of its own: between events it moves on a straight line, and is brought up to
+/// date when an event moves it.
+template <class S, int Dim>
+struct alignas(particle_alignment<S, Dim>) Particle {
+  Vec<S, Dim> x;     ///< where it was at time t [m]
+  double t = 0;      ///< its clock [s]
+  Vec<S, Dim> v;     ///< since then [m/s]
+  S inverse_mass{};  ///< [1/kg]; 0: pinned or scripted, no force moves it
+
+  /// Where it is at a time that is not before its clock, if no event comes between. Reading changes nothing: what
+  /// rounding does to a run does not depend on who looks.
+  Vec<S, Dim> at(double time) const { return x + (S(time) - S(t)) * v; }
+};
+
+/// Damps the velocities v of a force's vertices at the positions x for an event of step h [s]. Returns the work on the
+/// vertices of finite mass, impulse times the mean of the velocities before and after, which is never positive if the
+/// others are at rest.
+template <class F, class S, int Dim, std::size_t N>
+S damp(const F& force, const VertexVectors<S, Dim, N>& x, VertexVectors<S, Dim, N>& v,
+       const std::array<S, N>& inverse_mass, const S& h) {
+  static_assert(N == F::size && Dim == F::dimension);
+  const auto gradients = force.measure_gradients(x);
+  const auto stiffness = force.stiffness();
+  S work(0);
+  for (std::size_t j = 0; j < F::measures; ++j) {
+    const auto& g = gradients[j];
+    S rate(0), free_rate(0), a(0);
+    for (std::size_t i = 0; i < N; ++i) {
+      const S part = g[i].dot(v[i]);
+      rate += part;
+      if (inverse_mass[i] != S(0)) free_rate += part;
+      a += inverse_mass[i] * g[i].squaredNorm();
+    }
+    const S hb = h * force.damping * stiffness[j], J = hb * rate / (S(1) + hb * a);
+    for (std::size_t i = 0; i < N; ++i) v[i] -= (inverse_mass[i] * J) * g[i];
+    work -= J * (free_rate - S(0.5) * J * a);
+  }
+  return work;
+}
 
 /// What a kick needs beside the force.
 template <class S, int Dim, class Recorder>
@@ -118,11 +174,11 @@ template <class S, int Dim>
 /// The impulses of blow k. Written in place, number by number: copying what has just been written in smaller pieces
 /// holds up the processor.
 template <class F, class S, int Dim, class Blows>
-void find_impulses(const Blows& blows, std::size_t k, Stencil<S, Dim, F::size>& impulses) {
+void find_impulses(const Blows& blows, std::size_t k, VertexVectors<S, Dim, F::size>& impulses) {
   const F& force = blows.force(k);
-  Stencil<S, Dim, F::size> x;
+  VertexVectors<S, Dim, F::size> x;
   for (std::size_t i = 0; i < F::size; ++i) x[i] = blows.position(k, force.vertices[i]);
-  const Stencil<S, Dim, F::size> gradient = force.gradient(x);
+  const VertexVectors<S, Dim, F::size> gradient = force.gradient(x);
   const S minus_h = -blows.step(k);
   for (std::size_t i = 0; i < F::size; ++i) {
     for (int d = 0; d < Dim; ++d) impulses[i][d] = minus_h * gradient[i][d];
@@ -131,9 +187,9 @@ void find_impulses(const Blows& blows, std::size_t k, Stencil<S, Dim, F::size>& 
 
 /// Gives the vertices of blow k their velocities; books what that does.
 template <bool Damped, class S, int Dim, std::size_t N, class Blows>
-void apply(const Blows& blows, std::size_t k, const Stencil<S, Dim, N>& impulses, Account<S, Dim>& account) {
+void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& impulses, Account<S, Dim>& account) {
   const auto& force = blows.force(k);
-  Stencil<S, Dim, N> v;
+  VertexVectors<S, Dim, N> v;
   S twice_work(0);
   for (std::size_t i = 0; i < N; ++i) {
     const Vec<S, Dim>& before = blows.velocity(force.vertices[i]);
@@ -147,7 +203,7 @@ void apply(const Blows& blows, std::size_t k, const Stencil<S, Dim, N>& impulses
   }
   account.work += S(0.5) * twice_work;
   if constexpr (Damped) {
-    Stencil<S, Dim, N> x;
+    VertexVectors<S, Dim, N> x;
     std::array<S, N> inverse_mass;
     for (std::size_t i = 0; i < N; ++i) {
       x[i] = blows.position(k, force.vertices[i]);
@@ -162,7 +218,7 @@ void apply(const Blows& blows, std::size_t k, const Stencil<S, Dim, N>& impulses
 template <bool Damped, class F, class S, int Dim, class Blows>
 void strike(const Blows& blows, Account<S, Dim>& account, Activity& activity) {
   constexpr std::size_t row = 64;
-  std::array<Stencil<S, Dim, F::size>, row> impulses;
+  std::array<VertexVectors<S, Dim, F::size>, row> impulses;
   for (std::size_t begin = 0; begin < blows.size(); begin += row) {
     const std::size_t end = std::min(blows.size(), begin + row);
     activity.set(Phase::force);

@@ -31,7 +31,7 @@ template <class F, class S, int Dim>
 std::array<S, F::size> squared_frequencies(const F& force, const std::vector<Vec<S, Dim>>& x,
                                            const std::vector<S>& inverse_mass) {
   using std::sqrt;
-  Stencil<S, Dim, F::size> at;
+  VertexVectors<S, Dim, F::size> at;
   for (std::size_t i = 0; i < F::size; ++i) at[i] = x[force.vertices[i]];
   const auto gradients = force.measure_gradients(at);
   const auto stiffness = force.stiffness();

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small vectors of the dynamics: Eigen's, without its vector instructions, so that the bits are those of the formulas.
+// Small vectors of the dynamics: those of the certificates, with the type of numbers first, as forces have it.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
+
+#include "certificates/vector.h"
 
 namespace noli::integrator {
 
 /// A position, velocity, impulse, ... with Dim coordinates of type S (double; multiprecision numbers for audits).
 template <class S, int Dim>
-using Vec = Eigen::Matrix<S, Dim, 1, Eigen::DontAlign>;
+using Vec = certificates::Vector<Dim, S>;
 
 /// One vector for each of the N vertices that a force reads, in the order of its `vertices`.
 template <class S, int Dim, std::size_t N>
-using Stencil = std::array<Vec<S, Dim>, N>;
+using VertexVectors = std::array<Vec<S, Dim>, N>;
 
 }  // namespace noli::integrator

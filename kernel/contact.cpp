@@ -68,31 +68,14 @@ Decision float_stages(const Query<Pair, Dim>&, StageCounters&, std::size_t&) {
 
 // --- Exact integers of fixed width -----------------------------------------------------------------------------------
 
-template <std::size_t C, FeaturePair Pair, int Dim>
-Decision exact_decision(const Query<Pair, Dim>& query, const exact::ExponentRange& range,
-                        [[maybe_unused]] std::size_t axis) {
-  const auto points = exact::scaled<C>(query, range);
-  if constexpr (Pair == FeaturePair::vertex_face) {
-    const exact::VertexFaceProblem<C> problem(points);
-    return exact::CodimensionOne<exact::VertexFaceProblem<C>, C>(problem, axis).decide();
-  } else if constexpr (Pair == FeaturePair::edge_edge) {
-    const exact::EdgeEdgeProblem<C> problem(points);
-    return exact::CodimensionOne<exact::EdgeEdgeProblem<C>, C>(problem, axis).decide();
-  } else if constexpr (Pair == FeaturePair::vertex_edge) {
-    return exact::decide_vertex_edge(points);
-  } else {
-    return exact::decide_vertex_vertex(points);
-  }
-}
-
 template <FeaturePair Pair, int Dim>
 [[gnu::noinline]] Decision fixed_stage(const Query<Pair, Dim>& query, StageCounters& counters, std::size_t axis) {
   const exact::ExponentRange range = exact::exponent_range(query);
   Decision decision = undecided;
   if (range.bits() <= one_limb_bits) {
-    decision = exact_decision<1>(query, range, axis);
+    decision = exact::decide<Pair>(exact::scaled<Wide<1>>(query, range), axis);
   } else if (range.bits() <= two_limb_bits) {
-    decision = exact_decision<2>(query, range, axis);
+    decision = exact::decide<Pair>(exact::scaled<Wide<2>>(query, range), axis);
   }
   if (decision.verdict != Verdict::unknown) counters.count(Stage::fixed);
   return decision;

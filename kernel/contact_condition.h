@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact at one instant as a condition on signs of integer polynomials in time, for every pair of features.
+// Contact at one instant as a condition on signs of functions of time, for every pair of features.
 //
 // Notation (formula.h): forms are homogeneous in (1 - t, t); coordinates are integers, the query's times a common power
 // of two.
-//   Time              anything with `int sign(const Polynomial&)`: the sign at that time
-//   equality          a polynomial that is zero at every contact, and not zero throughout; none if there is no such
-//   critical          when there is no equality: polynomials between whose roots `holds` does not change
+//   Functions         makes a function of a form: a polynomial (AsPolynomials), or a form of fixed width
+//                     (kernel/exact_contact.h)
+//   Time              anything with `int sign(function)`: the sign at that time
+//   equality          a function that is zero at every contact, and not zero throughout; none if there is no such
+//   critical          when there is no equality: functions between whose roots `holds` does not change
 //   transversal       given that it holds: the contact is of codimension one and relatively interior to both features
-// A condition provides: equality() (pointer or null), critical(), holds(time), transversal(time).
+// A condition provides: equality() (pointer or null), any_critical(visit), holds(time), transversal(time).
+// any_critical() calls visit(function) for one critical function after another until it returns true, and returns that.
 //
 // T is the integer type of the coordinates: Wide<1> and Wide<2> when they fit, which saves most of the time, else
 // Integer.
@@ -19,6 +22,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "kernel/arithmetic/polynomial.h"
@@ -43,53 +47,62 @@ Integer integer_of(const Wide<N>& x) {
   return x.is_negative() ? -std::move(result) : result;
 }
 
-template <class T, std::size_t N>
-Polynomial polynomial_of(const std::array<T, N>& form) {
-  std::vector<Integer> c;
-  c.reserve(N);
-  for (const T& x : form) c.push_back(integer_of(x));
-  return from_form(std::move(c));
-}
+struct AsPolynomials {
+  template <class T, std::size_t N>
+  Polynomial operator()(const std::array<T, N>& form) const {
+    std::vector<Integer> c;
+    c.reserve(N);
+    for (const T& x : form) c.push_back(integer_of(x));
+    return from_form(std::move(c));
+  }
+};
 
-template <class T, std::size_t N>
-auto polynomials_of(const std::array<T, N>& forms) {
-  std::vector<Polynomial> result;
-  result.reserve(N);
-  for (const T& form : forms) result.push_back(polynomial_of(form));
+/// The functions of several forms.
+template <class Functions, class F, std::size_t N>
+auto functions_of(const std::array<F, N>& forms) {
+  std::array<decltype(Functions{}(forms[0])), N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = Functions{}(forms[i]);
   return result;
 }
 
-template <class Time>
-bool all_zero(const std::vector<Polynomial>& polynomials, const Time& time) {
-  for (const Polynomial& p : polynomials) {
-    if (time.sign(p) != 0) return false;
+template <class Zero, class Time>
+bool all_zero(const Zero& functions, const Time& time) {
+  for (const auto& f : functions) {
+    if (time.sign(f) != 0) return false;
   }
   return true;
 }
 
-inline const Polynomial* first_nonzero(const std::vector<Polynomial>& polynomials) {
-  for (const Polynomial& p : polynomials) {
-    if (!p.is_zero()) return &p;
+template <class Function, std::size_t N>
+const Function* first_nonzero(const std::array<Function, N>& functions) {
+  for (const Function& f : functions) {
+    if (!f.is_zero()) return &f;
   }
   return nullptr;
 }
 
 /// 0 lies between p and q: p x q = 0 and p . q <= 0. The condition of vertex_edge, with p, q the ends of the edge seen
 /// from the vertex.
-template <int Dim>
+template <class T, std::size_t Dim, class Functions>
 class Between {
  public:
-  template <class T>
-  Between(const Moving<T, Dim>& p, const Moving<T, Dim>& q) : product_(polynomial_of(formula::dot(p, q))) {
-    if constexpr (Dim == 3) {
-      zero_ = polynomials_of(formula::cross(p, q));
-    } else {
-      zero_.push_back(polynomial_of(formula::cross(p, q)));
-    }
-  }
+  Between(const Moving<T, Dim>& p, const Moving<T, Dim>& q)
+      : zero_(functions_of<Functions>(cross(p, q))), product_(Functions{}(formula::dot(p, q))) {}
 
-  const Polynomial* equality() const { return first_nonzero(zero_); }
-  std::vector<Polynomial> critical() const { return {product_}; }
+  auto equality() const { return first_nonzero(zero_); }
+
+  template <class Visit>
+  bool any_critical(Visit&& visit) const {
+    return visit(product_);
+  }
+  /// any_critical() where nothing is known of the equality.
+  template <class Visit>
+  bool any_function(Visit&& visit) const {
+    for (const auto& f : zero_) {
+      if (visit(f)) return true;
+    }
+    return visit(product_);
+  }
 
   template <class Time>
   bool holds(const Time& time) const {
@@ -100,24 +113,32 @@ class Between {
     return Dim == 2 && time.sign(product_) < 0;
   }
 
-  const std::vector<Polynomial>& zero() const { return zero_; }
-  const Polynomial& product() const { return product_; }
-
  private:
-  std::vector<Polynomial> zero_;
-  Polynomial product_;
+  static auto cross(const Moving<T, Dim>& p, const Moving<T, Dim>& q) {
+    if constexpr (Dim == 3) {
+      return formula::cross(p, q);
+    } else {
+      return std::array<decltype(formula::cross(p, q)), 1>{formula::cross(p, q)};
+    }
+  }
+
+  decltype(functions_of<Functions>(cross(Moving<T, Dim>{}, Moving<T, Dim>{}))) zero_;
+  typename decltype(zero_)::value_type product_;
 };
 
 /// Two points coincide.
+template <class T, std::size_t Dim, class Functions>
 class Coincide {
  public:
-  template <class T, std::size_t Dim>
   explicit Coincide(const Moving<T, Dim>& d) {
-    for (std::size_t i = 0; i < Dim; ++i) zero_.push_back(polynomial_of(Form<T, 1>{d.at_t0[i], d.at_t1[i]}));
+    for (std::size_t i = 0; i < Dim; ++i) zero_[i] = Functions{}(Form<T, 1>{d.at_t0[i], d.at_t1[i]});
   }
 
-  const Polynomial* equality() const { return first_nonzero(zero_); }
-  static std::vector<Polynomial> critical() { return {}; }
+  auto equality() const { return first_nonzero(zero_); }
+  template <class Visit>
+  static bool any_critical(Visit&&) {
+    return false;
+  }
 
   template <class Time>
   bool holds(const Time& time) const {
@@ -129,57 +150,75 @@ class Coincide {
   }
 
  private:
-  std::vector<Polynomial> zero_;
+  std::array<decltype(Functions{}(Form<T, 1>{})), Dim> zero_;
 };
 
-template <class T>
-formula::VertexFace<T> vertex_face(const std::array<Moving<T, 3>, 4>& x) {
-  return {{x[1] - x[0], x[2] - x[0], x[3] - x[0]}};
-}
+/// vertex_face in space: its forms, and what is zero when the configuration is degenerate in a view.
+template <class T, class Functions>
+struct VertexFace {
+  explicit VertexFace(const std::array<Moving<T, 3>, 4>& x) : forms{{x[1] - x[0], x[2] - x[0], x[3] - x[0]}} {}
 
-template <class T>
-formula::EdgeEdge<T> edge_edge(const std::array<Moving<T, 3>, 4>& x) {
-  return {x[1] - x[0], x[3] - x[2], x[2] - x[0]};
-}
+  static auto degenerate(const auto& insides, std::size_t) {
+    return formula::sum(formula::sum(insides[0], insides[1]), insides[2]);
+  }
+  /// A face that is degenerate in every view is the union of its edges.
+  auto degenerate_parts() const {
+    const auto& d = forms.d;
+    return std::array<Between<T, 3, Functions>, 3>{{{d[0], d[1]}, {d[1], d[2]}, {d[2], d[0]}}};
+  }
 
-/// A face that is degenerate in every view is the union of its edges.
-template <class T>
-std::vector<Between<3>> degenerate_parts(const std::array<Moving<T, 3>, 4>&, const formula::VertexFace<T>& forms) {
-  const auto& d = forms.d;
-  return {{d[0], d[1]}, {d[1], d[2]}, {d[2], d[0]}};
-}
+  formula::VertexFace<T> forms;
+};
 
-/// Edges that are parallel in every view meet iff an end of one lies on the other.
-template <class T>
-std::vector<Between<3>> degenerate_parts(const std::array<Moving<T, 3>, 4>& x, const formula::EdgeEdge<T>&) {
-  const auto& [a0, a1, b0, b1] = x;
-  return {{b0 - a0, b1 - a0}, {b0 - a1, b1 - a1}, {a0 - b0, a1 - b0}, {a0 - b1, a1 - b1}};
-}
+/// The same for edge_edge.
+template <class T, class Functions>
+struct EdgeEdge {
+  explicit EdgeEdge(const std::array<Moving<T, 3>, 4>& x) : points(x), forms{x[1] - x[0], x[3] - x[2], x[2] - x[0]} {}
 
-/// vertex_face and edge_edge in space.
-template <class T, class Forms>
+  auto degenerate(const auto&, std::size_t axis) const { return formula::cross_component(forms.u, forms.v, axis); }
+  /// Edges that are parallel (or points) in every view meet iff an end of one lies on the other.
+  auto degenerate_parts() const {
+    const auto& [a0, a1, b0, b1] = points;
+    return std::array<Between<T, 3, Functions>, 4>{
+        {{b0 - a0, b1 - a0}, {b0 - a1, b1 - a1}, {a0 - b0, a1 - b0}, {a0 - b1, a1 - b1}}};
+  }
+
+  std::array<Moving<T, 3>, 4> points;
+  formula::EdgeEdge<T> forms;
+};
+
+/// vertex_face and edge_edge in space. Given that the points are coplanar at a time, the features meet iff, in a view
+/// that is not degenerate then, no inside has a sign opposite to that of what is zero when it is. When every view is
+/// degenerate, they meet iff one of the degenerate parts does.
+template <class Problem, class Functions>
 class CodimensionOne {
  public:
-  CodimensionOne(const std::array<Moving<T, 3>, 4>& x, const Forms& forms)
-      : x_(x), forms_(forms), coplanarity_(polynomial_of(forms.coplanarity())) {}
+  /// `axis`: along which to look first; any is right, one along which the configuration looks large is faster.
+  template <class Points>
+  explicit CodimensionOne(const Points& x, std::size_t axis = 0)
+      : problem_(x), axis_(axis), coplanarity_(Functions{}(problem_.forms.coplanarity())) {}
 
+  const auto& coplanarity() const { return coplanarity_; }
   const Polynomial* equality() const { return coplanarity_.is_zero() ? nullptr : &coplanarity_; }
+  /// The insides seen along the first axis.
+  const auto& insides() { return view(0).insides; }
 
-  /// The forms of the first view that is not degenerate throughout; if there is none, those of the parts.
-  std::vector<Polynomial> critical() {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const View& seen = view(axis);
+  /// The functions of the first view that is not degenerate throughout; if there is none, those of the parts.
+  template <class Visit>
+  bool any_critical(Visit&& visit) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const View& seen = view(i);
       if (seen.degenerate.is_zero()) continue;
-      std::vector<Polynomial> result = seen.insides;
-      result.push_back(seen.degenerate);
-      return result;
+      if (visit(seen.degenerate)) return true;
+      for (const auto& inside : seen.insides) {
+        if (visit(inside)) return true;
+      }
+      return false;
     }
-    std::vector<Polynomial> result;
     for (const auto& part : parts()) {
-      result.insert(result.end(), part.zero().begin(), part.zero().end());
-      result.push_back(part.product());
+      if (part.any_function(visit)) return true;
     }
-    return result;
+    return false;
   }
 
   /// Precondition: the points are coplanar at this time.
@@ -201,38 +240,33 @@ class CodimensionOne {
  private:
   enum class Inside { outside, border, interior, degenerate };
 
+  using Insides = decltype(functions_of<Functions>(std::declval<Problem>().forms.insides(0)));
+
   /// Seen along one axis: the insides, and what is zero when the configuration is degenerate in this view.
   struct View {
-    std::vector<Polynomial> insides;
-    Polynomial degenerate;
+    Insides insides;
+    typename Insides::value_type degenerate;
   };
 
-  static auto degenerate_form(const formula::VertexFace<T>&, const auto& insides, std::size_t) {
-    auto sum = insides[0];
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + insides[1][i] + insides[2][i];
-    return sum;
-  }
-  static auto degenerate_form(const formula::EdgeEdge<T>& forms, const auto&, std::size_t axis) {
-    return formula::cross_component(forms.u, forms.v, axis);
-  }
-
-  const View& view(std::size_t axis) {
+  /// Along the i-th axis from the first.
+  const View& view(std::size_t i) {
+    const std::size_t axis = (axis_ + i) % 3;
     if (!views_[axis]) {
-      const auto insides = forms_.insides(axis);
-      views_[axis] = View{polynomials_of(insides), polynomial_of(degenerate_form(forms_, insides, axis))};
+      const auto insides = problem_.forms.insides(axis);
+      views_[axis] = View{functions_of<Functions>(insides), Functions{}(problem_.degenerate(insides, axis))};
     }
     return *views_[axis];
   }
 
-  const std::vector<Between<3>>& parts() {
-    if (!parts_) parts_ = degenerate_parts(x_, forms_);
+  const auto& parts() {
+    if (!parts_) parts_ = problem_.degenerate_parts();
     return *parts_;
   }
 
   template <class Time>
   Inside inside_at(const Time& time) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const View& seen = view(axis);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const View& seen = view(i);
       const int orientation = time.sign(seen.degenerate);
       if (orientation != 0) return inside_view(seen, time, orientation);
     }
@@ -242,7 +276,7 @@ class CodimensionOne {
   template <class Time>
   static Inside inside_view(const View& seen, const Time& time, int orientation) {
     Inside result = Inside::interior;
-    for (const Polynomial& g : seen.insides) {
+    for (const auto& g : seen.insides) {
       const int sign = time.sign(g) * orientation;
       if (sign < 0) return Inside::outside;
       if (sign == 0) result = Inside::border;
@@ -250,24 +284,24 @@ class CodimensionOne {
     return result;
   }
 
-  std::array<Moving<T, 3>, 4> x_;
-  Forms forms_;
-  Polynomial coplanarity_;
+  Problem problem_;
+  std::size_t axis_;
+  decltype(Functions{}(std::declval<Problem>().forms.coplanarity())) coplanarity_;
   std::array<std::optional<View>, 3> views_;
-  std::optional<std::vector<Between<3>>> parts_;
+  std::optional<decltype(std::declval<Problem>().degenerate_parts())> parts_;
 };
 
-/// The condition of a pair of features whose points move as x.
-template <FeaturePair Pair, class T, std::size_t Dim, std::size_t N>
-auto make(const std::array<Moving<T, Dim>, N>& x) {
+/// The condition of a pair of features whose points move as x. `axis`: as CodimensionOne has it.
+template <FeaturePair Pair, class Functions = AsPolynomials, class T, std::size_t Dim, std::size_t N>
+auto make(const std::array<Moving<T, Dim>, N>& x, [[maybe_unused]] std::size_t axis = 0) {
   if constexpr (Pair == FeaturePair::vertex_face) {
-    return CodimensionOne<T, formula::VertexFace<T>>(x, vertex_face(x));
+    return CodimensionOne<VertexFace<T, Functions>, Functions>(x, axis);
   } else if constexpr (Pair == FeaturePair::edge_edge) {
-    return CodimensionOne<T, formula::EdgeEdge<T>>(x, edge_edge(x));
+    return CodimensionOne<EdgeEdge<T, Functions>, Functions>(x, axis);
   } else if constexpr (Pair == FeaturePair::vertex_edge) {
-    return Between<Dim>(x[1] - x[0], x[2] - x[0]);
+    return Between<T, Dim, Functions>(x[1] - x[0], x[2] - x[0]);
   } else {
-    return Coincide(x[1] - x[0]);
+    return Coincide<T, Dim, Functions>(x[1] - x[0]);
   }
 }
 

@@ -2,10 +2,13 @@
 //
 // Contact decided in exact integers of fixed width.
 //
-// Notation (formula.h): f is the coplanarity form; a *time* is an object of exact_times.h with the exact sign of
-// quadratic forms. The features meet at some time of the step iff they meet at an end, or at a root of f inside, or,
-// when f is zero throughout, at a root inside of one of the forms on whose signs the answer depends: the set of contact
-// times is closed, and between such roots nothing changes.
+// Notation (formula.h)
+//   C                 limbs of a coordinate; a form of degree 2 then takes 2 C, one of degree 3 takes 3 C
+//   f                 the coplanarity form
+//   time              an object of exact_times.h, with the exact sign of quadratic forms
+// What contact is at one time is in contact_condition.h. The features meet at some time of the step iff they meet at an
+// end, or at a root of f inside, or, when f is zero throughout, at a root inside of one of the forms on whose signs the
+// answer depends: the set of contact times is closed, and between such roots nothing changes.
 //
 // What this does not do: when double precision, applied to the exact coefficients of a cubic f, cannot tell its roots
 // apart and none is double, or when it cannot tell a root of f from one of an inside's beyond 2^-44, the answer is
@@ -14,11 +17,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "kernel/arithmetic/wide.h"
+#include "kernel/contact_condition.h"
 #include "kernel/double_filter.h"
-#include "kernel/exact_problem.h"
 #include "kernel/exact_times.h"
 #include "kernel/query.h"
 
@@ -27,22 +31,108 @@ namespace noli::exact {
 using bernstein::Verdict;
 using filter::Decision;
 
+template <std::size_t C>
+using Cubic = Form<Wide<3 * C>, 3>;
+
+template <class T, std::size_t N>
+bool is_zero(const std::array<T, N>& coefficients) {
+  for (const T& c : coefficients) {
+    if (!c.is_zero()) return false;
+  }
+  return true;
+}
+
+template <class T, std::size_t N>
+std::array<double, N> rounded(const std::array<T, N>& form) {
+  std::array<double, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = form[i].approximate();
+  return bernstein::scaled_coefficients(result);
+}
+
+template <std::size_t N>
+double largest(const std::array<double, N>& c) {
+  double size = 0;
+  for (const double x : c) size = std::max(size, std::abs(x));
+  return size;
+}
+
+/// A quadratic form, and its coefficients rounded to double: these mostly suffice for the sign at a time that is known
+/// to 2^-45, and spare the long products.
+template <std::size_t L>
+class SignedForm {
+ public:
+  SignedForm() = default;
+  explicit SignedForm(const Form<Wide<L>, 2>& form)
+      : exact_(form), rounded_(rounded(form)), bound_(0x1p-40 * largest(rounded_)) {}
+
+  const Form<Wide<L>, 2>& exact() const { return exact_; }
+  bool is_zero() const { return exact::is_zero(exact_); }
+
+  /// The sign at all times within 2^-45 of t, if it is certain. Precondition: t in [0, 1], or not a number: then
+  /// nothing is certain.
+  std::optional<int> certain_sign(double t) const {
+    const double value = bernstein::value_at(rounded_, t);
+    if (value > bound_) return 1;
+    if (value < -bound_) return -1;
+    return std::nullopt;
+  }
+
+ private:
+  Form<Wide<L>, 2> exact_;
+  std::array<double, 3> rounded_{};
+  double bound_ = 0;
+};
+
+/// Functions of contact_condition.h: quadratic forms, and the cubic one as it is. A form of degree 1 is raised to
+/// degree 2 by the factor s + t = 1.
+struct AsForms {
+  template <std::size_t L>
+  SignedForm<L> operator()(const Form<Wide<L>, 1>& form) const {
+    return SignedForm<L>({form[0], form[0] + form[1], form[1]});
+  }
+  template <std::size_t L>
+  SignedForm<L> operator()(const Form<Wide<L>, 2>& form) const {
+    return SignedForm<L>(form);
+  }
+  template <std::size_t L>
+  Form<Wide<L>, 3> operator()(const Form<Wide<L>, 3>& form) const {
+    return form;
+  }
+};
+
+/// A time, and about when it is.
+template <class Time>
+struct At {
+  const Time& time;
+  double t;
+
+  template <std::size_t L>
+  int sign(const SignedForm<L>& form) const {
+    const std::optional<int> certain = form.certain_sign(t);
+    return certain ? *certain : time.sign(form.exact());
+  }
+};
+
+template <class Condition, class Time>
+bool touches(Condition& condition, const Time& time) {
+  return condition.holds(At<Time>{time, time.approximate()});
+}
+
 inline Decision contact_in(TimeEnclosure enclosure) { return {Verdict::contact, enclosure}; }
 
 /// An interval around a time known to a relative error far below 2^-40.
 inline TimeEnclosure around(double t) { return {std::max(0.0, t - 0x1p-40), std::min(1.0, t + 0x1p-40)}; }
 
 /// Decides a problem of codimension one: vertex_face and edge_edge in space.
-template <class Problem, std::size_t C>
+template <class Condition, std::size_t C>
 class CodimensionOne {
   static constexpr int cubic_depth = 6;
 
  public:
-  /// `axis`: along which to look first; any is right, one along which the configuration looks large is faster.
-  CodimensionOne(const Problem& problem, std::size_t axis) : problem_(problem), axis_(axis) {}
+  explicit CodimensionOne(Condition& condition) : condition_(condition) {}
 
   Decision decide() {
-    const Cubic<C> f = problem_.coplanarity();
+    const Cubic<C> f = condition_.coplanarity();
     if (is_zero(f)) return decide_coplanar();
     if (f[0].is_zero() && touches(EndTime{false})) return contact_in({0, 0});
     Decision inside = decide_roots(f);
@@ -53,26 +143,9 @@ class CodimensionOne {
   }
 
  private:
-  static constexpr std::size_t insides_count = Problem::insides_count;
-
-  const View<C, insides_count>& view(std::size_t axis) {
-    if (!views_[axis]) views_[axis] = problem_.view(axis);
-    return *views_[axis];
-  }
-
-  /// Given that the points are coplanar at this time: whether the features meet.
   template <class Time>
   bool touches(const Time& time) {
-    const double t = time.approximate();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto& seen = view((axis_ + i) % 3);
-      const int orientation = seen.degenerate.sign(time, t);
-      if (orientation != 0) return seen.contact(time, t, orientation);
-    }
-    for (const auto& part : problem_.degenerate_parts()) {
-      if (part.holds(time, t)) return true;
-    }
-    return false;
+    return exact::touches(condition_, time);
   }
 
   Decision decide_coplanar() {
@@ -84,29 +157,8 @@ class CodimensionOne {
       latest = time.approximate();
       return true;
     };
-    found = any_critical_root(visit) || found;
+    found = condition_.any_critical([&](const auto& g) { return any_root(g.exact(), visit); }) || found;
     return found ? contact_in({0, around(latest).end}) : Decision{};
-  }
-
-  /// Roots of the forms on whose signs `touches` depends, when the points are coplanar throughout.
-  template <class Visit>
-  bool any_critical_root(Visit&& visit) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto& seen = view((axis_ + i) % 3);
-      if (is_zero(seen.degenerate.exact())) continue;
-      if (any_root(seen.degenerate.exact(), visit)) return true;
-      for (const auto& g : seen.insides) {
-        if (any_root(g.exact(), visit)) return true;
-      }
-      return false;
-    }
-    for (const auto& part : problem_.degenerate_parts()) {
-      for (const auto& form : part.zero) {
-        if (any_root(form.exact(), visit)) return true;
-      }
-      if (any_root(part.not_positive.exact(), visit)) return true;
-    }
-    return false;
   }
 
   /// Contact at a root of f inside the step. Roots at the ends and factors s + t (no root at all) are divided out.
@@ -167,7 +219,7 @@ class CodimensionOne {
 
   Verdict inside_at_root(const Cubic<C>& f, const RootOfCubic& root) {
     bool positive = false, negative = false, open = false;
-    for (const auto& g : view(axis_).insides) {
+    for (const auto& g : condition_.insides()) {
       const std::optional<int> sign = sign_at_root(g, f, root);
       positive |= sign.value_or(0) > 0;
       negative |= sign.value_or(0) < 0;
@@ -242,70 +294,37 @@ class CodimensionOne {
     return result;
   }
 
-  const Problem& problem_;
-  std::size_t axis_;
-  std::array<std::optional<View<C, insides_count>>, 3> views_;
+  Condition& condition_;
 };
 
-/// Decides the other problems: the features meet iff all of `zero` vanish and `not_positive` is not positive at the
-/// same time.
-template <std::size_t L, std::size_t N>
-class ZeroSet {
- public:
-  ZeroSet(const std::array<SignedForm<L>, N>& zero, const SignedForm<L>& not_positive)
-      : zero_(zero), not_positive_(not_positive) {}
-
-  Decision decide() const {
-    if (holds(EndTime{false})) return contact_in({0, 0});
-    Decision decision;
-    any_root(critical_form(), [&](const auto& time) {
-      if (!holds(time)) return false;
-      decision = contact_in(around(time.approximate()));
-      return true;
-    });
-    if (decision.verdict != Verdict::contact && holds(EndTime{true})) return contact_in({1, 1});
-    return decision;
+/// Decides the other problems. Contacts begin only where an equality holds, or a critical form vanishes, or at t = 0.
+template <class Condition>
+Decision decide_others(Condition& condition) {
+  if (touches(condition, EndTime{false})) return contact_in({0, 0});
+  Decision decision;
+  const auto visit = [&](const auto& time) {
+    if (!touches(condition, time)) return false;
+    decision = contact_in(around(time.approximate()));
+    return true;
+  };
+  if (const auto* equality = condition.equality()) {
+    any_root(equality->exact(), visit);
+  } else {
+    condition.any_critical([&](const auto& g) { return any_root(g.exact(), visit); });
   }
-
- private:
-  template <class Time>
-  bool holds(const Time& time) const {
-    const double t = time.approximate();
-    for (const auto& form : zero_) {
-      if (form.sign(time, t) != 0) return false;
-    }
-    return not_positive_.sign(time, t) <= 0;
-  }
-
-  /// Contacts begin only where this one vanishes, or at t = 0.
-  const Form<Wide<L>, 2>& critical_form() const {
-    for (const auto& form : zero_) {
-      if (!is_zero(form.exact())) return form.exact();
-    }
-    return not_positive_.exact();
-  }
-
-  std::array<SignedForm<L>, N> zero_;
-  SignedForm<L> not_positive_;
-};
-
-/// A vertex and an edge: 0 between the two ends of the edge, seen from the vertex.
-template <std::size_t C, std::size_t Dim>
-Decision decide_vertex_edge(const std::array<Moving<Wide<C>, Dim>, 3>& x) {
-  const Between<C, Dim> between(x[1] - x[0], x[2] - x[0]);
-  return ZeroSet<2 * C, Between<C, Dim>::cross_count>(between.zero, between.not_positive).decide();
+  if (decision.verdict != Verdict::contact && touches(condition, EndTime{true})) return contact_in({1, 1});
+  return decision;
 }
 
-/// Two vertices: every coordinate of their difference vanishes. Each, of degree 1, is raised to degree 2 by the factor
-/// s + t = 1.
-template <std::size_t C, std::size_t Dim>
-Decision decide_vertex_vertex(const std::array<Moving<Wide<C>, Dim>, 2>& x) {
-  const auto d = x[1] - x[0];
-  std::array<SignedForm<C>, Dim> zero;
-  for (std::size_t axis = 0; axis < Dim; ++axis) {
-    zero[axis] = SignedForm<C>({d.at_t0[axis], d.at_t0[axis] + d.at_t1[axis], d.at_t1[axis]});
+/// Whether points with C limbs a coordinate meet. `axis`: along which to look first.
+template <FeaturePair Pair, std::size_t C, std::size_t Dim, std::size_t N>
+Decision decide(const std::array<formula::Moving<Wide<C>, Dim>, N>& points, std::size_t axis) {
+  auto condition = condition::make<Pair, AsForms>(points, axis);
+  if constexpr (Pair == FeaturePair::vertex_face || Pair == FeaturePair::edge_edge) {
+    return CodimensionOne<decltype(condition), C>(condition).decide();
+  } else {
+    return decide_others(condition);
   }
-  return ZeroSet<C, Dim>(zero, {}).decide();
 }
 
 }  // namespace noli::exact

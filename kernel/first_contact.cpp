@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernel/first_contact.h"
 
-#include "kernel/arithmetic/integer_coordinates.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/first_contact_search.h"
 
 namespace noli {
@@ -19,9 +19,9 @@ bool fits(const exact::ExponentRange& range) {
 template <FeaturePair Pair, int Dim>
 std::optional<FirstContact> first_contact(const Query<Pair, Dim>& query) {
   const exact::ExponentRange range = exact::exponent_range(query);
-  if (fits<1>(range)) return condition::first_contact_of<Pair>(exact::scaled<1>(query, range));
-  if (fits<2>(range)) return condition::first_contact_of<Pair>(exact::scaled<2>(query, range));
-  return condition::first_contact_of<Pair>(integer_points(query, range));
+  if (fits<1>(range)) return condition::first_contact_of<Pair>(exact::scaled<Wide<1>>(query, range));
+  if (fits<2>(range)) return condition::first_contact_of<Pair>(exact::scaled<Wide<2>>(query, range));
+  return condition::first_contact_of<Pair>(exact::scaled<Integer>(query, range));
 }
 
 template std::optional<FirstContact> first_contact(const VertexFace3&);

@@ -61,13 +61,15 @@ std::optional<FirstContact> first_among_roots(Condition& condition, const Polyno
 }
 
 /// Where contact can begin when no equality has to hold, ascending.
-inline std::vector<AlgebraicNumber> critical_times(const std::vector<Polynomial>& critical) {
+template <class Condition>
+std::vector<AlgebraicNumber> critical_times(Condition& condition) {
   std::vector<AlgebraicNumber> times = {AlgebraicNumber(Dyadic::from_integer(1))};
-  for (const Polynomial& p : critical) {
-    if (p.degree() < 1) continue;
+  condition.any_critical([&](const Polynomial& p) {
+    if (p.degree() < 1) return false;
     std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
     std::move(roots.begin(), roots.end(), std::back_inserter(times));
-  }
+    return false;
+  });
   std::sort(times.begin(), times.end());
   return times;
 }
@@ -83,7 +85,7 @@ template <class Condition>
 std::optional<FirstContact> first_among_critical(Condition& condition) {
   AlgebraicNumber start;
   if (condition.holds(At{start})) return FirstContact{kind_without_equality(condition, start), TimeOfImpact(start)};
-  for (AlgebraicNumber& t : critical_times(condition.critical())) {
+  for (AlgebraicNumber& t : critical_times(condition)) {
     if (!condition.holds(At{t})) continue;
     const ContactKind kind = kind_without_equality(condition, t);
     return FirstContact{kind, TimeOfImpact(std::move(t))};

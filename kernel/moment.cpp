@@ -10,28 +10,6 @@
 namespace noli {
 namespace {
 
-Dyadic operator-(const Dyadic& a, const Dyadic& b) {
-  const std::size_t e = std::max(a.e, b.e);
-  return {a.scaled(e) - b.scaled(e), e};
-}
-
-Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-  const std::size_t e = std::max(a.e, b.e);
-  return {a.scaled(e) + b.scaled(e), e};
-}
-
-Dyadic operator*(const Dyadic& a, const Dyadic& b) { return {a.m * b.m, a.e + b.e}; }
-
-/// x 2^k.
-Dyadic scaled(Dyadic x, int k) {
-  if (k < 0) {
-    x.e += static_cast<std::size_t>(-k);
-  } else {
-    x.m <<= static_cast<std::size_t>(k);
-  }
-  return x.reduced();
-}
-
 /// The least e with x <= 2^e. Precondition: x > 0.
 int exponent_above(const Dyadic& x) {
   const auto bits = static_cast<int>(x.m.bit_length()), e = static_cast<int>(x.e);
@@ -75,10 +53,10 @@ AlgebraicNumber mapped(const AlgebraicNumber& s, const AffineMap& map) {
 Moment::Moment(const Window& window, double begin, double end, const TimeOfImpact& s)
     : origin_(Dyadic::from_double(window.begin)), exponent_(exponent_above(Dyadic::from_double(window.end) - origin_)) {
   const Dyadic from = Dyadic::from_double(begin), to = Dyadic::from_double(end);
-  sigma_ = mapped(s.algebraic(), {scaled(from - origin_, -exponent_), scaled(to - from, -exponent_)});
+  sigma_ = mapped(s.algebraic(), {ldexp(from - origin_, -exponent_), ldexp(to - from, -exponent_)});
 }
 
-int Moment::compare(double t) const { return sigma_.compare(scaled(Dyadic::from_double(t) - origin_, -exponent_)); }
+int Moment::compare(double t) const { return sigma_.compare(ldexp(Dyadic::from_double(t) - origin_, -exponent_)); }
 
 /// The largest double <= this time and the smallest >= it.
 std::pair<double, double> Moment::neighbours() const {
@@ -86,8 +64,8 @@ std::pair<double, double> Moment::neighbours() const {
   AlgebraicNumber finer = sigma_;
   for (std::size_t bits = 64;; bits *= 2) {
     if (!finer.is_dyadic()) finer.refine(bits);
-    const double low = floor_to_double(origin_ + scaled(finer.low(), exponent_));
-    const double high = ceil_to_double(origin_ + scaled(finer.high(), exponent_));
+    const double low = floor_to_double(origin_ + ldexp(finer.low(), exponent_));
+    const double high = ceil_to_double(origin_ + ldexp(finer.high(), exponent_));
     if (low == high || std::nextafter(low, infinity) == high) return {low, high};
     const double middle = std::nextafter(low, infinity);
     if (std::nextafter(middle, infinity) != high) continue;

@@ -8,7 +8,7 @@
 #include <array>
 #include <utility>
 
-#include "kernel/arithmetic/integer_coordinates.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/formula.h"
 #include "kernel/motion.h"
 
@@ -18,8 +18,8 @@ namespace noli::motion {
 struct Scale {
   exact::ExponentRange time, space;
 
-  Integer integer_time(double t) const { return integer_coordinate(t, time); }
-  Integer integer_place(double x) const { return integer_coordinate(x, space); }
+  Integer integer_time(double t) const { return exact::coordinate<Integer>(t, time); }
+  Integer integer_place(double x) const { return exact::coordinate<Integer>(x, space); }
 };
 
 template <FeaturePair Pair, int Dim>

@@ -6,8 +6,8 @@
 // apart.
 #include <cmath>
 
-#include "kernel/arithmetic/integer_coordinates.h"
 #include "kernel/arithmetic/rounding.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/static_predicates.h"
 
 namespace noli {
@@ -51,21 +51,12 @@ exact::ExponentRange range_of(const std::array<std::array<double, Dim>, N>& poin
   return range;
 }
 
-template <class T>
-T coordinate(double x, const exact::ExponentRange& range) {
-  if constexpr (std::is_same_v<T, Integer>) {
-    return integer_coordinate(x, range);
-  } else {
-    const exact::OddBinary parts(x);
-    return x == 0 ? T() : T::shifted(parts.mantissa, static_cast<unsigned>(parts.exponent - range.low));
-  }
-}
-
 template <class T, std::size_t Dim>
 formula::Vec<T, Dim> difference(const std::array<double, Dim>& b, const std::array<double, Dim>& a,
                                 const exact::ExponentRange& range) {
   formula::Vec<T, Dim> result;
-  for (std::size_t i = 0; i < Dim; ++i) result[i] = coordinate<T>(b[i], range) - coordinate<T>(a[i], range);
+  for (std::size_t i = 0; i < Dim; ++i)
+    result[i] = exact::coordinate<T>(b[i], range) - exact::coordinate<T>(a[i], range);
   return result;
 }
 

@@ -12,8 +12,8 @@
 #include <limits>
 #include <vector>
 
-#include "kernel/arithmetic/integer_coordinates.h"
 #include "kernel/arithmetic/rounding.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/distance_parts.h"
 #include "kernel/first_contact.h"
 #include "kernel/motion_points.h"
@@ -133,7 +133,7 @@ template <FeaturePair Pair, int Dim>
 std::vector<distance::Part> exact_parts(const Query<Pair, Dim>& query, double eta) {
   exact::ExponentRange range = exact::exponent_range(query);
   range.add(eta);
-  return exact_parts_of<Pair, Dim>(integer_points(query, range), integer_coordinate(eta, range));
+  return exact_parts_of<Pair, Dim>(exact::scaled<Integer>(query, range), exact::coordinate<Integer>(eta, range));
 }
 
 template <FeaturePair Pair, int Dim>
@@ -161,34 +161,21 @@ std::optional<TimeOfImpact> first_within(const Query<Pair, Dim>& query, double e
 }
 
 template <FeaturePair Pair, int Dim>
-bool within_distance(const Query<Pair, Dim>& query, double eta) {
-  return first_within(query, eta).has_value();
-}
-
-template <FeaturePair Pair, int Dim>
 std::optional<TimeOfImpact> first_within(const MotionQuery<Pair, Dim>& query, double eta) {
   if (eta > 0) return first_within(exact_parts(query, eta));
   auto contact = first_contact(query);
   return contact ? std::optional(std::move(contact->time)) : std::nullopt;
 }
 
-template std::optional<TimeOfImpact> first_within(const VertexFace3&, double);
-template std::optional<TimeOfImpact> first_within(const EdgeEdge3&, double);
-template std::optional<TimeOfImpact> first_within(const VertexEdge3&, double);
-template std::optional<TimeOfImpact> first_within(const VertexVertex3&, double);
-template std::optional<TimeOfImpact> first_within(const VertexEdge2&, double);
-template std::optional<TimeOfImpact> first_within(const VertexVertex2&, double);
-template bool within_distance(const VertexFace3&, double);
-template bool within_distance(const EdgeEdge3&, double);
-template bool within_distance(const VertexEdge3&, double);
-template bool within_distance(const VertexVertex3&, double);
-template bool within_distance(const VertexEdge2&, double);
-template bool within_distance(const VertexVertex2&, double);
-template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_face, 3>&, double);
-template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::edge_edge, 3>&, double);
-template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_edge, 3>&, double);
-template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_vertex, 3>&, double);
-template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_edge, 2>&, double);
-template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::vertex_vertex, 2>&, double);
+#define NOLI_FIRST_WITHIN(Pair, Dim)                                                               \
+  template std::optional<TimeOfImpact> first_within(const Query<FeaturePair::Pair, Dim>&, double); \
+  template std::optional<TimeOfImpact> first_within(const MotionQuery<FeaturePair::Pair, Dim>&, double);
+NOLI_FIRST_WITHIN(vertex_face, 3)
+NOLI_FIRST_WITHIN(edge_edge, 3)
+NOLI_FIRST_WITHIN(vertex_edge, 3)
+NOLI_FIRST_WITHIN(vertex_vertex, 3)
+NOLI_FIRST_WITHIN(vertex_edge, 2)
+NOLI_FIRST_WITHIN(vertex_vertex, 2)
+#undef NOLI_FIRST_WITHIN
 
 }  // namespace noli

@@ -24,7 +24,9 @@ std::optional<TimeOfImpact> first_within(const Query<Pair, Dim>& query, double e
 
 /// Whether there is such a time.
 template <FeaturePair Pair, int Dim>
-bool within_distance(const Query<Pair, Dim>& query, double eta);
+bool within_distance(const Query<Pair, Dim>& query, double eta) {
+  return first_within(query, eta).has_value();
+}
 
 /// The same for a piece of a motion; the time is its s (kernel/motion.h).
 template <FeaturePair Pair, int Dim>

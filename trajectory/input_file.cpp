@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "trajectory/error.h"
 #include "trajectory/stop.h"
@@ -96,6 +97,21 @@ std::string InputFile::read_to_end() {
     bytes.resize(used);
     return bytes;
   }
+}
+
+void require_regular_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(there) || std::filesystem::is_regular_file(there)) return;
+  throw InputError(path.string(), "", "is no regular file; expected one");
+}
+
+std::ifstream open_regular_file(const std::filesystem::path& path) {
+  require_regular_file(path);
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)));
+  return in;
 }
 
 }  // namespace noli

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace noli {
@@ -35,5 +36,11 @@ class InputFile {
   std::uint64_t size_ = 0;   ///< bytes of a regular file
   std::uint64_t taken_ = 0;  ///< bytes that were read
 };
+
+/// Throws InputError when there is something else by that name: a folder, a pipe, a device. Links are followed.
+void require_regular_file(const std::filesystem::path& path);
+
+/// Opens it for reading. Throws InputError when it cannot be opened, or is no regular file.
+std::ifstream open_regular_file(const std::filesystem::path& path);
 
 }  // namespace noli

@@ -9,7 +9,7 @@ namespace noli::audit {
 namespace {
 
 using integrator::Model;
-using integrator::Stencil;
+using integrator::VertexVectors;
 
 constexpr int most_corrections = 200;
 constexpr double solved = 1e-9;
@@ -88,7 +88,7 @@ class ImplicitEuler {
   template <class F>
   void add(const std::vector<F>& forces) {
     evaluations_ += forces.size();
-    Stencil<double, Dim, F::size> x;
+    VertexVectors<double, Dim, F::size> x;
     for (const F& force : forces) {
       for (std::size_t i = 0; i < F::size; ++i) x[i] = x_[force.vertices[i]];
       const auto gradient = force.gradient(x);
@@ -101,7 +101,7 @@ class ImplicitEuler {
   }
 
   template <class F>
-  void add_stiffness(const F& force, const Stencil<double, Dim, F::size>& x) {
+  void add_stiffness(const F& force, const VertexVectors<double, Dim, F::size>& x) {
     const auto gradients = force.measure_gradients(x);
     const auto stiffness = force.stiffness();
     for (std::size_t i = 0; i < F::size; ++i) {

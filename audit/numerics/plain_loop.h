@@ -65,7 +65,7 @@ class PlainLoop {
 
   template <class F>
   void kick(const std::vector<F>& forces, double h, std::vector<Vec>& v) const {
-    integrator::Stencil<double, Dim, F::size> x;
+    integrator::VertexVectors<double, Dim, F::size> x;
     for (const F& force : forces) {
       for (std::size_t i = 0; i < F::size; ++i) x[i] = x_[force.vertices[i]];
       const auto gradient = force.gradient(x);

@@ -77,7 +77,7 @@ Mechanics<Dim> mechanics(const integrator::Model<double, Dim>& model, const Samp
   }
   const auto add = [&](const auto& list) {
     using F = typename std::decay_t<decltype(list.forces)>::value_type;
-    integrator::Stencil<double, Dim, F::size> x;
+    integrator::VertexVectors<double, Dim, F::size> x;
     for (const F& force : list.forces) {
       for (std::size_t i = 0; i < F::size; ++i) x[i] = sample.x[force.vertices[i]];
       result.potential += force.energy(x);

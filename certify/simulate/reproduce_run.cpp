@@ -6,7 +6,7 @@
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/simulate/model_run.h"
-#include "integrator/contact_limit.h"
+#include "integrator/contact_extremes.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "trajectory/error.h"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "certify/errors.h"
-#include "integrator/scene/window_count.h"
+#include "integrator/scene/scene.h"
 #include "trajectory/error.h"
 
 namespace noli {

@@ -27,7 +27,7 @@
 #include "certify/simulate/run_space.h"
 #include "certify/simulate/start_check.h"
 #include "certify/stopwatch.h"
-#include "integrator/contact_limit.h"
+#include "integrator/contact_extremes.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "kernel/parallel.h"

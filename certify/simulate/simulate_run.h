@@ -28,7 +28,7 @@
 #include "certify/runs/run_series_file.h"
 #include "certify/simulate/energy_watch.h"
 #include "certify/simulate/phase_clock.h"
-#include "integrator/contact_limit.h"
+#include "integrator/contact_extremes.h"
 #include "integrator/scene/explain.h"
 #include "integrator/scene/scene.h"
 #include "integrator/simulation.h"

@@ -9,7 +9,7 @@
 #include "certify/errors.h"
 #include "certify/simulate/model_facts.h"
 #include "certify/simulate/model_run.h"
-#include "integrator/contact_limit.h"
+#include "integrator/contact_extremes.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "trajectory/blocks/run_manifest.h"

@@ -17,7 +17,7 @@ struct EdgeSpring {
   static constexpr int dimension = Dim;
   static constexpr std::size_t size = 2, measures = 1;
   static constexpr ForceKind kind = ForceKind::edge_spring;
-  using X = Stencil<S, Dim, size>;
+  using X = VertexVectors<S, Dim, size>;
 
   std::array<VertexId, size> vertices{};
   S constant{};     ///< k [N/m], not negative

@@ -46,7 +46,7 @@ struct Hinge {
   static constexpr int dimension = 3;
   static constexpr std::size_t size = 4, measures = 1;
   static constexpr ForceKind kind = ForceKind::hinge;
-  using X = Stencil<S, 3, size>;
+  using X = VertexVectors<S, 3, size>;
 
   std::array<VertexId, size> vertices{};  ///< x0, x1: the edge; x2, x3: opposite
   S constant{};                           ///< K [J], not negative

@@ -40,7 +40,7 @@ struct Membrane {
   static constexpr int dimension = 3;
   static constexpr std::size_t size = 3, measures = 3;
   static constexpr ForceKind kind = ForceKind::membrane;
-  using X = Stencil<S, 3, size>;
+  using X = VertexVectors<S, 3, size>;
 
   std::array<VertexId, size> vertices{};
   S b11{}, b12{}, b22{};  ///< B [1/m]; b21 = 0

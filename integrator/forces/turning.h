@@ -32,7 +32,7 @@ struct Turning {
   static constexpr int dimension = 2;
   static constexpr std::size_t size = 3, measures = 1;
   static constexpr ForceKind kind = ForceKind::turning;
-  using X = Stencil<S, 2, size>;
+  using X = VertexVectors<S, 2, size>;
 
   std::array<VertexId, size> vertices{};
   S constant{};     ///< K [J], not negative

@@ -31,8 +31,8 @@ struct Work {
   const SpringMaterial* springs() const { return std::get_if<SpringMaterial>(&body.material.kind); }
 
   template <std::size_t N>
-  Stencil<double, Dim, N> rest(const std::array<VertexId, N>& ids) const {
-    Stencil<double, Dim, N> x;
+  VertexVectors<double, Dim, N> rest(const std::array<VertexId, N>& ids) const {
+    VertexVectors<double, Dim, N> x;
     for (std::size_t i = 0; i < N; ++i) x[i] = to_vec(mesh.rest[ids[i]]).template head<Dim>();
     return x;
   }

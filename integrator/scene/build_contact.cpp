@@ -18,8 +18,6 @@ constexpr std::size_t most_bodies = 4096;  ///< there is a table of their pairs
 constexpr std::size_t most_classes = 16;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
-
 double least_height(const std::vector<Position>& rest, const std::array<VertexId, 2>& edge) {
   return length(to_vec(rest[edge[1]]) - to_vec(rest[edge[0]]));
 }

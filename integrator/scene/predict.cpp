@@ -9,26 +9,26 @@
 #include <tuple>
 
 #include "integrator/groups.h"
-#include "integrator/scene/window_count.h"
+#include "integrator/scene/scene.h"
 #include "trajectory/stop.h"
 
 namespace noli::integrator {
 namespace {
 
 /// Which forces: kind and step.
-using Beat = std::pair<ForceKind, double>;
+using ForceStep = std::pair<ForceKind, double>;
 
-/// The forces of one beat at a vertex.
+/// The forces of one kind and step at a vertex.
 template <int Dim>
 struct Pull {
-  Beat beat;
+  ForceStep force_step;
   Eigen::Matrix<double, Dim, Dim> squared_frequencies;  ///< of the vertex, its neighbours held still
 };
 
 /// What the forces do to each vertex that can move.
 template <int Dim>
 struct AtVertices {
-  std::vector<std::vector<Pull<Dim>>> pulls;  ///< different beats each
+  std::vector<std::vector<Pull<Dim>>> pulls;  ///< different steps each
   std::vector<bool> free;
 };
 
@@ -43,17 +43,18 @@ AtVertices<Dim> free_vertices(const Model<double, Dim>& model) {
 template <class F, int Dim>
 void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtVertices<Dim>& at) {
   end_if_stopped();
-  Stencil<double, Dim, F::size> x;
+  VertexVectors<double, Dim, F::size> x;
   for (std::size_t i = 0; i < F::size; ++i) x[i] = model.x[force.vertices[i]];
   const auto gradients = force.measure_gradients(x);
   const auto stiffness = force.stiffness();
   for (std::size_t i = 0; i < F::size; ++i) {
     const VertexId v = force.vertices[i];
     if (!at.free[v]) continue;
-    const Beat beat{F::kind, step};
+    const ForceStep force_step{F::kind, step};
     auto& pulls = at.pulls[v];
-    auto pull = std::find_if(pulls.begin(), pulls.end(), [&beat](const auto& p) { return p.beat == beat; });
-    if (pull == pulls.end()) pull = pulls.insert(pulls.end(), {beat, Eigen::Matrix<double, Dim, Dim>::Zero()});
+    auto pull =
+        std::find_if(pulls.begin(), pulls.end(), [&force_step](const auto& p) { return p.force_step == force_step; });
+    if (pull == pulls.end()) pull = pulls.insert(pulls.end(), {force_step, Eigen::Matrix<double, Dim, Dim>::Zero()});
     for (std::size_t j = 0; j < F::measures; ++j) {
       pull->squared_frequencies += (stiffness[j] / model.mass[v]) * gradients[j][i] * gradients[j][i].transpose();
     }
@@ -66,24 +67,24 @@ using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>;
 
 /// Where the slow forces meet an oscillation of the fast ones in resonance.
 template <int Dim>
-std::vector<Meeting> resonant_meetings(const Pull<Dim>& slow, const Beat& fast, const Axes<Dim>& axes) {
+std::vector<Meeting> resonant_meetings(const Pull<Dim>& slow, const ForceStep& fast, const Axes<Dim>& axes) {
   std::vector<Meeting> found;
   for (int k = 0; k < Dim; ++k) {
     const Eigen::Matrix<double, Dim, 1> axis = axes.eigenvectors().col(k);
     const double along = axis.dot(slow.squared_frequencies * axis), squared = axes.eigenvalues()[k];
     if (!(along > 1e-12 * squared) || !(squared > 0)) continue;  // the slow forces do not act along this axis
-    const std::vector<Oscillation> pair{{slow.beat.second, std::sqrt(along)}, {fast.second, std::sqrt(squared)}};
+    const std::vector<Oscillation> pair{{slow.force_step.second, std::sqrt(along)}, {fast.second, std::sqrt(squared)}};
     for (const Resonance& resonance : resonances(pair)) found.push_back(resonance.meeting);
   }
   return found;
 }
 
-/// Warnings by pairs of beats. With steps of their own nearly every pair of steps is another: then by kinds.
+/// Warnings by pairs of steps. With steps of their own nearly every pair of steps is another: then by kinds.
 class Warnings {
  public:
   explicit Warnings(Clocks clocks) : by_step_(clocks == Clocks::grouped) {}
 
-  void add(const Beat& slow, const Beat& fast, VertexId vertex, const Meeting& meeting) {
+  void add(const ForceStep& slow, const ForceStep& fast, VertexId vertex, const Meeting& meeting) {
     ResonanceWarning& warning =
         by_pair_[{slow.first, by_step_ ? slow.second : 0, fast.first, by_step_ ? fast.second : 0}];
     auto& last = last_vertex_[&warning];
@@ -113,8 +114,9 @@ std::vector<ResonanceWarning> find_resonances(const AtVertices<Dim>& at, Clocks 
     for (const Pull<Dim>& fast : at.pulls[v]) {
       const Axes<Dim> axes(fast.squared_frequencies);
       for (const Pull<Dim>& slow : at.pulls[v]) {
-        if (slow.beat.second <= fast.beat.second) continue;
-        for (const Meeting& m : resonant_meetings(slow, fast.beat, axes)) warnings.add(slow.beat, fast.beat, v, m);
+        if (slow.force_step.second <= fast.force_step.second) continue;
+        for (const Meeting& m : resonant_meetings(slow, fast.force_step, axes))
+          warnings.add(slow.force_step, fast.force_step, v, m);
       }
     }
   }
@@ -143,7 +145,7 @@ void add_groups(ForceKind kind, const std::vector<double>& steps, Clocks clocks,
 template <int Dim>
 double rate(const std::vector<Pull<Dim>>& pulls, const Model<double, Dim>& model) {
   std::set<double> steps{model.window_length};
-  for (const Pull<Dim>& pull : pulls) steps.insert(pull.beat.second);
+  for (const Pull<Dim>& pull : pulls) steps.insert(pull.force_step.second);
   if (model.gravity) steps.insert(model.gravity->step);
   if (model.clocks == Clocks::grouped) return 1 / *steps.begin();
   double sum = 0;

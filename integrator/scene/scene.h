@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -274,5 +275,9 @@ struct Scene {
   Json document;                        ///< what was read: overrides applied, defaults filled in
   std::vector<DefaultTaken> defaults;
 };
+
+/// How many windows reach up to a time. A time that is a whole number of windows except for rounding, as 0.07 of 0.01,
+/// takes just that number.
+inline double windows_up_to(double time, double window) { return std::ceil(time / window * (1 - 0x1p-50)); }
 
 }  // namespace noli::integrator

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "integrator/scene/shapes/nearest.h"
+#include "integrator/scene/json_text.h"
 #include "trajectory/error.h"
 
 namespace noli::integrator {
@@ -144,9 +144,9 @@ class Validator {
   }
 
   void check_number(const Json& schema, const Json& value, const Json::json_pointer& at) const {
-    const auto bound = [&](const char* keyword, const char* words, auto holds) {
+    const auto bound = [&](const char* keyword, const char* relation, auto holds) {
       if (!schema.contains(keyword) || holds(value.get<double>(), schema[keyword].get<double>())) return;
-      expected(schema, value, at, fmt::format("a number {} {}", words, schema[keyword].dump()));
+      expected(schema, value, at, fmt::format("a number {} {}", relation, schema[keyword].dump()));
     };
     bound("minimum", "not less than", [](double x, double limit) { return x >= limit; });
     bound("maximum", "not greater than", [](double x, double limit) { return x <= limit; });

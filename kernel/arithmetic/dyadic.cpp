@@ -60,9 +60,31 @@ std::strong_ordering operator<=>(const Dyadic& a, const Dyadic& b) {
   return a.e < b.e ? a.scaled(b.e) <=> b.m : a.m <=> b.scaled(a.e);
 }
 
-Dyadic middle(const Dyadic& a, const Dyadic& b) {
+Dyadic operator+(const Dyadic& a, const Dyadic& b) {
   const std::size_t e = std::max(a.e, b.e);
-  return {a.scaled(e) + b.scaled(e), e + 1};
+  return {a.scaled(e) + b.scaled(e), e};
+}
+
+Dyadic operator-(const Dyadic& a, const Dyadic& b) {
+  const std::size_t e = std::max(a.e, b.e);
+  return {a.scaled(e) - b.scaled(e), e};
+}
+
+Dyadic operator*(const Dyadic& a, const Dyadic& b) { return {a.m * b.m, a.e + b.e}; }
+
+Dyadic ldexp(Dyadic x, int k) {
+  if (k < 0) {
+    x.e += static_cast<std::size_t>(-k);
+  } else {
+    x.m <<= static_cast<std::size_t>(k);
+  }
+  return x.reduced();
+}
+
+Dyadic middle(const Dyadic& a, const Dyadic& b) {
+  Dyadic sum = a + b;
+  ++sum.e;
+  return sum;
 }
 
 double floor_to_double(const Dyadic& x) { return x.sign() >= 0 ? towards_zero(cut(x)) : -away(cut(x)); }

@@ -28,6 +28,11 @@ struct Dyadic {
   friend bool operator==(const Dyadic& a, const Dyadic& b) { return (a <=> b) == 0; }
 };
 
+Dyadic operator+(const Dyadic& a, const Dyadic& b);
+Dyadic operator-(const Dyadic& a, const Dyadic& b);
+Dyadic operator*(const Dyadic& a, const Dyadic& b);
+/// x 2^k, reduced.
+Dyadic ldexp(Dyadic x, int k);
 Dyadic middle(const Dyadic& a, const Dyadic& b);
 
 /// The largest double that is not greater, the smallest that is not less. -DBL_MAX, DBL_MAX and infinities where they

@@ -181,22 +181,13 @@ Polynomial gcd(const Polynomial& a, const Polynomial& b) {
   return x;
 }
 
-Polynomial quotient(const Polynomial& a, const Polynomial& b) {
-  std::vector<Integer> r, q;
-  for (int i = 0; i <= a.degree(); ++i) r.push_back(a[static_cast<std::size_t>(i)]);
-  const std::size_t size = static_cast<std::size_t>(b.degree()) + 1;
-  while (r.size() >= size) {
-    const Integer factor = r.back();
-    for (Integer& earlier : q) earlier *= b.leading();
-    q.push_back(factor);
-    const std::size_t shift = r.size() - size;
-    for (std::size_t i = 0; i + 1 < r.size(); ++i) {
-      r[i] *= b.leading();
-      if (i >= shift) mpz_submul(r[i].get(), factor.get(), b[i - shift].get());
-    }
-    r.pop_back();
+Polynomial quotient(Polynomial a, const Polynomial& b) {
+  const std::size_t size = b.c_.size();
+  std::vector<Integer> q(a.c_.size() < size ? 0 : a.c_.size() - size + 1);
+  for (std::size_t i = q.size(); i-- > 0;) {
+    q[i] = divide_exactly(a.c_[i + size - 1], b.leading());
+    for (std::size_t j = 0; j < size; ++j) mpz_submul(a.c_[i + j].get(), q[i].get(), b.c_[j].get());
   }
-  std::reverse(q.begin(), q.end());
   return Polynomial(std::move(q));
 }
 

@@ -40,6 +40,7 @@ class Polynomial {
   int sign_at_rational(const Integer& num, const Integer& den) const;
 
   Polynomial derivative() const;
+  Integer content() const;
   /// Divided by the content and by the sign of the leading coefficient.
   Polynomial primitive() const;
   /// Divided by the largest power of two that divides all coefficients; cheap.
@@ -52,14 +53,13 @@ class Polynomial {
   friend Polynomial operator+(Polynomial a, const Polynomial& b) { return a += b; }
   friend Polynomial operator-(Polynomial a, const Polynomial& b) { return a -= b; }
   friend Polynomial operator*(const Polynomial& a, const Polynomial& b);
+  friend Polynomial quotient(Polynomial a, const Polynomial& b);
   friend bool operator==(const Polynomial&, const Polynomial&) = default;
 
  private:
   void trim() {
     while (!c_.empty() && c_.back().is_zero()) c_.pop_back();
   }
-  Integer content() const;
-
   std::vector<Integer> c_;
 };
 
@@ -75,11 +75,12 @@ Polynomial from_form(const std::array<Integer, N>& form) {
 /// modulo a prime. Precondition: neither is zero.
 bool surely_coprime(const Polynomial& a, const Polynomial& b);
 
-/// Primitive greatest common divisor, by the primitive remainder sequence. Precondition: not both zero.
+/// Primitive greatest common divisor, by the primitive remainder sequence; that of 0 and 0 is 0.
 Polynomial gcd(const Polynomial& a, const Polynomial& b);
 
-/// a / b, up to a positive or negative constant factor. Precondition: b divides a over the rationals, b is not zero.
-Polynomial quotient(const Polynomial& a, const Polynomial& b);
+/// a / b. Precondition: it has integer coefficients, as it has by Gauss's lemma where b is primitive and divides a over
+/// the rationals; b is not zero.
+Polynomial quotient(Polynomial a, const Polynomial& b);
 
 /// The polynomial with the same roots, all simple; only a constant factor differs if they were simple already.
 /// Precondition: p is not zero.

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The coordinates of a query as integers: all multiplied by one power of two. Exact; contact and its time do not
-// change.
+// The coordinates of a query as integers, of fixed width or of any: all multiplied by one power of two. Exact; contact
+// and its time do not change.
+//
+// What this does not do: it rounds nothing, so coordinates of 1e300 next to some of 1e-300 make integers of 2000 bits.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
+#include "kernel/arithmetic/integer.h"
 #include "kernel/arithmetic/wide.h"
 #include "kernel/formula.h"
 #include "kernel/query.h"
@@ -64,20 +70,27 @@ ExponentRange exponent_range(const Query<Pair, Dim>& q) {
   return range;
 }
 
-/// The moving points of a query, times 2^-range.low. Precondition: range.bits() < 64 C.
-template <std::size_t C, FeaturePair Pair, int Dim>
-std::array<formula::Moving<Wide<C>, Dim>, point_count(Pair)> scaled(const Query<Pair, Dim>& q,
-                                                                    const ExponentRange& range) {
-  const auto integer = [&range](double x) {
-    if (x == 0) return Wide<C>();
-    const OddBinary parts(x);
-    return Wide<C>::shifted(parts.mantissa, static_cast<unsigned>(parts.exponent - range.low));
-  };
-  std::array<formula::Moving<Wide<C>, Dim>, point_count(Pair)> result;
+/// x / 2^range.low, as an Integer or a Wide. Preconditions: the range covers x; range.bits() < 64 C for a Wide<C>.
+template <class T>
+T coordinate(double x, const ExponentRange& range) {
+  if (x == 0) return T();
+  const OddBinary parts(x);
+  const int shift = parts.exponent - range.low;
+  if constexpr (std::is_same_v<T, Integer>) {
+    return Integer(parts.mantissa) << static_cast<std::size_t>(shift);
+  } else {
+    return T::shifted(parts.mantissa, static_cast<unsigned>(shift));
+  }
+}
+
+/// The moving points of a query, times 2^-range.low.
+template <class T, FeaturePair Pair, int Dim>
+auto scaled(const Query<Pair, Dim>& q, const ExponentRange& range) {
+  std::array<formula::Moving<T, Dim>, point_count(Pair)> result;
   for (std::size_t i = 0; i < result.size(); ++i) {
     for (std::size_t axis = 0; axis < Dim; ++axis) {
-      result[i].at_t0[axis] = integer(q.x_t0[i][axis]);
-      result[i].at_t1[axis] = integer(q.x_t1[i][axis]);
+      result[i].at_t0[axis] = coordinate<T>(q.x_t0[i][axis], range);
+      result[i].at_t1[axis] = coordinate<T>(q.x_t1[i][axis], range);
     }
   }
   return result;

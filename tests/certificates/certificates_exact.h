@@ -14,7 +14,7 @@
 #include "certificates/stencil.h"
 #include "certificates/vector.h"
 #include "kernel/arithmetic/algebraic.h"
-#include "kernel/arithmetic/integer_coordinates.h"
+#include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/distance_parts.h"
 
 namespace noli::certificates::test {
@@ -56,9 +56,11 @@ Scale scale_of(std::span<const MotionSegment<Dim>> chords, double begin, double 
 /// The coordinate d at time t, times (t1 - t0).
 template <int Dim>
 Integer place(const MotionSegment<Dim>& chord, int d, double t, const Scale& scale) {
-  const Integer time = integer_coordinate(t, scale.time);
-  return (integer_coordinate(chord.t1, scale.time) - time) * integer_coordinate(chord.x0[d], scale.space) +
-         (time - integer_coordinate(chord.t0, scale.time)) * integer_coordinate(chord.x1[d], scale.space);
+  const Integer time = exact::coordinate<Integer>(t, scale.time);
+  return (exact::coordinate<Integer>(chord.t1, scale.time) - time) *
+             exact::coordinate<Integer>(chord.x0[d], scale.space) +
+         (time - exact::coordinate<Integer>(chord.t0, scale.time)) *
+             exact::coordinate<Integer>(chord.x1[d], scale.space);
 }
 
 struct At {
@@ -76,7 +78,8 @@ bool comes_within(std::span<const MotionSegment<Dim>> chords, double begin, doub
   std::array<Integer, point_count(Pair)> lengths;
   Integer common(1);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    lengths[i] = integer_coordinate(chords[i].t1, scale.time) - integer_coordinate(chords[i].t0, scale.time);
+    lengths[i] =
+        exact::coordinate<Integer>(chords[i].t1, scale.time) - exact::coordinate<Integer>(chords[i].t0, scale.time);
     common *= lengths[i];
   }
   std::array<distance::Vector<Dim>, point_count(Pair)> x;
@@ -87,7 +90,7 @@ bool comes_within(std::span<const MotionSegment<Dim>> chords, double begin, doub
           from_form(std::array{factor * place(chords[i], d, begin, scale), factor * place(chords[i], d, end, scale)});
     }
   }
-  const Integer bound = common * integer_coordinate(eta, scale.space);
+  const Integer bound = common * exact::coordinate<Integer>(eta, scale.space);
   const auto parts = distance::parts_of<Pair, Dim>(x, bound * bound);
   if (within(parts, AlgebraicNumber())) return true;
   // If not at the beginning, then first at a root of an excess: see kernel/thickness.cpp.

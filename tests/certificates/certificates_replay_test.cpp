@@ -12,8 +12,8 @@
 #include <limits>
 
 #include "certificates/cells.h"
-#include "certificates/every_pair.h"
 #include "certificates_dance.h"
+#include "tests/support/every_pair.h"
 
 namespace noli::certificates {
 namespace {

@@ -14,8 +14,8 @@ namespace noli::test {
 using Big = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<60>, boost::multiprecision::et_off>;
 
 template <int Dim, std::size_t N>
-integrator::Stencil<Big, Dim, N> to_big(const integrator::Stencil<double, Dim, N>& x) {
-  integrator::Stencil<Big, Dim, N> result;
+integrator::VertexVectors<Big, Dim, N> to_big(const integrator::VertexVectors<double, Dim, N>& x) {
+  integrator::VertexVectors<Big, Dim, N> result;
   for (std::size_t i = 0; i < N; ++i) {
     for (int d = 0; d < Dim; ++d) result[i][d] = Big(x[i][d]);
   }

@@ -7,23 +7,25 @@
 
 #include "contact_small_scenes.h"
 #include "running.h"
+#include "tests/support/literal_simulation.h"
 
 namespace noli::integrator {
 namespace {
 
+using noli::test::LiteralSimulation;
 using test::expect_same;
 using test::run;
+using test::run_of;
 using test::SmallScene;
 
 template <int Dim>
 void compare_with_the_literal_algorithm(const SmallScene<Dim>& scene) {
   Model<double, Dim> literal = scene.make();
   Simulation<double, Dim> cells(literal);
-  literal.contact->certificates = Certificates::every_pair;
-  Simulation<double, Dim> every_pair(literal);
+  LiteralSimulation<Dim> every_pair(literal);
   std::uint64_t impulses = 0;
   for (std::uint64_t w = 0; w < scene.windows; ++w) {
-    const Books<double, Dim> of_cells = run(cells, 1), of_every_pair = run(every_pair, 1);
+    const Books<double, Dim> of_cells = run(cells, 1), of_every_pair = run_of<Dim>(every_pair, 1);
     ASSERT_NO_FATAL_FAILURE(expect_same(cells.snapshot(), every_pair.snapshot())) << w;
     ASSERT_EQ(of_cells.of(ForceKind::contact).events, of_every_pair.of(ForceKind::contact).events) << w;
     ASSERT_EQ(of_cells.work(), of_every_pair.work()) << w;
@@ -43,10 +45,9 @@ void compare_with_layers_that_always_are(const SmallScene<Dim>& scene) {
   Simulation<double, Dim> lazy(eager);
   const std::uint64_t windows = scene.with_all_layers;
   const Books<double, Dim> of_lazy = run(lazy, windows);
-  eager.contact->certificates = Certificates::every_pair;
   eager.contact->least_layers = lazy.certificates().deepest;
-  Simulation<double, Dim> always(eager);
-  const Books<double, Dim> of_always = run(always, windows);
+  LiteralSimulation<Dim> always(eager);
+  const Books<double, Dim> of_always = run_of<Dim>(always, windows);
   EXPECT_EQ(always.certificates().deepest, lazy.certificates().deepest);
   expect_same(lazy.snapshot(), always.snapshot());
   EXPECT_EQ(of_lazy.of(ForceKind::contact).events, of_always.of(ForceKind::contact).events);

@@ -3,7 +3,7 @@
 // Small models in which things touch.
 #pragma once
 
-#include "integrator/contact_limit.h"
+#include "integrator/contact_extremes.h"
 #include "integrator/simulation.h"
 #include "models.h"
 

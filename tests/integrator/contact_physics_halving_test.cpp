@@ -199,7 +199,7 @@ double elastic_energy(const Model<double, 3>& model, const Snapshot<double, 3>& 
   double sum = 0;
   const auto add = [&](const auto& list) {
     for (const auto& force : list.forces) {
-      Stencil<double, 3, std::tuple_size_v<std::remove_cvref_t<decltype(force.vertices)>>> x;
+      VertexVectors<double, 3, std::tuple_size_v<std::remove_cvref_t<decltype(force.vertices)>>> x;
       for (std::size_t i = 0; i < x.size(); ++i) x[i] = s.x[force.vertices[i]];
       if (force.vertices[0] < vertices) sum += force.energy(x);
     }

@@ -7,15 +7,18 @@
 #include "contact_models.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "running.h"
+#include "tests/support/literal_simulation.h"
 
 namespace noli::integrator {
 namespace {
 
+using noli::test::LiteralSimulation;
 using test::ball_and_floor;
 using test::colliding_sheets;
 using test::ContactOptions;
 using test::expect_same;
 using test::run;
+using test::run_of;
 using test::with_contact;
 
 struct Variant {
@@ -47,11 +50,10 @@ INSTANTIATE_TEST_SUITE_P(Contact, Colliding,
 TEST_P(Colliding, CellsEqualTheLiteralAlgorithm) {
   Model<double, 3> literal = model(4);
   Simulation<double, 3> cells(literal);
-  literal.contact->certificates = Certificates::every_pair;
-  Simulation<double, 3> every_pair(literal);
+  LiteralSimulation<3> every_pair(literal);
   for (int w = 0; w < 12; ++w) {
     run(cells, 1);
-    run(every_pair, 1);
+    run_of<3>(every_pair, 1);
     ASSERT_NO_FATAL_FAILURE(expect_same(cells.snapshot(), every_pair.snapshot())) << w;
   }
   EXPECT_GE(cells.certificates().deepest, 2U);
@@ -62,10 +64,9 @@ TEST_P(Colliding, LayersActivatedInTimeEqualLayersThatAlwaysAre) {
   Simulation<double, 3> lazy(eager);
   run(lazy, 4);
   EXPECT_GE(lazy.certificates().deepest, 1U);
-  eager.contact->certificates = Certificates::every_pair;
   eager.contact->least_layers = lazy.certificates().deepest;
-  Simulation<double, 3> always(eager);
-  run(always, 4);
+  LiteralSimulation<3> always(eager);
+  run_of<3>(always, 4);
   EXPECT_EQ(always.certificates().deepest, lazy.certificates().deepest);
   expect_same(lazy.snapshot(), always.snapshot());
 }

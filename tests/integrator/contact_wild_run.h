@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "contact_models.h"
-#include "integrator/contact_limit.h"
+#include "integrator/contact_extremes.h"
 #include "proofs/prover/windows/window_verifier.h"
 
 namespace noli::integrator::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "integrator/damping.h"
+#include "integrator/kick.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@ using integrator::damp;
 using integrator::EdgeSpring;
 using integrator::Hinge;
 using integrator::Membrane;
-using integrator::Stencil;
 using integrator::Turning;
 using integrator::Vec;
+using integrator::VertexVectors;
 using test::Big;
 using test::Random;
 
@@ -24,7 +24,7 @@ constexpr int states = 200;
 
 /// Of the vertices of finite mass, without rounding to speak of.
 template <int Dim, std::size_t N>
-Big kinetic_energy(const Stencil<double, Dim, N>& v, const std::array<double, N>& inverse_mass) {
+Big kinetic_energy(const VertexVectors<double, Dim, N>& v, const std::array<double, N>& inverse_mass) {
   Big sum(0);
   const auto big = test::to_big(v);
   for (std::size_t i = 0; i < N; ++i) {
@@ -48,7 +48,7 @@ std::vector<double> rates(const F& force, const X& x, const X& v) {
 template <class F>
 class Damping : public testing::Test {
  public:
-  using X = Stencil<double, F::dimension, F::size>;
+  using X = VertexVectors<double, F::dimension, F::size>;
 
   F force = test::random_force<F>(random);
   X x, v;
@@ -164,7 +164,7 @@ TEST(MembraneDampingTest, TheLastMeasureIsDampedLast) {
 /// A scripted vertex keeps its velocity and drags the free one: work above zero, which is the free one's gain.
 TEST(ScriptedDampingTest, WorkOnTheFreeOnes) {
   const EdgeSpring<double, 2> spring{{0, 1}, 3, 1, 100};
-  Stencil<double, 2, 2> v = {Vec<double, 2>(-5, 1), {0, 0}};
+  VertexVectors<double, 2, 2> v = {Vec<double, 2>(-5, 1), {0, 0}};
   const double work = damp(spring, {Vec<double, 2>(0, 0), {2, 0}}, v, {0, 0.5}, 0.01);
   EXPECT_EQ(v[0], (Vec<double, 2>(-5, 1)));
   EXPECT_LT(v[1][0], 0);

@@ -17,9 +17,9 @@ namespace {
 using integrator::Angle;
 using integrator::Hinge;
 using integrator::Membrane;
-using integrator::Stencil;
 using integrator::Turning;
 using integrator::Vec;
+using integrator::VertexVectors;
 using test::greatest;
 using test::Random;
 
@@ -32,7 +32,7 @@ Vec<double, 3> moved(const Vec<double, 3>& x) {
 Vec<double, 2> moved(const Vec<double, 2>& x) { return {0.8 * x[0] - 0.6 * x[1] + 3, 0.6 * x[0] + 0.8 * x[1] - 2}; }
 
 template <class F>
-void expect_no_force_at_rest(const F& force, Stencil<double, F::dimension, F::size> rest, double scale) {
+void expect_no_force_at_rest(const F& force, VertexVectors<double, F::dimension, F::size> rest, double scale) {
   for (const bool move : {false, true}) {
     if (move) {
       for (auto& point : rest) point = moved(point);
@@ -51,17 +51,17 @@ TEST(RestTest, NoForceWhereTheForceWasMade) {
                          x3 = r[3] + Vec<double, 3>(0.5, -1, 0.5);
     expect_no_force_at_rest(Membrane<double>::from_rest({0, 1, 2}, {x0, x1, x2}, {1, 0.3, 1}), {x0, x1, x2}, 10);
     expect_no_force_at_rest(Hinge<double>::from_rest({0, 1, 2, 3}, {x0, x1, x2, x3}, 1), {x0, x1, x2, x3}, 10);
-    const Stencil<double, 2, 3> row = {x0.head<2>(), x1.head<2>(), x2.head<2>()};
+    const VertexVectors<double, 2, 3> row = {x0.head<2>(), x1.head<2>(), x2.head<2>()};
     expect_no_force_at_rest(Turning<double>::from_rest({0, 1, 2}, row, 1), row, 10);
   }
 }
 
 TEST(MembraneTest, EnergyOfAStretchedTriangle) {
   const double E = 7, nu = 0.25, th = 0.5;
-  const Stencil<double, 3, 3> rest = {Vec<double, 3>(0, 0, 0), {2, 0, 0}, {0.5, 1, 0}};
+  const VertexVectors<double, 3, 3> rest = {Vec<double, 3>(0, 0, 0), {2, 0, 0}, {0.5, 1, 0}};
   const auto membrane = Membrane<double>::from_rest({0, 1, 2}, rest, {E, nu, th});
   const auto stretched = [&](double p, double q, double shear) {
-    Stencil<double, 3, 3> x;
+    VertexVectors<double, 3, 3> x;
     for (std::size_t i = 0; i < 3; ++i) x[i] = {p * rest[i][0] + shear * rest[i][1], 1, q * rest[i][1]};
     return x;
   };
@@ -81,19 +81,19 @@ TEST(MembraneTest, EnergyOfAStretchedTriangle) {
 /// Pulled along one axis and free across, a small strain e takes the energy E/2 e^2 a volume: nu drops out.
 TEST(MembraneTest, UniaxialStressMeasuresYoungsModulus) {
   const double E = 7, nu = 0.25, e = 1e-5;
-  const Stencil<double, 3, 3> rest = {Vec<double, 3>(0, 0, 0), {2, 0, 0}, {0.5, 1, 0}};
+  const VertexVectors<double, 3, 3> rest = {Vec<double, 3>(0, 0, 0), {2, 0, 0}, {0.5, 1, 0}};
   auto x = rest;
   for (auto& point : x) point = {(1 + e) * point[0], (1 - nu * e) * point[1], 0};
   EXPECT_NEAR(Membrane<double>::from_rest({0, 1, 2}, rest, {E, nu, 0.5}).energy(x) / (E / 2 * e * e * 0.5), 1, 1e-4);
 }
 
 /// The edge along y; side 1 in the direction -x, side 2 turned up from +x by theta.
-Stencil<double, 3, 4> folded(double theta) {
+VertexVectors<double, 3, 4> folded(double theta) {
   return {Vec<double, 3>(0, 0, 0), {0, 2, 0}, {-1, 0.5, 0}, {1.5 * std::cos(theta), 1, 1.5 * std::sin(theta)}};
 }
 
 /// Turns by phi.
-Stencil<double, 2, 3> turned(double phi) {
+VertexVectors<double, 2, 3> turned(double phi) {
   return {Vec<double, 2>(-2, 0), {0, 0}, {1.5 * std::cos(phi), 1.5 * std::sin(phi)}};
 }
 
@@ -135,7 +135,7 @@ TEST(HingeTest, ABentStripHasTheEnergyOfAPlate) {
   // The three edges about a rectangle of 1 x 0.7 (diagonal, upright, level), whose pattern fills the plane.
   const auto at = [&](double x, double y) { return Vec<double, 3>(x, y, curvature * x * x / 2); };
   const auto energy = [&](std::array<std::array<double, 2>, 4> p) {
-    Stencil<double, 3, 4> rest, bent;
+    VertexVectors<double, 3, 4> rest, bent;
     for (std::size_t i = 0; i < 4; ++i) {
       rest[i] = {p[i][0], p[i][1], 0};
       bent[i] = at(p[i][0], p[i][1]);
@@ -184,26 +184,26 @@ TEST(TurningTest, WeakensBeyondARightAngle) {
 }
 
 template <int Dim, std::size_t N>
-void expect_zero(const Stencil<double, Dim, N>& x) {
+void expect_zero(const VertexVectors<double, Dim, N>& x) {
   for (const auto& point : x) EXPECT_EQ(point, (Vec<double, Dim>::Zero()));
 }
 
 TEST(DegenerateTest, NoAngleNoForce) {
   const auto hinge = Hinge<double>::from_rest({0, 1, 2, 3}, folded(1), 1);
   const Vec<double, 3> o(0, 0, 0), p(1, 0, 0), q(0, 1, 0), r(3, 0, 0);
-  for (const Stencil<double, 3, 4>& x : {Stencil<double, 3, 4>{o, o, o, o},
-                                         {o, p, r, q},
-                                         {o, p, q, r},
-                                         {o, o, p, q},
-                                         {o, p, o, q},
-                                         {1e-200 * o, 1e-200 * p, 1e-200 * q, -1e-200 * q}}) {
+  for (const VertexVectors<double, 3, 4>& x : {VertexVectors<double, 3, 4>{o, o, o, o},
+                                               {o, p, r, q},
+                                               {o, p, q, r},
+                                               {o, o, p, q},
+                                               {o, p, o, q},
+                                               {1e-200 * o, 1e-200 * p, 1e-200 * q, -1e-200 * q}}) {
     expect_zero(hinge.gradient(x));
     expect_zero(hinge.measure_gradients(x)[0]);
     EXPECT_EQ(hinge.energy(x), hinge.constant);
   }
   const auto turning = Turning<double>::from_rest({0, 1, 2}, turned(1), 1);
   const Vec<double, 2> a(1, 2), b(3, 5);
-  for (const Stencil<double, 2, 3>& x : {Stencil<double, 2, 3>{a, a, a}, {a, a, b}, {a, b, b}}) {
+  for (const VertexVectors<double, 2, 3>& x : {VertexVectors<double, 2, 3>{a, a, a}, {a, a, b}, {a, b, b}}) {
     expect_zero(turning.gradient(x));
     expect_zero(turning.measure_gradients(x)[0]);
     EXPECT_EQ(turning.energy(x), turning.constant);

@@ -17,9 +17,9 @@ namespace {
 using integrator::EdgeSpring;
 using integrator::Hinge;
 using integrator::Membrane;
-using integrator::Stencil;
 using integrator::Turning;
 using integrator::Vec;
+using integrator::VertexVectors;
 using test::Big;
 using test::greatest;
 using test::Random;
@@ -27,17 +27,17 @@ using test::Random;
 constexpr int shapes = 100;
 
 template <class S, int Dim, std::size_t N>
-Stencil<S, Dim, N> minus(const Stencil<S, Dim, N>& a, const Stencil<S, Dim, N>& b) {
-  Stencil<S, Dim, N> result;
+VertexVectors<S, Dim, N> minus(const VertexVectors<S, Dim, N>& a, const VertexVectors<S, Dim, N>& b) {
+  VertexVectors<S, Dim, N> result;
   for (std::size_t i = 0; i < N; ++i) result[i] = a[i] - b[i];
   return result;
 }
 
 /// Central differences of a function of a stencil; their error is of the order of 1e-38.
 template <class Function, int Dim, std::size_t N>
-Stencil<Big, Dim, N> differences(const Function& f, Stencil<Big, Dim, N> x) {
+VertexVectors<Big, Dim, N> differences(const Function& f, VertexVectors<Big, Dim, N> x) {
   const Big step("1e-20");
-  Stencil<Big, Dim, N> result;
+  VertexVectors<Big, Dim, N> result;
   for (std::size_t i = 0; i < N; ++i) {
     for (int d = 0; d < Dim; ++d) {
       const Big at = x[i][d];
@@ -57,11 +57,11 @@ Big arc_tangent(const Big& sine, const Big& cosine) { return boost::multiprecisi
 
 /// What the forces say they measure, written again in another way.
 template <int Dim>
-std::vector<Big> measures(const EdgeSpring<Big, Dim>&, const Stencil<Big, Dim, 2>& x) {
+std::vector<Big> measures(const EdgeSpring<Big, Dim>&, const VertexVectors<Big, Dim, 2>& x) {
   return {boost::multiprecision::sqrt((x[1] - x[0]).squaredNorm())};
 }
 
-std::vector<Big> measures(const Membrane<Big>& f, const Stencil<Big, 3, 3>& x) {
+std::vector<Big> measures(const Membrane<Big>& f, const VertexVectors<Big, 3, 3>& x) {
   // Rest edges r, s in the plane; Green strain from the changes of squared lengths.
   const Big r = 1 / f.b11, sy = 1 / f.b22, sx = -f.b12 * r * sy;
   const Big rr = square_length(x[1] - x[0]) - r * r, ss = square_length(x[2] - x[0]) - (sx * sx + sy * sy);
@@ -70,13 +70,13 @@ std::vector<Big> measures(const Membrane<Big>& f, const Stencil<Big, 3, 3>& x) {
   return {e11, (ss / 2 - e11 * sx * sx - 2 * e12 * sx * sy) / (sy * sy), e12};
 }
 
-std::vector<Big> measures(const Hinge<Big>&, const Stencil<Big, 3, 4>& x) {
+std::vector<Big> measures(const Hinge<Big>&, const VertexVectors<Big, 3, 4>& x) {
   const Vec<Big, 3> e = x[1] - x[0], n1 = (x[0] - x[2]).cross(x[1] - x[2]), n2 = (x[1] - x[3]).cross(x[0] - x[3]);
   const Big length = boost::multiprecision::sqrt(e.squaredNorm());
   return {arc_tangent(n1.cross(n2).dot(e) / length, n1.dot(n2))};
 }
 
-std::vector<Big> measures(const Turning<Big>&, const Stencil<Big, 2, 3>& x) {
+std::vector<Big> measures(const Turning<Big>&, const VertexVectors<Big, 2, 3>& x) {
   const Vec<Big, 2> a = x[1] - x[0], b = x[2] - x[1];
   return {arc_tangent(a[0] * b[1] - a[1] * b[0], a.dot(b))};
 }
@@ -85,7 +85,7 @@ template <class F>
 class Elastic : public testing::Test {
  public:
   static constexpr std::size_t size = F::size;
-  using X = Stencil<double, F::dimension, size>;
+  using X = VertexVectors<double, F::dimension, size>;
   static F force(Random& random) { return test::random_force<F>(random); }
   static X shape(Random& random) { return test::random_stencil<size, F::dimension>(random, 1); }
 };
@@ -123,14 +123,14 @@ TYPED_TEST(Elastic, MeasureGradientsAreThoseOfTheMeasures) {
 
 /// Measures less what they are at rest.
 template <int Dim>
-std::vector<Big> strains(const EdgeSpring<Big, Dim>& f, const Stencil<Big, Dim, 2>& x) {
+std::vector<Big> strains(const EdgeSpring<Big, Dim>& f, const VertexVectors<Big, Dim, 2>& x) {
   return {measures(f, x)[0] - f.rest_length};
 }
 
-std::vector<Big> strains(const Membrane<Big>& f, const Stencil<Big, 3, 3>& x) { return measures(f, x); }
+std::vector<Big> strains(const Membrane<Big>& f, const VertexVectors<Big, 3, 3>& x) { return measures(f, x); }
 
 template <class F, int Dim, std::size_t N>
-std::vector<Big> strains(const F& f, const Stencil<Big, Dim, N>& x) {
+std::vector<Big> strains(const F& f, const VertexVectors<Big, Dim, N>& x) {
   const Big half_turn = boost::math::constants::pi<Big>();
   Big delta = measures(f, x)[0] - arc_tangent(f.rest.sine, f.rest.cosine);
   if (delta > half_turn) delta -= 2 * half_turn;

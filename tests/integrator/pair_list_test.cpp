@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "integrator/pair_list.h"
+#include "integrator/contact.h"
 
 #include <gtest/gtest.h>
 

@@ -10,11 +10,15 @@
 namespace noli::integrator::test {
 
 /// The books of so many windows together.
-template <int Dim>
-Books<double, Dim> run(Simulation<double, Dim>& simulation, std::uint64_t windows) {
+template <int Dim, class Run>
+Books<double, Dim> run_of(Run& simulation, std::uint64_t windows) {
   Books<double, Dim> books;
   for (std::uint64_t i = 0; i < windows; ++i) simulation.run_window(books);
   return books;
+}
+template <int Dim>
+Books<double, Dim> run(Simulation<double, Dim>& simulation, std::uint64_t windows) {
+  return run_of<Dim>(simulation, windows);
 }
 
 template <int Dim>

@@ -12,8 +12,8 @@ namespace noli::test {
 
 /// Each coordinate in [-reach, reach).
 template <std::size_t N, int Dim>
-integrator::Stencil<double, Dim, N> random_stencil(Random& random, double reach) {
-  integrator::Stencil<double, Dim, N> x;
+integrator::VertexVectors<double, Dim, N> random_stencil(Random& random, double reach) {
+  integrator::VertexVectors<double, Dim, N> x;
   for (auto& point : x) {
     for (int d = 0; d < Dim; ++d) point[d] = reach * (2 * random.unit() - 1);
   }
@@ -22,7 +22,7 @@ integrator::Stencil<double, Dim, N> random_stencil(Random& random, double reach)
 
 /// The greatest coordinate.
 template <class S, int Dim, std::size_t N>
-S greatest(const integrator::Stencil<S, Dim, N>& x) {
+S greatest(const integrator::VertexVectors<S, Dim, N>& x) {
   S result(0);
   for (const auto& point : x) result = std::max(result, S(point.cwiseAbs().maxCoeff()));
   return result;

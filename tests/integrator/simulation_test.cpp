@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "integrator/clocks.h"
-#include "integrator/particle.h"
+#include "integrator/kick.h"
 #include "models.h"
 #include "running.h"
 
@@ -349,7 +349,7 @@ class OneByOne {
 
   template <class F>
   void kick(const F& force, double t, double h) {
-    Stencil<double, 3, F::size> x;
+    VertexVectors<double, 3, F::size> x;
     for (std::size_t i = 0; i < F::size; ++i) x[i] = at(force.vertices[i], t);
     const auto gradient = force.gradient(x);
     for (std::size_t i = 0; i < F::size; ++i) {

@@ -18,17 +18,17 @@ using integrator::EdgeSpring;
 using integrator::ForceList;
 using integrator::Hinge;
 using integrator::Membrane;
-using integrator::Stencil;
 using integrator::Turning;
 using integrator::Vec;
+using integrator::VertexVectors;
 using test::Random;
 
 template <int Dim>
 using Points = std::vector<Vec<double, Dim>>;
 
 template <class F>
-Stencil<double, F::dimension, F::size> at(const F& force, const Points<F::dimension>& x) {
-  Stencil<double, F::dimension, F::size> result;
+VertexVectors<double, F::dimension, F::size> at(const F& force, const Points<F::dimension>& x) {
+  VertexVectors<double, F::dimension, F::size> result;
   for (std::size_t i = 0; i < F::size; ++i) result[i] = x[force.vertices[i]];
   return result;
 }
@@ -153,7 +153,7 @@ System<Membrane<double>> membranes(const Sheet& sheet) {
 System<Hinge<double>> hinges(const Sheet& sheet) {
   System<Hinge<double>> system{{}, sheet.x, sheet.inverse_mass};
   Sheet::folds([&](VertexId a, VertexId b, VertexId c, VertexId d) {
-    const Stencil<double, 3, 4> rest = {sheet.x[a], sheet.x[b], sheet.x[c], sheet.x[d]};
+    const VertexVectors<double, 3, 4> rest = {sheet.x[a], sheet.x[b], sheet.x[c], sheet.x[d]};
     system.list.add(Hinge<double>::from_rest({a, b, c, d}, rest, 1), 1);
   });
   return system;
@@ -180,7 +180,7 @@ System<Turning<double>> turnings(double unevenness, bool pinned) {
     system.inverse_mass.push_back(pinned && i == 0 ? 0 : 1 + unevenness * random.unit());
   }
   for (VertexId i = 0; i + 2 < 12; ++i) {
-    const Stencil<double, 2, 3> rest = {system.x[i], system.x[i + 1], system.x[i + 2]};
+    const VertexVectors<double, 2, 3> rest = {system.x[i], system.x[i + 1], system.x[i + 2]};
     system.list.add(Turning<double>::from_rest({i, i + 1, i + 2}, rest, 1), 1);
   }
   return system;

@@ -162,14 +162,8 @@ TEST(Stages, FloatingPointIsSilentOrRightForEdgeEdge) {
   check_float_stages<filter::EdgeEdgeFilter, FeaturePair::edge_edge>();
 }
 
-template <std::size_t C, template <std::size_t> class Problem, class Query>
-Verdict exact_verdict(const Query& q, const exact::ExponentRange& range, std::size_t axis) {
-  const Problem<C> problem(exact::scaled<C>(q, range));
-  return exact::CodimensionOne<Problem<C>, C>(problem, axis).decide().verdict;
-}
-
 /// One limb, two limbs, and any axis to begin with: the answer is the same.
-template <template <std::size_t> class Problem, FeaturePair Pair>
+template <FeaturePair Pair>
 void check_fixed_width() {
   StageResult one_limb, two_limbs;
   std::mt19937_64 random(8);
@@ -180,21 +174,18 @@ void check_fixed_width() {
       const bool truth = oracle::first_contact(test::motion_of(q)).time.has_value();
       const exact::ExponentRange range = exact::exponent_range(q);
       const std::size_t axis = static_cast<std::size_t>(i) % 3;
-      if (range.bits() <= 59) one_limb.add(exact_verdict<1, Problem>(q, range, axis), truth);
-      if (range.bits() <= 123) two_limbs.add(exact_verdict<2, Problem>(q, range, axis), truth);
+      if (range.bits() <= 59) one_limb.add(exact::decide<Pair>(exact::scaled<Wide<1>>(q, range), axis).verdict, truth);
+      if (range.bits() <= 123)
+        two_limbs.add(exact::decide<Pair>(exact::scaled<Wide<2>>(q, range), axis).verdict, truth);
     }
   }
   expect_useful(one_limb);
   expect_useful(two_limbs);
 }
 
-TEST(Stages, FixedWidthIsSilentOrRightForVertexFace) {
-  check_fixed_width<exact::VertexFaceProblem, FeaturePair::vertex_face>();
-}
+TEST(Stages, FixedWidthIsSilentOrRightForVertexFace) { check_fixed_width<FeaturePair::vertex_face>(); }
 
-TEST(Stages, FixedWidthIsSilentOrRightForEdgeEdge) {
-  check_fixed_width<exact::EdgeEdgeProblem, FeaturePair::edge_edge>();
-}
+TEST(Stages, FixedWidthIsSilentOrRightForEdgeEdge) { check_fixed_width<FeaturePair::edge_edge>(); }
 
 // --- By hand --------------------------------------------------------------------------------------------------------
 

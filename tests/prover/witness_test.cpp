@@ -13,57 +13,60 @@
 #include "proofs/prover/earliest.h"
 #include "proofs/prover/tokens/tokens.h"
 #include "proofs/prover/witness/roots.h"
-#include "proofs/prover/witness/witness_judge.h"
 #include "trajectory/blocks/bytes.h"
 #include "window_scenes.h"
 
 namespace noli::testing {
 namespace {
 
-using witness::Poly;
 using witness::Root;
 
 // --- roots ---
 
-Poly poly(std::initializer_list<long> coefficients) {
-  Poly f;
-  for (const long c : coefficients) f.emplace_back(c);
-  return f;
+Polynomial poly(std::initializer_list<long> coefficients) {
+  std::vector<Integer> c;
+  for (const long x : coefficients) c.emplace_back(x);
+  return Polynomial(std::move(c));
 }
+
+std::vector<Root> roots_within(const Polynomial& f, long from, long to) {
+  return witness::roots_within(f, Integer(from), Integer(to), 0);
+}
+
+double value(const Integer& bound, std::size_t e) { return std::ldexp(mpz_get_d(bound.get()), -static_cast<int>(e)); }
 
 TEST(Roots, AreEachInTheirOwnEnclosure) {
   // (4 t - 1) (2 t - 1) (t - 1), in [0, 1]
-  const auto roots = witness::roots_within(poly({-1, 7, -14, 8}), 0, 1, 0);
+  const auto roots = roots_within(poly({-1, 7, -14, 8}), 0, 1);
   ASSERT_EQ(roots.size(), 3u);
   for (const double root : {0.25, 0.5, 1.0}) {
     EXPECT_TRUE(std::ranges::any_of(roots, [&](const Root& r) {
-      return std::ldexp(r.l.get_d(), -static_cast<int>(r.e)) <= root &&
-             root <= std::ldexp(r.u.get_d(), -static_cast<int>(r.e));
+      return value(r.l, r.e) <= root && root <= value(r.u, r.e);
     })) << root;
   }
-  EXPECT_TRUE(witness::roots_within(poly({1, 0, 1}), -8, 8, 0).empty());
-  EXPECT_TRUE(witness::roots_within(poly({-3, 1}), 0, 2, 0).empty());
+  EXPECT_TRUE(roots_within(poly({1, 0, 1}), -8, 8).empty());
+  EXPECT_TRUE(roots_within(poly({-3, 1}), 0, 2).empty());
 }
 
 TEST(Roots, AtAnEndAreEnclosedFromWithin) {
-  const auto end = witness::roots_within(poly({-1, 1}), 0, 1, 0);
+  const auto end = roots_within(poly({-1, 1}), 0, 1);
   ASSERT_EQ(end.size(), 1u);
   EXPECT_LT(end[0].l, end[0].u);
   Root root = end[0];
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(witness::refine(poly({-1, 1}), root));
-  EXPECT_EQ(root.l, 31);
-  EXPECT_EQ(root.u, 32);
-  const auto begin = witness::roots_within(poly({0, 1}), 0, 1, 0);
+  EXPECT_EQ(root.l, Integer(31));
+  EXPECT_EQ(root.u, Integer(32));
+  const auto begin = roots_within(poly({0, 1}), 0, 1);
   ASSERT_EQ(begin.size(), 1u);
-  EXPECT_EQ(begin[0].u, 0);
-  EXPECT_EQ(witness::roots_within(poly({-1, 1}), 1, 1, 0).size(), 1u);
+  EXPECT_EQ(begin[0].u, Integer(0));
+  EXPECT_EQ(roots_within(poly({-1, 1}), 1, 1).size(), 1u);
 }
 
 TEST(Roots, OfTheLastUlpAreToldFromThatAtTheEnd) {
   // (t - 1) (2^70 t - (2^70 - 1)), in [0, 1]
-  const mpz_class n = mpz_class(1) << 70;
-  const Poly f = {n - 1, 1 - 2 * n, n};
-  const auto roots = witness::roots_within(f, 0, 1, 0);
+  const Integer n = Integer(1) << 70;
+  const Polynomial f({n - Integer(1), Integer(1) - (n << 1), n});
+  const auto roots = roots_within(f, 0, 1);
   ASSERT_EQ(roots.size(), 2u);
   for (Root root : roots) {
     while (root.e < 100 && witness::refine(f, root)) EXPECT_TRUE(witness::changes_sign(f, root));
@@ -159,15 +162,17 @@ TEST(Witness, ContactsInTheFirst2ToMinus1024OfAStepHaveOne) {
 
 // --- the judge ---
 
+using Coefficients = std::vector<mpz_class>;  ///< as they are written, zeros at the end included
+
 /// The point 0 rests in the origin; the edge 1-2 comes over it when (1 + t)^2 = 2. Its ends are at -(1 + t), -1 and 2,
 /// 1 + t.
 class Judge : public ::testing::Test {
  protected:
-  using Side = std::vector<std::pair<VertexId, Poly>>;
+  using Side = std::vector<std::pair<VertexId, Coefficients>>;
   struct Fields {
     std::uint32_t i = 0, j = 1;
     Side p, q;
-    Poly g;
+    Coefficients g;
     std::uint64_t e = 2;
     mpz_class l = 1, u = 2;
   };
@@ -178,9 +183,9 @@ class Judge : public ::testing::Test {
     mesh.points = {0};
     right.i = 1;
     right.j = 0;
-    right.p = {{0, poly({1})}};
-    right.q = {{1, poly({1, 1})}, {2, poly({1})}};
-    right.g = poly({-1, 2, 1});
+    right.p = {{0, Coefficients{1}}};
+    right.q = {{1, Coefficients{1, 1}}, {2, Coefficients{1}}};
+    right.g = Coefficients{-1, 2, 1};
   }
 
   static void put_number(std::string& bytes, const mpz_class& n) {
@@ -188,7 +193,7 @@ class Judge : public ::testing::Test {
     mpz_set(value.get(), n.get_mpz_t());
     put_sint(bytes, value);
   }
-  static void put_poly(std::string& bytes, const Poly& f) {
+  static void put_poly(std::string& bytes, const Coefficients& f) {
     put(bytes, static_cast<std::uint8_t>(f.size()));
     for (const mpz_class& c : f) put_number(bytes, c);
   }
@@ -231,7 +236,7 @@ class Judge : public ::testing::Test {
 
 TEST_F(Judge, TakesAWitnessOfTheSquareRootOfTwo) {
   EXPECT_EQ(fault([](Fields&) {}), "");
-  EXPECT_EQ(fault([](Fields& w) { w.g = poly({1, -2, -1}); }), "");
+  EXPECT_EQ(fault([](Fields& w) { w.g = Coefficients{1, -2, -1}; }), "");
   EXPECT_EQ(fault([](Fields& w) { w.e = 8192, w.l = mpz_class(1) << 8190, w.u = mpz_class(1) << 8191; }), "");
   EXPECT_EQ(fault([](Fields& w) { w.q.push_back({1, w.g}); }), "") << "g divides that weight";
 }
@@ -256,12 +261,12 @@ TEST_F(Judge, RefusesOtherTimes) {
 }
 
 TEST_F(Judge, RefusesOtherWeights) {
-  EXPECT_EQ(fault([](Fields& w) { w.q.push_back({1, poly({-1, 3})}); }), "a weight may be negative");
-  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = poly({-1}); }), "a weight may be negative");
-  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = poly({0}); }), "a sum of weights may not be positive");
-  EXPECT_EQ(fault([](Fields& w) { w.q[0].second = poly({1}); }), "the points do not meet");
-  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = Poly(33, 1); }), "a polynomial has 1 to 32 coefficients");
-  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = Poly(32, 1); }), "");
+  EXPECT_EQ(fault([](Fields& w) { w.q.push_back({1, Coefficients{-1, 3}}); }), "a weight may be negative");
+  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = Coefficients{-1}; }), "a weight may be negative");
+  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = Coefficients{0}; }), "a sum of weights may not be positive");
+  EXPECT_EQ(fault([](Fields& w) { w.q[0].second = Coefficients{1}; }), "the points do not meet");
+  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = Coefficients(33, 1); }), "a polynomial has 1 to 32 coefficients");
+  EXPECT_EQ(fault([](Fields& w) { w.p[0].second = Coefficients(32, 1); }), "");
   EXPECT_EQ(fault([](Fields& w) { w.p[0].second = {}; }), "a polynomial has 1 to 32 coefficients");
 }
 
@@ -284,8 +289,8 @@ TEST_F(Judge, RefusesOtherBytes) {
 /// At t = 1/2, where the points are 1/2 apart or so.
 TEST_F(Judge, KnowsTheLeastDistance) {
   const auto beside = [](Fields& w) {
-    w.q = {{1, poly({1})}, {2, poly({1})}};
-    w.g = poly({-1, 2});
+    w.q = {{1, Coefficients{1}}, {2, Coefficients{1}}};
+    w.g = Coefficients{-1, 2};
     w.e = 1;
     w.l = w.u = 1;
   };
@@ -308,10 +313,10 @@ TEST_F(Judge, KnowsBreakpoints) {
   scene.mesh.points = {a, b};
   mesh = scene.mesh;
   lines = scene.lines();
-  right = {0, 1, {{a, poly({1})}}, {{b, poly({1})}}, poly({-2, 1}), 0, 1, 3};  // in halves
+  right = {0, 1, {{a, Coefficients{1}}}, {{b, Coefficients{1}}}, Coefficients{-2, 1}, 0, 1, 3};  // in halves
   EXPECT_EQ(fault([](Fields&) {}), "");
   EXPECT_EQ(fault([](Fields& w) { w.l = 0; }), "a vertex has a breakpoint in the enclosure");
-  EXPECT_EQ(fault([](Fields& w) { w.l = w.u = 4, w.g = poly({-4, 1}); }), "the points do not meet");
+  EXPECT_EQ(fault([](Fields& w) { w.l = w.u = 4, w.g = Coefficients{-4, 1}; }), "the points do not meet");
 }
 
 TEST_F(Judge, KnowsWhatIsNotCompared) {

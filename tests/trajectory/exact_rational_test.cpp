@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/formats/exact_rational.h"
+#include "trajectory/formats/query_csv.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "trajectory/formats/file_info.h"
 
 #include "support.h"
-#include "trajectory/zero_area.h"
+#include "trajectory/formats/polygons.h"
 
 namespace noli {
 namespace {

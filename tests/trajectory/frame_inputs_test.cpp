@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 #include "support.h"
-#include "trajectory/formats/frame_formats.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/formats/obj.h"
 #include "trajectory/formats/write_ply.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "support.h"
-#include "trajectory/formats/frame_formats.h"
 #include "trajectory/formats/write_ply.h"
 
 namespace noli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/formats/text_digits.h"
+#include "trajectory/formats/frame_look.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(TextDigits, FixedDecimals) {
   EXPECT_EQ(digits.digits(), 9u);
   EXPECT_EQ(digits.decimals(), 6u);
   EXPECT_EQ(digits.unit(), -6);
-  EXPECT_EQ(digits.words(), "text with 9 digits, 6 decimals");
+  EXPECT_EQ(digits.text(), "text with 9 digits, 6 decimals");
 }
 
 TEST(TextDigits, BelowOneTheUnitStaysThatOfTheDecimals) {
@@ -45,7 +45,7 @@ TEST(TextDigits, Exponents) {
 
 TEST(TextDigits, WholeNumbers) {
   EXPECT_EQ(of({"10", "-250"}).unit(), 0);
-  EXPECT_EQ(of({"1"}).words(), "text with 1 digit, 0 decimals");
+  EXPECT_EQ(of({"1"}).text(), "text with 1 digit, 0 decimals");
 }
 
 TEST(TextDigits, WhatIsNoNumberCountsNothing) {

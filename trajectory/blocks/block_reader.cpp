@@ -10,7 +10,7 @@
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/blocks/crc32c.h"
 #include "trajectory/error.h"
-#include "trajectory/regular_file.h"
+#include "trajectory/input_file.h"
 #include "trajectory/text.h"
 
 namespace noli {

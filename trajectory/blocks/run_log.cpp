@@ -13,7 +13,7 @@
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/blocks/crc32c.h"
 #include "trajectory/error.h"
-#include "trajectory/regular_file.h"
+#include "trajectory/input_file.h"
 
 namespace noli {
 namespace {

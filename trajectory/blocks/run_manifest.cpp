@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "trajectory/error.h"
-#include "trajectory/regular_file.h"
+#include "trajectory/input_file.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

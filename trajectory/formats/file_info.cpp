@@ -6,10 +6,10 @@
 #include "trajectory/cells.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/ply_header.h"
+#include "trajectory/formats/polygons.h"
 #include "trajectory/merge.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
-#include "trajectory/zero_area.h"
 
 namespace noli {
 namespace {

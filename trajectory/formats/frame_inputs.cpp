@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "trajectory/error.h"
-#include "trajectory/formats/frame_formats.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/text.h"
 
 namespace noli {

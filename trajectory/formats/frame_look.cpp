@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "trajectory/error.h"
-#include "trajectory/formats/frame_formats.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/formats/ply_header.h"
-#include "trajectory/formats/text_digits.h"
 #include "trajectory/input_file.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
@@ -32,7 +31,7 @@ class Spelling {
 
 /// Whether text with so many digits may have been rounded.
 void take_digits(const TextDigits& digits, std::size_t enough, FrameFacts& facts) {
-  facts.numbers = digits.words();
+  facts.numbers = digits.text();
   facts.decimals = digits.decimals();
   if (digits.digits() < enough) facts.rounded_at = digits.unit();
 }
@@ -231,6 +230,48 @@ FrameFacts file_facts(const std::filesystem::path& path, const std::function<boo
   facts.looked_at = true;
   facts.sha256 = hash.digest();
   return facts;
+}
+
+void TextDigits::add(std::string_view word) {
+  std::size_t whole = 0, fraction = 0, zeros = 0, significant = 0;
+  bool point = false;
+  std::size_t at = !word.empty() && (word[0] == '-' || word[0] == '+') ? 1 : 0;
+  for (; at < word.size(); ++at) {
+    const char c = word[at];
+    if (c == '.' && !point) {
+      point = true;
+    } else if (c >= '0' && c <= '9') {
+      ++(point ? fraction : whole);
+      ++(significant > 0 || c != '0' ? significant : zeros);
+    } else {
+      break;
+    }
+  }
+  if (whole + fraction == 0) return;
+  int exponent = 0;
+  if (at < word.size() && ((word[at] | 0x20) != 'e' || parse_number(word.substr(at + 1), exponent) != std::errc{}))
+    return;
+  any_ = true;
+  const int behind = static_cast<int>(fraction) - exponent;
+  decimals_ = std::max(decimals_, static_cast<std::size_t>(std::max(behind, 0)));
+  if (behind > 0) least_decimals_ = std::min(least_decimals_.value_or(decimals_), static_cast<std::size_t>(behind));
+  if (significant == 0) return;
+  digits_ = std::max(digits_, significant);
+  const int first = static_cast<int>(whole) - static_cast<int>(zeros) - 1 + exponent;
+  largest_ = std::max(largest_.value_or(first), first);
+}
+
+std::optional<int> TextDigits::unit() const {
+  if (!any_) return std::nullopt;
+  // 0.000001 beside 4: no notation with so few digits writes that, but a fixed number of decimals.
+  const bool fixed = least_decimals_ && *least_decimals_ == decimals_ && digits_ < decimals_;
+  if (!largest_ || fixed) return -static_cast<int>(decimals_);
+  return *largest_ - static_cast<int>(digits_) + 1;
+}
+
+std::string TextDigits::text() const {
+  return fmt::format("text with {} digit{}, {} decimal{}", digits_, digits_ == 1 ? "" : "s", decimals_,
+                     decimals_ == 1 ? "" : "s");
 }
 
 }  // namespace noli

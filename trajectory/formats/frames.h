@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +24,7 @@
 
 namespace noli {
 
-/// Reads a frame; the extension says how (frame_formats.h). Throws InputError, also for other extensions.
+/// Reads a frame; the extension says how (mesh_format). Throws InputError, also for other extensions.
 Frame read_frame(const std::filesystem::path& path);
 
 /// The same for the bytes of a file; `path` says how to read them and is what errors call them.
@@ -81,5 +82,14 @@ class FrameSequence {
   Mesh mesh_;
   std::vector<Position> x_t0_, x_t1_;
 };
+
+enum class MeshFormat { ply, obj };
+
+/// By the extension, in any case. Throws InputError for all but .ply and .obj, with conversion_advice().
+MeshFormat mesh_format(const std::filesystem::path& path);
+
+/// How to make frames of a file by its extension (.npz .npy .abc .usd .stl .vtk .vtu .gz .glb .fbx and others), one
+/// line; "" for extensions that are not known.
+std::string conversion_advice(const std::filesystem::path& path);
 
 }  // namespace noli

@@ -3,17 +3,244 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
 
 #include "trajectory/cells.h"
 #include "trajectory/error.h"
 #include "trajectory/formats/ply_header.h"
-#include "trajectory/formats/ply_source.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
 namespace noli {
 namespace {
+
+// --- The values of a body, one after another, from ASCII or from binary content --------------------------------------
+//
+// Both sources have the same interface; the reader is a template over them:
+//   require_room(element)   fails when the remaining bytes cannot hold what the header promises
+//   begin_entry(element, i), end_entry()
+//   real(type)              a finite coordinate           integer(type)   a whole number
+//   list_size(type, items)  a length that fits the rest   skip(type)      a value that nobody needs
+//   finish()                fails when anything follows
+//   fail(problem)           InputError at the value that was read last
+
+/// Calls `f` with a value-initialised number of the C++ type that `type` stands for.
+template <class F>
+auto with_type(PlyType type, F&& f) {
+  switch (type) {
+    case PlyType::int8: return f(std::int8_t{});
+    case PlyType::uint8: return f(std::uint8_t{});
+    case PlyType::int16: return f(std::int16_t{});
+    case PlyType::uint16: return f(std::uint16_t{});
+    case PlyType::int32: return f(std::int32_t{});
+    case PlyType::uint32: return f(std::uint32_t{});
+    case PlyType::int64: return f(std::int64_t{});
+    case PlyType::uint64: return f(std::uint64_t{});
+    case PlyType::float32: return f(float{});
+    case PlyType::float64: break;
+  }
+  return f(double{});
+}
+
+/// Whether an integer is exactly a double: no more than 53 bits between its highest and its lowest one.
+template <class T>
+bool is_exactly_double(T value) {
+  const auto magnitude =
+      value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+  return magnitude == 0 || std::bit_width(magnitude) - std::countr_zero(magnitude) <= 53;
+}
+
+/// What both sources have: names for errors, and the checks on a value once it is there.
+template <class Source>
+class SourceBase {
+ public:
+  /// A coordinate: finite, and exactly a double.
+  double real(PlyType type) {
+    return with_type(type, [this](auto zero) {
+      using T = decltype(zero);
+      const T value = self().template value<T>();
+      if constexpr (std::is_integral_v<T>) {
+        if (!is_exactly_double(value)) self().fail(fmt::format("the integer {} is not exactly a double", value));
+      } else {
+        if (!std::isfinite(value)) self().fail(fmt::format("expected a finite number, found {}", value));
+      }
+      return static_cast<double>(value);
+    });
+  }
+
+  /// Precondition: is_integer(type).
+  std::int64_t integer(PlyType type) {
+    return with_type(type, [this](auto zero) -> std::int64_t {
+      using T = decltype(zero);
+      if constexpr (std::is_integral_v<T>) {
+        const T value = self().template value<T>();
+        if (std::is_same_v<T, std::uint64_t> && value > static_cast<T>(std::numeric_limits<std::int64_t>::max())) {
+          self().fail(fmt::format("the number {} is too large", value));
+        }
+        return static_cast<std::int64_t>(value);
+      }
+      return 0;
+    });
+  }
+
+  /// Length of a list whose items take at least `item_bytes` bytes each.
+  std::uint64_t list_size(PlyType type, std::uint64_t item_bytes) {
+    const std::int64_t size = integer(type);
+    if (size < 0) self().fail(fmt::format("expected the length of a list, found {}", size));
+    if (static_cast<std::uint64_t>(size) > self().remaining() / item_bytes) {
+      self().fail(fmt::format("truncated: a list of {} items, but only {} bytes remain", size, self().remaining()));
+    }
+    return static_cast<std::uint64_t>(size);
+  }
+
+ protected:
+  /// Fails when the entries of an element, at least `bytes` bytes each, cannot fit into what remains and `slack` bytes
+  /// more.
+  void require_bytes(const PlyElement& element, std::uint64_t bytes, std::uint64_t slack) {
+    if (element.count > (self().remaining() + slack) / bytes) {
+      self().fail(fmt::format(
+          "truncated: the header promises {} entries of {}, at least {} bytes each, but only {} bytes remain",
+          element.count, in_quotes(element.name), bytes, self().remaining()));
+    }
+  }
+
+ private:
+  Source& self() { return static_cast<Source&>(*this); }
+};
+
+template <std::endian Order>
+class BinarySource : public SourceBase<BinarySource<Order>> {
+ public:
+  BinarySource(std::string_view bytes, const PlyHeader& header, const std::string& file)
+      : bytes_(bytes), file_(file), at_(header.body_offset), last_(at_) {}
+
+  static std::uint64_t item_bytes(PlyType type) { return size_of(type); }
+
+  void require_room(const PlyElement& element) {
+    last_ = at_;
+    std::uint64_t bytes = 0;
+    for (const PlyProperty& p : element.properties) bytes += size_of(p.count_type.value_or(p.type));
+    if (element.count > 0) this->require_bytes(element, bytes, 0);
+  }
+  void begin_entry(const PlyElement& element, std::uint64_t entry) {
+    element_ = &element;
+    entry_ = entry;
+  }
+  void end_entry() {}
+
+  template <class T>
+  T value() {
+    last_ = at_;
+    if (remaining() < sizeof(T))
+      fail(fmt::format("truncated: the file ends within entry {} of {}", entry_, in_quotes(element_->name)));
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), bytes_.data() + at_, sizeof(T));
+    if constexpr (Order != std::endian::native) std::reverse(raw.begin(), raw.end());
+    at_ += sizeof(T);
+    return std::bit_cast<T>(raw);
+  }
+  void skip(PlyType type) {
+    with_type(type, [this](auto zero) { this->value<decltype(zero)>(); });
+  }
+  std::uint64_t remaining() const { return bytes_.size() - at_; }
+
+  void finish() {
+    last_ = at_;
+    if (remaining() > 0) fail(fmt::format("expected the end of the file, found {} more bytes", remaining()));
+  }
+  [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_, byte_place(last_), problem); }
+
+ private:
+  std::string_view bytes_;
+  const std::string& file_;
+  std::size_t at_, last_;  ///< offsets of the next value and of the one before
+  const PlyElement* element_ = nullptr;
+  std::uint64_t entry_ = 0;
+};
+
+class AsciiSource : public SourceBase<AsciiSource> {
+ public:
+  AsciiSource(std::string_view bytes, const PlyHeader& header, const std::string& file)
+      : file_(file), lines_(bytes.substr(header.body_offset), header.body_line), place_(header.body_line) {}
+
+  static std::uint64_t item_bytes(PlyType) { return 2; }
+
+  /// An entry is a line of one byte and its end; the last line end may be missing.
+  void require_room(const PlyElement& element) { require_bytes(element, 2, 1); }
+  void begin_entry(const PlyElement& element, std::uint64_t entry) {
+    element_ = &element;
+    std::string_view line;
+    if (!next_filled_line(line)) {
+      fail(fmt::format("truncated: the file ends before entry {} of {}", entry, in_quotes(element.name)));
+    }
+    words_ = Words(line);
+    line_bytes_ = line.size();
+  }
+  void end_entry() {
+    if (!words_.at_end()) {
+      fail(fmt::format("expected the end of the line after an entry of {}, found {}", in_quotes(element_->name),
+                       in_quotes(words_.next())));
+    }
+    line_bytes_ = 0;
+  }
+
+  template <class T>
+  T value() {
+    const std::string_view word = next_word();
+    T result{};
+    if constexpr (std::is_floating_point_v<T>) {
+      if (const std::string problem = parse_finite(word, result); !problem.empty()) fail(problem);
+    } else {
+      const std::errc error = parse_number(word, result);
+      if (error == std::errc::result_out_of_range)
+        fail(fmt::format("{} does not fit the type declared in the header", in_quotes(word)));
+      if (error != std::errc{}) fail(fmt::format("expected a whole number, found {}", in_quotes(word)));
+    }
+    return result;
+  }
+  void skip(PlyType) { next_word(); }
+  /// Bytes that may still hold values: of the current line while it is being read, else of the rest.
+  std::uint64_t remaining() const { return line_bytes_ > 0 ? line_bytes_ + 1 : lines_.rest().size(); }
+
+  void finish() {
+    std::string_view line;
+    if (next_filled_line(line)) fail(fmt::format("expected the end of the file, found {}", in_quotes(line)));
+  }
+  [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_, line_place(place_), problem); }
+
+ private:
+  bool next_filled_line(std::string_view& line) {
+    line_bytes_ = 0;
+    while (lines_.next(line)) {
+      place_ = lines_.number();
+      if (!Words(line).at_end()) return true;
+    }
+    return false;
+  }
+  std::string_view next_word() {
+    const std::string_view word = words_.next();
+    if (word.empty()) fail(fmt::format("the line ends within an entry of {}", in_quotes(element_->name)));
+    return word;
+  }
+
+  const std::string& file_;
+  Lines lines_;
+  std::size_t place_;
+  Words words_{std::string_view{}};
+  std::size_t line_bytes_ = 0;  ///< of the line that is being read; 0 between lines
+  const PlyElement* element_ = nullptr;
+};
+
+// --- The reader -----------------------------------------------------------------------------------------------------
 
 /// Errors that concern the declaration of an element point to its line in the header.
 [[noreturn]] void fail_header(const std::string& file, const PlyElement& element, const std::string& problem) {
@@ -192,7 +419,6 @@ class BodyReader {
 Frame parse_ply(std::string_view bytes, const std::string& file, Polygons* polygons) {
   if (bytes.empty()) throw InputError(file, "", "is empty");
   const PlyHeader header = parse_ply_header(bytes, file);
-  using ply::BinarySource;
   switch (header.format) {
     case PlyFormat::binary_little_endian:
       return BodyReader<BinarySource<std::endian::little>>(bytes, header, file, polygons).read();
@@ -200,7 +426,7 @@ Frame parse_ply(std::string_view bytes, const std::string& file, Polygons* polyg
       return BodyReader<BinarySource<std::endian::big>>(bytes, header, file, polygons).read();
     case PlyFormat::ascii: break;
   }
-  return BodyReader<ply::AsciiSource>(bytes, header, file, polygons).read();
+  return BodyReader<AsciiSource>(bytes, header, file, polygons).read();
 }
 
 Frame read_ply(const std::filesystem::path& path) { return parse_ply(read_whole_file(path), path.string()); }

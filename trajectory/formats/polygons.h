@@ -44,4 +44,7 @@ std::string refused_polygon(std::size_t corners);
 double largest_non_planarity(const Mesh& mesh, std::span<const Fan> fans, std::span<const Position> positions,
                              double at_least = 0);
 
+/// Whether three points are on one line, exactly. Precondition: finite.
+bool has_zero_area(const Position& a, const Position& b, const Position& c);
+
 }  // namespace noli

@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "integrator/scene/json_text.h"
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/generators.h"
 #include "integrator/scene/shapes/place.h"
-#include "integrator/scene/shapes/select.h"
 #include "trajectory/error.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
@@ -103,16 +104,13 @@ void require_different(const std::vector<std::array<VertexId, N>>& cells, const 
   }
 }
 
-double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
-
 double edge_length(const std::vector<Position>& x, const std::array<VertexId, 2>& edge) {
   return length(to_vec(x[edge[1]]) - to_vec(x[edge[0]]));
 }
 
 double face_area(const std::vector<Position>& x, const std::array<VertexId, 3>& face) {
   const Vec3 a = to_vec(x[face[1]]) - to_vec(x[face[0]]), b = to_vec(x[face[2]]) - to_vec(x[face[0]]);
-  const Vec3 n(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-  return length(n) / 2;
+  return length(cross(a, b)) / 2;
 }
 
 /// Mass of a sheet's area, of a curve's length, of a vertex by itself.
@@ -163,6 +161,44 @@ void require_masses(const BodyMesh& made, const Field& material) {
   }
 }
 
+// --- Selections ------------------------------------------------------------------------------------------------------
+
+/// Vertices of one part of a selection.
+struct Part {
+  const Shape& shape;
+  const std::vector<Position>& start;
+  const Field& at;
+
+  std::vector<VertexId> operator()(VertexId vertex) const {
+    if (vertex >= shape.mesh.vertex_count) {
+      at.fail(fmt::format("the body has no vertex {}; expected a number below {}", vertex, shape.mesh.vertex_count));
+    }
+    return {vertex};
+  }
+
+  std::vector<VertexId> operator()(const std::string& name) const {
+    if (name == "all") return all();
+    if (const auto set = shape.sets.find(name); set != shape.sets.end()) return set->second;
+    std::vector<std::string> names{"all"};
+    for (const auto& set : shape.sets) names.push_back(set.first);
+    at.fail(fmt::format("the body has no set of vertices {}; the nearest is {}", Json(name).dump(),
+                        Json(nearest(name, names)).dump()));
+  }
+
+  std::vector<VertexId> operator()(const Box& box) const {
+    std::vector<VertexId> inside = all();
+    std::erase_if(inside, [&](VertexId i) { return !contains(box, start[i]); });
+    if (inside.empty()) at["box"].fail("expected at least one vertex of the body in this box at the start, found none");
+    return inside;
+  }
+
+  std::vector<VertexId> all() const {
+    std::vector<VertexId> ids(shape.mesh.vertex_count);
+    for (VertexId i = 0; i < ids.size(); ++i) ids[i] = i;
+    return ids;
+  }
+};
+
 }  // namespace
 
 Field field_of_body(const Scene& scene, std::size_t body) {
@@ -194,6 +230,25 @@ BodyMesh make_body(const Scene& scene, std::size_t index) {
   require_masses(made, at["material"]);
   made.pinned = select(body.pin, made.shape, made.start, at["pin"]);
   return made;
+}
+
+bool contains(const Box& box, const Position& x) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(box.low[axis] <= x[axis] && x[axis] <= box.high[axis])) return false;
+  }
+  return true;
+}
+
+std::vector<VertexId> select(const Selection& selection, const Shape& shape, const std::vector<Position>& start,
+                             const Field& at) {
+  std::vector<VertexId> ids;
+  for (std::size_t i = 0; i < selection.size(); ++i) {
+    const std::vector<VertexId> more = std::visit(Part{shape, start, at[i]}, selection[i]);
+    ids.insert(ids.end(), more.begin(), more.end());
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
 }
 
 }  // namespace noli::integrator

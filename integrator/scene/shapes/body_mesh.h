@@ -38,4 +38,12 @@ Position centre(const std::vector<Position>& x, const std::array<VertexId, N>& c
 /// The field of a body.
 Field field_of_body(const Scene& scene, std::size_t body);
 
+/// Vertices by their numbers in the body, ascending, each once. Boxes choose among the start positions. `at` is the
+/// selection's field. Throws InputError: a vertex or a set that is not there, a box without vertices.
+std::vector<VertexId> select(const Selection& selection, const Shape& shape, const std::vector<Position>& start,
+                             const Field& at);
+
+/// Closed.
+bool contains(const Box& box, const Position& x);
+
 }  // namespace noli::integrator

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrator/scene/shapes/curve.h"
+#include "integrator/scene/shapes/generators.h"
+#include "integrator/scene/shapes/turn.h"
 
 #include <cmath>
 #include <stdexcept>
 
 namespace noli::integrator {
 namespace {
-
-double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
 
 /// Uniform Catmull-Rom spline from b to c; t in [0, 1].
 Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double t) {
@@ -55,6 +55,35 @@ std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t
   }
   if (!kind.closed) result.push_back(line.back());
   return result;
+}
+
+Shape make_shape(const LoosePoints& points) {
+  Shape shape;
+  for (const Position& x : points.at) shape.mesh.points.push_back(shape.add(x));
+  return shape;
+}
+
+Shape make_shape(const Chain& chain) {
+  Shape shape;
+  const CurveKind kind{chain.smooth, chain.closed};
+  for (const Vec3& x : along_curve(chain.points, chain.segments, kind)) shape.add(to_position(x));
+  if (chain.closed) {
+    for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, (i + 1) % chain.segments});
+    return shape;
+  }
+  for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, i + 1});
+  shape.sets = {{"first", {0}}, {"last", {chain.segments}}};
+  return shape;
+}
+
+Shape make_shape(const Ring& ring) {
+  Shape shape;
+  for (VertexId i = 0; i < ring.segments; ++i) {
+    const CosSin at = part_of_turn(i, ring.segments);
+    shape.add({ring.radius * at.cos, ring.radius * at.sin, 0});
+    shape.mesh.edges.push_back({i, (i + 1) % ring.segments});
+  }
+  return shape;
 }
 
 }  // namespace noli::integrator

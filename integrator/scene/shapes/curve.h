@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points at equal distances along a curve through given points. Only + - * / sqrt.
+// Vectors of meshes, and points at equal distances along a curve through given points. Only + - * / sqrt.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "integrator/vector.h"
@@ -17,6 +18,8 @@ inline Position to_position(const Vec3& x) { return {x[0], x[1], x[2]}; }
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+
+inline double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
 
 struct CurveKind {
   bool smooth = false;  ///< the Catmull-Rom curve instead of straight lines

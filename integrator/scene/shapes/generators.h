@@ -10,7 +10,7 @@
 //            vertices, as many as edges
 //   ring     n vertices, the first on the x axis, counterclockwise
 //   grid     rows from bottom to top; in each cell the diagonal from left bottom to right top, or, alternating, in
-//            every second cell the other one; finer in one place as refine.h says. Faces look to +z
+//            every second cell the other one; finer in one place by halving (generators_sheet.cpp). Faces look to +z
 //   ribbon   rows across the band, from first to last; a row's direction is that of the one before, made perpendicular
 //            to the curve. Faces as those of a grid with the curve as its x
 //   disc     the centre, then rings of 6, 12, 18, ... vertices. Faces look to +z
@@ -38,5 +38,17 @@ Shape make_shape(const Sphere& sphere);
 Shape make_shape(const SurfaceOfBox& box);
 Shape make_shape(const Torus& torus);
 Shape make_shape(const Pyramid& pyramid);
+
+/// Two triangles for a cell with the corners a b c d, counterclockwise: cut from a to c, or from b to d.
+inline void add_cell(Mesh& mesh, const std::array<VertexId, 4>& corners, bool other_diagonal) {
+  const auto [a, b, c, d] = corners;
+  mesh.faces.push_back(other_diagonal ? std::array{a, b, d} : std::array{a, b, c});
+  mesh.faces.push_back(other_diagonal ? std::array{b, c, d} : std::array{a, c, d});
+}
+
+/// Coordinate i of n + 1 equally spaced ones from -size/2 to size/2: symmetric bit for bit.
+inline double centred(std::uint32_t i, std::uint32_t n, double size) {
+  return (static_cast<double>(2 * std::int64_t{i} - n) / n) * (size / 2);
+}
 
 }  // namespace noli::integrator

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/generators.h"
-#include "integrator/scene/shapes/refine.h"
 #include "integrator/scene/shapes/turn.h"
 #include "trajectory/stop.h"
 
@@ -16,17 +17,10 @@ void add_lattice_faces(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, Di
   for (std::uint32_t j = 0; j < rows; ++j) {
     end_if_stopped();
     for (std::uint32_t i = 0; i < columns; ++i) {
-      const VertexId a = j * (columns + 1) + i, b = a + 1, d = a + columns + 1, c = d + 1;  // counterclockwise a b c d
-      const bool other = diagonals == Diagonals::alternating && (i + j) % 2 == 1;
-      mesh.faces.push_back(other ? std::array{a, b, d} : std::array{a, b, c});
-      mesh.faces.push_back(other ? std::array{b, c, d} : std::array{a, c, d});
+      const VertexId a = j * (columns + 1) + i, d = a + columns + 1;
+      add_cell(mesh, {a, a + 1, d + 1, d}, diagonals == Diagonals::alternating && (i + j) % 2 == 1);
     }
   }
-}
-
-/// Coordinate i of n + 1 equally spaced ones from -size/2 to size/2: symmetric bit for bit.
-double centred(std::uint32_t i, std::uint32_t n, double size) {
-  return (static_cast<double>(2 * std::int64_t{i} - n) / n) * (size / 2);
 }
 
 /// Vertices of which this holds.
@@ -45,30 +39,149 @@ std::vector<VertexId> stride(VertexId first, VertexId step, std::uint32_t count)
   return ids;
 }
 
-/// Part of x that is perpendicular to the unit vector t, of length 1.
-Vec3 perpendicular(const Vec3& x, const Vec3& t) {
-  const Vec3 p = x - x.dot(t) * t;
-  const double length = std::sqrt(p.squaredNorm());
-  if (!(length > 0)) throw std::invalid_argument("the band's side is along its curve");
-  return p / length;
+Vec3 unit(const Vec3& x, const char* problem) {
+  if (!(length(x) > 0)) throw std::invalid_argument(problem);
+  return x / length(x);
 }
 
-Vec3 unit(const Vec3& x) {
-  const double length = std::sqrt(x.squaredNorm());
-  if (!(length > 0)) throw std::invalid_argument("the curve turns back on itself");
-  return x / length;
+/// Part of x that is perpendicular to the unit vector t, of length 1.
+Vec3 perpendicular(const Vec3& x, const Vec3& t) {
+  return unit(x - x.dot(t) * t, "the band's side is along its curve");
 }
 
 /// Direction of a curve at its k-th point.
 Vec3 tangent(const std::vector<Vec3>& x, std::size_t k) {
   const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, x.size() - 1);
-  return unit(x[after] - x[before]);
+  return unit(x[after] - x[before], "the curve turns back on itself");
 }
 
 /// Vertex j of ring k of a disc.
 VertexId disc_vertex(std::uint32_t k, std::uint32_t j) {
   if (k == 0) return 0;
   return 1 + 3 * k * (k - 1) + j % (6 * k);
+}
+
+// --- Smaller triangles in one place ----------------------------------------------------------------------------------
+
+using Edge = std::array<VertexId, 2>;
+
+Edge sorted(VertexId a, VertexId b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Triangles made smaller by bisection of the newest vertex (Mitchell, "A comparison of adaptive refinement techniques
+/// for elliptic problems", 1989): each triangle has a peak and, opposite to it, a base; two triangles that share a base
+/// are halved at its middle, which is the peak of their halves. A neighbour whose base is another edge is halved first.
+/// So no vertex ever lies inside an edge, and the shapes that come about are the first ones and a few more. Faces are
+/// kept with their peaks first. Angles are not judged, and no vertex moves.
+class Bisection {
+ public:
+  explicit Bisection(Shape& shape) : shape_(shape), faces_(shape.mesh.faces) {
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      put_peak_first(faces_[f]);
+      for (const Edge& edge : edges(faces_[f])) on_[edge].push_back(f);
+    }
+  }
+
+  /// Halves face f, and what has to be halved for that.
+  void halve(std::size_t f) {
+    const Edge base = base_of(f);
+    std::size_t other = across(base, f);
+    while (other != none && base_of(other) != base) {
+      halve(other);
+      other = across(base, f);
+    }
+    const VertexId middle = add_middle(base);
+    split(f, middle);
+    if (other != none) split(other, middle);
+  }
+
+  double longest_edge_squared(std::size_t f) const {
+    double longest = 0;
+    for (const auto& [a, b] : edges(faces_[f])) longest = std::max(longest, (at(b) - at(a)).squaredNorm());
+    return longest;
+  }
+
+  bool contains(std::size_t f, const Vec3& p) const {
+    const auto [a, b, c] = faces_[f];
+    return side(a, b, p) >= 0 && side(b, c, p) >= 0 && side(c, a, p) >= 0;
+  }
+
+  bool has_vertex_within(std::size_t f, const Vec3& p, double radius) const {
+    return std::any_of(faces_[f].begin(), faces_[f].end(),
+                       [&](VertexId v) { return (at(v) - p).squaredNorm() <= radius * radius; });
+  }
+
+  std::size_t size() const { return faces_.size(); }
+
+ private:
+  using Face = std::array<VertexId, 3>;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  static std::array<Edge, 3> edges(const Face& face) {
+    return {sorted(face[1], face[2]), sorted(face[2], face[0]), sorted(face[0], face[1])};
+  }
+
+  Vec3 at(VertexId v) const { return to_vec(shape_.positions[v]); }
+  Edge base_of(std::size_t f) const { return sorted(faces_[f][1], faces_[f][2]); }
+  double side(VertexId a, VertexId b, const Vec3& p) const { return cross(at(b) - at(a), p - at(a))[2]; }
+
+  void put_peak_first(Face& face) const {
+    std::array<double, 3> opposite{};
+    for (std::size_t k = 0; k < 3; ++k) opposite[k] = (at(face[(k + 1) % 3]) - at(face[(k + 2) % 3])).squaredNorm();
+    std::rotate(face.begin(), face.begin() + (std::max_element(opposite.begin(), opposite.end()) - opposite.begin()),
+                face.end());
+  }
+
+  std::size_t across(const Edge& edge, std::size_t f) const {
+    for (const std::size_t other : on_.at(edge)) {
+      if (other != f) return other;
+    }
+    return none;
+  }
+
+  VertexId add_middle(const Edge& edge) {
+    const Vec3 middle = 0.5 * (at(edge[0]) + at(edge[1]));
+    return shape_.add(to_position(middle));
+  }
+
+  /// The first half stays in the face's place.
+  void split(std::size_t f, VertexId middle) {
+    const auto [peak, left, right] = faces_[f];
+    for (const Edge& edge : edges(faces_[f])) std::erase(on_[edge], f);
+    put(f, {middle, peak, left});
+    faces_.emplace_back();
+    put(faces_.size() - 1, {middle, right, peak});
+  }
+
+  void put(std::size_t f, const Face& face) {
+    faces_[f] = face;
+    for (const Edge& edge : edges(face)) on_[edge].push_back(f);
+  }
+
+  Shape& shape_;
+  std::vector<Face>& faces_;
+  std::map<Edge, std::vector<std::size_t>> on_;  ///< faces on each edge
+};
+
+/// Halves triangles that contain a point of the plane, or have a vertex within `radius` of it, until their edges are at
+/// most `longest`. New vertices are numbered after those that were there. Preconditions: the faces are a triangulation
+/// in the plane z = 0 in which the longest edge of a triangle is that of its neighbour across it too, as in a lattice
+/// of halved rectangles; longest > 0.
+void refine(Shape& shape, const std::array<double, 2>& at, double radius, double longest) {
+  Bisection bisection(shape);
+  const Vec3 p(at[0], at[1], 0);
+  const auto too_large = [&](std::size_t f) {
+    return bisection.longest_edge_squared(f) > longest * longest &&
+           (bisection.contains(f, p) || bisection.has_vertex_within(f, p, radius));
+  };
+  for (bool halved = true; halved;) {
+    halved = false;
+    for (std::size_t f = 0; f < bisection.size(); ++f) {
+      end_if_stopped();
+      if (!too_large(f)) continue;
+      bisection.halve(f);
+      halved = true;
+    }
+  }
 }
 
 }  // namespace

@@ -11,6 +11,13 @@
 namespace noli::integrator {
 namespace {
 
+/// The last so many faces look the other way.
+void turn_over(Mesh& mesh, std::size_t count) {
+  for (auto face = mesh.faces.end() - static_cast<std::ptrdiff_t>(count); face != mesh.faces.end(); ++face) {
+    std::swap((*face)[1], (*face)[2]);
+  }
+}
+
 Position on_unit_sphere(const Vec3& x) { return to_position(x / std::sqrt(x.squaredNorm())); }
 
 /// The icosahedron with vertices (0, +-1, +-phi) and their rotations of coordinates, phi the golden ratio.
@@ -33,9 +40,7 @@ void add_icosahedron_faces(Shape& shape) {
     for (VertexId b = a + 1; b < 12; ++b) {
       for (VertexId c = b + 1; c < 12; ++c) {
         if (!neighbours(a, b) || !neighbours(b, c) || !neighbours(c, a)) continue;
-        const Vec3 u = x(b) - x(a), v = x(c) - x(a), w = x(a);
-        const double outward = w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
-                               w[2] * (u[0] * v[1] - u[1] * v[0]);
+        const double outward = x(a).dot(cross(x(b) - x(a), x(c) - x(a)));
         shape.mesh.faces.push_back(outward > 0 ? std::array{a, b, c} : std::array{a, c, b});
       }
     }
@@ -86,13 +91,8 @@ class BoxLattice {
     const VertexId c = vertex(at);
     --at[u];
     const VertexId d = vertex(at);
-    add_face(other ? std::array{a, b, d} : std::array{a, b, c}, outward);
-    add_face(other ? std::array{b, c, d} : std::array{a, c, d}, outward);
-  }
-
-  void add_face(std::array<VertexId, 3> face, bool outward) {
-    if (!outward) std::swap(face[1], face[2]);
-    shape.mesh.faces.push_back(face);
+    integrator::add_cell(shape.mesh, {a, b, c, d}, other);
+    if (!outward) turn_over(shape.mesh, 2);
   }
 
   VertexId vertex(const std::array<std::uint32_t, 3>& at) {
@@ -104,10 +104,7 @@ class BoxLattice {
 
   Position position(const std::array<std::uint32_t, 3>& at) const {
     Position x{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double n = box_.cells[axis];
-      x[axis] = ((2.0 * at[axis] - n) / n) * (box_.size[axis] / 2);
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis) x[axis] = centred(at[axis], box_.cells[axis], box_.size[axis]);
     return x;
   }
 
@@ -121,7 +118,7 @@ Shape make_shape(const Rod& rod) {
   const std::uint32_t n = rod.segments, sides = rod.sides;
   Shape shape;
   for (std::uint32_t k = 0; k <= n; ++k) {
-    const double x = (static_cast<double>(2 * std::int64_t{k} - n) / n) * (rod.length / 2);
+    const double x = centred(k, n, rod.length);
     for (std::uint32_t j = 0; j < sides; ++j) {
       const CosSin at = part_of_turn(j, sides);
       shape.add({x, rod.radius * at.cos, rod.radius * at.sin});
@@ -132,12 +129,10 @@ Shape make_shape(const Rod& rod) {
   for (std::uint32_t k = 0; k < n; ++k) {
     end_if_stopped();
     for (std::uint32_t j = 0; j < sides; ++j) {
-      const VertexId a = vertex(k, j), b = vertex(k + 1, j), c = vertex(k + 1, j + 1), d = vertex(k, j + 1);
-      const bool other = (k + j) % 2 == 1;
-      shape.mesh.faces.push_back(other ? std::array{a, d, b} : std::array{a, c, b});
-      shape.mesh.faces.push_back(other ? std::array{b, d, c} : std::array{a, d, c});
+      add_cell(shape.mesh, {vertex(k, j), vertex(k + 1, j), vertex(k + 1, j + 1), vertex(k, j + 1)}, (k + j) % 2 == 1);
     }
   }
+  turn_over(shape.mesh, shape.mesh.faces.size());
   for (std::uint32_t j = 0; j < sides; ++j) {
     shape.mesh.faces.push_back({first, vertex(0, j + 1), vertex(0, j)});
     shape.mesh.faces.push_back({last, vertex(n, j), vertex(n, j + 1)});
@@ -174,10 +169,7 @@ Shape make_shape(const Torus& torus) {
   for (std::uint32_t k = 0; k < n; ++k) {
     end_if_stopped();
     for (std::uint32_t j = 0; j < sides; ++j) {
-      const VertexId a = vertex(k, j), b = vertex(k + 1, j), c = vertex(k + 1, j + 1), d = vertex(k, j + 1);
-      const bool other = (k + j) % 2 == 1;
-      shape.mesh.faces.push_back(other ? std::array{a, b, d} : std::array{a, b, c});
-      shape.mesh.faces.push_back(other ? std::array{b, c, d} : std::array{a, c, d});
+      add_cell(shape.mesh, {vertex(k, j), vertex(k + 1, j), vertex(k + 1, j + 1), vertex(k, j + 1)}, (k + j) % 2 == 1);
     }
   }
   return shape;

@@ -5,7 +5,7 @@ namespace noli::witness {
 
 namespace {
 
-using Matrix = std::vector<std::vector<Poly>>;  ///< by row
+using Matrix = std::vector<std::vector<Polynomial>>;  ///< by row
 
 /// Without row 0 and a column.
 Matrix minor_of(const Matrix& matrix, std::size_t column) {
@@ -14,41 +14,42 @@ Matrix minor_of(const Matrix& matrix, std::size_t column) {
   return smaller;
 }
 
-Poly determinant(const Matrix& matrix) {
-  if (matrix.empty()) return {1};
-  Poly all;
+Polynomial determinant(const Matrix& matrix) {
+  if (matrix.empty()) return distance::constant(Integer(1));
+  Polynomial all;
   for (std::size_t c = 0; c < matrix.size(); ++c) {
-    const Poly term = product(matrix[0][c], determinant(minor_of(matrix, c)));
-    all = c % 2 == 0 ? sum(all, term) : difference(all, term);
+    const Polynomial term = matrix[0][c] * determinant(minor_of(matrix, c));
+    c % 2 == 0 ? all += term : all -= term;
   }
   return all;
 }
 
 /// Numbers that add up to 0, and so do they times each of these coordinates of the points.
-std::vector<Poly> affine_dependency(const std::vector<PolyVector>& points,
-                                    const std::vector<std::size_t>& coordinates) {
-  Matrix rows = {{}, std::vector<Poly>(points.size(), Poly{1})};  // row 0 is left out of each minor
+std::vector<Polynomial> affine_dependency(const std::vector<PolynomialPosition>& points,
+                                          const std::vector<std::size_t>& coordinates) {
+  Matrix rows = {
+      {}, std::vector<Polynomial>(points.size(), distance::constant(Integer(1)))};  // row 0 is left out of each minor
   for (const std::size_t k : coordinates) {
     auto& row = rows.emplace_back();
-    for (const PolyVector& x : points) row.push_back(x[k]);
+    for (const PolynomialPosition& x : points) row.push_back(x[k]);
   }
-  std::vector<Poly> numbers;
+  std::vector<Polynomial> numbers;
   for (std::size_t c = 0; c < points.size(); ++c) {
-    const Poly minor = determinant(minor_of(rows, c));
-    numbers.push_back(c % 2 == 0 ? minor : difference({}, minor));
+    const Polynomial minor = determinant(minor_of(rows, c));
+    numbers.push_back(c % 2 == 0 ? minor : Polynomial() - minor);
   }
   return numbers;
 }
 
 /// What vanishes when the dependency holds in the other coordinates too.
-Poly condition_of(const std::vector<PolyVector>& points, const std::vector<std::size_t>& coordinates,
-                  const std::vector<Poly>& numbers) {
-  Poly common;
+Polynomial condition_of(const std::vector<PolynomialPosition>& points, const std::vector<std::size_t>& coordinates,
+                        const std::vector<Polynomial>& numbers) {
+  Polynomial common;
   for (std::size_t k = 0; k < 3; ++k) {
     if (std::ranges::find(coordinates, k) != coordinates.end()) continue;
-    Poly off;
-    for (std::size_t i = 0; i < points.size(); ++i) off = sum(off, product(numbers[i], points[i][k]));
-    common = greatest_common_divisor(common, off);
+    Polynomial off;
+    for (std::size_t i = 0; i < points.size(); ++i) off += numbers[i] * points[i][k];
+    common = gcd(common, off);
   }
   return common;
 }
@@ -75,15 +76,15 @@ std::vector<FeatureSides> parts_of(const FeatureSides& features, std::size_t mos
   return parts;
 }
 
-bool any_dependency(const FeatureSides& features, const std::function<PolyVector(VertexId)>& position,
+bool any_dependency(const FeatureSides& features, const std::function<PolynomialPosition(VertexId)>& position,
                     const std::function<bool(Dependency)>& take) {
   for (const FeatureSides& sides : parts_of(features, 4)) {
-    std::vector<PolyVector> points;
+    std::vector<PolynomialPosition> points;
     for (const VertexId v : sides.both()) points.push_back(position(v));
     for (const auto& coordinates : choices(points.size() - 2)) {
       Dependency d{sides, affine_dependency(points, coordinates), {}};
       d.condition = condition_of(points, coordinates, d.weights);
-      for (std::size_t i = sides.p.size(); i < points.size(); ++i) d.weights[i] = difference({}, d.weights[i]);
+      for (std::size_t i = sides.p.size(); i < points.size(); ++i) d.weights[i] = Polynomial() - d.weights[i];
       if (take(std::move(d))) return true;
     }
   }

@@ -16,27 +16,23 @@
 
 #include <functional>
 
+#include "kernel/distance_parts.h"
 #include "proofs/prover/witness/feature_sides.h"
-#include "proofs/prover/witness/integer_motion.h"
 
 namespace noli::witness {
 
+/// A position, as polynomials in the time.
+using PolynomialPosition = distance::Vector<3>;
+
 struct Dependency {
   FeatureSides sides;
-  std::vector<Poly> weights;  ///< of sides.both()
-  Poly condition;
-
-  /// The greatest one of the weights.
-  std::size_t degree() const {
-    std::size_t size = 1;
-    for (const Poly& weight : weights) size = std::max(size, weight.size());
-    return size - 1;
-  }
+  std::vector<Polynomial> weights;  ///< of sides.both()
+  Polynomial condition;
 };
 
 /// Tries all vertices first, then fewer, at most four; ends with the first that `take` accepts, and says whether there
 /// was one.
-bool any_dependency(const FeatureSides& features, const std::function<PolyVector(VertexId)>& position,
+bool any_dependency(const FeatureSides& features, const std::function<PolynomialPosition(VertexId)>& position,
                     const std::function<bool(Dependency)>& take);
 
 /// The parts of two features that have no vertex in common, of at most so many vertices; those of most vertices first.

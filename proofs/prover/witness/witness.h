@@ -15,7 +15,7 @@
 // Algorithm: all ways in which some vertices of the two features can meet (proofs/prover/witness/dependency.h) are
 // tried, first at the time of the contact and then during the whole step: at the roots of their conditions, and at rest
 // at breakpoints. Cells that meet at the beginning are looked at, at rest. A witness that is found is judged
-// (proofs/prover/witness/witness_judge.h) before it is given away; where it does not hold, the search goes on.
+// (fault_of_witness) before it is given away; where it does not hold, the search goes on.
 //
 // What this does not do: it does not find contacts.
 #pragma once
@@ -23,6 +23,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "proofs/prover/tokens/mesh_paths.h"
 #include "proofs/prover/tokens/step_prover.h"
@@ -43,6 +44,10 @@ struct WitnessStep {
   std::uint32_t ring = 1;                ///< features that a path of fewer edges joins may be nearer
   const StepProver* excluded = nullptr;  ///< its labels and pairs of labels are not compared; nothing: all cells are
 };
+
+/// Why a checker would refuse the payload of a block WITN, in words: it judges all conditions and limits of
+/// proofs/FORMAT.md, section 5. Nothing if it holds.
+std::optional<std::string> fault_of_witness(const WitnessStep& step, std::string_view payload);
 
 /// Whether the labels of two cells are not a pair that is excluded.
 bool are_compared(const WitnessStep& step, std::uint32_t i, std::uint32_t j);

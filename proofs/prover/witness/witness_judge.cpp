@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/witness/witness_judge.h"
+//
+// It starts from the bytes, and shares no arithmetic with the search (witness.cpp): rational numbers instead of
+// integers, polynomials of its own.
+#include "proofs/prover/witness/witness.h"
 
 #include <gmpxx.h>
 
@@ -18,7 +21,7 @@ namespace {
 
 /// Why it is refused.
 struct Fault {
-  const char* words;
+  const char* reason;
 };
 
 void require(bool holds, const char* otherwise) {
@@ -309,7 +312,7 @@ std::optional<std::string> fault_of_witness(const WitnessStep& step, std::string
   try {
     Judge(step, payload).judge();
   } catch (const Fault& fault) {
-    return fault.words;
+    return fault.reason;
   }
   return std::nullopt;
 }

@@ -6,7 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "integrator/scene/shapes/nearest.h"
+#include "integrator/scene/json_text.h"
 #include "trajectory/error.h"
 
 namespace noli::integrator {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certificates/pair_numbers.h"
+#include "certificates/near_pairs.h"
 
 #include <gtest/gtest.h>
 

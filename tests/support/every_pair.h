@@ -2,7 +2,7 @@
 //
 // Certificates as Algorithm 1 has them (Harmon et al. 2009): a slab for every pair of features, each with its failure
 // time, and all of them that depend on a vertex computed anew whenever its velocity may have changed (lines 11 to 13).
-// For tests, for comparison, and for readers: certificates/cells.h does the same for a small part of the cost.
+// For comparison: certificates/cells.h does the same for a small part of the cost.
 //
 // Notation: that of certificates/cells.h, and
 //   failure      the first time at which one of a slab's vertices reaches its wall
@@ -13,6 +13,7 @@
 
 #include <limits>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -25,8 +26,9 @@ namespace noli::certificates {
 template <int Dim, class Host>
 class EveryPair {
  public:
-  /// Host: as in certificates/cells.h.
-  EveryPair(Host& host, const Mesh& mesh) : host_(host), contingent_(mesh.vertex_count) {
+  /// Host: as in certificates/cells.h. What follows the mesh is for Cells.
+  explicit EveryPair(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> = {}, double = 0)
+      : host_(host), contingent_(mesh.vertex_count) {
     const Features features(mesh, Dim);
     const auto cells = static_cast<std::uint32_t>(features.cells().size());
     for (std::uint32_t a = 0; a < cells; ++a) {

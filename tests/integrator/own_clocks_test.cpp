@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "integrator/calendar.h"
+#include "integrator/own_clocks.h"
 
 #include <gtest/gtest.h>
 
