@@ -18,6 +18,7 @@
 #include "app/progress.h"
 #include "certify/process/scratch_folder.h"
 #include "certify/proofs/checker.h"
+#include "certify/proofs/claim.h"
 #include "certify/proofs/lines_pipe.h"
 #include "certify/runs/run_folder.h"
 #include "certify/stopwatch.h"

@@ -15,8 +15,6 @@
 
 namespace noli {
 
-using ContactCounts = std::array<std::uint64_t, all_feature_pairs.size()>;
-
 /// {"pair": "edge_edge", "features": [[a, b], [c, d]]}
 Json contact_json(const FeatureContact& contact);
 

@@ -6,7 +6,13 @@
 //   frame i   the positions at the time i / fps, i = 0, 1, ..., rounded interpolation of the world lines, which it does
 //             not change; straight lines between frames are not the certified motion
 //
-// What this does not do: it does not verify the run (`noli verify RUN` does).
+//   noli::ExportRequest request;
+//   request.run = "run";
+//   request.pattern = "frames/sheet_%04d.vtu";
+//   noli::run_export(request);
+//
+// Units: SI. Errors: as run_export says. Thread safety: any thread; two exports need two patterns.
+// It does not verify the run: run_verify_motion in noli/verify.h does.
 #pragma once
 
 #include <cstdint>

@@ -14,18 +14,10 @@
 
 #include "certify/body_names.h"
 #include "certify/json.h"
-#include "trajectory/exclusions.h"
+#include "proofs/prover/findings.h"
 #include "trajectory/mesh.h"
 
 namespace noli {
-
-struct NotCompared {
-  bool any_held = false;                             ///< two cells are scripted or pinned throughout
-  std::vector<std::string> held;                     ///< their bodies, as far as they are known
-  std::vector<std::array<std::string, 2>> excluded;  ///< bodies that the scene lets pass through each other
-
-  bool any() const { return any_held || !excluded.empty(); }
-};
 
 /// `held`: one per vertex, not 0 if it is scripted or pinned.
 NotCompared not_compared(const Mesh& mesh, std::span<const std::uint8_t> held, const Exclusions& exclusions,

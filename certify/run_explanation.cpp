@@ -8,6 +8,7 @@
 
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_series_reader.h"
+#include "certify/simulate/exact_gap.h"
 #include "trajectory/error.h"
 #include "trajectory/stop.h"
 
@@ -107,5 +108,7 @@ std::optional<double> RunExplanation::bound() const {
 }
 
 RunExplanation explain_run(const std::filesystem::path& run) { return Explaining(run)(); }
+
+RunSummary summary_of_run(const std::filesystem::path& run) { return explain_run(run); }
 
 }  // namespace noli

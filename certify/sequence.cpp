@@ -7,6 +7,8 @@
 
 #include "certify/queries/any_query.h"
 #include "kernel/contact.h"
+#include "proofs/prover/verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 namespace {
@@ -36,6 +38,9 @@ bool meets(const AnyQuery& query) {
 
 SequenceVerifier::SequenceVerifier(Mesh mesh, SequenceOptions options)
     : mesh_(std::move(mesh)), options_(std::move(options)) {}
+SequenceVerifier::~SequenceVerifier() = default;
+SequenceVerifier::SequenceVerifier(SequenceVerifier&&) noexcept = default;
+SequenceVerifier& SequenceVerifier::operator=(SequenceVerifier&&) noexcept = default;
 
 std::optional<StepResult> SequenceVerifier::add(std::span<const Position> x) {
   if (options_.at_rest) return step(x, x);
@@ -77,7 +82,7 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
                                               const VerifyOptions& options) {
   if (options_.exclusions == nullptr) return verify_step(mesh_, x_t0, x_t1, options);
   const WindowOptions window{options, {}, options_.exclusions};
-  if (!windows_) windows_.emplace(mesh_, x_t0, window);
+  if (!windows_) windows_ = std::make_unique<const WindowVerifier>(mesh_, x_t0, window);
   WindowResult found = windows_->verify(WorldLines::from_frames(x_t0, x_t1), window);
   std::optional<FeatureContact> first;
   if (found.first) first = found.first->contact;

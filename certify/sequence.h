@@ -14,7 +14,10 @@
 //
 // A pair of features that already meets where a later step begins is not counted again.
 //
-// It writes no proof (certify/proofs/prove_frames.h does) and reads no files (certify/verify_run.h does).
+// Units: positions in any unit of length; times in [0, 1] of the step.
+// Errors: std::bad_alloc, and what `progress` throws. Thread safety: one verifier is for one thread at a time, and uses
+// several itself; any number of verifiers may be at work at once.
+// It writes no proof and reads no files (noli/verify.h does both).
 #pragma once
 
 #include <array>
@@ -27,13 +30,17 @@
 #include <span>
 #include <vector>
 
-#include "kernel/first_contact.h"
-#include "proofs/prover/verifier.h"
-#include "proofs/prover/windows/window_verifier.h"
-#include "trajectory/exclusions.h"
+#include "kernel/contact.h"
+#include "kernel/time_of_impact.h"
+#include "proofs/prover/findings.h"
 #include "trajectory/mesh.h"
 
 namespace noli {
+
+struct StepProof;
+struct VerifyOptions;
+struct VerifyResult;
+class WindowVerifier;
 
 struct SequenceOptions {
   int dimension = 3;  ///< 2 or 3; in 2 the third coordinate is not looked at
@@ -66,6 +73,9 @@ class SequenceVerifier {
  public:
   /// Precondition: every index of the mesh is below its vertex_count, and there are fewer than 2^31 cells.
   SequenceVerifier(Mesh mesh, SequenceOptions options);
+  ~SequenceVerifier();
+  SequenceVerifier(SequenceVerifier&&) noexcept;
+  SequenceVerifier& operator=(SequenceVerifier&&) noexcept;
 
   const Mesh& mesh() const { return mesh_; }
 
@@ -74,10 +84,10 @@ class SequenceVerifier {
   std::optional<StepResult> add(std::span<const Position> x);
 
   /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before. Precondition and errors as
-  /// for add(), which is not called then. `prove`: as in VerifyOptions.
+  /// for add(), which is not called then. `prove`: also fill `proof`.
   StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false);
 
-  /// The options of the prover for a step. `progress` is not among them.
+  /// For Noli itself: the options of the prover for a step. `progress` is not among them.
   VerifyOptions step_options() const;
 
  private:
@@ -87,7 +97,7 @@ class SequenceVerifier {
 
   Mesh mesh_;
   SequenceOptions options_;
-  std::optional<WindowVerifier> windows_;  ///< with exclusions
+  std::unique_ptr<const WindowVerifier> windows_;  ///< with exclusions
   std::uint64_t steps_ = 0;
   bool meeting_at_end_ = false;  ///< some pair met in the step before: only then can one meet where the next begins
   std::optional<std::vector<Position>> last_;  ///< frame of add()

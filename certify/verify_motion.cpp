@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "certify/errors.h"
+#include "certify/not_compared.h"
 #include "certify/proofs/largest_distance.h"
 #include "certify/proofs/lines_pipe.h"
 #include "certify/proofs/prove_run.h"

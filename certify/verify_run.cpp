@@ -18,6 +18,7 @@
 #include "trajectory/cells.h"
 #include "trajectory/error.h"
 #include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/merge.h"
 #include "trajectory/stop.h"

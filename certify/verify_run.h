@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli verify` without its words: goes through the steps of a sequence and gathers what the verifier finds.
+// Verifies frames in files, or the windows of a run: did anything touch, where and when first? Writes proofs.
+//
+//   noli::VerifyRequest request;
+//   request.frames = {"cloth_1.ply", "cloth_2.ply"};
+//   const noli::VerifyOutcome outcome = noli::run_verify(request);
+//   if (outcome.verdict == noli::Verdict::contact) ...  // outcome.first says who, when and how
 //
 // Notation
-//   step k     as in trajectory/formats/frames.h, but counted from 1 in what is reported: step 1 begins at the first
-//              frame
+//   step k     from frame k to frame k + 1, between which each vertex moves along a straight line; or window k of a run.
+//              Counted from 1 in all that is reported
+//   proof      noli/proof.h; one is written where `open_proof` says
 //
-// What this does not do: it prints nothing (verify_report.h).
+// Units: coordinates and distances in the unit of the files; times in [0, 1] of the step, in seconds for a run.
+// Errors: as run_verify says. Thread safety: any number of verifications may be at work at once, each with its own stop;
+// nothing is printed. Callbacks come from the calling thread or, serialised, from threads of the verification.
+// Frames in memory: noli/sequence.h.
 #pragma once
 
 #include <atomic>
@@ -20,22 +29,17 @@
 #include <string_view>
 #include <vector>
 
-#include "certify/contact_report.h"
-#include "certify/not_compared.h"
-#include "certify/proofs/checker.h"
-#include "certify/proofs/claim.h"
-#include "certify/proofs/largest_distance.h"
-#include "kernel/first_contact.h"
-#include "proofs/prover/tokens/too_near.h"
-#include "proofs/prover/verifier.h"
-#include "trajectory/blocks/block_sink.h"
-#include "trajectory/formats/frame_look.h"
-#include "trajectory/formats/frame_order.h"
-#include "trajectory/formats/polygons.h"
+#include "certify/proofs/proof.h"
+#include "kernel/contact.h"
+#include "kernel/time_of_impact.h"
+#include "proofs/prover/findings.h"
+#include "trajectory/formats/frame_facts.h"
+#include "trajectory/mesh.h"
 
 namespace noli {
 
 class LinesPipe;
+class Sink;
 
 struct VerifyRequest {
   std::vector<std::filesystem::path> frames;  ///< files in the order of time, or the folder of one run
@@ -53,25 +57,27 @@ struct VerifyRequest {
   bool points = false;           ///< vertices that nothing refers to are particles
   bool constant_motion = false;  ///< --static: each frame for itself
   bool merge_identical = false;
-  std::optional<std::filesystem::path> ignore;        ///< groups of vertices that are not compared (groups.h)
+  std::optional<std::filesystem::path> ignore;        ///< groups that are not compared: `noli verify --help`
   double min_distance = 0;                            ///< features have to be more than this apart
   std::uint32_t ring = 1;                             ///< features fewer mesh edges apart may be nearer
   bool follow = false;                                ///< of a run: wait for windows that are still to come
   bool live = false;                                  ///< of a run: another process writes to it
-  bool reproduce = false;                             ///< of a run: integrate its windows again (windows_again.h)
+  bool reproduce = false;                             ///< of a run: integrate its windows again
   std::optional<std::filesystem::path> scene_folder;  ///< in which the file of its scene was; nothing: its own
-  bool lines_in_no_file = false;                      ///< of a run that is reproduced: it recorded frames alone
-  LinesPipe* lines_pipe = nullptr;  ///< on which the checker reads its world lines then; nothing: nobody does
   std::optional<std::chrono::steady_clock::time_point> deadline;
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, what is settled by then is the outcome
   /// Called with what is done, and the share of it in [0, 1]: "look", then "verify". Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;
-  std::optional<std::filesystem::path> proof;  ///< the file where the user wants it
-  bool check = true;                           ///< have the checker look at the proof
-  /// Where the proof of a claim is written to, called once at most; empty: none is made.
+  std::optional<std::filesystem::path> proof;  ///< the file where the user wants it, as reports name it
+  bool check = true;                           ///< the checker looks at the proof: reports say whether it did
+  /// Where the proof of a claim is written to, called once at most; empty: none is made. See proof_to_file().
   std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
   /// Call it before the first step of frames is decided, so that whoever reads the proof looks at them meanwhile.
   bool open_proof_at_once = false;
+
+  // For `noli verify` itself.
+  bool lines_in_no_file = false;    ///< of a run that is reproduced: it recorded frames alone
+  LinesPipe* lines_pipe = nullptr;  ///< on which the checker reads its world lines then; nothing: nobody does
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
@@ -189,11 +195,11 @@ struct VerifyOutcome {
   bool stop_for(const VerifyRequest& request);
 };
 
-/// Runs it. Stops early, with what was settled so far, when it is asked to stop (stop, trajectory/stop.h) or at the
-/// time limit. Throws InputError, UsageError (options that do not go together), std::bad_alloc.
+/// Verifies frames. Stops early, with what was settled so far, when it is asked to stop or at the deadline. Throws
+/// InputError, UsageError (options that do not go together), std::system_error (the proof), std::bad_alloc.
 VerifyOutcome run_verify(const VerifyRequest& request);
 
-/// The same for a run: window by window, and that each begins where the one before it ended.
+/// The same for a run (request.run): window by window, and that each begins where the one before it ended.
 VerifyOutcome run_verify_motion(const VerifyRequest& request);
 
 }  // namespace noli

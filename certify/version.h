@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Which Noli this is.
+//
+//   std::puts(noli::version_text().c_str());
+//
+// Thread safety: any thread.
 #pragma once
 
 #include <string>

@@ -14,29 +14,16 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
-#include <string_view>
 
+#include "certificates/run_values.h"
 #include "integrator/vector.h"
 #include "trajectory/mesh.h"
 
 namespace noli::integrator {
 
-/// Also the order in which events of one time happen (design, "Dynamics"): by kind, then by number.
-enum class ForceKind : std::uint8_t { gravity, edge_spring, membrane, hinge, turning, contact };
-constexpr std::size_t force_kinds = 6;
-
-constexpr std::string_view name(ForceKind kind) {
-  switch (kind) {
-    case ForceKind::gravity: return "gravity";
-    case ForceKind::edge_spring: return "edge_spring";
-    case ForceKind::membrane: return "membrane";
-    case ForceKind::hinge: return "hinge";
-    case ForceKind::turning: return "turning";
-    case ForceKind::contact: return "contact";
-  }
-  return "";
-}
+using noli::force_kinds;
+using noli::ForceKind;
+using noli::name;
 
 /// An elastic force on N = F::size vertices with M = F::measures measures. F::Scalar is its number type, F::dimension
 /// that of space.

@@ -65,13 +65,7 @@ struct StepGroup {
   std::uint64_t forces;
 };
 
-/// A number that is none appeared.
-struct NotFinite {
-  double time;
-  std::optional<ForceKind> kind;  ///< of the force that left it; nothing: free motion did
-  std::vector<VertexId> force;    ///< that force's vertices
-  VertexId vertex;                ///< whose velocity or position it is
-};
+using noli::NotFinite;
 
 /// Whether to stop.
 using Stop = std::function<bool()>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The kernel's predicates as functors over the points of a CGAL kernel, and times of impact as CGAL's algebraic numbers
-// and back.
+// and back, and as MPFR's.
 //
 //   noli::Vertex_face_contact_3<K>         does a moving vertex meet a moving face during the step?  -> bool
 //   noli::Vertex_face_time_of_impact_3<K>  when first?                -> std::optional<noli::TimeOfImpact>
@@ -9,17 +9,21 @@
 // and the same for Edge_edge_..._3, Vertex_edge_..._3, Vertex_vertex_..._3, Vertex_edge_..._2, Vertex_vertex_..._2.
 // Each takes the points at t = 0, then the same at t = 1, in the order of kernel/query.h.
 //
-// Coordinates are doubles here. A kernel with another number type may be used as long as its coordinates happen to be
-// doubles; for others std::domain_error is thrown, as rounding would be a different question. Only packages of CGAL
-// under the LGPL are used.
+//   const noli::Edge_edge_time_of_impact_3<K> time_of_impact;
+//   const auto time = time_of_impact(a0, a1, b0, b1,    // at t = 0
+//                                    c0, c1, d0, d1);   // at t = 1
 //
-// What this does not do: it makes nothing generic: it is the same exact code behind another face.
+// Preconditions: coordinates are doubles. A kernel with another number type may be used as long as its coordinates
+// happen to be doubles; for others std::domain_error is thrown, as rounding would be a different question. As for
+// noli/contact.h, the floating-point environment rounds to nearest.
+// Thread safety: functors have no state.
+// Needs CGAL, of which only packages under the LGPL are used; GMP and MPFR come with it.
 #pragma once
 
 #include <CGAL/Algebraic_kernel_d_1.h>
-#include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
 #include <CGAL/number_utils.h>
+#include <mpfr.h>
 
 #include <array>
 #include <cmath>
@@ -28,10 +32,8 @@
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "kernel/contact.h"
-#include "kernel/first_contact.h"
 #include "kernel/time_of_impact.h"
 
 namespace noli {
@@ -133,48 +135,14 @@ template <class K> using Vertex_vertex_time_of_impact_2 = cgal_detail::Functor<K
 
 using AlgebraicKernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
 
-namespace cgal_detail {
-
-inline CGAL::Gmpz gmpz(const Integer& x) { return CGAL::Gmpz(x.get()); }
-
-inline CGAL::Gmpq gmpq(const Dyadic& x) { return CGAL::Gmpq(gmpz(x.m), gmpz(Integer(1) << x.e)); }
-
-inline Integer integer(const CGAL::Gmpz& x) {
-  Integer result;
-  mpz_set(result.get(), x.mpz());
-  return result;
-}
-
-inline AlgebraicKernel::Polynomial_1 polynomial(const Polynomial& p) {
-  std::vector<CGAL::Gmpz> c;
-  for (int i = 0; i <= p.degree(); ++i) c.push_back(gmpz(p[static_cast<std::size_t>(i)]));
-  return AlgebraicKernel::Polynomial_1(c.begin(), c.end());
-}
-
-inline Polynomial polynomial(const AlgebraicKernel::Polynomial_1& p) {
-  std::vector<Integer> c;
-  for (int i = 0; i <= p.degree(); ++i) c.push_back(integer(p[i]));
-  return Polynomial(std::move(c));
-}
-
-}  // namespace cgal_detail
-
 /// The same number, as CGAL's.
-inline AlgebraicKernel::Algebraic_real_1 to_algebraic_real_1(const TimeOfImpact& time) {
-  const auto construct = AlgebraicKernel().construct_algebraic_real_1_object();
-  const AlgebraicNumber& t = time.algebraic();
-  if (t.is_dyadic()) return construct(cgal_detail::gmpq(t.low()));
-  return construct(cgal_detail::polynomial(time.polynomial()), cgal_detail::gmpq(t.low()), cgal_detail::gmpq(t.high()));
-}
+AlgebraicKernel::Algebraic_real_1 to_algebraic_real_1(const TimeOfImpact& time);
 
 /// The same number, as ours. Throws std::domain_error unless it is in [0, 1].
-inline TimeOfImpact from_algebraic_real_1(const AlgebraicKernel::Algebraic_real_1& x) {
-  const auto p = cgal_detail::polynomial(AlgebraicKernel().compute_polynomial_1_object()(x));
-  for (AlgebraicNumber& root : roots_in_unit_interval(p)) {
-    TimeOfImpact time(std::move(root));
-    if (to_algebraic_real_1(time) == x) return time;
-  }
-  throw std::domain_error("a time of impact is in [0, 1]");
-}
+TimeOfImpact from_algebraic_real_1(const AlgebraicKernel::Algebraic_real_1& x);
+
+/// Sets `result` to the time, correctly rounded to the precision that `result` has. Returns MPFR's ternary value: the
+/// sign of (result - time), 0 if exact.
+int to_mpfr(const TimeOfImpact& time, mpfr_ptr result, mpfr_rnd_t rounding);
 
 }  // namespace noli

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/arithmetic/algebraic.h"
 #include "kernel/contact_condition.h"
 #include "kernel/first_contact.h"
 

@@ -17,6 +17,7 @@
 #include <compare>
 #include <utility>
 
+#include "kernel/arithmetic/algebraic.h"
 #include "kernel/time_of_impact.h"
 
 namespace noli {

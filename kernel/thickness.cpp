@@ -5,6 +5,7 @@
 // inside. Its excess is zero at t, and not throughout: for just before t it is still inside, and would have been within
 // already.
 #include "kernel/thickness.h"
+#include "kernel/arithmetic/algebraic.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,84 +4,39 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+
+#include "kernel/arithmetic/algebraic.h"
 
 namespace noli {
-namespace {
 
-int set(mpfr_ptr result, const Dyadic& x, mpfr_rnd_t rounding) {
-  return mpfr_set_z_2exp(result, x.m.get(), -static_cast<mpfr_exp_t>(x.e), rounding);
-}
+TimeOfImpact::TimeOfImpact() : TimeOfImpact(AlgebraicNumber()) {}
 
-/// An MPFR number that clears itself.
-struct Mpfr {
-  explicit Mpfr(mpfr_prec_t precision) { mpfr_init2(value, precision); }
-  Mpfr(const Mpfr&) = delete;
-  Mpfr& operator=(const Mpfr&) = delete;
-  ~Mpfr() { mpfr_clear(value); }
-  mpfr_t value;
-};
-
-/// Precondition: x >= 0.
-Dyadic dyadic_of(mpfr_srcptr x) {
-  Dyadic result;
-  if (mpfr_zero_p(x)) return result;
-  const mpfr_exp_t exponent = mpfr_get_z_2exp(result.m.get(), x);
-  if (exponent >= 0) {
-    result.m <<= static_cast<std::size_t>(exponent);
-  } else {
-    result.e = static_cast<std::size_t>(-exponent);
-  }
-  return result;
-}
-
-/// The first number above x at which a rounding to `precision` bits may change: one with a bit more.
-Dyadic next_border(const Dyadic& x, mpfr_prec_t precision) {
-  Mpfr border(precision + 1);
-  set(border.value, x, MPFR_RNDU);
-  return dyadic_of(border.value);
-}
-
-}  // namespace
+TimeOfImpact::TimeOfImpact(AlgebraicNumber value) : value_(std::make_shared<const AlgebraicNumber>(std::move(value))) {}
 
 TimeOfImpact TimeOfImpact::from_double(double t) {
   if (!(t >= 0 && t <= 1)) throw std::domain_error("a time of impact is in [0, 1]");
   return TimeOfImpact(AlgebraicNumber(Dyadic::from_double(t)));
 }
 
-TimeOfImpact TimeOfImpact::from_rational(Integer num, Integer den) {
-  if (den.sign() < 0) {
-    num.negate();
-    den.negate();
+TimeOfImpact TimeOfImpact::from_rational(std::int64_t num, std::int64_t den) {
+  Integer n(num), d(den);
+  if (d.sign() < 0) {
+    n.negate();
+    d.negate();
   }
-  if (den.is_zero() || num.sign() < 0 || num > den) throw std::domain_error("a time of impact is in [0, 1]");
-  return TimeOfImpact(AlgebraicNumber::rational(num, den));
+  if (d.is_zero() || n.sign() < 0 || n > d) throw std::domain_error("a time of impact is in [0, 1]");
+  return TimeOfImpact(AlgebraicNumber::rational(n, d));
 }
+
+double TimeOfImpact::lower() const { return value_->floor(); }
 
 double TimeOfImpact::upper() const {
   const double below = lower();
-  if (value_.compare(Dyadic::from_double(below)) == 0) return below;
+  if (value_->compare(Dyadic::from_double(below)) == 0) return below;
   return std::nextafter(below, std::numeric_limits<double>::infinity());
 }
 
-std::pair<Dyadic, Dyadic> TimeOfImpact::enclosure(std::size_t bits) const {
-  AlgebraicNumber finer = value_;
-  finer.refine(bits);
-  return {finer.low(), finer.high()};
-}
-
-int TimeOfImpact::to_mpfr(mpfr_ptr result, mpfr_rnd_t rounding) const {
-  const mpfr_prec_t precision = mpfr_get_prec(result);
-  Mpfr at_low(precision);
-  AlgebraicNumber finer = value_;
-  for (std::size_t bits = static_cast<std::size_t>(precision) + 32;; bits *= 2) {
-    finer.refine(bits);
-    if (finer.is_dyadic()) return set(result, finer.low(), rounding);
-    set(at_low.value, finer.low(), rounding);
-    set(result, finer.high(), rounding);
-    if (mpfr_equal_p(at_low.value, result)) return -finer.compare(dyadic_of(result));
-    // Between the ends there is a number at which the rounding changes, and it may be the time itself.
-    finer.cut_at(next_border(finer.low(), precision));
-  }
-}
+std::strong_ordering TimeOfImpact::compare(const TimeOfImpact& other) const { return *value_ <=> *other.value_; }
 
 }  // namespace noli

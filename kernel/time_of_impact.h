@@ -1,57 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A time of impact: a real algebraic number in [0, 1], the time within the step at which two features first meet.
+// When two features first meet, as an algebraic number, and what kind of contact it is. Exact.
 //
-// It is the root of an integer polynomial in a dyadic interval, so nothing about it is rounded: it compares exactly,
-// its double below and above are the nearest there are, and it can be refined or written as MPFR number to any
-// precision.
+//   if (const auto first = noli::first_contact(query)) {
+//     std::printf("%s at %.17g\n", noli::name(first->kind).data(), first->time.lower());
+//   }
 //
-// What this does not do: no arithmetic. Convert to CGAL's Algebraic_real_1 (kernel/cgal.h) for that.
+// Notation
+//   time of impact   the least t in [0, 1] at which the features meet. It is the root of an integer polynomial in a
+//                    dyadic interval, so nothing about it is rounded: it compares exactly, and its double below and
+//                    above are the nearest there are. noli/cgal.h makes it CGAL's number, which has arithmetic, and
+//                    MPFR's of any precision
+//
+// Kinds, judged at the time of impact t*:
+//   persistent  they meet during a whole interval that begins at t* (of positive length, within the step)
+//   crossing    t* is inside the open step, the contact is of codimension one (vertex_face and edge_edge in 3D: at t*
+//               the four points span exactly a plane; vertex_edge in 2D: the three points span exactly a line), it is
+//               relatively interior to both features, and the orientation determinant changes sign at t*
+//   touching    every other contact
+//   apart       they do not meet
+//
+// Preconditions and errors as for noli/contact.h. Thread safety: any thread; times are values, which share what they
+// never change.
 #pragma once
 
-#include <mpfr.h>
-
 #include <compare>
-#include <cstddef>
-#include <utility>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
 
-#include "kernel/arithmetic/algebraic.h"
+#include "kernel/query.h"
 
 namespace noli {
+
+class AlgebraicNumber;
 
 class TimeOfImpact {
  public:
   /// 0.
-  TimeOfImpact() = default;
-  explicit TimeOfImpact(AlgebraicNumber value) : value_(std::move(value)) {}
+  TimeOfImpact();
   /// Exact. Throws std::domain_error unless 0 <= t <= 1.
   static TimeOfImpact from_double(double t);
   /// num / den. Throws std::domain_error unless 0 <= num / den <= 1 and den is not 0.
-  static TimeOfImpact from_rational(Integer num, Integer den);
+  static TimeOfImpact from_rational(std::int64_t num, std::int64_t den);
 
   /// The largest double <= this time.
-  double lower() const { return value_.floor(); }
+  double lower() const;
   /// The smallest double >= this time.
   double upper() const;
 
-  /// A dyadic interval of width at most 2^-bits that contains this time; both ends are it if the time is known to be
-  /// dyadic. Otherwise the polynomial is not zero at the ends and has just this root between them.
-  std::pair<Dyadic, Dyadic> enclosure(std::size_t bits) const;
-  /// A square-free primitive polynomial with positive leading coefficient of which this time is a root.
-  Polynomial polynomial() const { return value_.polynomial().primitive(); }
-  const AlgebraicNumber& algebraic() const { return value_; }
-
-  /// Sets `result` to this time, correctly rounded to the precision that `result` has. Returns MPFR's ternary value:
-  /// the sign of (result - time), 0 if exact.
-  int to_mpfr(mpfr_ptr result, mpfr_rnd_t rounding) const;
-
-  friend std::strong_ordering operator<=>(const TimeOfImpact& a, const TimeOfImpact& b) {
-    return a.value_ <=> b.value_;
-  }
+  friend std::strong_ordering operator<=>(const TimeOfImpact& a, const TimeOfImpact& b) { return a.compare(b); }
   friend bool operator==(const TimeOfImpact& a, const TimeOfImpact& b) { return (a <=> b) == 0; }
 
+  // For Noli itself: its number type is not installed.
+  explicit TimeOfImpact(AlgebraicNumber value);
+  const AlgebraicNumber& algebraic() const { return *value_; }
+
  private:
-  AlgebraicNumber value_;
+  std::strong_ordering compare(const TimeOfImpact& other) const;
+
+  std::shared_ptr<const AlgebraicNumber> value_;
 };
+
+enum class ContactKind { apart, touching, crossing, persistent };
+
+/// The name used in JSON: "apart", "touching", "crossing", "persistent".
+constexpr std::string_view name(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::apart: return "apart";
+    case ContactKind::touching: return "touching";
+    case ContactKind::crossing: return "crossing";
+    case ContactKind::persistent: return "persistent";
+  }
+  return "";
+}
+
+struct FirstContact {
+  ContactKind kind = ContactKind::touching;  ///< never `apart`
+  TimeOfImpact time;                         ///< the least t in [0, 1] at which the features meet
+};
+
+/// The first contact of the step, or nothing if the features stay apart.
+/// Slow next to `contact` (noli/contact.h): microseconds, with allocation. Call it for queries known to be in contact.
+template <FeaturePair Pair, int Dim>
+std::optional<FirstContact> first_contact(const Query<Pair, Dim>& query);
 
 }  // namespace noli

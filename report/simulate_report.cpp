@@ -5,7 +5,10 @@
 #include <fmt/ranges.h>
 
 #include "certify/contact_report.h"
+#include "certify/not_compared.h"
 #include "certify/process/this_program.h"
+#include "certify/simulate/energy_watch.h"
+#include "certify/simulate/phase_clock.h"
 #include "kernel/parallel.h"
 #include "trajectory/error.h"
 
@@ -35,16 +38,16 @@ Json first_json(const SimulateOutcome& outcome) {
   json["kind"] = noli::name(outcome.contact->first->kind);
   json["names"] = outcome.first_names;
   json["window"] = refused_window(outcome);
-  json["time"] = outcome.contact->first->lower();
+  json["time"] = outcome.contact->first->time;
   return json;
 }
 
 Json not_finite_json(const SimulateOutcome& outcome) {
   if (!outcome.not_finite) return nullptr;
-  const integrator::NotFinite& found = *outcome.not_finite;
+  const NotFinite& found = *outcome.not_finite;
   return {{"window", refused_window(outcome)},
           {"time", found.time},
-          {"force", found.kind ? Json(integrator::name(*found.kind)) : Json(nullptr)},
+          {"force", found.kind ? Json(noli::name(*found.kind)) : Json(nullptr)},
           {"vertices", found.force},
           {"vertex", found.vertex}};
 }
@@ -58,9 +61,9 @@ Json start_gap_json(const SimulateOutcome& outcome) {
 
 Json too_near_json(const SimulateOutcome& outcome) {
   if (!outcome.limit) return nullptr;
-  const certificates::Stencil& pair = outcome.limit->pair;
+  const PairTooNear& pair = *outcome.limit;
   const std::vector<VertexId> vertices(pair.vertices.begin(),
-                                       pair.vertices.begin() + static_cast<std::ptrdiff_t>(pair.size()));
+                                       pair.vertices.begin() + static_cast<std::ptrdiff_t>(point_count(pair.kind)));
   return {{"window", refused_window(outcome)}, {"time", outcome.limit->time},
           {"pair", noli::name(pair.kind)},     {"vertices", vertices},
           {"names", outcome.first_names},      {"start", start_gap_json(outcome)}};
@@ -106,18 +109,18 @@ std::string end_text(const SimulateOutcome& outcome) {
       if (outcome.windows == 0) return "No window was asked for.";
       return nothing_touches(outcome.not_compared, "from beginning to end");
     case RunEnd::contact: {
-      const FirstInWindow& first = *outcome.contact->first;
+      const FirstInStep& first = *outcome.contact->first;
       return fmt::format(
           "Contact in window {}: first {} ({}), {}, at {} s ({} pairs of features in the window). The window is not "
           "part of the run.",
           refused_window(outcome), contact_text(first.contact), on_one_line(outcome.first_names),
-          noli::name(first.kind), digits17(first.lower()), outcome.contact->contact_count());
+          noli::name(first.kind), digits17(first.time), outcome.contact->contact_count());
     }
     case RunEnd::too_near: return too_near_text(outcome);
     case RunEnd::not_finite: {
-      const integrator::NotFinite& found = *outcome.not_finite;
+      const NotFinite& found = *outcome.not_finite;
       const std::string force =
-          found.kind ? fmt::format("the {} of vertices {}", integrator::name(*found.kind), fmt::join(found.force, ", "))
+          found.kind ? fmt::format("the {} of vertices {}", noli::name(*found.kind), fmt::join(found.force, ", "))
                      : "free motion";
       return fmt::format(
           "Numbers run out in window {}: at {} s {} leaves vertex {} a velocity or position that is not "
@@ -160,8 +163,8 @@ std::string place(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return fmt::format("{}: {}", committed, nothing_touches_in_short(outcome.not_compared));
     case RunEnd::contact: {
-      const FirstInWindow& first = *outcome.contact->first;
-      return fmt::format("{}  t = {} s  {}", at, digits4(first.lower()), pair_in_short(first.contact));
+      const FirstInStep& first = *outcome.contact->first;
+      return fmt::format("{}  t = {} s  {}", at, digits4(first.time), pair_in_short(first.contact));
     }
     case RunEnd::too_near:
       return fmt::format("{}  t = {} s  {}", at, digits4(outcome.limit->time), outcome.first_names);
@@ -205,8 +208,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["windows_total"] = outcome.windows_total;
   json["window_length"] = outcome.window_length;
   json["time"] = outcome.time;
-  json["first_time"] =
-      outcome.contact && outcome.contact->first ? Json(outcome.contact->first->lower()) : Json(nullptr);
+  json["first_time"] = outcome.contact && outcome.contact->first ? Json(outcome.contact->first->time) : Json(nullptr);
   json["first"] = first_json(outcome);
   json["contacts"] = counts_json(outcome.contact ? outcome.contact->contacts : ContactCounts{});
   json["not_finite"] = not_finite_json(outcome);
@@ -239,7 +241,7 @@ Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& ou
                  {"windows", outcome.windows},
                  {"windows_total", outcome.windows_total},
                  {"time", digits17(outcome.time)},
-                 {"first_time", outcome.contact ? digits17(outcome.contact->first->lower()) : std::string("none")}});
+                 {"first_time", outcome.contact ? digits17(outcome.contact->first->time) : std::string("none")}});
   answer.place = place(outcome);
   answer.next = next_step(request, outcome);
   std::string& text = answer.text;

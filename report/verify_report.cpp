@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "certify/contact_report.h"
+#include "certify/not_compared.h"
 #include "certify/process/run_program.h"
 #include "certify/process/this_program.h"
+#include "certify/proofs/claim.h"
 #include "certify/version.h"
 #include "kernel/parallel.h"
 #include "report/input_report.h"

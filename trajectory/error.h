@@ -1,39 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every reader throws: the file, the place in it, and what was expected there.
+// What Noli throws.
+//
+//   try {
+//     const noli::VerifyOutcome outcome = noli::run_verify(request);
+//   } catch (const noli::InputError& error) {      // a file is at fault: "cloth_3.obj: line 17: ..."
+//   } catch (const noli::UsageError& error) {      // the request is at fault
+//   }
+//
+// All are std::runtime_error, and what() is one line. Beside them Noli throws std::system_error (disk, processes),
+// std::bad_alloc, and what a callback throws. A verdict is a result and never an exception.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-
-#include "trajectory/stop.h"
 
 namespace noli {
 
 /// The text on one line: control characters, which names of files may contain, as \n, \t or \x1b. All else stays.
 std::string on_one_line(std::string_view text);
 
-/// Bad input. what() is one line: "FILE:PLACE: what is wrong, and what was expected". PLACE is "line N" for text, "byte
-/// N" for binary content, and absent where the file as a whole is meant (missing, empty).
+/// Bad input. what() is "FILE:PLACE: what is wrong, and what was expected". PLACE is "line N" for text, "byte N" for
+/// binary content, and absent where the file as a whole is meant (missing, empty).
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& file, const std::string& place, const std::string& problem)
       : std::runtime_error(on_one_line(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem)) {}
 };
 
-/// The process was asked to stop (trajectory/stop.h) while a reader read its file or waited for it, a pipe for example.
-/// what() is one line.
-class ReadInterrupted : public Stopped {
+/// What is asked for cannot be: options that do not go together, a place that cannot be written to.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Results could not be written.
+struct WriteError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A process that helps could not do its work, because of memory or files.
+struct HelperError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class StopReason : std::uint8_t { interrupted = 1, out_of_time = 2 };
+
+/// Work ended before its end, because it was asked to stop. what() is "PLACE: interrupted", or "PLACE: the time limit
+/// has passed".
+class Stopped : public std::runtime_error {
  public:
-  explicit ReadInterrupted(const std::string& file)
-      : ReadInterrupted(file, stop_asked().value_or(StopReason::interrupted)) {}
+  /// `place`: what was being done, or read; may be empty.
+  Stopped(StopReason reason, const std::string& place);
+  StopReason reason() const { return reason_; }
+
+ protected:
+  struct Words {
+    std::string all;
+  };
+  Stopped(StopReason reason, const Words& words) : std::runtime_error(words.all), reason_(reason) {}
 
  private:
-  ReadInterrupted(const std::string& file, StopReason reason)
-      : Stopped(reason, Words{on_one_line(file + (reason == StopReason::interrupted
-                                                      ? ": interrupted while it was read"
-                                                      : ": the time limit has passed while it was read"))}) {}
+  StopReason reason_;
 };
 
 }  // namespace noli

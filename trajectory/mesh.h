@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a set of vertices is joined to: the cells of a mesh, by vertex index. No coordinates (see frames.h,
-// world_lines.h).
+// What moves: the cells of a mesh by vertex index, positions, and the pairs of cells that are not compared.
+//
+//   noli::Mesh mesh;
+//   mesh.vertex_count = 4;
+//   mesh.faces = {{0, 1, 2}};   // one triangle
+//   mesh.points = {3};          // and a particle
+//
+// Notation
+//   vertex   an index below vertex_count. Vertices are identified by index; equal positions do not merge them
+//   cell     a face, a loose edge or a loose point: what a file lists. Its features are its vertices, edges and itself.
+//            Cells are numbered in this order: faces, then edges, then points
+//
+// Units: coordinates have whatever unit of length the caller uses. They are taken as they are, without rounding.
+// Thread safety: plain values; several threads may read one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,12 +25,11 @@
 namespace noli {
 
 using VertexId = std::uint32_t;
-/// Coordinates in the file's own unit of length. The same type as the kernel's point in three dimensions.
+/// Coordinates x, y, z. The same type as a query's point in three dimensions.
 using Position = std::array<double, 3>;
 
-/// Cells of a mesh. A *cell* is a face, a loose edge or a loose point: what the file lists. Its features are its
-/// vertices, edges and itself. Cells are numbered in this order: faces, then edges, then points. Invariant (checked by
-/// the readers): every index is below vertex_count. An index may occur twice in a cell: it is degenerate.
+/// Cells of a mesh, without coordinates. Invariant (readers check it): every index is below vertex_count. A cell that
+/// lists an index twice is degenerate, which is allowed.
 struct Mesh {
   std::size_t vertex_count = 0;
   std::vector<std::array<VertexId, 3>> faces;
@@ -32,6 +44,20 @@ struct Mesh {
 struct Frame {
   Mesh mesh;
   std::vector<Position> positions;  ///< one per vertex; z = 0 where the file has none
+};
+
+/// Which pairs of cells are not compared: those of two groups of vertices, or of one.
+struct Exclusions {
+  using Pair = std::array<std::uint16_t, 2>;
+
+  std::vector<std::uint16_t> groups;  ///< of each vertex; a cell has vertices of one group. Empty without pairs
+  std::vector<Pair> pairs;            ///< {a, b} with a <= b, ascending, each once
+
+  bool empty() const { return pairs.empty(); }
+  bool excluded(std::uint16_t a, std::uint16_t b) const {
+    return std::binary_search(pairs.begin(), pairs.end(), Pair{std::min(a, b), std::max(a, b)});
+  }
+  friend bool operator==(const Exclusions&, const Exclusions&) = default;
 };
 
 }  // namespace noli

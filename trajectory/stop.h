@@ -11,30 +11,11 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
+#include "trajectory/error.h"
+
 namespace noli {
-
-enum class StopReason : std::uint8_t { interrupted = 1, out_of_time = 2 };
-
-/// Work ended before its end, because the process was asked to stop. what() is one line: "PLACE: interrupted", or
-/// "PLACE: the time limit has passed".
-class Stopped : public std::runtime_error {
- public:
-  /// `place`: what was being done, or read; may be empty.
-  Stopped(StopReason reason, const std::string& place);
-  StopReason reason() const { return reason_; }
-
- protected:
-  struct Words {
-    std::string all;
-  };
-  Stopped(StopReason reason, const Words& words) : std::runtime_error(words.all), reason_(reason) {}
-
- private:
-  StopReason reason_;
-};
 
 namespace stop_detail {
 inline std::atomic<std::uint8_t> asked{0};
@@ -62,5 +43,18 @@ inline std::optional<StopReason> stop_asked() noexcept {
 inline void end_if_stopped() {
   if (stop_detail::asked.load(std::memory_order_relaxed) != 0) stop_detail::throw_stopped();
 }
+
+/// The process was asked to stop while a reader read its file or waited for it, a pipe for example. what() is one line.
+class ReadInterrupted : public Stopped {
+ public:
+  explicit ReadInterrupted(const std::string& file)
+      : ReadInterrupted(file, stop_asked().value_or(StopReason::interrupted)) {}
+
+ private:
+  ReadInterrupted(const std::string& file, StopReason reason)
+      : Stopped(reason, Words{on_one_line(file + (reason == StopReason::interrupted
+                                                      ? ": interrupted while it was read"
+                                                      : ": the time limit has passed while it was read"))}) {}
+};
 
 }  // namespace noli

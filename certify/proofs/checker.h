@@ -6,44 +6,15 @@
 #include <sys/types.h>
 
 #include <atomic>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "certify/process/pipe.h"
+#include "certify/proofs/proof.h"
 #include "trajectory/blocks/block_sink.h"
 
 namespace noli {
-
-enum class Checker { plain, verified };
-
-/// As it says itself: "noli_check", "0.1.0", the commit.
-struct CheckerVersion {
-  std::string name, version, commit;
-};
-
-/// Throws HelperError when it does not say; std::runtime_error when it is not there.
-CheckerVersion version_of(Checker checker);
-
-/// What a checker said, and how it ended: 0 accepted, 1 refuted, 3 rejected.
-struct CheckerVerdict {
-  int code = 3;
-  std::string words;  ///< its standard output, lines
-};
-
-/// What a checker is asked.
-struct CheckRequest {
-  Checker checker = Checker::plain;
-  std::optional<std::filesystem::path> proof = {};  ///< nothing: it is written to the process
-  std::vector<std::filesystem::path> trajectory =
-      {};                                   ///< the frames in the order of time, or a run's trajectory.blocks
-  std::vector<std::string> asked = {};      ///< fields as they follow its --require (proofs/FORMAT.md, section 6)
-  const std::atomic<bool>* stop = nullptr;  ///< polled, beside trajectory/stop.h
-  std::filesystem::path programs = {};      ///< the folder that the checkers are in; empty: that of this program
-};
 
 /// A checker at work. It does not share the signals of the terminal: this process hears them, and ends it.
 class CheckerProcess {
@@ -89,12 +60,5 @@ class CheckerSink : public Sink {
  private:
   CheckerProcess& checker_;
 };
-
-/// Starts a checker on a proof in a file and waits for its end. Precondition: request.proof. Throws as CheckerProcess,
-/// and Stopped.
-CheckerVerdict check_proof(const CheckRequest& request);
-
-/// The file of a run that checkers read.
-std::vector<std::filesystem::path> trajectory_for_checker(const std::vector<std::filesystem::path>& trajectory);
 
 }  // namespace noli

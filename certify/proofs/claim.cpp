@@ -7,10 +7,12 @@
 #include <charconv>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "integrator/scene/json_text.h"
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/tokens/proof_file.h"
+#include "trajectory/blocks/block_sink.h"
 #include "trajectory/error.h"
 #include "trajectory/text.h"
 
@@ -301,5 +303,9 @@ Json claim_file(const Claim& claim) {
 }
 
 std::vector<std::string> read_claim_file(const std::filesystem::path& file) { return ClaimFile(file).fields(); }
+
+std::function<std::unique_ptr<Sink>(const Claim&)> proof_to_file(std::filesystem::path file) {
+  return [file = std::move(file)](const Claim&) { return std::make_unique<FileSink>(file, FileSink::Open::create); };
+}
 
 }  // namespace noli

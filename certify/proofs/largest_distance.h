@@ -8,15 +8,10 @@
 #include <optional>
 #include <span>
 
+#include "proofs/prover/findings.h"
 #include "proofs/prover/tokens/step_prover.h"
 
 namespace noli {
-
-/// All features that the prover's claim compares are more than `allowed` apart, but not all are more than `limit`,
-/// which is about a millionth greater.
-struct LargestDistance {
-  double allowed, limit;
-};
 
 /// The bounds for the positions x at rest if they are below `eta`; nothing if that is allowed itself, or the search was
 /// stopped. Each pair that is too near gives the next smaller limit, decided exactly; that a distance is allowed is

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "certify/proofs/claim.h"
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/hierarchy.h"
 #include "proofs/prover/witness/witness.h"

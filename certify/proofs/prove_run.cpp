@@ -4,6 +4,7 @@
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/windows/forest.h"
 #include "trajectory/error.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {

@@ -108,7 +108,7 @@ class Reader {
     facts_.last_end_line = entry;
     const Json& timing = member(entry, "timing");
     facts_.verifying_seconds += number<double>(timing, "verifying_seconds");
-    for (std::size_t i = 0; i < integrator::phases; ++i) {
+    for (std::size_t i = 0; i < phase_count; ++i) {
       const std::string phase(name(static_cast<integrator::Phase>(i)));
       facts_.phases[i] += number<double>(member(timing, "phases"), phase.c_str());
     }

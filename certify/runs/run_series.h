@@ -16,50 +16,12 @@
 #include <string>
 #include <string_view>
 
+#include "certificates/run_values.h"
 #include "certify/runs/step_histogram.h"
 #include "integrator/simulation.h"
 #include "trajectory/world_lines.h"
 
 namespace noli {
-
-/// A layer of contact that acted (integrator/contact_extremes.h).
-struct ActingLayer {
-  std::uint64_t layer = 0;  ///< 0: none did, and nothing else here means anything
-  std::uint64_t material = 0;
-  FeaturePair pair{};
-  std::array<VertexId, 4> vertices{};
-  double time = 0, distance = 0;
-
-  friend bool operator==(const ActingLayer&, const ActingLayer&) = default;
-};
-
-struct SeriesRow {
-  double time = 0;  ///< the window's end [s]
-  double kinetic = 0, kinetic_mean = 0;
-  std::array<double, integrator::force_kinds> potential{};
-  std::array<double, integrator::force_kinds> work{};           ///< of the conservative impulses within the window [J]
-  std::array<double, integrator::force_kinds> damping_work{};   ///< [J]
-  std::array<double, 3> momentum{};                             ///< [N s]
-  std::array<double, 3> angular_momentum{};                     ///< in the plane the third [N m s]
-  std::array<std::uint64_t, integrator::force_kinds> events{};  ///< forces fired; of contact, impulses of layers
-  std::uint64_t breakpoints = 0;
-  std::uint64_t halvings = 0;  ///< of the steps of all contact layers, after windows that had to be run again
-  ActingLayer deepest, nearest;
-  StepHistogram steps;
-
-  std::uint64_t events_in_all() const {
-    std::uint64_t sum = 0;
-    for (const std::uint64_t n : events) sum += n;
-    return sum;
-  }
-  double potential_in_all() const {
-    double sum = 0;
-    for (const double p : potential) sum += p;
-    return sum;
-  }
-
-  friend bool operator==(const SeriesRow&, const SeriesRow&) = default;
-};
 
 /// Bytes of a row.
 std::string encode(const SeriesRow& row);

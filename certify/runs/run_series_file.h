@@ -4,21 +4,12 @@
 // (certify/runs/step_histogram.h) at the ends of windows, and frames.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 
+#include "certificates/run_values.h"
+
 namespace noli {
-
-enum class SeriesEnd : std::uint8_t {
-  written,
-  unavailable,  ///< noli_series is not there: Noli was built without HDF5
-  stopped,      ///< no file is written, and one that is there stays as it is
-  failed        ///< the same; the machine's fault
-};
-
-/// As in the JSON and the log.
-const char* name(SeriesEnd end);
 
 /// Writes RUN/series.h5, or replaces it. Frames are at the multiples of 1 / frame_rate; of a run that recorded frames
 /// alone, those that it has. `stop` is asked after each window and frame. In memory: a window. Throws InputError

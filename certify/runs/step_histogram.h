@@ -19,41 +19,10 @@
 #include <span>
 #include <vector>
 
+#include "certificates/run_values.h"
 #include "trajectory/world_lines.h"
 
 namespace noli {
-
-/// The number of the lowest bin.
-inline constexpr std::int64_t least_step_bin = -4 * 1023;
-
-/// The number of the bin that a step is in. Precondition: positive and finite; what is subnormal is in the lowest.
-std::int64_t step_bin(double step);
-
-/// The lower end of a bin [s]; its upper end is that of the next, and that of the highest the greatest double. Not for
-/// results that have to be the same everywhere.
-double bin_begin(std::int64_t bin);
-
-struct StepHistogram {
-  struct Bin {
-    std::int64_t number;
-    std::uint64_t ticks;  ///< of all free vertices, positive
-    friend bool operator==(const Bin&, const Bin&) = default;
-  };
-
-  double smallest = 0;    ///< step [s]; 0: nothing is free. Where clocks that have nothing to do with each other fire
-                          ///< at almost the same time, it is as small as rounding
-  std::vector<Bin> bins;  ///< ascending; those that are empty are not there
-
-  friend bool operator==(const StepHistogram&, const StepHistogram&) = default;
-
-  std::uint64_t ticks() const;
-  /// Adds what is in another one.
-  void add(const StepHistogram& other);
-  /// The step below which a free vertex is for this share of its time [s], steps being spread over their bin evenly in
-  /// their logarithm; 0.5 is the median. Precondition: something is free, 0 <= share <= 1. Not for results that have to
-  /// be the same everywhere.
-  double quantile(double share) const;
-};
 
 /// Of a window. `fixed`: of each vertex, not 0 if it is pinned or scripted.
 StepHistogram step_histogram(const WorldLines& lines, std::span<const std::uint8_t> fixed);

@@ -20,20 +20,13 @@
 #include <array>
 #include <optional>
 
+#include "certificates/run_values.h"
 #include "certify/json.h"
 #include "certify/runs/run_series.h"
 #include "integrator/scene/explain.h"
 #include "integrator/scene/scene.h"
 
 namespace noli {
-
-/// What is off most, and where.
-struct EnergyAstray {
-  double begin = 0;  ///< B at the beginning [J]
-  double there = 0;  ///< B where it is farthest from that [J]
-  double time = 0;   ///< [s]
-  double scale = 0;  ///< [J]
-};
 
 class EnergyWatch {
  public:

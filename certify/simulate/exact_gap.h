@@ -15,18 +15,11 @@
 
 #include <array>
 
+#include "certify/run_summary.h"
 #include "kernel/query.h"
 #include "trajectory/world_lines.h"
 
 namespace noli {
-
-/// above < gap <= up_to, and no double is between; or both are 0, which is contact.
-struct ExactGap {
-  double above = 0, up_to = 0;
-  double time = 0;  ///< about when they first are within up_to
-
-  friend bool operator==(const ExactGap&, const ExactGap&) = default;
-};
 
 /// `vertices`: as in kernel/query.h; the first point_count(pair) count. Precondition: such a pair exists in the
 /// dimension, 2 or 3; the vertices are different. Throws std::range_error when the gap is above the greatest double.

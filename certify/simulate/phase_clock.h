@@ -6,17 +6,15 @@
 // What this does not do: what lasts for less than some milliseconds in all is seen or not.
 #pragma once
 
-#include <array>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
+#include "certificates/run_values.h"
 #include "certify/json.h"
 #include "integrator/phase.h"
 
 namespace noli {
-
-using PhaseSeconds = std::array<double, integrator::phases>;
 
 class PhaseClock {
  public:

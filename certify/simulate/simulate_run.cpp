@@ -12,6 +12,7 @@
 #include "certify/body_names.h"
 #include "certify/contact_report.h"
 #include "certify/errors.h"
+#include "certify/not_compared.h"
 #include "certify/proofs/prove_run.h"
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_folder.h"
@@ -19,9 +20,11 @@
 #include "certify/runs/run_series_file.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/runs/series_process.h"
+#include "certify/simulate/energy_watch.h"
 #include "certify/simulate/exact_gap.h"
 #include "certify/simulate/model_facts.h"
 #include "certify/simulate/model_run.h"
+#include "certify/simulate/phase_clock.h"
 #include "certify/simulate/retries.h"
 #include "certify/simulate/run_extent.h"
 #include "certify/simulate/run_space.h"
@@ -29,8 +32,12 @@
 #include "certify/stopwatch.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/scene/build_model.h"
+#include "integrator/scene/explain.h"
 #include "integrator/scene/read_scene.h"
+#include "integrator/scene/scene.h"
+#include "integrator/simulation.h"
 #include "kernel/parallel.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/error.h"
 #include "trajectory/sample.h"
@@ -59,6 +66,13 @@ struct Candidate {
   std::uint32_t deepest = 0;  ///< layer that was active, so far
   std::future<WindowResult> verdict;
 };
+
+/// A window that was refused, without the exact form of its first time.
+StepResult as_step(WindowResult window) {
+  StepResult step{std::move(static_cast<Findings&>(window)), {}, {}};
+  if (window.first) step.first = FirstInStep{window.first->contact, window.first->kind, window.first->lower()};
+  return step;
+}
 
 template <int Dim>
 class Run {
@@ -134,7 +148,8 @@ class Run {
   }
 
   bool stopped() {
-    if (stop_asked() == StopReason::interrupted) outcome_.end = RunEnd::interrupted;
+    const bool asked = request_.stop != nullptr && request_.stop->load(std::memory_order_relaxed);
+    if (asked || stop_asked() == StopReason::interrupted) outcome_.end = RunEnd::interrupted;
     const bool late = deadline_ && std::chrono::steady_clock::now() >= *deadline_;
     if (late || stop_asked() == StopReason::out_of_time) outcome_.end = RunEnd::out_of_time;
     return outcome_.end != RunEnd::done;
@@ -378,7 +393,7 @@ class Run {
     outcome_.end = RunEnd::contact;
     if (result.first)
       outcome_.first_names = names_.pair(result.first->contact.pair, result.first->contact.vertices, "meets");
-    outcome_.contact = std::move(result);
+    outcome_.contact = as_step(std::move(result));
     return Settled::yes;
   }
 
@@ -446,7 +461,7 @@ class Run {
     if (outcome_.end != RunEnd::done) return;
     if (limit_) {
       outcome_.end = RunEnd::too_near;
-      outcome_.limit = limit_;
+      outcome_.limit = PairTooNear{limit_->pair.kind, limit_->pair.vertices, limit_->time};
       if (before_.windows == 0) outcome_.start_gap = start_gap(limit_->pair);
       outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "and");
     } else if (!finite_) {
@@ -507,7 +522,7 @@ class Run {
     if (outcome_.contact && outcome_.contact->first) {
       entry["first"] = contact_json(outcome_.contact->first->contact);
       entry["first"]["kind"] = noli::name(outcome_.contact->first->kind);
-      entry["first_time"] = outcome_.contact->first->lower();
+      entry["first_time"] = outcome_.contact->first->time;
     }
     if (outcome_.limit) entry["too_near"] = {{"time", outcome_.limit->time}, {"names", outcome_.first_names}};
     if (outcome_.energy_astray) entry["energy"] = energy_json(*outcome_.energy_astray);

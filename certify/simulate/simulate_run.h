@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli simulate` without its words: integrates window after window, verifies each exactly, and commits it to the run
-// only when nothing touches in it.
+// Simulates a scene: integrates window after window, verifies each exactly, and commits it to the run only when nothing
+// touches in it.
+//
+//   noli::SimulateRequest request;
+//   request.scene = "scenes/swinging_cloth.json";
+//   request.run = "run";
+//   const noli::SimulateOutcome outcome = noli::run_simulate(request);
+//   if (outcome.end == noli::RunEnd::contact) ...     // outcome.contact->first says who, when and how
 //
 // Notation
-//   window k   [k W, (k + 1) W], k = 0, 1, ... in files and in this code; whoever reads or types a number counts from
-//              1. While it is integrated, the one before is verified on another thread
+//   window k   [(k - 1) W, k W], k = 1, 2, ..., W the scene's length of a window. While a window is integrated, the one
+//              before is verified on another thread
 //   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5
 //
-// The bytes of trajectory.blocks depend on the scene alone: not on threads, on where a run was interrupted, on who
-// looks.
+// The bytes of trajectory.blocks depend on the scene and the version alone: not on threads, on where a run was
+// interrupted, on who looks. A run that was interrupted goes on with `resume`.
 //
-// What this does not do: it prints nothing (simulate_report.h).
+// Units: SI; each field names its own.
+// Errors: as each function says. Thread safety: runs in different folders may be at work at once; a second process or
+// thread that writes to the same run is refused. Nothing is printed.
 #pragma once
 
 #include <atomic>
@@ -24,17 +32,16 @@
 #include <string_view>
 #include <vector>
 
-#include "certify/not_compared.h"
-#include "certify/runs/run_series_file.h"
-#include "certify/simulate/energy_watch.h"
-#include "certify/simulate/phase_clock.h"
-#include "integrator/contact_extremes.h"
-#include "integrator/scene/explain.h"
-#include "integrator/scene/scene.h"
-#include "integrator/simulation.h"
-#include "proofs/prover/windows/window_verifier.h"
+#include "certificates/run_values.h"
+#include "certify/sequence.h"
+#include "proofs/prover/findings.h"
 
 namespace noli {
+
+namespace integrator {
+struct Scene;
+struct Explanation;
+}  // namespace integrator
 
 struct SimulateRequest {
   std::filesystem::path scene;
@@ -48,16 +55,16 @@ struct SimulateRequest {
   bool ignore_space = false;    ///< begin though the disk is predicted not to hold the run
   int threads = 0;              ///< 0: all there are
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  const std::atomic<bool>* stop =
-      nullptr;                 ///< polled by the verifier; who sets it also asks to stop (trajectory/stop.h)
-  std::function<int()> stops;  ///< how often one has asked to stop so far; empty: nobody asks twice
+  const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, the run ends at the last committed window
+  std::function<int()> stops;               ///< how often one has asked to stop so far; empty: nobody asks twice
   /// Called behind each window that was committed, with its energies, momenta and counts; false ends the run there, as
   /// an interruption does. Empty: nobody asks.
   std::function<bool(const SeriesRow&)> keep_going;
   /// Called with what is done, and the share of it in [0, 1]: "simulate", then "series.h5". Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;
-  /// Called once nothing stands against the run any more, before anything is integrated. The text says how many bytes
-  /// the run is about to write (run_space.h).
+
+  /// For `noli simulate` itself. Called once nothing stands against the run any more, before anything is integrated.
+  /// The text says how many bytes the run is about to write.
   std::function<void(const integrator::Scene&, const integrator::Explanation&, const std::string& space)> begun;
 };
 
@@ -92,19 +99,19 @@ struct SimulateOutcome {
   std::uint64_t windows_before = 0;              ///< of those committed, by earlier calls (--resume)
   double time = 0;                               ///< of the last commit [s]
   std::uint64_t events = 0, breakpoints = 0;     ///< of this call
-  std::optional<WindowResult> contact;           ///< of the window that was refused
+  std::optional<StepResult> contact;             ///< of the window that was refused; times are in seconds
   NotCompared not_compared;
   std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
-  std::optional<integrator::ContactLimit> limit;
+  std::optional<PairTooNear> limit;
   std::optional<StartGap> start_gap;  ///< of its pair, if that begins within a layer and ends the first window
-  std::optional<integrator::NotFinite> not_finite;
+  std::optional<NotFinite> not_finite;
   bool energy_watched = false;  ///< the scene's steps may be unstable
   std::optional<EnergyAstray> energy_astray;
   std::uint64_t roll_backs = 0;           ///< of windows that were run again
   bool proved = false;                    ///< proof.blocks has a proof of every window
   std::optional<std::string> no_proof;    ///< why it ends before
   std::uint64_t certificate_defects = 0;  ///< of them, such that more layers from the start were enough
-  certificates::CertificateCounts certificates;
+  CertificateCounts certificates;
   SeriesEnd series = SeriesEnd::stopped;
   double seconds = 0, simulating_seconds = 0, verifying_seconds = 0;
   PhaseSeconds phases{};  ///< of the thread that integrates and writes

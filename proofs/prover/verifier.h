@@ -46,31 +46,11 @@
 
 #include "kernel/contact.h"
 #include "kernel/query.h"
-#include "kernel/stages.h"
+#include "proofs/prover/findings.h"
 #include "proofs/prover/tokens/tokens.h"
 #include "trajectory/mesh.h"
 
 namespace noli {
-
-/// One pair of features that meets within a step.
-struct FeatureContact {
-  FeaturePair pair = FeaturePair::vertex_face;
-  /// Vertex ids in the order of kernel/query.h; the first point_count(pair) count. Canonical: each edge in ascending
-  /// order, the smaller edge first, a face as the mesh lists it.
-  std::array<VertexId, 4> vertices{};
-  TimeEnclosure first;  ///< contains the first time at which they meet, in [0, 1] of the step
-
-  friend bool operator==(const FeatureContact& a, const FeatureContact& b) {
-    return a.pair == b.pair && a.vertices == b.vertices;
-  }
-};
-
-/// Two cells (numbered as in Mesh) whose vertex-disjoint parts meet at the beginning of the step.
-struct InitialIntersection {
-  std::uint32_t first_cell = 0;
-  std::uint32_t second_cell = 0;
-  friend bool operator==(const InitialIntersection&, const InitialIntersection&) = default;
-};
 
 struct VerifyOptions {
   int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is not looked at
@@ -90,22 +70,6 @@ struct VerifyOptions {
 struct StepProof {
   std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree
   JoinedTokens tokens;
-};
-
-/// What is found in a step, or in a window.
-struct Findings {
-  bool complete = true;  ///< false: stopped early (stop, deadline, first_only); counts are then lower bounds
-  std::array<std::uint64_t, all_feature_pairs.size()>
-      contacts{};  ///< by FeaturePair: pairs that meet in the closed step
-  std::uint64_t initial_intersections = 0;
-  std::vector<FeatureContact> reports;               ///< the first max_reports in canonical order (pair, then vertices)
-  std::vector<InitialIntersection> initial_reports;  ///< the first max_reports in ascending order
-  StageCounters stages;           ///< which stage decided each pair of features that reached the kernel
-  std::uint64_t obligations = 0;  ///< obligations closed by a direction
-  std::uint64_t cell_pairs = 0;   ///< pairs of cells taken apart into features
-
-  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
-  bool touches() const { return contact_count() + initial_intersections > 0; }
 };
 
 struct VerifyResult : Findings {

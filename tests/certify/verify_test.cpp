@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tests/support/temporary_folder.h"
+#include "trajectory/blocks/block_sink.h"
 #include "trajectory/error.h"
 
 namespace noli {

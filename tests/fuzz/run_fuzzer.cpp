@@ -27,6 +27,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/trajectory/mutate_run.h"
 #include "trajectory/error.h"
+#include "trajectory/stop.h"
 #include "trajectory/write_file.h"
 
 namespace {

@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/arithmetic/algebraic.h"
 #include "kernel/cgal.h"
+#include "kernel/cgal_numbers.h"
 #include "tests/kernel/random_queries.h"
 
 namespace noli {
@@ -77,8 +79,8 @@ TEST(Cgal, OrderAndSignsAreThoseOfTheAlgebraicKernel) {
 TEST(Cgal, DyadicAndRationalTimesConvert) {
   const auto construct = AlgebraicKernel().construct_algebraic_real_1_object();
   EXPECT_EQ(from_algebraic_real_1(construct(CGAL::Gmpq(3, 8))), TimeOfImpact::from_double(0.375));
-  EXPECT_EQ(from_algebraic_real_1(construct(CGAL::Gmpq(1, 3))), TimeOfImpact::from_rational(Integer(1), Integer(3)));
-  EXPECT_EQ(to_algebraic_real_1(TimeOfImpact::from_rational(Integer(1), Integer(3))), construct(CGAL::Gmpq(1, 3)));
+  EXPECT_EQ(from_algebraic_real_1(construct(CGAL::Gmpq(1, 3))), TimeOfImpact::from_rational(1, 3));
+  EXPECT_EQ(to_algebraic_real_1(TimeOfImpact::from_rational(1, 3)), construct(CGAL::Gmpq(1, 3)));
   EXPECT_EQ(to_algebraic_real_1(TimeOfImpact()), Real(0));
   EXPECT_THROW(from_algebraic_real_1(construct(CGAL::Gmpq(4, 3))), std::domain_error);
   EXPECT_THROW(from_algebraic_real_1(construct(CGAL::Gmpq(-1, 3))), std::domain_error);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/arithmetic/algebraic.h"
 #include "kernel/first_contact.h"
 #include "tests/kernel/oracle_motion.h"
 #include "tests/kernel/random_queries.h"
@@ -147,7 +148,7 @@ TEST(FirstContact, EdgesCross) {
   q.x_t0 = {{{-1, 0, 1}, {1, 0, 1}, {0, -1, 0}, {0, 1, 0}}};
   q.x_t1 = {{{-1, 0, -2}, {1, 0, -2}, {0, -1, 0}, {0, 1, 0}}};
   EXPECT_EQ(kind_of(q), ContactKind::crossing);
-  EXPECT_EQ(first_contact(q)->time, TimeOfImpact::from_rational(Integer(1), Integer(3)));
+  EXPECT_EQ(first_contact(q)->time, TimeOfImpact::from_rational(1, 3));
   q.x_t0[0][0] = q.x_t1[0][0] = 0;  // the end of the first passes
   EXPECT_EQ(kind_of(q), ContactKind::touching);
 }
@@ -177,7 +178,7 @@ TEST(FirstContact, IrrationalTimes) {
   const auto contact = first_contact(q);
   ASSERT_TRUE(contact);
   EXPECT_EQ(contact->kind, ContactKind::crossing);
-  EXPECT_EQ(contact->time, TimeOfImpact::from_rational(Integer(2), Integer(3)));
+  EXPECT_EQ(contact->time, TimeOfImpact::from_rational(2, 3));
   q.x_t1 = {{{0, 0}, {-1, 1}, {3, 0}}};
   const TimeOfImpact irrational = first_contact(q)->time;
   EXPECT_FALSE(irrational.algebraic().is_rational());
@@ -188,7 +189,7 @@ TEST(FirstContact, VerticesMeetOnlyWhereAllCoordinatesDo) {
   VertexVertex3 q;
   q.x_t0 = {{{0, 0, 0}, {1, 2, 3}}};
   q.x_t1 = {{{3, 6, 9}, {1, 2, 3}}};
-  EXPECT_EQ(first_contact(q)->time, TimeOfImpact::from_rational(Integer(1), Integer(3)));
+  EXPECT_EQ(first_contact(q)->time, TimeOfImpact::from_rational(1, 3));
   EXPECT_EQ(kind_of(q), ContactKind::touching);
   q.x_t1[0][2] = std::nextafter(9.0, 10.0);
   EXPECT_EQ(kind_of(q), ContactKind::apart);

@@ -15,7 +15,7 @@ namespace {
 using test::polynomial;
 using test::Random;
 
-TimeOfImpact third() { return TimeOfImpact::from_rational(Integer(1), Integer(3)); }
+TimeOfImpact third() { return TimeOfImpact::from_rational(1, 3); }
 
 /// The square root of 1/2.
 TimeOfImpact root_of_half() { return TimeOfImpact(roots_in_unit_interval(polynomial({-1, 0, 2})).at(0)); }
@@ -85,7 +85,7 @@ TEST(Moment, OrderIsThatOfTheTimes) {
   for (int i = 0; i < 500; ++i) {
     const double from = random.unit() - 0.5, to = from + random.unit() + 0x1p-40;
     const Window window{-1, 2};
-    const auto draw = [&] { return TimeOfImpact::from_rational(Integer(random.below(30)), Integer(30)); };
+    const auto draw = [&] { return TimeOfImpact::from_rational(random.below(30), 30); };
     const TimeOfImpact s = draw(), r = draw();
     const Moment a(window, from, to, s), b(window, from, to, r);
     EXPECT_EQ(a <=> b, s <=> r);

@@ -20,21 +20,9 @@
 #include <string_view>
 
 #include "trajectory/blocks/sha256.h"
+#include "trajectory/formats/frame_facts.h"
 
 namespace noli {
-
-/// What was read of a frame.
-struct FrameFacts {
-  std::string file;         ///< its name, as given; a path would take several times the memory
-  bool looked_at = false;   ///< else only the name is known
-  std::uint64_t bytes = 0;  ///< of the file
-  Sha256Digest sha256{};    ///< of its bytes
-  std::string numbers;      ///< of coordinates: "float64", "float32/float64", "text with 9 digits, 6 decimals"
-  std::uint64_t vertices = 0;
-  std::optional<std::uint64_t> cells;  ///< once a frame of the mesh has been parsed
-  std::optional<int> rounded_at;       ///< k: text that may have been rounded to multiples of 10^k (TextDigits)
-  std::uint64_t decimals = 0;          ///< of such text
-};
 
 struct FrameLook {
   FrameFacts facts;

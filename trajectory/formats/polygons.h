@@ -16,14 +16,10 @@
 #include <string>
 #include <vector>
 
+#include "trajectory/formats/frame_facts.h"
 #include "trajectory/mesh.h"
 
 namespace noli {
-
-enum class PolygonRule {
-  fan,    ///< cut into a fan
-  refuse  ///< a polygon is an error
-};
 
 /// The triangles of a polygon of more than three corners: faces [first, first + count) of its mesh.
 struct Fan {

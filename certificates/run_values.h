@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a run says of itself: energies, momenta, counts and steps of each window, and why it could not go on.
+//
+//   request.keep_going = [](const noli::SeriesRow& row) { return row.kinetic < 10; };   // noli/simulate.h
+//
+// Notation
+//   window    a piece of simulated time, certified as a whole; counted from 1
+//   layer     of contact: a penalty that acts on a pair of features below a distance of its own
+//   step      of a vertex: the time between two of its breakpoints that follow one another
+//   bin b     the steps from 2^((2 b - 1) / 8) to 2^((2 b + 1) / 8) s, the upper end not included
+//   B         K + V - D: kinetic energy and all potentials, less what damping and friction have taken since the beginning
+//
+// Phases: what a run is busy with
+//   force        positions of a force's vertices and its impulse
+//   kick         what impulses do to velocities, and the breakpoints that this leaves
+//   layer        layers of contact: distances of the pairs for which they are active, impulses, friction
+//   certificate  looks at vertices, slabs, activation
+//   broad_phase  who is near whom
+//   queue        what comes next: clocks, the agenda of layers, the queue of certificates; scripts
+//   recording    breakpoints at a window's ends; sorting all of them by vertex
+//   proof        verifying a window, or waiting for it to be verified elsewhere
+//   writing      blocks, frames, the log, series.h5
+//   other        all else: reading, building, energies
+//
+// Units: SI; each field names its own.
+// Plain values: no errors except those named; several threads may read one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "kernel/query.h"
+#include "trajectory/mesh.h"
+
+namespace noli {
+
+/// Kinds of forces, in the order in which events of one time happen (design, "Dynamics").
+enum class ForceKind : std::uint8_t { gravity, edge_spring, membrane, hinge, turning, contact };
+inline constexpr std::size_t force_kinds = 6;
+
+constexpr std::string_view name(ForceKind kind) {
+  switch (kind) {
+    case ForceKind::gravity: return "gravity";
+    case ForceKind::edge_spring: return "edge_spring";
+    case ForceKind::membrane: return "membrane";
+    case ForceKind::hinge: return "hinge";
+    case ForceKind::turning: return "turning";
+    case ForceKind::contact: return "contact";
+  }
+  return "";
+}
+
+/// The number of the lowest bin.
+inline constexpr std::int64_t least_step_bin = -4 * 1023;
+
+/// The number of the bin that a step is in. Precondition: positive and finite; what is subnormal is in the lowest.
+std::int64_t step_bin(double step);
+
+/// The lower end of a bin [s]; its upper end is that of the next, and that of the highest the greatest double. Not for
+/// results that have to be the same everywhere.
+double bin_begin(std::int64_t bin);
+
+struct StepHistogram {
+  struct Bin {
+    std::int64_t number;
+    std::uint64_t ticks;  ///< of all free vertices, positive
+    friend bool operator==(const Bin&, const Bin&) = default;
+  };
+
+  double smallest = 0;    ///< step [s]; 0: nothing is free. Where clocks that have nothing to do with each other fire
+                          ///< at almost the same time, it is as small as rounding
+  std::vector<Bin> bins;  ///< ascending; those that are empty are not there
+
+  friend bool operator==(const StepHistogram&, const StepHistogram&) = default;
+
+  std::uint64_t ticks() const;
+  /// Adds what is in another one.
+  void add(const StepHistogram& other);
+  /// The step below which a free vertex is for this share of its time [s], steps being spread over their bin evenly in
+  /// their logarithm; 0.5 is the median. Precondition: something is free, 0 <= share <= 1. Not for results that have to
+  /// be the same everywhere.
+  double quantile(double share) const;
+};
+
+/// A layer of contact that acted.
+struct ActingLayer {
+  std::uint64_t layer = 0;  ///< 0: none did, and nothing else here means anything
+  std::uint64_t material = 0;
+  FeaturePair pair{};
+  std::array<VertexId, 4> vertices{};
+  double time = 0, distance = 0;
+
+  friend bool operator==(const ActingLayer&, const ActingLayer&) = default;
+};
+
+struct SeriesRow {
+  double time = 0;  ///< the window's end [s]
+  double kinetic = 0, kinetic_mean = 0;
+  std::array<double, force_kinds> potential{};
+  std::array<double, force_kinds> work{};           ///< of the conservative impulses within the window [J]
+  std::array<double, force_kinds> damping_work{};   ///< [J]
+  std::array<double, 3> momentum{};                 ///< [N s]
+  std::array<double, 3> angular_momentum{};         ///< in the plane the third [N m s]
+  std::array<std::uint64_t, force_kinds> events{};  ///< forces fired; of contact, impulses of layers
+  std::uint64_t breakpoints = 0;
+  std::uint64_t halvings = 0;  ///< of the steps of all contact layers, after windows that had to be run again
+  ActingLayer deepest, nearest;
+  StepHistogram steps;
+
+  std::uint64_t events_in_all() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t n : events) sum += n;
+    return sum;
+  }
+  double potential_in_all() const {
+    double sum = 0;
+    for (const double p : potential) sum += p;
+    return sum;
+  }
+
+  friend bool operator==(const SeriesRow&, const SeriesRow&) = default;
+};
+
+/// What certificates cost.
+struct CertificateCounts {
+  std::uint64_t slices = 0;
+  std::uint64_t tubes = 0;                           ///< left before the slice's end
+  std::uint64_t plans = 0;                           ///< guards made
+  std::uint64_t penned = 0;                          ///< of these, those inside a pen
+  std::uint64_t repairs = 0;                         ///< slabs
+  std::uint64_t activations = 0, deactivations = 0;  ///< of layers
+  std::uint64_t most_near = 0;                       ///< near pairs at a time
+  std::uint32_t deepest = 0;                         ///< layer
+
+  CertificateCounts& operator+=(const CertificateCounts& other) {
+    slices += other.slices;
+    tubes += other.tubes;
+    plans += other.plans;
+    penned += other.penned;
+    repairs += other.repairs;
+    activations += other.activations;
+    deactivations += other.deactivations;
+    most_near = std::max(most_near, other.most_near);
+    deepest = std::max(deepest, other.deepest);
+    return *this;
+  }
+};
+
+enum class Phase : std::uint8_t {
+  force,
+  kick,
+  layer,
+  certificate,
+  broad_phase,
+  queue,
+  recording,
+  proof,
+  writing,
+  other
+};
+inline constexpr std::size_t phase_count = 10;
+
+constexpr std::string_view name(Phase phase) {
+  switch (phase) {
+    case Phase::force: return "force";
+    case Phase::kick: return "kick";
+    case Phase::layer: return "layer";
+    case Phase::certificate: return "certificate";
+    case Phase::broad_phase: return "broad_phase";
+    case Phase::queue: return "queue";
+    case Phase::recording: return "recording";
+    case Phase::proof: return "proof";
+    case Phase::writing: return "writing";
+    case Phase::other: return "other";
+  }
+  return "";
+}
+
+/// By Phase [s].
+using PhaseSeconds = std::array<double, phase_count>;
+
+/// A number that is none appeared.
+struct NotFinite {
+  double time;
+  std::optional<ForceKind> kind;  ///< of the force that left it; nothing: free motion did
+  std::vector<VertexId> force;    ///< that force's vertices
+  VertexId vertex;                ///< whose velocity or position it is
+};
+
+/// A pair that would need more layers of contact than the scene allows, or one whose steps are too short to tell one
+/// time from the next, or to no distance at all.
+struct PairTooNear {
+  FeaturePair kind{};
+  std::array<VertexId, 4> vertices{};  ///< in the order of noli/query.h; the first point_count(kind) count
+  double time = 0;                     ///< [s]
+};
+
+/// What is off most, and where.
+struct EnergyAstray {
+  double begin = 0;  ///< B at the beginning [J]
+  double there = 0;  ///< B where it is farthest from that [J]
+  double time = 0;   ///< [s]
+  double scale = 0;  ///< [J]
+};
+
+enum class SeriesEnd : std::uint8_t {
+  written,
+  unavailable,  ///< noli_series is not there: Noli was built without HDF5
+  stopped,      ///< no file is written, and one that is there stays as it is
+  failed        ///< the same; the machine's fault
+};
+
+/// As in the JSON and the log.
+const char* name(SeriesEnd end);
+
+}  // namespace noli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What happened in a run, from its files alone.
+//
+//   const noli::RunSummary run = noli::summary_of_run("run");
+//   if (run.gap) std::printf("nearest: %g m\n", run.gap->up_to);
+//
+// Notation
+//   deepest, nearest   the deepest layer of contact that acted, and the least distance that one which acted has seen. A
+//                      layer sees its pairs at its own times only
+//   gap                how near the pair of `nearest` came in that window, between those times too: decided exactly
+//                      if the run recorded its world lines
+//
+// Units: SI; each field names its own.
+// Errors: as summary_of_run says. Thread safety: any thread; the files are only read.
+// It verifies nothing: run_verify_motion in noli/verify.h does.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificates/run_values.h"
+
+namespace noli {
+
+/// A layer that acted, and in which window.
+struct ActingMoment {
+  std::uint64_t window = 1;  ///< from 1
+  ActingLayer action;
+};
+
+/// Kinetic energy, of velocities half way through the kicks, and all potentials, at the ends of windows [J].
+struct EnergySummary {
+  double first = 0, last = 0, least = 0, greatest = 0;
+  double damping_work = 0;  ///< of all windows but the first
+};
+
+/// above < gap <= up_to, and no double is between; or both are 0, which is contact.
+struct ExactGap {
+  double above = 0, up_to = 0;
+  double time = 0;  ///< about when they first are within up_to
+
+  friend bool operator==(const ExactGap&, const ExactGap&) = default;
+};
+
+struct RunSummary {
+  std::string title;
+  std::uint32_t dimension = 3;
+  bool full = true;  ///< world lines were recorded
+  bool open_window = false;
+  std::uint64_t windows = 0;
+  double time = 0;  ///< of the last window's end [s]
+  std::uint64_t breakpoints = 0, halvings = 0;
+  std::array<std::uint64_t, force_kinds> events{};
+  double smallest_step = 0;             ///< of a free vertex [s]; 0: there is none
+  std::optional<EnergySummary> energy;  ///< nothing: no windows
+  std::optional<ActingMoment> deepest, nearest;
+  std::optional<ExactGap> gap;
+  std::vector<ActingMoment> worst;  ///< the windows with the deepest layers, deepest first; at most five
+};
+
+/// Throws InputError (no run, a damaged one, of an earlier version).
+RunSummary summary_of_run(const std::filesystem::path& run);
+
+}  // namespace noli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frames in files: in which order they are taken, how their polygons are read, and what was read of them.
+//
+//   const noli::OrderedFrames ordered = noli::order_frames({"cloth_1.ply", "cloth_2.ply", "cloth_10.ply"});
+//
+// Notation
+//   number    a run of digits of any length, in the name without its extension or in its folders. Right after '_', '='
+//             or at the beginning of a name a '-' is its sign; elsewhere '-' only separates. `e-05` and `e+05` after
+//             digits are an exponent; `e05` is not
+//   family    the names that differ in their numbers only: `cloth_1.ply` and `cloth_10.obj`, not `body_1.ply`
+//   12.5      may be a decimal or two numbers. Read as decimals 0.10 comes before 0.9, read as two numbers after it.
+//             Where the two disagree the user is asked. They are surely decimals where one fraction of the family
+//             begins with 0 and another has a different length (0.05, 0.1), or where one has an exponent. 1.2.3 is
+//             three numbers
+//   order     names of a family compare by their first number, then by the second, and so on. Numbers of folders come
+//             before those of the file's own name
+//
+// Formats: PLY (ASCII and binary) and OBJ. Coordinates keep the unit of the file.
+// Errors: as each function says. Thread safety: any thread; there is no state. No file is opened here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace noli {
+
+enum class FrameOrder {
+  checked,  ///< as given, which has to be the order of the numbers
+  natural,  ///< sorted by the numbers
+  given     ///< as given, whatever the numbers say
+};
+
+/// Frames in the order of time.
+struct OrderedFrames {
+  std::vector<std::filesystem::path> frames;
+  std::string how;                 ///< one line: how they were ordered
+  std::vector<std::string> notes;  ///< one line each: against the numbers, sorted, numbers missing, files given twice
+};
+
+/// Orders the frames. FrameOrder::natural sorts each family within the places that it has; equal numbers stay as given,
+/// and decimals are read as decimals. Throws InputError that shows two names which are given against their numbers.
+OrderedFrames order_frames(std::vector<std::filesystem::path> frames, FrameOrder order = FrameOrder::checked);
+
+enum class PolygonRule {
+  fan,    ///< cut into a fan
+  refuse  ///< a polygon is an error
+};
+
+/// What was read of a frame.
+struct FrameFacts {
+  std::string file;                       ///< its name, as given; a path would take several times the memory
+  bool looked_at = false;                 ///< else only the name is known
+  std::uint64_t bytes = 0;                ///< of the file
+  std::array<std::uint8_t, 32> sha256{};  ///< of its bytes
+  std::string numbers;  ///< of coordinates: "float64", "float32/float64", "text with 9 digits, 6 decimals"
+  std::uint64_t vertices = 0;
+  std::optional<std::uint64_t> cells;  ///< once a frame of the mesh has been parsed
+  std::optional<int> rounded_at;       ///< k: text that may have been rounded to multiples of 10^k
+  std::uint64_t decimals = 0;          ///< of such text
+};
+
+}  // namespace noli
