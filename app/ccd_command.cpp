@@ -5,13 +5,13 @@
 #include <map>
 #include <memory>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
 #include "app/progress.h"
 #include "certify/queries/ccd_run.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

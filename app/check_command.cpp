@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -14,7 +15,6 @@
 #include "certify/runs/run_log_facts.h"
 #include "report/input_report.h"
 #include "trajectory/blocks/run_file.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli::app {

@@ -3,7 +3,7 @@
 // How `noli` ends. Verdict and exit code always agree, and nothing abnormal ends in 0.
 #pragma once
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 
 namespace noli::app {
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
+#include <noli/export.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "certify/export_run.h"
 #include "certify/runs/run_folder.h"
 #include "report/figures/run_figure.h"
 #include "report/figures/run_picture.h"

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -15,7 +16,6 @@
 #include "certify/queries/ccd_run.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_info.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/file_info.h"
 #include "trajectory/formats/query_csv.h"
 

@@ -8,12 +8,12 @@
 #include <system_error>
 #include <vector>
 
+#include <noli/errors.h>
+#include <noli/version.h>
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/process.h"
 #include "audit/fuzz/not_saved.h"
-#include "certify/version.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 
 namespace noli::app {

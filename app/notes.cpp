@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "trajectory/blocks/folder_lock.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <noli/errors.h>
 #include "app/process.h"
-#include "certify/errors.h"
 
 namespace noli::app {
 

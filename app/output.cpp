@@ -7,9 +7,9 @@
 #include <cstring>
 #include <utility>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
+#include <noli/version.h>
 #include "certify/result_file.h"
-#include "certify/version.h"
 
 namespace noli::app {
 namespace {

@@ -4,11 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "certify/result_file.h"
 #include "certify/runs/run_folder.h"
 #include "integrator/scene/read_scene.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

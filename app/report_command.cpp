@@ -8,20 +8,20 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
+#include <noli/version.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/output_files.h"
 #include "certify/runs/run_folder.h"
-#include "certify/version.h"
 #include "report/report_assets.h"
 #include "report/report_inputs.h"
 #include "report/report_page.h"
 #include "report/report_results.h"
 #include "report/report_run.h"
 #include "report/report_verdict.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/base64.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frames.h"

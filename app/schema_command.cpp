@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/schema_texts.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include <noli/errors.h>
+#include <noli/simulate.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -13,9 +15,7 @@
 #include "app/progress.h"
 #include "certify/runs/run_folder.h"
 #include "certify/simulate/reproduce_run.h"
-#include "certify/simulate/simulate_run.h"
 #include "report/simulate_report.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

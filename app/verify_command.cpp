@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include <noli/errors.h>
+#include <noli/verify.h>
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -22,11 +24,9 @@
 #include "certify/proofs/lines_pipe.h"
 #include "certify/runs/run_folder.h"
 #include "certify/stopwatch.h"
-#include "certify/verify_run.h"
 #include "report/verify_report.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

@@ -12,12 +12,12 @@
 #include <span>
 #include <vector>
 
-#include "kernel/query.h"
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
+#include <noli/query.h>
 
 namespace noli::bench {
 
-/// Vertex ids in the order of kernel/query.h.
+/// Vertex ids in the order of include/noli/query.h.
 using Candidate = std::array<VertexId, 4>;
 
 struct Candidates {

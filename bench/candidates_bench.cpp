@@ -8,12 +8,12 @@
 #include <cstdio>
 #include <memory>
 
+#include <noli/contact.h>
 #include "bench/bench.h"
 #include "bench/candidates.h"
 #include "bench/data.h"
 #include "bench/report.h"
 #include "bench/textbook.h"
-#include "kernel/contact.h"
 #include "trajectory/formats/frames.h"
 
 namespace noli::bench {

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "kernel/query.h"
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
+#include <noli/query.h>
 
 namespace noli::bench {
 

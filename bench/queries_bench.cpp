@@ -10,11 +10,11 @@
 #include <chrono>
 #include <cstdio>
 
+#include <noli/contact.h>
 #include "bench/bench.h"
 #include "bench/data.h"
 #include "bench/report.h"
 #include "bench/textbook.h"
-#include "kernel/contact.h"
 #include "oracle/oracle.h"
 
 namespace noli::bench {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/stages.h"
+#include <noli/contact.h>
 
 namespace noli::bench {
 

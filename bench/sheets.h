@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::bench {
 

@@ -16,7 +16,7 @@
 // coplanar for the whole step or degenerate at the root is missed.
 #pragma once
 
-#include "kernel/query.h"
+#include <noli/query.h>
 
 namespace noli::bench {
 

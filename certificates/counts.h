@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 
 namespace noli::certificates {
 using noli::CertificateCounts;

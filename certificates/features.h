@@ -3,7 +3,7 @@
 // The features of a mesh as contact sees them: who can meet whom, each pair from exactly one pair of cells.
 //
 // Notation
-//   cell    a face, loose edge or loose point, as in trajectory/mesh.h
+//   cell    a face, loose edge or loose point, as in include/noli/mesh.h
 //   owner   of a vertex or edge: the first cell that has it. A pair of features belongs to the pair of their owners, a
 //           face being its own
 //
@@ -20,8 +20,8 @@
 #include <span>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "certificates/stencil.h"
-#include "trajectory/mesh.h"
 
 namespace noli::certificates {
 

@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/query.h"
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
+#include <noli/query.h>
 
 namespace noli::certificates {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <noli/mesh.h>
+#include <noli/query.h>
 #include "certify/json.h"
-#include "kernel/query.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

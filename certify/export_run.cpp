@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/export_run.h"
+#include <noli/export.h>
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "certify/result_file.h"
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_log_facts.h"

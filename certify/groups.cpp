@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <limits>
 
+#include <noli/errors.h>
 #include "certify/json.h"
 #include "integrator/scene/json_text.h"
 #include "proofs/prover/cells/features.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli {

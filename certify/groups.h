@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "trajectory/exclusions.h"
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli {
 

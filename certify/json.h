@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "kernel/stages.h"
+#include <noli/contact.h>
 
 namespace noli {
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include <noli/errors.h>
 #include "trajectory/cells.h"
-#include "trajectory/error.h"
 
 namespace noli {
 namespace {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include <noli/findings.h>
+#include <noli/mesh.h>
 #include "certify/body_names.h"
 #include "certify/json.h"
-#include "proofs/prover/findings.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

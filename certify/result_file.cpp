@@ -9,7 +9,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 
 namespace noli {
 namespace {

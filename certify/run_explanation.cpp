@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/simulate/exact_gap.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 
 namespace noli {

@@ -2,7 +2,7 @@
 //
 // What happened in a run, from its files alone.
 //
-// Notation, beside that of certify/run_summary.h
+// Notation, beside that of include/noli/explain.h
 //   bound              what certificates say of all pairs: none was nearer than eta(L + 1), L the deepest layer that
 //                      was ever active
 //   part               from the run's begin or a resumption to its end, if it came to one: a part that was killed has
@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "certify/run_summary.h"
+#include <noli/explain.h>
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series.h"
 #include "certify/simulate/phase_clock.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/sequence.h"
+#include <noli/sequence.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include <noli/contact.h>
 #include "certify/queries/any_query.h"
-#include "kernel/contact.h"
 #include "proofs/prover/verifier.h"
 #include "proofs/prover/windows/window_verifier.h"
 

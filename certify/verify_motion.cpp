@@ -7,7 +7,8 @@
 #include <chrono>
 #include <thread>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
+#include <noli/verify.h>
 #include "certify/not_compared.h"
 #include "certify/proofs/largest_distance.h"
 #include "certify/proofs/lines_pipe.h"
@@ -18,12 +19,10 @@
 #include "certify/runs/run_series_reader.h"
 #include "certify/simulate/windows_again.h"
 #include "certify/stopwatch.h"
-#include "certify/verify_run.h"
 #include "integrator/scene/scene.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 
 namespace noli {

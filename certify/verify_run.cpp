@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/verify_run.h"
+#include <noli/verify.h>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,14 +9,13 @@
 #include <system_error>
 #include <utility>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
+#include <noli/sequence.h>
 #include "certify/groups.h"
 #include "certify/proofs/largest_distance.h"
 #include "certify/proofs/prove_frames.h"
-#include "certify/sequence.h"
 #include "certify/stopwatch.h"
 #include "trajectory/cells.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frames.h"

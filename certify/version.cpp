@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/version.h"
+#include <noli/version.h>
 
 #include <CGAL/version.h>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <noli/certify/sequence.h>
+#include <noli/sequence.h>
 
 int main() {
   noli::Mesh mesh;

@@ -3,7 +3,7 @@
 // Noli among the points and numbers of CGAL: a functor says when two edges first meet, the time becomes an algebraic
 // number of CGAL, is compared there with another one, and comes back.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <noli/kernel/cgal.h>
+#include <noli/cgal.h>
 
 #include <cstdlib>
 #include <iostream>

@@ -7,7 +7,7 @@
 
 #include <noli/certify/proofs/checker.h>
 #include <noli/certify/proofs/claim.h>
-#include <noli/certify/verify_run.h>
+#include <noli/verify.h>
 
 int main(int argc, char** argv) try {
   if (argc != 5) return 3;

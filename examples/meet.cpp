@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The simplest question: does a moving vertex meet a face during a step?
-#include <noli/kernel/contact.h>
+#include <noli/contact.h>
 
 #include <iostream>
 

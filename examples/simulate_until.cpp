@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <exception>
 
-#include <noli/certify/simulate/simulate_run.h>
+#include <noli/simulate.h>
 
 int main(int argc, char** argv) try {
   if (argc != 3) return 3;

@@ -23,7 +23,7 @@
 #include <span>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::integrator {
 

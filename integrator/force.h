@@ -15,9 +15,9 @@
 
 #include <concepts>
 
-#include "certificates/run_values.h"
+#include <noli/mesh.h>
+#include <noli/run.h>
 #include "integrator/vector.h"
-#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

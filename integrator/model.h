@@ -16,13 +16,13 @@
 #include <tuple>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "integrator/contact_settings.h"
 #include "integrator/forces/edge_spring.h"
 #include "integrator/forces/hinge.h"
 #include "integrator/forces/membrane.h"
 #include "integrator/forces/turning.h"
 #include "integrator/vector.h"
-#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

@@ -8,7 +8,7 @@
 
 #include <atomic>
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 
 namespace noli::integrator {
 

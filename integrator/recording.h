@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "integrator/vector.h"
-#include "trajectory/mesh.h"
 #include "trajectory/world_lines.h"
 
 namespace noli::integrator {

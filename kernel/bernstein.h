@@ -26,7 +26,7 @@
 #include <cstddef>
 #include <tuple>
 
-#include "kernel/contact.h"
+#include <noli/contact.h>
 
 namespace noli::bernstein {
 

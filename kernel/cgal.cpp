@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kernel/cgal.h"
+#include <noli/cgal.h>
 
 #include <stdexcept>
 #include <utility>

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <noli/cgal.h>
 #include "kernel/arithmetic/polynomial.h"
-#include "kernel/cgal.h"
 
 namespace noli::cgal_detail {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kernel/contact.h"
+#include <noli/contact.h>
 
+#include <noli/time_of_impact.h>
 #include "kernel/arithmetic/rounding.h"
 #include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/double_filter.h"
 #include "kernel/exact_contact.h"
-#include "kernel/first_contact.h"
 #include "kernel/interval_filter.h"
 
 namespace noli {

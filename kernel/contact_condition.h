@@ -25,10 +25,10 @@
 #include <utility>
 #include <vector>
 
+#include <noli/query.h>
 #include "kernel/arithmetic/polynomial.h"
 #include "kernel/arithmetic/wide.h"
 #include "kernel/formula.h"
-#include "kernel/query.h"
 
 namespace noli::condition {
 

@@ -20,9 +20,9 @@
 #include <array>
 #include <cmath>
 
+#include <noli/query.h>
 #include "kernel/both_ends.h"
 #include "kernel/formula.h"
-#include "kernel/query.h"
 
 namespace noli::filter {
 

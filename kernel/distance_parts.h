@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
+#include <noli/query.h>
 #include "kernel/arithmetic/polynomial.h"
 #include "kernel/formula.h"
-#include "kernel/query.h"
 
 namespace noli::distance {
 

@@ -32,10 +32,10 @@
 #include <limits>
 #include <optional>
 
+#include <noli/query.h>
 #include "kernel/bernstein.h"
 #include "kernel/direction_filter.h"
 #include "kernel/formula.h"
-#include "kernel/query.h"
 #include "kernel/root_filter.h"
 
 namespace noli::filter {

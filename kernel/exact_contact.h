@@ -20,11 +20,11 @@
 #include <cmath>
 #include <optional>
 
+#include <noli/query.h>
 #include "kernel/arithmetic/wide.h"
 #include "kernel/contact_condition.h"
 #include "kernel/double_filter.h"
 #include "kernel/exact_times.h"
-#include "kernel/query.h"
 
 namespace noli::exact {
 

@@ -11,7 +11,7 @@
 // What this does not do: it does not know that a ray ends at the next event or a segment at its last breakpoint.
 #pragma once
 
-#include "kernel/query.h"
+#include <noli/query.h>
 
 namespace noli {
 

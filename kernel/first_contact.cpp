@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kernel/first_contact.h"
+#include <noli/time_of_impact.h>
 
 #include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/first_contact_search.h"

@@ -6,7 +6,7 @@
 //   condition  as in kernel/contact_condition.h, over the time [0, 1] of a step
 //   t          a time at which the condition holds, or which is asked about
 //
-// What this does not do: it does not care where the integers come from (kernel/first_contact.h: a query;
+// What this does not do: it does not care where the integers come from (include/noli/time_of_impact.h: a query;
 // kernel/motion.h: pieces of world lines).
 #pragma once
 
@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include <noli/time_of_impact.h>
 #include "kernel/arithmetic/algebraic.h"
 #include "kernel/contact_condition.h"
-#include "kernel/first_contact.h"
 
 namespace noli::condition {
 

@@ -7,8 +7,8 @@
 // (kernel/arithmetic/rounding.h) and must not be called when it does not.
 #pragma once
 
+#include <noli/query.h>
 #include "kernel/double_filter.h"
-#include "kernel/query.h"
 
 namespace noli::interval_filter {
 

@@ -17,8 +17,8 @@
 #include <compare>
 #include <utility>
 
+#include <noli/time_of_impact.h>
 #include "kernel/arithmetic/algebraic.h"
-#include "kernel/time_of_impact.h"
 
 namespace noli {
 

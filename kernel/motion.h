@@ -11,14 +11,14 @@
 // are brought to a common denominator, which changes neither contact nor its time, and then decided as integers.
 //
 // What this does not do: it is not fast (tens of microseconds, with allocation). Where all paths begin and end with
-// the piece, kernel/contact.h says whether there is contact.
+// the piece, include/noli/contact.h says whether there is contact.
 #pragma once
 
 #include <array>
 #include <optional>
 
-#include "kernel/first_contact.h"
-#include "kernel/query.h"
+#include <noli/query.h>
+#include <noli/time_of_impact.h>
 
 namespace noli {
 
@@ -31,7 +31,7 @@ struct LinearPath {
 /// Two features over a piece of time. Preconditions: everything is finite; t0 <= begin < end <= t1 for all paths.
 template <FeaturePair Pair, int Dim>
 struct MotionQuery {
-  std::array<LinearPath<Dim>, point_count(Pair)> paths;  ///< in the order of kernel/query.h
+  std::array<LinearPath<Dim>, point_count(Pair)> paths;  ///< in the order of include/noli/query.h
   double begin, end;
 };
 
@@ -40,7 +40,7 @@ template <FeaturePair Pair, int Dim>
 std::optional<FirstContact> first_contact(const MotionQuery<Pair, Dim>& query);
 
 /// The kind of a contact at the border of two pieces that follow one another: crossing if the orientation determinant
-/// has opposite signs just before and just after it (and the contact is as kernel/first_contact.h asks of one),
+/// has opposite signs just before and just after it (and the contact is as include/noli/time_of_impact.h asks of one),
 /// persistent if it lasts for some time after it, else touching. Preconditions: before.end == after.begin, the points
 /// are at the same places then, the features meet then and at no time of `before` but this.
 template <FeaturePair Pair, int Dim>

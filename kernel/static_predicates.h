@@ -6,12 +6,12 @@
 // counts as such. Signs are filtered: double precision with an error bound decides most of them, integers of fixed
 // width or of any width the rest.
 //
-// What this does not do: nothing moves here (kernel/contact.h), and no point of the intersection is computed.
+// What this does not do: nothing moves here (include/noli/contact.h), and no point of the intersection is computed.
 #pragma once
 
 #include <array>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 
 namespace noli {
 

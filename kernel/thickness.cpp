@@ -13,10 +13,10 @@
 #include <limits>
 #include <vector>
 
+#include <noli/time_of_impact.h>
 #include "kernel/arithmetic/rounding.h"
 #include "kernel/arithmetic/scaled_integers.h"
 #include "kernel/distance_parts.h"
-#include "kernel/first_contact.h"
 #include "kernel/motion_points.h"
 
 namespace noli {

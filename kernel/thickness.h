@@ -11,9 +11,9 @@
 
 #include <optional>
 
+#include <noli/query.h>
+#include <noli/time_of_impact.h>
 #include "kernel/motion.h"
-#include "kernel/query.h"
-#include "kernel/time_of_impact.h"
 
 namespace noli {
 

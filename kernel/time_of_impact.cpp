@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kernel/time_of_impact.h"
+#include <noli/time_of_impact.h>
 
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli::report {
 namespace {

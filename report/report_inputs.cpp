@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <string>
 
+#include <noli/errors.h>
 #include "certify/runs/run_inputs.h"
 #include "report/input_report.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 
 namespace noli::report {

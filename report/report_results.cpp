@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include <noli/errors.h>
 #include "integrator/scene/json_text.h"
 #include "report/report_statement.h"
 #include "report/report_verdict.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli::report {

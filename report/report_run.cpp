@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <noli/errors.h>
 #include "certify/not_compared.h"
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_folder.h"
@@ -17,7 +18,6 @@
 #include "report/report_scene.h"
 #include "report/report_verdict.h"
 #include "trajectory/blocks/run_file.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <noli/errors.h>
 #include "certify/contact_report.h"
-#include "trajectory/error.h"
 
 namespace noli::report {
 namespace {

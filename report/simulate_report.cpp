@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <noli/errors.h>
 #include "certify/contact_report.h"
 #include "certify/not_compared.h"
 #include "certify/process/this_program.h"
 #include "certify/simulate/energy_watch.h"
 #include "certify/simulate/phase_clock.h"
 #include "kernel/parallel.h"
-#include "trajectory/error.h"
 
 namespace noli::report {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include <noli/simulate.h>
 #include "certify/json.h"
-#include "certify/simulate/simulate_run.h"
 #include "report/answer.h"
 
 namespace noli::report {

@@ -5,15 +5,15 @@
 
 #include <utility>
 
+#include <noli/errors.h>
+#include <noli/version.h>
 #include "certify/contact_report.h"
 #include "certify/not_compared.h"
 #include "certify/process/run_program.h"
 #include "certify/process/this_program.h"
 #include "certify/proofs/claim.h"
-#include "certify/version.h"
 #include "kernel/parallel.h"
 #include "report/input_report.h"
-#include "trajectory/error.h"
 
 namespace noli::report {
 namespace {

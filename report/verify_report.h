@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include <noli/verify.h>
 #include "certify/json.h"
-#include "certify/verify_run.h"
 #include "report/answer.h"
 
 namespace noli::report {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 #include <fmt/format.h>
 

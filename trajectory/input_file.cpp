@@ -12,7 +12,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/stop.h"
 
 namespace noli {

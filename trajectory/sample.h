@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 #include "trajectory/world_lines.h"
 
 namespace noli {

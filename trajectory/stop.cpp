@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trajectory/stop.h"
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli {
 namespace {

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/input_file.h"
 
 namespace noli {

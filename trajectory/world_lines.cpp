@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli {
 namespace {

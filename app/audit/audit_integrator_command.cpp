@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -15,7 +16,6 @@
 #include "app/process.h"
 #include "audit/numerics/integrator_report.h"
 #include "integrator/scene/read_scene.h"
-#include "trajectory/error.h"
 #include "trajectory/write_file.h"
 
 namespace noli::app {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -20,7 +21,6 @@
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
 #include "kernel/parallel.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

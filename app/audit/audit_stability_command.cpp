@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -19,7 +20,6 @@
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "app/output.h"
 #include "app/process.h"
 #include "app/progress.h"
@@ -18,7 +19,6 @@
 #include "certify/process/run_program.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/fuzz/fuzz_options.h"
 #include "app/options.h"
@@ -23,7 +24,6 @@
 #include "certify/proofs/checker.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli::app {

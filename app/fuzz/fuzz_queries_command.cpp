@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/fuzz/fuzz_options.h"
 #include "app/library_options.h"
@@ -24,7 +25,6 @@
 #include "audit/fuzz/queries/saved_query.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
-#include "trajectory/error.h"
 
 namespace noli::app {
 namespace {

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <memory>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/fuzz/fuzz_options.h"
 #include "app/output.h"
@@ -18,7 +19,6 @@
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 
+#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/fuzz/fuzz_library_motions_run.h"
 #include "app/fuzz/fuzz_options.h"
@@ -19,7 +20,6 @@
 #include "certify/json.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
-#include "trajectory/error.h"
 #include "trajectory/write_file.h"
 
 namespace noli::app {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli::audit {
 namespace {

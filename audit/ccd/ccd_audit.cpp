@@ -9,9 +9,9 @@
 #include <optional>
 #include <span>
 
-#include "kernel/first_contact.h"
-#include "kernel/query.h"
-#include "trajectory/error.h"
+#include <noli/errors.h>
+#include <noli/query.h>
+#include <noli/time_of_impact.h>
 
 namespace noli::audit {
 namespace {

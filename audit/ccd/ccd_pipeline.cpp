@@ -14,8 +14,8 @@
 #include <span>
 #include <utility>
 
+#include <noli/time_of_impact.h>
 #include "audit/ccd/ccd_library.h"
-#include "kernel/first_contact.h"
 #include "proofs/prover/verifier.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frames.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <optional>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli::audit {
 namespace {

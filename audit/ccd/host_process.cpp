@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include <noli/errors.h>
 #include "certify/process/start_process.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -27,9 +27,9 @@
 #include <string_view>
 #include <vector>
 
+#include <noli/time_of_impact.h>
 #include "audit/ccd/ccd_library.h"
 #include "certify/queries/any_query.h"
-#include "kernel/first_contact.h"
 
 namespace noli::audit {
 

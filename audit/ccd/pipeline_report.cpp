@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <noli/errors.h>
 #include "audit/ccd/audit_report.h"
 #include "certify/contact_report.h"
 #include "report/input_report.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

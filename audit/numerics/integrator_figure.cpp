@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "audit/numerics/integrator_report.h"
 #include "report/figures/figure_axes.h"
 #include "report/figures/svg.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

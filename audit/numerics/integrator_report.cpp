@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include <noli/errors.h>
 #include "audit/ccd/audit_report.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

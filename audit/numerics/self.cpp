@@ -9,10 +9,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include <noli/errors.h>
 #include "audit/numerics/run_command.h"
 #include "audit/numerics/stability_rows.h"
 #include "certify/process/scratch_folder.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

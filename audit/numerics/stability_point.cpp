@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include <noli/errors.h>
 #include "audit/numerics/run_command.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "certify/process/run_program.h"
 #include "certify/process/start_process.h"
 #include "certify/process/this_program.h"

@@ -10,8 +10,8 @@
 #include <optional>
 #include <string_view>
 
+#include <noli/proof.h>
 #include "certify/process/pipe.h"
-#include "certify/proofs/proof.h"
 #include "trajectory/blocks/block_sink.h"
 
 namespace noli {

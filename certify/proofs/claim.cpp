@@ -9,11 +9,11 @@
 #include <set>
 #include <utility>
 
+#include <noli/errors.h>
 #include "integrator/scene/json_text.h"
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/block_sink.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli {

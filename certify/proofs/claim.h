@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Claims as a verification makes them and as JSON. What they are: certify/proofs/proof.h.
+// Claims as a verification makes them and as JSON. What they are: include/noli/proof.h.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include <noli/mesh.h>
+#include <noli/proof.h>
 #include "certify/json.h"
-#include "certify/proofs/proof.h"
 #include "proofs/prover/tokens/proof_walk.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include <noli/findings.h>
 #include "certify/simulate/exact_gap.h"
 #include "proofs/prover/tokens/mesh_paths.h"
-#include "proofs/prover/tokens/too_near.h"
 #include "proofs/prover/witness/feature_sides.h"
 
 namespace noli {

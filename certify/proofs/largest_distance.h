@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "proofs/prover/findings.h"
+#include <noli/findings.h>
 #include "proofs/prover/tokens/step_prover.h"
 
 namespace noli {

@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "certify/proofs/proof_blocks.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

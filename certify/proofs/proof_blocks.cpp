@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/proof_blocks.h"
 
+#include <noli/errors.h>
 #include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/bytes.h"
-#include "trajectory/error.h"
 
 namespace noli {
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
+#include <noli/errors.h>
 #include "certify/proofs/parsed_claim.h"
 #include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/bytes.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 
 namespace noli {

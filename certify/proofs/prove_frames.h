@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "certify/sequence.h"
-#include "certify/verify_run.h"
+#include <noli/sequence.h>
+#include <noli/verify.h>
 #include "proofs/prover/tokens/proof_file.h"
 #include "proofs/prover/tokens/step_prover.h"
 #include "trajectory/merge.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/prove_run.h"
 
+#include <noli/errors.h>
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/windows/forest.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 
 namespace noli {

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 #include "trajectory/formats/query_csv.h"
 
 namespace noli {

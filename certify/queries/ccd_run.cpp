@@ -5,11 +5,10 @@
 #include <array>
 #include <span>
 
-#include "certify/errors.h"
+#include <noli/contact.h>
+#include <noli/errors.h>
 #include "certify/queries/any_query.h"
 #include "certify/stopwatch.h"
-#include "kernel/contact.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/query_csv.h"
 #include "trajectory/stop.h"
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "kernel/first_contact.h"
-#include "kernel/query.h"
-#include "kernel/stages.h"
+#include <noli/contact.h>
+#include <noli/query.h>
+#include <noli/time_of_impact.h>
 
 namespace noli {
 

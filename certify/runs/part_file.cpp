@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli {
 namespace {

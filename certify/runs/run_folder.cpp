@@ -5,14 +5,13 @@
 #include <set>
 #include <string>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
+#include <noli/version.h>
 #include "certify/result_file.h"
 #include "certify/runs/run_log_facts.h"
-#include "certify/version.h"
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/blocks/run_manifest.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frame_look.h"
 
 namespace noli {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <string>
 
+#include <noli/errors.h>
 #include "trajectory/blocks/run_log.h"
 #include "trajectory/blocks/run_manifest.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frame_look.h"
 
 namespace noli {

@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 #include "certify/runs/step_histogram.h"
 #include "integrator/simulation.h"
 #include "trajectory/world_lines.h"

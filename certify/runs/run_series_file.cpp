@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/runs/series_file.h"
 #include "trajectory/blocks/run_file.h"
-#include "trajectory/error.h"
 #include "trajectory/sample.h"
 
 namespace noli {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 
 namespace noli {
 

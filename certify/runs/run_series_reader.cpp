@@ -5,8 +5,8 @@
 
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "certify/runs/run_series_check.h"
-#include "trajectory/error.h"
 
 namespace noli {
 

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 
 namespace noli {
 namespace {

@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 #include "trajectory/world_lines.h"
 
 namespace noli {

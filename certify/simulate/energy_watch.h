@@ -20,7 +20,7 @@
 #include <array>
 #include <optional>
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 #include "certify/json.h"
 #include "certify/runs/run_series.h"
 #include "integrator/scene/explain.h"

@@ -15,13 +15,13 @@
 
 #include <array>
 
-#include "certify/run_summary.h"
-#include "kernel/query.h"
+#include <noli/explain.h>
+#include <noli/query.h>
 #include "trajectory/world_lines.h"
 
 namespace noli {
 
-/// `vertices`: as in kernel/query.h; the first point_count(pair) count. Precondition: such a pair exists in the
+/// `vertices`: as in include/noli/query.h; the first point_count(pair) count. Precondition: such a pair exists in the
 /// dimension, 2 or 3; the vertices are different. Throws std::range_error when the gap is above the greatest double.
 ExactGap exact_gap(const WorldLines& lines, int dimension, FeaturePair pair, const std::array<VertexId, 4>& vertices);
 

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 #include "certify/json.h"
 #include "integrator/phase.h"
 

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <noli/errors.h>
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/simulate/model_run.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 #include "trajectory/write_file.h"
 

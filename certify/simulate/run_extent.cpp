@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "integrator/scene/scene.h"
-#include "trajectory/error.h"
 
 namespace noli {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "certify/simulate/simulate_run.h"
+#include <noli/simulate.h>
 #include "integrator/scene/scene.h"
 
 namespace noli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/simulate/simulate_run.h"
+#include <noli/simulate.h>
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "certify/body_names.h"
 #include "certify/contact_report.h"
-#include "certify/errors.h"
 #include "certify/not_compared.h"
 #include "certify/proofs/prove_run.h"
 #include "certify/runs/frame_times.h"
@@ -39,7 +39,6 @@
 #include "kernel/parallel.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/run_file.h"
-#include "trajectory/error.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
 

@@ -9,7 +9,7 @@ namespace noli {
 
 namespace {
 
-/// "face cloth[0]-cloth[1]-cloth[2]". Cells are numbered as in trajectory/mesh.h.
+/// "face cloth[0]-cloth[1]-cloth[2]". Cells are numbered as in include/noli/mesh.h.
 std::string cell_name(const Mesh& mesh, std::size_t cell, const BodyNames& names) {
   if (cell < mesh.faces.size()) return names.feature(mesh.faces[cell]);
   cell -= mesh.faces.size();

@@ -6,14 +6,13 @@
 #include <utility>
 #include <variant>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "certify/simulate/model_facts.h"
 #include "certify/simulate/model_run.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "trajectory/blocks/run_manifest.h"
-#include "trajectory/error.h"
 
 namespace noli {
 namespace {

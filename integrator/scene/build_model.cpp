@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <noli/errors.h>
 #include "integrator/groups.h"
 #include "integrator/scene/body_forces.h"
 #include "integrator/scene/build_contact.h"
@@ -13,7 +14,6 @@
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/place.h"
 #include "integrator/stable_step.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
 

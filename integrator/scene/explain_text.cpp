@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <noli/errors.h>
 #include "integrator/scene/explain.h"
-#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/stop.h"
 
 namespace noli::integrator {

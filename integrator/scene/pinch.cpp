@@ -6,9 +6,9 @@
 #include <optional>
 #include <set>
 
+#include <noli/contact.h>
+#include <noli/time_of_impact.h>
 #include "integrator/scene/shapes/connectivity.h"
-#include "kernel/contact.h"
-#include "kernel/first_contact.h"
 #include "kernel/static_predicates.h"
 #include "trajectory/stop.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <noli/errors.h>
 #include "integrator/scene/read_body.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli::integrator {

@@ -15,9 +15,9 @@
 #include <variant>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "integrator/model.h"
 #include "integrator/scene/schema.h"
-#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

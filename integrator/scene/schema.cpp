@@ -9,8 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "integrator/scene/json_text.h"
-#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

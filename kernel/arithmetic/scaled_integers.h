@@ -14,10 +14,10 @@
 #include <limits>
 #include <type_traits>
 
+#include <noli/query.h>
 #include "kernel/arithmetic/integer.h"
 #include "kernel/arithmetic/wide.h"
 #include "kernel/formula.h"
-#include "kernel/query.h"
 
 namespace noli::exact {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kernel/first_contact.h"
+#include <noli/time_of_impact.h>
 
 namespace noli {
 

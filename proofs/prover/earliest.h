@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/time_of_impact.h"
+#include <noli/time_of_impact.h>
 #include "proofs/prover/verifier.h"
 
 namespace noli {

@@ -19,7 +19,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "kernel/contact.h"
+#include <noli/contact.h>
 #include "proofs/prover/cells/direction.h"
 #include "proofs/prover/cells/moving_cell.h"
 
@@ -143,7 +143,7 @@ constexpr Feature edge_feature(unsigned i) {
 }
 constexpr Feature face_feature = {{0, 1, 2}, 3};
 
-/// A pair of features, in the order of kernel/query.h.
+/// A pair of features, in the order of include/noli/query.h.
 template <int Dim>
 struct FeatureQuestion {
   FeaturePair pair;

@@ -23,7 +23,7 @@
 #include <memory>
 #include <span>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 #ifdef __SSE2__
 #include <emmintrin.h>

@@ -44,11 +44,11 @@
 #include <span>
 #include <vector>
 
-#include "kernel/contact.h"
-#include "kernel/query.h"
-#include "proofs/prover/findings.h"
+#include <noli/contact.h>
+#include <noli/findings.h>
+#include <noli/mesh.h>
+#include <noli/query.h>
 #include "proofs/prover/tokens/tokens.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::report {
 

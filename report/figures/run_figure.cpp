@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 #include "trajectory/write_file.h"
 

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "certify/result_file.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
 #include "report/figures/picture.h"
 #include "report/figures/png.h"
-#include "trajectory/error.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
 #include "trajectory/write_file.h"

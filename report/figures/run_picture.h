@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::report {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "tests/support/real_data.h"
 #include "tests/support/temporary_folder.h"
-#include "trajectory/mesh.h"
 
 namespace noli::app_tests {
 

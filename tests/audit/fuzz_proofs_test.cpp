@@ -11,12 +11,12 @@
 #include <iterator>
 #include <set>
 
+#include <noli/errors.h>
 #include "audit/fuzz/proofs/claim_oracle.h"
 #include "audit/fuzz/proofs/minimise_proof.h"
 #include "certify/proofs/parsed_claim.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

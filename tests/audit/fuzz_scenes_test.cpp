@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include <noli/errors.h>
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
 #include "trajectory/write_file.h"
 
 namespace noli::audit {

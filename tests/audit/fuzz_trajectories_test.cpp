@@ -9,10 +9,10 @@
 #include <set>
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "audit/fuzz/trajectories/motion_generators.h"
 #include "proofs/prover/verifier.h"
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -7,11 +7,11 @@
 #include <set>
 #include <sstream>
 
+#include <noli/errors.h>
 #include "audit/fuzz/queries/fuzz_queries.h"
 #include "audit/fuzz/queries/judge.h"
 #include "audit/fuzz/queries/query_generators.h"
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "certificates/vector.h"
 #include "tests/kernel/random_numbers.h"
-#include "trajectory/mesh.h"
 
 namespace noli::certificates::test {
 

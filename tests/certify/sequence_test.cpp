@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A sequence of frames in memory, decided step by step.
-#include "certify/sequence.h"
+#include <noli/sequence.h>
 
 #include <gtest/gtest.h>
 

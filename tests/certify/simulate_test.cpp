@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A scene as a program runs it: conditions, progress, stops.
-#include "certify/simulate/simulate_run.h"
+#include <noli/simulate.h>
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "certify/errors.h"
+#include <noli/errors.h>
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
 
 namespace noli {
 namespace {

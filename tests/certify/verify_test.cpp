@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Files of frames as a program verifies them: outcome, proof, progress, stops.
-#include "certify/verify_run.h"
+#include <noli/verify.h>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <set>
 #include <string>
 
+#include <noli/errors.h>
 #include "tests/support/temporary_folder.h"
 #include "trajectory/blocks/block_sink.h"
-#include "trajectory/error.h"
 
 namespace noli {
 namespace {

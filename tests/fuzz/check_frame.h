@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include <noli/errors.h>
 #include "trajectory/cells.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/ply.h"
 #include "trajectory/formats/write_ply.h"
 

@@ -15,13 +15,13 @@
 #include <limits>
 #include <string_view>
 
+#include <noli/contact.h>
+#include <noli/errors.h>
+#include <noli/time_of_impact.h>
 #include "audit/fuzz/queries/saved_query.h"
 #include "certify/queries/any_query.h"
-#include "kernel/contact.h"
-#include "kernel/first_contact.h"
 #include "oracle/oracle.h"
 #include "tests/kernel/oracle_motion.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/query_csv.h"
 
 namespace {

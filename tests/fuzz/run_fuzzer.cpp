@@ -11,13 +11,13 @@
 #include <string>
 #include <string_view>
 
-#include "certify/errors.h"
-#include "certify/export_run.h"
+#include <noli/errors.h>
+#include <noli/export.h>
+#include <noli/simulate.h>
+#include <noli/verify.h>
 #include "certify/run_explanation.h"
 #include "certify/runs/run_info.h"
 #include "certify/simulate/reproduce_run.h"
-#include "certify/simulate/simulate_run.h"
-#include "certify/verify_run.h"
 #include "check_frame.h"
 #include "report/figures/run_figure.h"
 #include "report/report_assets.h"
@@ -26,7 +26,6 @@
 #include "tests/app/runs/bouncing_point.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/trajectory/mutate_run.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 #include "trajectory/write_file.h"
 

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include <noli/errors.h>
 #include "check_frame.h"
 #include "integrator/scene/explain.h"
 #include "integrator/scene/read_scene.h"
-#include "trajectory/error.h"
 
 namespace {
 

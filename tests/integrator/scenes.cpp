@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli::integrator::testing {
 

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include <noli/cgal.h>
 #include "kernel/arithmetic/algebraic.h"
-#include "kernel/cgal.h"
 #include "kernel/cgal_numbers.h"
 #include "tests/kernel/random_queries.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Contact, and each of the stages that decide it, against the oracle.
-#include "kernel/contact.h"
+#include <noli/contact.h>
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <noli/time_of_impact.h>
 #include "kernel/arithmetic/algebraic.h"
-#include "kernel/first_contact.h"
 #include "tests/kernel/oracle_motion.h"
 #include "tests/kernel/random_queries.h"
 

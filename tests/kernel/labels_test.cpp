@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "kernel/contact.h"
+#include <noli/contact.h>
 #include "tests/support/real_data.h"
 #include "trajectory/formats/query_csv.h"
 

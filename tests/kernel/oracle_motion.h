@@ -3,7 +3,7 @@
 // A query of the kernel as the oracle takes it.
 #pragma once
 
-#include "kernel/query.h"
+#include <noli/query.h>
 #include "oracle/oracle.h"
 
 namespace noli::test {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 #include "tests/kernel/random_numbers.h"
 
 namespace noli::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 
 namespace noli::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernel/first_contact.h"
+#include <noli/time_of_impact.h>
 #include "kernel/thickness.h"
 #include "tests/kernel/motions.h"
 #include "tests/kernel/oracle_motion.h"

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include <noli/cgal.h>
+#include <noli/time_of_impact.h>
 #include "kernel/arithmetic/algebraic.h"
-#include "kernel/cgal.h"
-#include "kernel/time_of_impact.h"
 #include "tests/kernel/polynomials.h"
 #include "tests/kernel/random_numbers.h"
 

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::testing {
 

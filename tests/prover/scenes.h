@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::testing {
 

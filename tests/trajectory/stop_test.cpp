@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include <noli/errors.h>
 #include "tests/support/temporary_folder.h"
 #include "trajectory/cells.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/query_csv.h"

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include <noli/errors.h>
+#include <noli/mesh.h>
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
-#include "trajectory/mesh.h"
 
 namespace noli::testing {
 

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <sstream>
 
+#include <noli/errors.h>
 #include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/blocks/crc32c.h"
-#include "trajectory/error.h"
 #include "trajectory/input_file.h"
 #include "trajectory/text.h"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <noli/errors.h>
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/blocks/run_checks.h"
 #include "trajectory/blocks/run_payload.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli::run_block {

@@ -21,9 +21,8 @@
 #include <string_view>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "trajectory/blocks/block_file.h"
-#include "trajectory/exclusions.h"
-#include "trajectory/mesh.h"
 #include "trajectory/world_lines.h"
 
 namespace noli {

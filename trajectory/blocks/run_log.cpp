@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
+#include <noli/errors.h>
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/blocks/crc32c.h"
-#include "trajectory/error.h"
 #include "trajectory/input_file.h"
 
 namespace noli {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/input_file.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"

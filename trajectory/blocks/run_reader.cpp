@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <system_error>
 
+#include <noli/errors.h>
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/blocks/run_checks.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/blocks/run_payload.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/formats/frames.h"
 #include "trajectory/text.h"
 

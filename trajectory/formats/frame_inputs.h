@@ -21,10 +21,10 @@
 #include <string_view>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/polygons.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

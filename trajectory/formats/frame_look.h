@@ -19,8 +19,8 @@
 #include <string>
 #include <string_view>
 
+#include <noli/frames.h>
 #include "trajectory/blocks/sha256.h"
-#include "trajectory/formats/frame_facts.h"
 
 namespace noli {
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/text.h"
 
 namespace noli {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Notes on the order of frames, capped. The order itself is in trajectory/formats/frame_facts.h.
+// Notes on the order of frames, capped. The order itself is in include/noli/frames.h.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trajectory/formats/frame_facts.h"
+#include <noli/frames.h>
 
 namespace noli {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/formats/obj.h"
 #include "trajectory/formats/ply.h"
 #include "trajectory/text.h"

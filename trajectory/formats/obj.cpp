@@ -7,8 +7,8 @@
 #include <array>
 #include <limits>
 
+#include <noli/errors.h>
 #include "trajectory/cells.h"
-#include "trajectory/error.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 

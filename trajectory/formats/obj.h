@@ -19,8 +19,8 @@
 #include <string>
 #include <string_view>
 
+#include <noli/mesh.h>
 #include "trajectory/formats/polygons.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

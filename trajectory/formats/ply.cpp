@@ -14,8 +14,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include <noli/errors.h>
 #include "trajectory/cells.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/ply_header.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"

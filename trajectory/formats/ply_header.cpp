@@ -7,7 +7,7 @@
 #include <array>
 #include <set>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/text.h"
 
 namespace noli {

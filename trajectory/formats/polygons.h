@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "trajectory/formats/frame_facts.h"
-#include "trajectory/mesh.h"
+#include <noli/frames.h>
+#include <noli/mesh.h>
 
 namespace noli {
 

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli {
 

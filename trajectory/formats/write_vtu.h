@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli {
 

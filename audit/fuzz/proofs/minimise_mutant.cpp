@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 
 namespace noli::audit {
 

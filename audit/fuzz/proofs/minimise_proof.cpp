@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include <noli/errors.h>
 #include "certify/proofs/proof_blocks.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 

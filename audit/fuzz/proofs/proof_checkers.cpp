@@ -15,11 +15,11 @@
 #include <optional>
 #include <utility>
 
+#include <noli/errors.h>
 #include "audit/fuzz/trajectories/frame_motion.h"
 #include "certify/process/pipe.h"
 #include "certify/process/start_process.h"
 #include "trajectory/blocks/bytes.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

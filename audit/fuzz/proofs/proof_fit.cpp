@@ -4,10 +4,10 @@
 // they are taken from there.
 #include "audit/fuzz/proofs/proof_fit.h"
 
+#include <noli/errors.h>
 #include "audit/fuzz/proofs/mutating.h"
 #include "certify/proofs/parsed_claim.h"
 #include "proofs/prover/tokens/proof_file.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frames.h"
 
 namespace noli::audit {

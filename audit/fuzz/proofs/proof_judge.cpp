@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include <noli/errors.h>
 #include "audit/fuzz/proofs/claim_oracle.h"
 #include "audit/fuzz/shape_corpus.h"
 #include "certify/proofs/parsed_claim.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frames.h"
 
 namespace noli::audit {

@@ -9,12 +9,12 @@
 #include <span>
 #include <utility>
 
+#include <noli/contact.h>
 #include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/queries/judge.h"
 #include "audit/fuzz/queries/minimise_query.h"
 #include "audit/fuzz/queries/query_generators.h"
 #include "audit/fuzz/queries/saved_query.h"
-#include "kernel/contact.h"
 
 namespace noli::audit {
 

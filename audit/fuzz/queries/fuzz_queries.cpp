@@ -8,13 +8,13 @@
 #include <numeric>
 #include <utility>
 
+#include <noli/errors.h>
 #include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/queries/judge.h"
 #include "audit/fuzz/queries/minimise_query.h"
 #include "audit/fuzz/queries/query_generators.h"
 #include "audit/fuzz/queries/saved_query.h"
 #include "kernel/parallel.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 

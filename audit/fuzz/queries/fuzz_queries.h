@@ -25,14 +25,13 @@
 #include <string>
 #include <vector>
 
+#include <noli/contact.h>
+#include <noli/time_of_impact.h>
 #include "audit/fuzz/fuzz_blocks.h"
 #include "audit/fuzz/not_saved.h"
 #include "audit/fuzz/queries/probe.h"
 #include "audit/fuzz/queries/query_corpus.h"
 #include "certify/queries/any_query.h"
-#include "kernel/contact.h"
-#include "kernel/first_contact.h"
-#include "kernel/stages.h"
 
 namespace noli::audit {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <iterator>
 
+#include <noli/errors.h>
 #include "audit/fuzz/queries/minimise_query.h"
 #include "kernel/parallel.h"
-#include "trajectory/error.h"
 
 namespace noli::audit {
 namespace {

@@ -3,8 +3,8 @@
 // Queries as the oracle wants them, and its answers in the kernel's words.
 #pragma once
 
+#include <noli/time_of_impact.h>
 #include "certify/queries/any_query.h"
-#include "kernel/first_contact.h"
 #include "oracle/oracle.h"
 
 namespace noli::audit {

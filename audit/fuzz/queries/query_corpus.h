@@ -5,7 +5,7 @@
 // A signature has, with hyphens between them:
 //   pair          vertex_face, edge_edge, vertex_edge, vertex_vertex
 //   dimension     2d, 3d
-//   stage         the stage of the kernel's cascade that settled whether they meet (kernel/stages.h)
+//   stage         the stage of the kernel's cascade that settled whether they meet (include/noli/contact.h)
 //   kind          of contact: apart, touching, crossing, persistent
 //   when          they first meet: at_begin, inside, at_end, never
 //   roots         how many different roots the orientation of their points has in [0, 1]: 0_roots, ..., 3_roots;
@@ -24,11 +24,11 @@
 #include <string>
 #include <vector>
 
+#include <noli/contact.h>
+#include <noli/time_of_impact.h>
 #include "audit/ccd/library_answers.h"
 #include "audit/fuzz/queries/saved_query.h"
 #include "certify/queries/any_query.h"
-#include "kernel/first_contact.h"
-#include "kernel/stages.h"
 
 namespace noli::audit {
 

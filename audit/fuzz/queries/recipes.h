@@ -13,9 +13,9 @@
 
 #include <optional>
 
+#include <noli/time_of_impact.h>
 #include "audit/fuzz/queries/meeting.h"
 #include "audit/fuzz/queries/whole_query.h"
-#include "kernel/first_contact.h"
 
 namespace noli::audit {
 

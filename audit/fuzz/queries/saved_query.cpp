@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/formats/query_csv.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"

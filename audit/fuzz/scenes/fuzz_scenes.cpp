@@ -7,13 +7,13 @@
 #include <cctype>
 #include <utility>
 
+#include <noli/errors.h>
 #include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/save_whole.h"
 #include "audit/fuzz/shape_corpus.h"
 #include "integrator/scene/json_text.h"
 #include "trajectory/blocks/sha256.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 

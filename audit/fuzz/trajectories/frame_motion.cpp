@@ -10,7 +10,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "trajectory/error.h"
+#include <noli/errors.h>
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/write_obj.h"
 #include "trajectory/formats/write_ply.h"

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::audit {
 

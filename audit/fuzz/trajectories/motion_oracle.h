@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
+#include <noli/time_of_impact.h>
 #include "audit/fuzz/trajectories/frame_motion.h"
-#include "kernel/first_contact.h"
 #include "oracle/oracle.h"
 
 namespace noli::audit {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "integrator/scene/json_text.h"
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/generators.h"
 #include "integrator/scene/shapes/place.h"
-#include "trajectory/error.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli::integrator {
 

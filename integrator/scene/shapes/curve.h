@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "integrator/vector.h"
-#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

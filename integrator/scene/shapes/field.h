@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "integrator/scene/json_text.h"
-#include "trajectory/mesh.h"
 
 namespace noli::integrator {
 

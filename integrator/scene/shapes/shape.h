@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 #include "trajectory/stop.h"
 
 namespace noli::integrator {

@@ -26,8 +26,8 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/query.h"
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
+#include <noli/query.h>
 
 namespace noli {
 

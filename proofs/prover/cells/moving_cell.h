@@ -13,11 +13,11 @@
 #include <array>
 #include <cstdint>
 
+#include <noli/mesh.h>
+#include <noli/query.h>
 #include "kernel/both_ends.h"
-#include "kernel/query.h"
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/cells/leftover.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -22,6 +22,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <noli/findings.h>
 #include "proofs/prover/cells/around.h"
 #include "proofs/prover/cells/direction_search.h"
 #include "proofs/prover/cells/exact_direction.h"
@@ -29,7 +30,6 @@
 #include "proofs/prover/tokens/proof_tree.h"
 #include "proofs/prover/tokens/short_direction.h"
 #include "proofs/prover/tokens/tokens.h"
-#include "proofs/prover/tokens/too_near.h"
 #include "proofs/prover/traversal.h"
 #include "proofs/prover/windows/window_cell.h"
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
 
 namespace noli {
 

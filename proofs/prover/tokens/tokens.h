@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "kernel/arithmetic/integer.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

@@ -33,8 +33,8 @@
 #include <span>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "proofs/prover/windows/monotone.h"
-#include "trajectory/mesh.h"
 
 namespace noli {
 

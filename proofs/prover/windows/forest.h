@@ -19,12 +19,12 @@
 #include <span>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/cells/leftover.h"
 #include "proofs/prover/cells/moving_cell.h"
 #include "proofs/prover/windows/charts.h"
 #include "proofs/prover/windows/monotone.h"
-#include "trajectory/exclusions.h"
 
 namespace noli {
 

@@ -18,8 +18,8 @@
 #include <span>
 #include <vector>
 
-#include "kernel/query.h"
-#include "trajectory/mesh.h"
+#include <noli/mesh.h>
+#include <noli/query.h>
 
 namespace noli {
 

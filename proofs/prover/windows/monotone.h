@@ -35,7 +35,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 #include "proofs/prover/hierarchy.h"
 
 namespace noli {

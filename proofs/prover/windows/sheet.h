@@ -26,7 +26,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 
 namespace noli {
 

@@ -10,9 +10,9 @@
 
 #include <array>
 
-#include "kernel/first_contact.h"
+#include <noli/query.h>
+#include <noli/time_of_impact.h>
 #include "kernel/moment.h"
-#include "kernel/query.h"
 #include "proofs/prover/verifier.h"
 #include "trajectory/world_lines.h"
 

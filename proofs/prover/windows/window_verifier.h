@@ -16,7 +16,7 @@
 // of groups, over chords, where boxes and directions have to hold with the radii added, and where what is monotone
 // around both (proofs/prover/windows/chords.h) is settled at once; time cut for the pair of cells in
 // question, until a direction holds or no breakpoint is left inside; each of its pairs of features the same way; and
-// what resists in a piece without breakpoints is decided exactly (kernel/contact.h, kernel/motion.h).
+// what resists in a piece without breakpoints is decided exactly (include/noli/contact.h, kernel/motion.h).
 //
 // What this does not do: it writes no proof, knows no thickness, and reads no files.
 #pragma once
@@ -27,11 +27,10 @@
 #include <span>
 #include <vector>
 
-#include "kernel/first_contact.h"
+#include <noli/mesh.h>
+#include <noli/time_of_impact.h>
 #include "kernel/moment.h"
 #include "proofs/prover/verifier.h"
-#include "trajectory/exclusions.h"
-#include "trajectory/mesh.h"
 #include "trajectory/world_lines.h"
 
 namespace noli {

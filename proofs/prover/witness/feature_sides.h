@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/tokens/mesh_paths.h"
 

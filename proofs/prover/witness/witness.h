@@ -25,9 +25,9 @@
 #include <string>
 #include <string_view>
 
+#include <noli/findings.h>
 #include "proofs/prover/tokens/mesh_paths.h"
 #include "proofs/prover/tokens/step_prover.h"
-#include "proofs/prover/tokens/too_near.h"
 #include "proofs/prover/verifier.h"
 #include "trajectory/world_lines.h"
 

@@ -17,9 +17,9 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "app/exit_code.h"
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
 
 namespace noli::app_tests {
 namespace {

@@ -8,10 +8,10 @@
 #include <numeric>
 #include <set>
 
+#include <noli/errors.h>
 #include "integrator/stable_step.h"
 #include "tests/integrator/scenes.h"
 #include "tests/support/temporary_folder.h"
-#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

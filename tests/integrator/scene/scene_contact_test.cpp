@@ -8,10 +8,10 @@
 #include <numbers>
 #include <ostream>
 
+#include <noli/errors.h>
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/explain.h"
 #include "tests/integrator/scenes.h"
-#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

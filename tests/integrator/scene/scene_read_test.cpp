@@ -8,9 +8,9 @@
 #include <ostream>
 #include <set>
 
+#include <noli/errors.h>
 #include "integrator/scene/explain.h"
 #include "tests/integrator/scenes.h"
-#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include <noli/errors.h>
 #include "integrator/scene/json_text.h"
-#include "trajectory/error.h"
 
 namespace noli::integrator {
 namespace {

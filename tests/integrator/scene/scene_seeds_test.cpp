@@ -8,9 +8,9 @@
 #include <map>
 #include <string>
 
+#include <noli/errors.h>
 #include "integrator/scene/explain.h"
 #include "integrator/scene/read_scene.h"
-#include "trajectory/error.h"
 #include "trajectory/text.h"
 
 namespace noli::integrator {

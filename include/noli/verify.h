@@ -29,12 +29,12 @@
 #include <string_view>
 #include <vector>
 
-#include "certify/proofs/proof.h"
-#include "kernel/contact.h"
-#include "kernel/time_of_impact.h"
-#include "proofs/prover/findings.h"
-#include "trajectory/formats/frame_facts.h"
-#include "trajectory/mesh.h"
+#include <noli/proof.h>
+#include <noli/contact.h>
+#include <noli/time_of_impact.h>
+#include <noli/findings.h>
+#include <noli/frames.h>
+#include <noli/mesh.h>
 
 namespace noli {
 

@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/run_values.h"
+#include <noli/run.h>
 
 namespace noli {
 

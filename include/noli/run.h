@@ -35,8 +35,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kernel/query.h"
-#include "trajectory/mesh.h"
+#include <noli/query.h>
+#include <noli/mesh.h>
 
 namespace noli {
 

@@ -30,10 +30,10 @@
 #include <span>
 #include <vector>
 
-#include "kernel/contact.h"
-#include "kernel/time_of_impact.h"
-#include "proofs/prover/findings.h"
-#include "trajectory/mesh.h"
+#include <noli/contact.h>
+#include <noli/time_of_impact.h>
+#include <noli/findings.h>
+#include <noli/mesh.h>
 
 namespace noli {
 

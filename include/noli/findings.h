@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "kernel/contact.h"
-#include "trajectory/mesh.h"
+#include <noli/contact.h>
+#include <noli/mesh.h>
 
 namespace noli {
 

@@ -30,7 +30,7 @@
 #include <optional>
 #include <string_view>
 
-#include "kernel/query.h"
+#include <noli/query.h>
 
 namespace noli {
 

@@ -7,7 +7,7 @@
 //   noli::Vertex_face_time_of_impact_3<K>  when first?                -> std::optional<noli::TimeOfImpact>
 //   noli::Vertex_face_first_contact_3<K>   when, and of what kind?    -> std::optional<noli::FirstContact>
 // and the same for Edge_edge_..._3, Vertex_edge_..._3, Vertex_vertex_..._3, Vertex_edge_..._2, Vertex_vertex_..._2.
-// Each takes the points at t = 0, then the same at t = 1, in the order of kernel/query.h.
+// Each takes the points at t = 0, then the same at t = 1, in the order of noli/query.h.
 //
 //   const noli::Edge_edge_time_of_impact_3<K> time_of_impact;
 //   const auto time = time_of_impact(a0, a1, b0, b1,    // at t = 0
@@ -33,8 +33,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "kernel/contact.h"
-#include "kernel/time_of_impact.h"
+#include <noli/contact.h>
+#include <noli/time_of_impact.h>
 
 namespace noli {
 namespace cgal_detail {

@@ -32,9 +32,9 @@
 #include <string_view>
 #include <vector>
 
-#include "certificates/run_values.h"
-#include "certify/sequence.h"
-#include "proofs/prover/findings.h"
+#include <noli/run.h>
+#include <noli/sequence.h>
+#include <noli/findings.h>
 
 namespace noli {
 
