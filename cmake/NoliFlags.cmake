@@ -4,16 +4,14 @@ add_library(noli_flags INTERFACE)
 add_library(noli::flags ALIAS noli_flags)
 set_target_properties(noli_flags PROPERTIES EXPORT_NAME flags)
 
-# Same bits everywhere: nothing may fuse or re-order floating-point operations. This one travels with the exported targets,
-# because the kernel's templates are compiled in the user's translation units too.
-target_compile_options(noli_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
-target_compile_definitions(noli_flags INTERFACE EIGEN_MPL2_ONLY)
+# Same bits everywhere: nothing may fuse or re-order floating-point operations. Public headers have no such operations, so
+# only C++20 travels with the exported targets.
+target_compile_options(noli_flags INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>>)
+target_compile_definitions(noli_flags INTERFACE $<BUILD_INTERFACE:EIGEN_MPL2_ONLY>)
 target_compile_features(noli_flags INTERFACE cxx_std_20)
 
 # For code that switches the rounding mode, so that the compiler neither folds nor moves an operation across the switch.
 add_library(noli_rounding INTERFACE)
-add_library(noli::rounding ALIAS noli_rounding)
-set_target_properties(noli_rounding PROPERTIES EXPORT_NAME rounding)
 target_compile_options(noli_rounding INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-frounding-math>)
 # CGAL would end the program before main() where rounding cannot be switched; kernel/arithmetic/rounding.h finds that out and says so.
 target_compile_definitions(noli_rounding INTERFACE CGAL_DISABLE_ROUNDING_MATH_CHECK)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# The libraries, their headers as <noli/LAYER/...>, the command, and what find_package(noli) reads.
+# The libraries, the public headers, the command, and what find_package(noli) reads.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS noli_kernel noli_trajectory noli_certificates noli_integrator noli_proofs noli_certify noli_flags noli_rounding
+install(TARGETS noli_kernel noli_trajectory noli_certificates noli_integrator noli_proofs noli_certify noli_flags
         EXPORT noliTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS noli_check EXPORT noliTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -11,10 +11,7 @@ install(TARGETS noli noli_ccd_host noli_check_host RUNTIME DESTINATION ${CMAKE_I
 if(NOLI_WITH_HDF5)
   install(TARGETS noli_series RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-foreach(layer kernel trajectory certificates integrator proofs certify)
-  install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/noli FILES_MATCHING PATTERN "*.h")
-endforeach()
-install(FILES include/noli/ccd_plugin.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/noli)
+install(DIRECTORY include/noli DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 # Nothing that ships stands on these, so a build of `noli` alone is installed without them.
 install(TARGETS ${NOLI_CCD_PLUGINS} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/noli/ccd OPTIONAL)
 install(DIRECTORY scenes schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/noli)

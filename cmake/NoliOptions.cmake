@@ -23,5 +23,5 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# Headers are included by their place in the project, "include/noli/contact.h"; those that are for users alone as "noli/...".
+# Headers are included by their place in the project, "kernel/motion.h"; public ones as users do, <noli/contact.h>.
 set(NOLI_INCLUDE_DIRS "${CMAKE_SOURCE_DIR};${CMAKE_SOURCE_DIR}/include")

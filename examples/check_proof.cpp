@@ -3,19 +3,15 @@
 //   check_proof FOLDER-OF-NOLI_CHECK BEFORE AFTER PROOF
 #include <cstdio>
 #include <exception>
-#include <memory>
 
-#include <noli/certify/proofs/checker.h>
-#include <noli/certify/proofs/claim.h>
+#include <noli/proof.h>
 #include <noli/verify.h>
 
 int main(int argc, char** argv) try {
   if (argc != 5) return 3;
   noli::VerifyRequest request;
   request.frames = {argv[2], argv[3]};
-  request.open_proof = [&](const noli::Claim&) {
-    return std::make_unique<noli::FileSink>(argv[4], noli::FileSink::Open::create);
-  };
+  request.open_proof = noli::proof_to_file(argv[4]);
   const noli::VerifyOutcome outcome = noli::run_verify(request);
   const noli::CheckerVerdict verdict = noli::check_proof(
       {.proof = argv[4], .trajectory = request.frames, .asked = noli::fields_of(outcome.claim), .programs = argv[1]});

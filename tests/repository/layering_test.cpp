@@ -53,7 +53,7 @@ TEST_P(PlantedInclude, IsJudged) {
   const TemporaryFolder root;
   for (const char* header : {"kernel/k.h", "trajectory/t.h", "certificates/c.h", "integrator/i.h", "proofs/prover/p.h",
                              "proofs/checker/c.h", "audit/a.h", "app/a.h", "certify/c.h", "report/r.h", "oracle/o.h",
-                             "tests/app/t.h", "bench/b.h", "include/noli/n.h"}) {
+                             "tests/app/t.h", "bench/b.h", "include/noli/n.h", "include/noli/mesh.h"}) {
     write_file(root.path() / header, "#pragma once\n");
   }
   write_file(root.path() / GetParam().file, std::string("#pragma once\n") + GetParam().line + "\n");
@@ -107,7 +107,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"AppKnowsNoBench", "app/x.h", "#include \"bench/b.h\"", true},
                     Planted{"BenchKnowsAudit", "bench/x.h", "#include \"audit/a.h\"", false},
                     Planted{"AuditKnowsNoBench", "audit/x.h", "#include \"bench/b.h\"", true},
-                    Planted{"ExamplesKnowWhatIsInstalled", "examples/x.cpp", "#include <noli/kernel/k.h>", false},
+                    Planted{"TrajectoryKnowsItsPublicHeaders", "trajectory/x.h", "#include <noli/mesh.h>", false},
+                    Planted{"KernelKnowsNoPublicHeadersOfOthers", "kernel/x.h", "#include <noli/mesh.h>", true},
+                    Planted{"PublicHeadersKnowEachOther", "include/noli/x.h", "#include <noli/mesh.h>", false},
+                    Planted{"PublicHeadersKnowNothingInside", "include/noli/x.h", "#include \"kernel/k.h\"", true},
+                    Planted{"ExamplesKnowWhatIsInstalled", "examples/x.cpp", "#include <noli/mesh.h>", false},
+                    Planted{"ExamplesKnowNothingElse", "examples/x.cpp", "#include <noli/kernel/k.h>", true},
                     Planted{"ExamplesKnowNoAudit", "examples/x.cpp", "#include <noli/audit/a.h>", true},
                     Planted{"TestsKnowAll", "tests/app/x.h", "#include \"app/a.h\"", false}),
     [](const auto& planted) { return std::string(planted.param.name); });

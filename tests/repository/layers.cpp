@@ -27,21 +27,31 @@ const std::map<std::string, Row>& table() {
   static const Row questions = with(both_wings, {"certify"});
   static const Row answers = with(questions, {"report", "proofs/checker", "oracle", "include"});
   static const std::map<std::string, Row> rows = {
-      {"include", {}},
-      {"kernel", {}},
-      {"trajectory", {}},
-      {"certificates", geometry},
-      {"integrator", dynamics},
-      {"proofs", geometry},
-      {"proofs/checker", {}},
-      {"certify", both_wings},
-      {"report", questions},
-      {"oracle", {}},
-      {"audit", answers},
-      {"app", with(answers, {"audit"})},
-      {"examples", with(geometry, {"include", "proofs", "certify"})},  // what is installed
+      {"include", {}},           {"kernel", {}},       {"trajectory", {}},     {"certificates", geometry},
+      {"integrator", dynamics},  {"proofs", geometry}, {"proofs/checker", {}}, {"certify", both_wings},
+      {"report", questions},     {"oracle", {}},       {"audit", answers},     {"app", with(answers, {"audit"})},
+      {"examples", {"include"}},  // what is installed
   };
   return rows;
+}
+
+/// Public headers belong to the layer that defines what they declare. Others have nothing behind them.
+std::string home_of_public(const std::string& target) {
+  static const std::map<std::string, std::string> homes = {
+      {"noli/query.h", "kernel"},      {"noli/contact.h", "kernel"},   {"noli/time_of_impact.h", "kernel"},
+      {"noli/cgal.h", "kernel"},       {"noli/mesh.h", "trajectory"},  {"noli/errors.h", "trajectory"},
+      {"noli/frames.h", "trajectory"}, {"noli/run.h", "certificates"}, {"noli/findings.h", "proofs"},
+      {"noli/explain.h", "certify"},   {"noli/export.h", "certify"},   {"noli/proof.h", "certify"},
+      {"noli/sequence.h", "certify"},  {"noli/simulate.h", "certify"}, {"noli/verify.h", "certify"},
+      {"noli/version.h", "certify"}};
+  const auto found = homes.find(target);
+  return found == homes.end() ? "include" : found->second;
+}
+
+/// What users see of the project, and nothing else.
+bool sees_public_alone(const fs::path& file) {
+  const std::string layer = layer_of(file);
+  return layer == "include" || layer == "examples";
 }
 
 bool exists_in(const fs::path& root, const fs::path& relative) {
@@ -72,8 +82,9 @@ std::string layer_of(const fs::path& relative) {
 
 std::optional<std::string> included_layer(const fs::path& root, const fs::path& file, const std::string& target) {
   const fs::path path(target);
-  if (target.starts_with("noli/") && exists_in(root, "include" / path)) return "include";
-  if (target.starts_with("noli/")) return layer_of(path.lexically_normal().lexically_relative("noli"));  // installed
+  if (target.starts_with("noli/") && exists_in(root, "include" / path))
+    return sees_public_alone(file) ? "include" : home_of_public(target);
+  if (target.starts_with("noli/")) return layer_of(path.lexically_normal().lexically_relative("noli"));
   if (path.is_absolute()) {
     const fs::path inside = path.lexically_normal().lexically_relative(root);
     return exists_in(root, inside) ? std::optional(layer_of(inside)) : std::nullopt;
