@@ -88,7 +88,7 @@ std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, cons
   words.insert(words.end(), claim.begin(), claim.end());
   for (const fs::path& file : files) words.push_back(file);
   ProgramLimits limits;
-  limits.stop = &interrupted();
+  limits.stop = stop_by(&interrupted());
   const ProgramEnd end = run_program(words, limits);
   if (!end.exited_with(0) && !end.exited_with(1)) return std::nullopt;
   try {
@@ -203,7 +203,7 @@ class CheckersBeside {
     if (!has_verified) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
     return [this, verified, has_verified] {
       ProgramLimits limits;
-      limits.stop = &interrupted();
+      limits.stop = stop_by(&interrupted());
       return audit::Checkers{
           audit::hosted_checker(beside_this_program("noli_check_host"), new_folder(), std::chrono::seconds(20)),
           has_verified ? audit::program_checker(verified, new_folder(), limits) : nullptr};

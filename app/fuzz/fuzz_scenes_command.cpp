@@ -14,8 +14,8 @@
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/scenes/fuzz_scenes.h"
 #include "certify/json.h"
+#include "certify/process/run_program.h"
 #include "certify/process/scratch_folder.h"
-#include "certify/process/start_process.h"
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
@@ -55,7 +55,7 @@ audit::RunNoli this_program() {
     std::vector<std::string> words = {noli};
     words.insert(words.end(), arguments.begin(), arguments.end());
     ProgramLimits limits;
-    limits.stop = &interrupted();
+    limits.stop = stop_by(&interrupted());
     limits.time = std::chrono::seconds(120);
     return run_program(std::move(words), limits);
   };

@@ -6,23 +6,17 @@
 #include <noli/ccd_plugin.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
-#include <fstream>
-#include <stdexcept>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include <noli/errors.h>
-#include "certify/process/start_process.h"
 
 namespace noli::audit {
 namespace {
@@ -30,13 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
-
-/// With the memory as its descriptor 3, a pipe for what it says of errors, and no other input or output.
-pid_t start(std::vector<std::string> words, int memory, int errors) {
-  constexpr int nothing = GivenDescriptor::nothing;
-  return start_process(std::move(words),
-                       std::array<GivenDescriptor, 4>{{{3, memory}, {0, nothing}, {1, nothing}, {2, errors}}});
-}
 
 std::vector<std::string> words(const HostOptions& options, const std::optional<fs::path>& library, bool pipeline) {
   std::vector<std::string> result = {options.host.string()};
@@ -95,43 +82,26 @@ HostProcess::HostProcess(const std::optional<fs::path>& library, const SharedMem
                          const HostOptions& options, bool pipeline)
     : options_(options),
       status_(status),
-      pid_(start(words(options, library, pipeline), memory.descriptor(), said_.end(1))) {
-  said_.close(1);
-  said_.never_wait(0);
-}
+      child_(words(options, library, pipeline), {.err = Child::piped, .third = memory.descriptor()}) {}
 
-/// Keeps the end of what was said so far.
-void HostProcess::listen() {
-  std::array<char, 4096> part;
-  for (int parts = 0; parts < 64; ++parts) {
-    const ssize_t got = ::read(said_.end(0), part.data(), part.size());
-    if (got <= 0) return;
-    end_of_said_.append(part.data(), static_cast<std::size_t>(got));
-    if (end_of_said_.size() > 2 * most_said) end_of_said_.erase(0, end_of_said_.size() - most_said);
-  }
+/// What the library says may be endless: only the end of it is kept.
+void HostProcess::keep_the_end() {
+  if (child_.err.size() > 2 * most_said) child_.err.erase(0, child_.err.size() - most_said);
 }
 
 Ending HostProcess::wait() {
-  Ending ending = wait_for_end();
-  listen();
-  if (end_of_said_.size() > most_said) end_of_said_.erase(0, end_of_said_.size() - most_said);
-  ending.said = std::move(end_of_said_);
-  return ending;
-}
-
-Ending HostProcess::wait_for_end() {
   nanoseconds pause = std::chrono::microseconds(100);
   begin_call();
   for (;;) {
-    listen();
-    if (const auto status = ended()) return ending(*status);
+    keep_the_end();
+    if (child_.has_ended()) return ending();
     if (stopped()) return ended_by_us(Ending::Kind::stopped, "stopped");
     if (hangs())
       return ended_by_us(Ending::Kind::hung, fmt::format("no answer within its limit of {:g} s", seconds(limit())));
-    if (resident_bytes() > options_.most_memory) {
+    if (child_.resident_bytes() > options_.most_memory) {
       return ended_by_us(Ending::Kind::too_much_memory, fmt::format("more than {} bytes", options_.most_memory));
     }
-    std::this_thread::sleep_for(pause);
+    child_.look(pause);
     pause = std::min<nanoseconds>(2 * pause, std::chrono::milliseconds(5));
   }
 }
@@ -141,44 +111,29 @@ bool HostProcess::stopped() const {
   return options_.deadline && Clock::now() >= *options_.deadline;
 }
 
-/// What the library has started ends with it: its group is ended before its number can be another's.
-std::optional<int> HostProcess::ended() {
-  if (!has_ended(pid_)) return std::nullopt;
-  return end_process(std::exchange(pid_, -1), std::chrono::milliseconds(0));
+std::string HostProcess::said(ProgramEnd& end) {
+  if (end.err.size() > most_said) end.err.erase(0, end.err.size() - most_said);
+  return std::move(end.err);
 }
 
-Ending HostProcess::ending(int status) const {
-  if (WIFSIGNALED(status)) {
-    const int signal = WTERMSIG(status);
-    return {Ending::Kind::crashed, fmt::format("signal {} ({})", signal, ::strsignal(signal))};
-  }
-  if (options_.sandbox && WEXITSTATUS(status) == no_sandbox) throw_no_sandbox();
+Ending HostProcess::ending() {
+  ProgramEnd end = child_.end(ProgramEnd::Kind::exited, {});
+  if (end.kind == ProgramEnd::Kind::signalled) return {Ending::Kind::crashed, end.words(), said(end)};
+  if (options_.sandbox && end.code == no_sandbox) throw_no_sandbox();
   const bool done = status_.phase.load(std::memory_order_acquire) == HostPhase::done;
-  if (done && WEXITSTATUS(status) == 0) return {};
-  return {Ending::Kind::crashed, fmt::format("it ended the program, with code {}", WEXITSTATUS(status))};
+  if (done && end.code == 0) return {Ending::Kind::finished, "", said(end)};
+  return {Ending::Kind::crashed, fmt::format("it ended the program, with code {}", end.code), said(end)};
 }
 
 Ending HostProcess::ended_by_us(Ending::Kind kind, const std::string& words) {
-  end_it();
-  return {kind, words};
-}
-
-void HostProcess::end_it() {
-  if (pid_ >= 0) end_process(std::exchange(pid_, -1), std::chrono::milliseconds(0));
-}
-
-/// What the process has computed so far, all its threads together.
-nanoseconds HostProcess::computed() const {
-  clockid_t clock = 0;
-  struct timespec time = {};
-  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return nanoseconds(0);
-  return std::chrono::seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
+  ProgramEnd end = child_.end(ProgramEnd::Kind::stopped, {});
+  return {kind, words, said(end)};
 }
 
 void HostProcess::begin_call() {
   calls_ = status_.calls.load(std::memory_order_relaxed);
   begin_ = Clock::now();
-  computed_ = computed();
+  computed_ = child_.computed();
 }
 
 nanoseconds HostProcess::limit() const {
@@ -194,14 +149,8 @@ bool HostProcess::hangs() {
     begin_call();
     return false;
   }
-  return waited() >= limit() && (computed() - computed_ >= limit() || waited() >= 10 * limit());
-}
-
-std::uint64_t HostProcess::resident_bytes() const {
-  std::ifstream file("/proc/" + std::to_string(pid_) + "/statm");
-  std::uint64_t all = 0, resident = 0;
-  if (!(file >> all >> resident)) return 0;
-  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  const nanoseconds waited = Clock::now() - begin_;
+  return waited >= limit() && (child_.computed() - computed_ >= limit() || waited >= 10 * limit());
 }
 
 template <std::size_t Size>

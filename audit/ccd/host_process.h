@@ -3,8 +3,6 @@
 // The process in which somebody else's library runs (audit/ccd/host/main.cpp), started and watched.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -16,7 +14,7 @@
 
 #include "audit/ccd/host/exchange.h"
 #include "audit/ccd/host/sandbox.h"
-#include "certify/process/pipe.h"
+#include "certify/process/child.h"
 
 namespace noli::audit {
 
@@ -72,35 +70,23 @@ class HostProcess {
   /// not there, std::system_error when the machine has no process left.
   HostProcess(const std::optional<std::filesystem::path>& library, const SharedMemory& memory, const HostStatus& status,
               const HostOptions& options, bool pipeline);
-  ~HostProcess() { end_it(); }
-  HostProcess(const HostProcess&) = delete;
-  HostProcess& operator=(const HostProcess&) = delete;
-
   /// Waits, and ends it when it hangs, takes too much memory, or when `options` say so. Throws InputError when there is
   /// no sandbox, though `options` ask for one.
   Ending wait();
 
  private:
   bool stopped() const;
-  std::optional<int> ended();
-  Ending ending(int status) const;
-  Ending ended_by_us(Ending::Kind kind, const std::string& words);
-  void end_it();
-  std::chrono::nanoseconds computed() const;
-  std::chrono::nanoseconds limit() const;
-  void begin_call();
-  std::chrono::nanoseconds waited() const { return std::chrono::steady_clock::now() - begin_; }
   bool hangs();
-  std::uint64_t resident_bytes() const;
-
-  Ending wait_for_end();
-  void listen();
+  void begin_call();
+  std::chrono::nanoseconds limit() const;
+  void keep_the_end();
+  static std::string said(ProgramEnd& end);
+  Ending ending();
+  Ending ended_by_us(Ending::Kind kind, const std::string& words);
 
   const HostOptions& options_;
   const HostStatus& status_;
-  Pipe said_;
-  std::string end_of_said_;
-  pid_t pid_;
+  Child child_;
   std::uint64_t calls_ = 0;
   std::chrono::steady_clock::time_point begin_;
   std::chrono::nanoseconds computed_{0};

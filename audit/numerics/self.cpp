@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include <noli/errors.h>
-#include "audit/numerics/run_command.h"
 #include "audit/numerics/stability_rows.h"
+#include "certify/process/run_program.h"
 #include "certify/process/scratch_folder.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
@@ -50,10 +50,10 @@ constexpr std::chrono::minutes grace{10};
 
 struct Stopped {};
 
-std::string told(const CommandRun& run) {
+std::string told(const ProgramEnd& run) {
   const std::string words =
       run.out.starts_with("verdict") || run.err.empty() ? first_line(run.out) : first_complaint(run.err);
-  return end_words(run) + ": " + (words.empty() ? "it says nothing" : on_one_line(words));
+  return run.brief() + ": " + (words.empty() ? "it says nothing" : on_one_line(words));
 }
 
 std::string bytes_of(const fs::path& path) {
@@ -124,10 +124,10 @@ class SelfAudit {
     return options_.only.empty() || std::find(options_.only.begin(), options_.only.end(), group) != options_.only.end();
   }
 
-  CommandRun noli(std::vector<std::string> words, nanoseconds limit = nanoseconds(0)) const {
+  ProgramEnd noli(std::vector<std::string> words, nanoseconds limit = nanoseconds(0)) const {
     words.insert(words.begin(), options_.program.string());
-    CommandRun run = run_command(words, limit + grace, options_.stop);
-    if (run.end == CommandRun::End::stopped) throw Stopped();
+    ProgramEnd run = run_program(std::move(words), {limit + grace, stop_by(options_.stop), 2 * time_to_end});
+    if (run.kind == ProgramEnd::Kind::stopped) throw Stopped();
     return run;
   }
 
@@ -142,11 +142,10 @@ class SelfAudit {
   }
 
   /// The document of a program that ended with 0 and this verdict; else the part has failed.
-  static Json document(const CommandRun& run, const char* verdict, SelfPart& p) {
+  static Json document(const ProgramEnd& run, const char* verdict, SelfPart& p) {
     Json json = Json::parse(run.out, nullptr, false);
-    if (run.exited(0) && json.is_object() && json.value("verdict", "") == verdict) return json;
-    fail(p,
-         json.is_object() ? fmt::format("{}, verdict {}", end_words(run), json.value("verdict", "none")) : told(run));
+    if (run.exited_with(0) && json.is_object() && json.value("verdict", "") == verdict) return json;
+    fail(p, json.is_object() ? fmt::format("{}, verdict {}", run.brief(), json.value("verdict", "none")) : told(run));
     return nullptr;
   }
 
@@ -163,10 +162,10 @@ class SelfAudit {
   }
 
   void rounding(SelfPart& p) const {
-    const CommandRun run = noli({"--version"});
+    const ProgramEnd run = noli({"--version"});
     const bool passed = run.out.find("\nrounding self-test passed\n") != std::string::npos;
-    if (run.exited(0) && passed) return hold(p);
-    if (!run.exited(0)) return fail(p, told(run));
+    if (run.exited_with(0) && passed) return hold(p);
+    if (!run.exited_with(0)) return fail(p, told(run));
     const std::size_t at = run.out.find("rounding");
     fail(p, at == std::string::npos ? "--version says nothing of it" : on_one_line(first_line(run.out.substr(at))));
   }
@@ -194,13 +193,14 @@ class SelfAudit {
     p.by_clock = true;
     const FindingsFolder folder(options_.out);
     const fs::path out = options_.out / fuzzer.name;
-    const CommandRun run =
+    const ProgramEnd run =
         noli({"fuzz", fuzzer.name, "--for", milliseconds(options_.fuzz_time), "--seed", std::to_string(options_.seed),
               "--threads", std::to_string(options_.threads), "--out", out.string(), "--json", "-"},
              options_.fuzz_time);
     const Json json = document(run, fuzzer.well, p);
     if (json.is_object() && figure(json, fuzzer.tried, p)) hold(p);
-    if (p.state == PartState::failed && run.exited(1)) p.words += "; what it found is in " + on_one_line(out.string());
+    if (p.state == PartState::failed && run.exited_with(1))
+      p.words += "; what it found is in " + on_one_line(out.string());
   }
 
   // --- proofs --------------------------------------------------------------------------------------------------------
@@ -232,9 +232,9 @@ class SelfAudit {
       std::vector<std::string> words = {"check", "--porcelain"};
       words.insert(words.end(), files.begin(), files.end());
       if (*checker.option != '\0') words.emplace_back(checker.option);
-      const CommandRun run = noli(words);
+      const ProgramEnd run = noli(words);
       const char* const expected = code == 0 ? "verdict=accepted" : "verdict=refuted";
-      if (run.exited(code) && run.verdict_line().starts_with(expected)) continue;
+      if (run.exited_with(code) && first_line(run.out).starts_with(expected)) continue;
       fail(p, fmt::format("{}: {}", checker.name, told(run)));
       return false;
     }
@@ -262,9 +262,9 @@ class SelfAudit {
       write_file(frames.back(), two.frames[i]);
     }
     const std::string proof = (scratch.path() / "proof.noli").string();
-    const CommandRun run = noli({"verify", "--porcelain", frames[0], frames[1], "--proof", proof});
+    const ProgramEnd run = noli({"verify", "--porcelain", frames[0], frames[1], "--proof", proof});
     const char* const expected = two.touch ? "verdict=contact " : "verdict=proved ";
-    if (!run.exited(two.touch ? 1 : 0) || !run.out.starts_with(expected)) return fail(p, told(run));
+    if (!run.exited_with(two.touch ? 1 : 0) || !run.out.starts_with(expected)) return fail(p, told(run));
     if (check({proof, frames[0], frames[1]}, two.touch ? 1 : 0, p)) checked(1, p);
   }
 
@@ -275,13 +275,13 @@ class SelfAudit {
     std::vector<std::string> words = {
         "simulate", (folder / "scene.json").string(), "-o", run_folder, "--json", "-", "--ignore-space"};
     words.insert(words.end(), more.begin(), more.end());
-    const CommandRun run = noli(words);
+    const ProgramEnd run = noli(words);
     const Json json = Json::parse(run.out, nullptr, false);
-    const auto ends = [&](int code) { return run.exited(code); };
+    const auto ends = [&](int code) { return run.exited_with(code); };
     if (std::none_of(codes.begin(), codes.end(), ends) || !json.is_object()) return fail(p, told(run));
     const auto windows = json.value("windows", std::uint64_t{0});
     if (windows == 0) {
-      if (run.exited(2)) return skip(p, "no window was done within --scene-time");
+      if (run.exited_with(2)) return skip(p, "no window was done within --scene-time");
       return fail(p, "no window was committed: " + told(run));
     }
     if (check({run_folder}, 0, p)) checked(windows, p);

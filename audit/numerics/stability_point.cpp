@@ -13,7 +13,7 @@
 #include <optional>
 
 #include <noli/errors.h>
-#include "audit/numerics/run_command.h"
+#include "certify/process/run_program.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -82,8 +82,8 @@ class Asking {
 
   StabilityPoint scene(const SceneCase& what) {
     write_file(folder_ / "scene.json", what.scene);
-    const CommandRun run = simulate("run", {});
-    point_.exit_code = run.end == CommandRun::End::exited ? run.code : -1;
+    const ProgramEnd run = simulate("run", {});
+    point_.exit_code = run.kind == ProgramEnd::Kind::exited ? run.code : -1;
     if (!ended_well(run)) return point_;
     const Json document = document_of(run);
     if (!agrees(run, document)) return point_;
@@ -104,26 +104,28 @@ class Asking {
       words.push_back(file.string());
     }
     for (const char* word : {"--threads", "1", "--max-reports", "1"}) words.emplace_back(word);
-    const CommandRun run = noli(words);
-    point_.exit_code = run.end == CommandRun::End::exited ? run.code : -1;
+    const ProgramEnd run = noli(words);
+    point_.exit_code = run.kind == ProgramEnd::Kind::exited ? run.code : -1;
     if (!ended_well(run)) return point_;
     const std::string expected = what.touch ? "verdict=contact " : "verdict=proved ";
     if (run.code == (what.touch ? 1 : 0) && run.out.starts_with(expected)) return point_;
     gives("answer", line_of(run.code <= 2 ? run.out : run.err));
     // What is no answer is none that is wrong.
-    if (run.code <= 1) finding(fmt::format("{}, but they {}", run.verdict_line(), what.touch ? "touch" : "stay apart"));
+    if (run.code <= 1)
+      finding(fmt::format("{}, but they {}", first_line(run.out), what.touch ? "touch" : "stay apart"));
     return point_;
   }
 
  private:
-  CommandRun noli(std::vector<std::string> words) {
+  ProgramEnd noli(std::vector<std::string> words) {
     words.insert(words.begin(), options_.program.string());
-    const CommandRun run = run_command(words, 2 * options_.point_limit + std::chrono::seconds(10), options_.stop);
+    const std::chrono::nanoseconds limit = 2 * options_.point_limit + std::chrono::seconds(10);
+    const ProgramEnd run = run_program(std::move(words), {limit, stop_by(options_.stop), 2 * time_to_end});
     point_.seconds += run.seconds;
     return run;
   }
 
-  CommandRun simulate(const std::string& to, const std::vector<std::string>& more) {
+  ProgramEnd simulate(const std::string& to, const std::vector<std::string>& more) {
     const auto limit = std::chrono::duration_cast<std::chrono::milliseconds>(options_.point_limit).count();
     std::vector<std::string> words = {
         "simulate",     (folder_ / "scene.json").string(), "-o",     path(to), "--threads",     "1",
@@ -158,15 +160,15 @@ class Asking {
   }
 
   /// By itself, and with a code that a user may meet.
-  bool ended_well(const CommandRun& run) {
-    if (run.end == CommandRun::End::stopped) return false;
-    if (run.end == CommandRun::End::exited && run.code >= 0 && run.code <= 3) return true;
-    gives(end_words(run), line_of(run.err));
-    finding(end_words(run) + (run.err.empty() ? "" : ": " + line_of(run.err)));
+  bool ended_well(const ProgramEnd& run) {
+    if (run.kind == ProgramEnd::Kind::stopped) return false;
+    if (run.kind == ProgramEnd::Kind::exited && run.code >= 0 && run.code <= 3) return true;
+    gives(run.brief(), line_of(run.err));
+    finding(run.brief() + (run.err.empty() ? "" : ": " + line_of(run.err)));
     return false;
   }
 
-  static Json document_of(const CommandRun& run) {
+  static Json document_of(const ProgramEnd& run) {
     if (run.code == 3) return nullptr;
     return Json::parse(run.out, nullptr, false);
   }
@@ -180,7 +182,7 @@ class Asking {
   }
 
   /// Whether verdict and exit code do, and what ends with 0 has come to its end.
-  bool agrees(const CommandRun& run, const Json& document) {
+  bool agrees(const ProgramEnd& run, const Json& document) {
     if (run.code == 3 && !run.err.empty() && run.out.empty()) return true;
     static const std::map<std::string, int> codes = {{"no_contact", 0}, {"contact", 1},  {"too_near", 1},
                                                      {"not_finite", 1}, {"unstable", 1}, {"undecided", 2}};
@@ -199,12 +201,12 @@ class Asking {
     return false;
   }
 
-  static std::string reason(const CommandRun& run, const Json& document) {
+  static std::string reason(const ProgramEnd& run, const Json& document) {
     return run.code == 3 ? "refused" : document["end"].get<std::string>();
   }
 
   /// The line that tells why it ends.
-  std::string said(const CommandRun& run, const Json& document) const {
+  std::string said(const ProgramEnd& run, const Json& document) const {
     if (run.code == 3) return line_of(run.err);
     return fmt::format("{} after {} of {} windows", document["end"].get<std::string>(), document["windows"].dump(),
                        document["windows_total"].dump());
@@ -212,19 +214,19 @@ class Asking {
 
   /// Whatever a run ends with, what it has committed never touches.
   void verify_again(std::uint64_t windows) {
-    const CommandRun run = noli({"verify", "--porcelain", path("run"), "--threads", "1"});
+    const ProgramEnd run = noli({"verify", "--porcelain", path("run"), "--threads", "1"});
     if (!ended_well(run)) return;
     const std::string steps = fmt::format(" steps={} steps_total={} ", windows, windows);
     const bool good = run.out.starts_with("verdict=proved ") || run.out.starts_with("verdict=no_contact ");
-    if (run.code == 0 && good && run.verdict_line().find(steps) != std::string::npos) return;
-    gives("verified", run.verdict_line());
+    if (run.code == 0 && good && first_line(run.out).find(steps) != std::string::npos) return;
+    gives("verified", first_line(run.out));
     finding(fmt::format("of a run with {} windows `noli verify` says, with exit {}: {}", windows, run.code,
                         line_of(run.out.empty() ? run.err : run.out)));
   }
 
   std::optional<Columns> series(const char* figure) {
     const std::string file = path(std::string(figure) + ".csv");
-    const CommandRun run = noli({"export", path("run"), "--figure", figure, "-o", file, "--force"});
+    const ProgramEnd run = noli({"export", path("run"), "--figure", figure, "-o", file, "--force"});
     if (!ended_well(run)) return std::nullopt;
     const Columns columns(bytes_of(file));
     if (run.code == 0 && columns.rows() > 0) return columns;
@@ -276,9 +278,9 @@ class Asking {
   }
 
   void resume(double end) {
-    const CommandRun half = simulate("resumed", {"--until", fmt::format("{:.17g}", end / 2)});
+    const ProgramEnd half = simulate("resumed", {"--until", fmt::format("{:.17g}", end / 2)});
     if (!ended_well(half)) return;
-    const CommandRun rest = simulate("resumed", {"--resume"});
+    const ProgramEnd rest = simulate("resumed", {"--resume"});
     if (!ended_well(rest)) return;
     if (half.code != 0 || rest.code != 0) {
       return broken("resume", fmt::format("exit {} half way, then {}", half.code, rest.code));

@@ -2,21 +2,14 @@
 #include "certify/proofs/checker.h"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <csignal>
 #include <sstream>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <noli/errors.h>
 #include "certify/process/run_program.h"
-#include "certify/process/start_process.h"
 #include "certify/process/this_program.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/stop.h"
@@ -34,8 +27,6 @@ std::string name_of_file(const fs::path& path) {
   return path.string().starts_with('-') ? "./" + path.string() : path.string();
 }
 
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
-
 }  // namespace
 
 CheckerVersion version_of(Checker checker) {
@@ -51,62 +42,30 @@ CheckerVersion version_of(Checker checker) {
   return said;
 }
 
-CheckerProcess::CheckerProcess(const CheckRequest& request)
-    : checker_(request.checker), words_(std::make_unique<Pipe>()), stop_(request.stop) {
-  const std::string name = name_of(checker_);
-  std::vector<std::string> arguments = {
+std::vector<std::string> CheckerProcess::command(const CheckRequest& request) {
+  const std::string name = name_of(request.checker);
+  std::vector<std::string> words = {
       (request.programs.empty() ? beside_this_program(name) : request.programs / name).string()};
-  for (const std::string& field : request.asked) arguments.insert(arguments.end(), {"--require", field});
-  arguments.push_back(request.proof ? name_of_file(*request.proof) : "-");
-  for (const fs::path& path : request.trajectory) arguments.push_back(name_of_file(path));
-  if (!request.proof) {
-    proof_ = std::make_unique<Pipe>();
-    proof_->never_wait(1);
-  }
-  words_->never_wait(0);
-  std::vector<GivenDescriptor> descriptors = {{STDOUT_FILENO, words_->end(1)}};
-  if (proof_) descriptors.push_back({STDIN_FILENO, proof_->end(0)});
-  pid_ = start_process(std::move(arguments), descriptors);
-  words_->close(1);
-  if (proof_) proof_->close(0);
+  for (const std::string& field : request.asked) words.insert(words.end(), {"--require", field});
+  words.push_back(request.proof ? name_of_file(*request.proof) : "-");
+  for (const fs::path& path : request.trajectory) words.push_back(name_of_file(path));
+  return words;
 }
 
-CheckerProcess::~CheckerProcess() { end_it(); }
-
-void CheckerProcess::end_it() {
-  if (pid_ < 0) return;
-  ::kill(-pid_, SIGKILL);  // and whatever it may have started
-  int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-  }
-  pid_ = -1;
-}
+CheckerProcess::CheckerProcess(const CheckRequest& request)
+    : checker_(request.checker),
+      stop_(request.stop),
+      limits_{.time = no_limit, .stop = [this] { return stopped(); }, .to_end = {}},
+      child_(command(request),
+             {.in = request.proof ? Child::shared : Child::piped, .out = Child::piped, .err = Child::shared}) {}
 
 bool CheckerProcess::stopped() const {
   return stop_asked().has_value() || (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
 }
 
-bool CheckerProcess::ready(int end, short event) const {
-  constexpr int milliseconds = 100;  // an interruption that came before poll() does not end it
-  for (;;) {
-    if (stopped()) return false;
-    pollfd one{end, event, 0};
-    const int there = ::poll(&one, 1, milliseconds);
-    if (there > 0) return true;
-    if (there < 0 && errno != EINTR) fail("waiting for the checker");
-  }
-}
-
 void CheckerProcess::write(std::string_view bytes) {
-  while (!bytes.empty() && proof_->end(1) >= 0) {
-    const ssize_t written = ::write(proof_->end(1), bytes.data(), bytes.size());
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-    if (written >= 0 || errno == EINTR) continue;
-    if (errno != EAGAIN && errno != EPIPE) fail("the proof on its way to the checker");
-    if (errno == EPIPE)
-      throw std::runtime_error(fmt::format("{} reads no more of the proof{}", name_of(checker_), why()));
-    if (!ready(proof_->end(1), POLLOUT)) proof_->close(1);
-  }
+  if (stopped() || child_.write(bytes, limits_) != Child::Written::refused) return;
+  throw std::runtime_error(fmt::format("{} reads no more of the proof{}", name_of(checker_), why()));
 }
 
 /// What it said before it ended, if anything.
@@ -120,43 +79,26 @@ std::string CheckerProcess::why() {
 }
 
 std::optional<CheckerVerdict> CheckerProcess::finish() {
-  if (proof_) proof_->close(1);
-  CheckerVerdict verdict;
-  for (std::array<char, 65536> part;;) {
-    if (!ready(words_->end(0), POLLIN)) {
-      end_it();
-      return std::nullopt;
-    }
-    const ssize_t got = ::read(words_->end(0), part.data(), part.size());
-    if (got > 0) take_words(verdict.words, {part.data(), static_cast<std::size_t>(got)});
-    if (got == 0) break;
-    if (got < 0 && errno != EINTR && errno != EAGAIN) fail("the checker's words");
+  ProgramEnd end = child_.finish(limits_);
+  switch (end.kind) {
+    case ProgramEnd::Kind::exited: break;
+    case ProgramEnd::Kind::stopped: return std::nullopt;
+    case ProgramEnd::Kind::hung:
+      throw std::runtime_error(fmt::format("{} closed its output, but did not end", name_of(checker_)));
+    case ProgramEnd::Kind::signalled:
+      const char* const why = end.code == SIGKILL ? ", as when memory runs out" : "";
+      throw HelperError(fmt::format("{} was ended by signal {}{}", name_of(checker_), end.code, why));
   }
-  const std::optional<int> status = wait_for_end(pid_, time_to_stay, [this] { return stopped(); });
-  if (!status) {
-    end_it();
-    if (stopped()) return std::nullopt;
-    throw std::runtime_error(fmt::format("{} closed its output, but did not end", name_of(checker_)));
-  }
-  pid_ = -1;
-  if (WIFSIGNALED(*status)) {
-    const char* const why = WTERMSIG(*status) == SIGKILL ? ", as when memory runs out" : "";
-    throw HelperError(fmt::format("{} was ended by signal {}{}", name_of(checker_), WTERMSIG(*status), why));
-  }
-  verdict.code = WEXITSTATUS(*status);
   constexpr int machine_failed = 4;
-  if (verdict.code == machine_failed) {
-    throw HelperError(fmt::format("{} {}", name_of(checker_), first_line(verdict.words)));
+  if (end.code == machine_failed) throw HelperError(fmt::format("{} {}", name_of(checker_), first_line(end.out)));
+  if (end.code != 0 && end.code != 1 && end.code != 3) {
+    throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker_), end.code));
   }
-  if (verdict.code != 0 && verdict.code != 1 && verdict.code != 3) {
-    throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker_), verdict.code));
+  const char* const first = end.code == 0 ? "accepted: " : end.code == 1 ? "refuted: " : "rejected: ";
+  if (!end.out.starts_with(first)) {
+    throw std::runtime_error(fmt::format("{} ended with code {}, but does not say so", name_of(checker_), end.code));
   }
-  const char* const first = verdict.code == 0 ? "accepted: " : verdict.code == 1 ? "refuted: " : "rejected: ";
-  if (!verdict.words.starts_with(first)) {
-    throw std::runtime_error(
-        fmt::format("{} ended with code {}, but does not say so", name_of(checker_), verdict.code));
-  }
-  return verdict;
+  return CheckerVerdict{end.code, std::move(end.out)};
 }
 
 CheckerVerdict check_proof(const CheckRequest& request) {

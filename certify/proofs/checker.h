@@ -3,26 +3,25 @@
 // The checkers of proofs, which are programs of their own (proofs/checker, proofs/coq), run as separate processes.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
-#include <memory>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <noli/proof.h>
-#include "certify/process/pipe.h"
+#include "certify/process/child.h"
 #include "trajectory/blocks/block_sink.h"
 
 namespace noli {
 
-/// A checker at work. It does not share the signals of the terminal: this process hears them, and ends it.
+/// A checker at work. It does not share the signals of the terminal: this process hears them, and ends it. Ended with
+/// this if it has not ended.
 class CheckerProcess {
  public:
   /// Starts it. Throws std::runtime_error when the checker is not there.
   explicit CheckerProcess(const CheckRequest& request);
-  /// Ends it if it has not ended.
-  ~CheckerProcess();
   CheckerProcess(const CheckerProcess&) = delete;
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
@@ -35,16 +34,14 @@ class CheckerProcess {
   std::optional<CheckerVerdict> finish();
 
  private:
+  static std::vector<std::string> command(const CheckRequest& request);
   bool stopped() const;
-  /// Whether the pipe's end can be read or written; false once the wait is over.
-  bool ready(int end, short event) const;
   std::string why();
-  void end_it();
 
   Checker checker_;
-  std::unique_ptr<Pipe> proof_, words_;
-  pid_t pid_ = -1;
   const std::atomic<bool>* stop_;
+  ProgramLimits limits_;
+  Child child_;
 };
 
 /// Writes a proof to a checker that is at work, which has to outlive it.

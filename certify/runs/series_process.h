@@ -3,8 +3,6 @@
 // noli_series (certify/series) at work: bytes go to it, and it says at its end whether it has made a file of them.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -12,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "certify/process/pipe.h"
+#include "certify/process/child.h"
 
 namespace noli {
 
@@ -38,14 +36,11 @@ struct SeriesProgram {
 /// The one that lies beside this program.
 SeriesProgram series_program();
 
+/// Ended with this if it has not ended.
 class SeriesProcess {
  public:
   /// `output`: the file, open for reading and writing. Throws std::system_error when it cannot be started.
-  SeriesProcess(SeriesProgram program, int output);
-  /// Ends it if it has not ended.
-  ~SeriesProcess();
-  SeriesProcess(const SeriesProcess&) = delete;
-  SeriesProcess& operator=(const SeriesProcess&) = delete;
+  SeriesProcess(const SeriesProgram& program, int output);
 
   /// Throws SeriesLost, SeriesStopped, std::system_error; nothing may follow then.
   void write(std::string_view bytes);
@@ -53,15 +48,10 @@ class SeriesProcess {
   void finish();
 
  private:
-  bool wait_for(short events);
-  void take_words();
-  [[noreturn]] void conclude();
-  int wait();
+  [[noreturn]] void took_nothing() const;
 
-  SeriesProgram program_;
-  Pipe in_, err_;
-  pid_t pid_ = -1;
-  std::string words_;  ///< the beginning of its standard error
+  ProgramLimits limits_;
+  Child child_;
 };
 
 }  // namespace noli

@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
-
-#include "certify/process/start_process.h"
 
 namespace noli::audit {
 namespace {
@@ -14,6 +13,61 @@ using std::chrono::milliseconds;
 
 ProgramEnd shell(const std::string& line, const ProgramLimits& limits = {}) {
   return run_program({"/bin/sh", "-c", line}, limits);
+}
+
+TEST(RunProgram, KeepsWhatAProgramSaysAndHowItEnds) {
+  const ProgramEnd run = shell("echo one; echo two; echo three >&2; exit 7");
+  EXPECT_TRUE(run.exited_with(7));
+  EXPECT_FALSE(run.exited_with(0));
+  EXPECT_EQ(run.out, "one\ntwo\n");
+  EXPECT_EQ(run.err, "three\n");
+  EXPECT_EQ(run.words(), "exit code 7");
+  EXPECT_EQ(run.brief(), "exit 7");
+}
+
+TEST(RunProgram, GivesNoInput) { EXPECT_EQ(shell("cat; echo end").out, "end\n"); }
+
+TEST(RunProgram, TellsACrashFromAnExit) {
+  const ProgramEnd run = shell("kill -SEGV $$");
+  EXPECT_EQ(run.kind, ProgramEnd::Kind::signalled);
+  EXPECT_EQ(run.words(), "signal 11 (Segmentation fault)");
+  EXPECT_EQ(run.brief(), "signal 11");
+}
+
+TEST(RunProgram, EndsWhatHangsWithAllThatItHasStarted) {
+  const ProgramEnd run = shell("echo begun; sleep 600 & sleep 600", {.time = milliseconds(200)});
+  EXPECT_EQ(run.kind, ProgramEnd::Kind::hung);
+  EXPECT_EQ(run.out, "begun\n");
+  EXPECT_LT(run.seconds, 60);
+}
+
+TEST(RunProgram, EndsWhatAProgramLeavesBehind) {
+  const ProgramEnd run = shell("sleep 600 & echo begun; kill -KILL $$");
+  EXPECT_EQ(run.brief(), "signal 9");
+  EXPECT_EQ(run.out, "begun\n");
+  EXPECT_LT(run.seconds, 60);
+}
+
+TEST(RunProgram, LetsWhatHangsCleanUp) {
+  const ProgramEnd run =
+      shell("trap 'echo cleaned; exit 3' TERM; echo begun; while :; do sleep 0.01; done", {.time = milliseconds(200)});
+  EXPECT_EQ(run.kind, ProgramEnd::Kind::hung);
+  EXPECT_EQ(run.out, "begun\ncleaned\n");
+}
+
+TEST(RunProgram, StopsWhenAsked) {
+  std::atomic<bool> stop = false;
+  std::thread asking([&] {
+    std::this_thread::sleep_for(milliseconds(100));
+    stop = true;
+  });
+  const ProgramEnd run = run_program({"/bin/sleep", "600"}, {.time = std::chrono::minutes(5), .stop = stop_by(&stop)});
+  asking.join();
+  EXPECT_EQ(run.kind, ProgramEnd::Kind::stopped);
+}
+
+TEST(RunProgram, SaysWhenAProgramIsNotThere) {
+  EXPECT_THROW(run_program({"/no/such/program"}, {}), std::runtime_error);
 }
 
 TEST(RunProgram, KeepsAMegabyteOfWhatAProgramSays) {
@@ -37,8 +91,7 @@ TEST(RunProgram, EndsWhatClosesItsOutputAndStays) {
 
 TEST(RunProgram, HearsAStopAlsoThen) {
   std::atomic<bool> stop = false;
-  ProgramLimits limits;
-  limits.stop = &stop;
+  const ProgramLimits limits{.stop = stop_by(&stop)};
   std::thread later([&] {
     std::this_thread::sleep_for(milliseconds(200));
     stop = true;

@@ -67,7 +67,9 @@ class Checkers:
         return b"R" + bytes([len(names)]) + b"".join(map(name_bytes, names))
 
     def execute(self, program, names):
-        return b"E" + name_bytes(os.path.abspath(program)) + bytes([len(names)]) + b"".join(map(name_bytes, names))
+        """The exit code of a program in a process of its own; 128 and the signal, if one ended it."""
+        code = subprocess.run([os.path.abspath(program), *names], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+        return code if code >= 0 else 128 - code
 
     def answers(self, records, count):
         """The answers to a batch; fewer, if the checker crashed in the harness."""
@@ -113,7 +115,7 @@ class Campaign:
         return c, kinds, proof, files
 
     def batch(self, begin, end):
-        records, expected, made = [], [], []
+        records, programs, made = [], [], []
         for k in range(begin, end):
             c, kinds, proof, files = self.make(k)
             case, slot = self.cases[c], k - begin
@@ -124,21 +126,19 @@ class Campaign:
             if files is not None:
                 records += [self.checkers.write(name, data) for name, data in zip(names[1:], files)]
             records.append(self.checkers.run(words))
-            expected.append((slot, "checker"))
             if k % 1000 == 0:
-                records.append(self.checkers.execute(self.arguments.checker, words))
-                expected.append((slot, "process"))
+                programs.append((slot, "process", self.arguments.checker, words))
             if self.arguments.verified and (k < 0 or k % self.arguments.verified_every == 0):
-                records.append(self.checkers.execute(self.arguments.verified, words))
-                expected.append((slot, "verified"))
+                programs.append((slot, "verified", self.arguments.verified, words))
             made.append((c, kinds, proof, files, names))
-        answers = self.checkers.answers(records, len(expected))
-        codes = [{} for _ in made]
-        for (slot, who), code in zip(expected, answers):
-            codes[slot][who] = code
-        crashed = expected[len(answers)][0] if len(answers) < len(expected) else len(made)
+        answers = self.checkers.answers(records, len(made))
+        codes = [{"checker": code} for code in answers]
+        crashed = len(answers)
         if crashed < len(made):
-            codes[crashed]["checker"] = 255
+            codes.append({"checker": 255})
+        for slot, who, program, words in programs:
+            if slot < crashed:
+                codes[slot][who] = self.checkers.execute(program, words)
         for slot in range(min(crashed + 1, len(made))):
             self.judge(begin + slot, made[slot], codes[slot])
         return begin + min(crashed + 1, len(made))

@@ -6,11 +6,10 @@
 //   F  name data                writes the file FOLDER/name
 //   R  count name...            runs the checker in this process with these arguments, files in FOLDER
 //   W  count name...            the same, and tells what it printed
-//   E  program count name...    runs a program with them, in a process of its own
 //
 // Names are a byte of length and the bytes; data are a u32 of length, little-endian, and the bytes; a count is a byte.
-// R, W and E are answered on standard output with one byte: the exit code; 128 and the signal, if E's program ended by
-// one; W then with data, at most 65,535 bytes of what the checker printed.
+// R and W are answered on standard output with one byte, the exit code, and W then with data, at most 65,535 bytes of
+// what the checker printed.
 //
 // What this does not do: it judges no answer, and does not survive a crash of the checker in R; whoever reads its
 // answers sees from their number which proof it was.
@@ -18,10 +17,7 @@
 #include "main.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef main
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace {
@@ -49,19 +45,6 @@ void write_file() {
   std::FILE* file = std::fopen(name.c_str(), "wb");
   if (file == nullptr || std::fwrite(data.data(), 1, data.size(), file) != data.size() || std::fclose(file) != 0)
     stop("a file cannot be written");
-}
-
-int exit_code_of(const std::string& program, std::vector<char*> arguments) {
-  pid_t child;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  if (posix_spawn(&child, program.c_str(), &actions, nullptr, arguments.data(), environ) != 0) stop("cannot start it");
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  if (waitpid(child, &status, 0) != child) stop("waitpid failed");
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 /// Where the checker's standard output goes, which is this process's own.
@@ -108,15 +91,14 @@ int main(int argc, char** argv) {
       write_file();
       continue;
     }
-    if (kind != 'R' && kind != 'W' && kind != 'E') stop("an unknown record");
-    std::vector<std::string> words = {kind == 'E' ? read_name() : "noli_check"};
+    if (kind != 'R' && kind != 'W') stop("an unknown record");
+    std::vector<std::string> words = {"noli_check"};
     for (std::size_t count = read_byte(); count > 0; --count) words.push_back(read_name());
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
     for (auto& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    const int code = kind == 'E' ? exit_code_of(words[0], arguments)
-                                 : noli_check_main(static_cast<int>(words.size()), arguments.data());
+    const int code = noli_check_main(static_cast<int>(words.size()), arguments.data());
     const std::string said = words_of_checker.take();
     answer(answers, std::string(1, static_cast<char>(code)) + (kind == 'W' ? data_record(said) : ""));
   }

@@ -2,23 +2,16 @@
 #include "audit/fuzz/proofs/proof_checkers.h"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstring>
 #include <optional>
 #include <utility>
 
 #include <noli/errors.h>
 #include "audit/fuzz/trajectories/frame_motion.h"
-#include "certify/process/pipe.h"
-#include "certify/process/start_process.h"
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
@@ -57,69 +50,6 @@ ProofAnswer answer_of(int code) {
   return {code, fmt::format("exit code {}", code), ""};
 }
 
-/// A host at work.
-class Host {
- public:
-  Host(const fs::path& program, const fs::path& folder) {
-    pid_ = start_process({program.string(), folder.string()},
-                         std::array<GivenDescriptor, 2>{{{STDIN_FILENO, to_.end(0)}, {STDOUT_FILENO, from_.end(1)}}});
-    to_.close(0);
-    from_.close(1);
-  }
-  ~Host() { end_it(); }
-  Host(const Host&) = delete;
-  Host& operator=(const Host&) = delete;
-
-  /// False when it reads no more.
-  bool send(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(to_.end(1), bytes.data(), bytes.size());
-      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-      if (written < 0 && errno != EINTR) return false;
-    }
-    return true;
-  }
-
-  /// So many bytes; nothing when it has ended, or does not say them within the limit.
-  std::optional<std::string> receive(std::size_t count, std::chrono::milliseconds limit) {
-    const auto deadline = std::chrono::steady_clock::now() + limit;
-    std::string bytes;
-    while (bytes.size() < count) {
-      const auto left =
-          std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
-      hung_ = left.count() <= 0;
-      if (hung_) return std::nullopt;
-      pollfd end{from_.end(0), POLLIN, 0};
-      if (::poll(&end, 1, static_cast<int>(left.count())) <= 0) continue;
-      std::array<char, 4096> part;
-      const ssize_t got = ::read(from_.end(0), part.data(), std::min(part.size(), count - bytes.size()));
-      if (got > 0) bytes.append(part.data(), static_cast<std::size_t>(got));
-      if (got == 0 || (got < 0 && errno != EINTR)) return std::nullopt;
-    }
-    return bytes;
-  }
-
-  /// How it ended; it is ended with this.
-  std::string last_words() {
-    if (hung_) return "no answer within its limit of time";
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
-    pid_ = -1;
-    if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
-    return fmt::format("its host ended with code {}", WEXITSTATUS(status));
-  }
-
- private:
-  void end_it() {
-    if (pid_ >= 0) end_process(std::exchange(pid_, -1), std::chrono::milliseconds(0));
-  }
-
-  Pipe to_, from_;
-  pid_t pid_ = -1;
-  bool hung_ = false;
-};
-
 /// Records as noli_check_host reads them.
 std::string name_record(const std::string& name) { return static_cast<char>(name.size()) + name; }
 
@@ -132,8 +62,8 @@ std::string file_record(const std::string& name, const std::string& data) {
 class HostedChecker : public ProofChecker {
  public:
   HostedChecker(fs::path host, fs::path folder, std::chrono::milliseconds limit)
-      : program_(std::move(host)), folder_(std::move(folder)), limit_(limit) {
-    host_.emplace(program_, folder_);
+      : program_(std::move(host)), folder_(std::move(folder)), limits_{.time = limit, .to_end = {}} {
+    start();
   }
 
   ProofAnswer check(const ProofFiles& files) override {
@@ -146,21 +76,33 @@ class HostedChecker : public ProofChecker {
       records += file_record(trajectory_name(files, i), files.files[i]);
       run += name_record(trajectory_name(files, i));
     }
-    host_->send(records + run);  // what it does not read it does not answer
+    host_->write(records + run, limits_);  // what it does not read it does not answer
     if (auto answer = receive()) return std::move(*answer);
-    ProofAnswer answer{-1, host_->last_words(), ""};
-    host_.emplace(program_, folder_);
+    ProofAnswer answer{-1, last_words(), ""};
+    start();
     return answer;
   }
 
  private:
+  void start() {
+    host_.emplace(std::vector{program_.string(), folder_.string()},
+                  Child::Descriptors{.in = Child::piped, .out = Child::piped, .err = Child::shared});
+  }
+
+  /// How it ended.
+  std::string last_words() {
+    if (!host_->silent()) return "no answer within its limit of time";
+    const ProgramEnd end = host_->finish(limits_);
+    return end.kind == ProgramEnd::Kind::exited ? fmt::format("its host ended with code {}", end.code) : end.words();
+  }
+
   std::optional<ProofAnswer> receive() {
-    const auto head = host_->receive(5, limit_);
+    const auto head = host_->read(5, limits_);
     if (!head) return std::nullopt;
     std::uint32_t length;
     std::memcpy(&length, head->data() + 1, 4);
     if (length > most_words) return std::nullopt;
-    const auto words = host_->receive(length, limit_);
+    const auto words = host_->read(length, limits_);
     if (!words) return std::nullopt;
     ProofAnswer answer = answer_of(static_cast<unsigned char>((*head)[0]));
     answer.words = first_line(*words);
@@ -168,8 +110,8 @@ class HostedChecker : public ProofChecker {
   }
 
   fs::path program_, folder_;
-  std::chrono::milliseconds limit_;
-  std::optional<Host> host_;
+  ProgramLimits limits_;
+  std::optional<Child> host_;
 };
 
 class ProgramChecker : public ProofChecker {

@@ -84,7 +84,7 @@ class WorkFolder {
 }  // namespace
 
 VerifyProgram::VerifyProgram(std::uint64_t verified_every, const std::atomic<bool>& stop)
-    : limits_{.stop = &stop},
+    : limits_{.stop = stop_by(&stop)},
       noli_(this_program_file()),
       plain_(beside_this_program("noli_check")),
       verified_(beside_this_program("noli_check_verified")),
