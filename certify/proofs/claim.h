@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "certify/json.h"
-#include "proofs/prover/tokens/proof_walk.h"
+#include "proofs/prover/cells/labels.h"
 #include "trajectory/mesh.h"
 
 namespace noli {
