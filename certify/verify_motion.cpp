@@ -235,8 +235,7 @@ class MotionRun {
     if (!proof_) {
       outcome_.proof_begun = true;
       const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
-      proof_ =
-          std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), beginning(window), claim);
+      proof_ = std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), *verifier_, claim);
     }
     if (result.contact_count() + result.initial_intersections > 0) {
       witness_sought_ = true;
@@ -262,20 +261,14 @@ class MotionRun {
   }
 
   void prove_untouched(const RunWindow& window) {
-    VerifyOptions options;
-    options.threads = request_.threads;
-    options.stop = request_.stop;
-    options.deadline = request_.deadline;
+    const VerifyOptions options = this->options();
     try {
       outcome_.complete = proof_->prove(window.index, *window.lines, window.group_hash, options);
       if (outcome_.complete) proof_->commit();
     } catch (const TooNear& near) {
       outcome_.near = ListedNear{outcome_.steps.size(), near};
       if (proof_->refute(window.index, *window.lines, window.group_hash, near)) ++outcome_.witnesses;
-      if (window.index == 0) {
-        outcome_.largest_distance =
-            largest_distance(proof_->prover(), reader_.mesh(), beginning(window), request_.min_distance, options);
-      }
+      if (window.index == 0) outcome_.largest_distance = proof_->largest(beginning(window), options);
     } catch (const NoProof&) {
       outcome_.no_proof = true;
       outcome_.complete = !request_.needs_proof();

@@ -220,7 +220,7 @@ class Run {
     if (proof_) return;
     outcome_.proof_begun = true;
     proof_.emplace(request_, outcome_.claim, outcome_.dimension, verifier_->mesh(), classes_ ? &*classes_ : nullptr,
-                   groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0(), sequence_.x_t1());
+                   groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0());
   }
 
   void prove_untouched(const StepResult& result) {
@@ -238,10 +238,7 @@ class Run {
     } catch (const TooNear& near) {
       outcome_.near = ListedNear{step + 1, near};
       if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
-      if (step == 0) {
-        outcome_.largest_distance =
-            largest_distance(proof_->prover(), verifier_->mesh(), sequence_.x_t0(), request_.min_distance, options);
-      }
+      if (step == 0) outcome_.largest_distance = proof_->largest(sequence_.x_t0(), options);
     } catch (const NoProof&) {
       note_no_proof();
     }

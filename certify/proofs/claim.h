@@ -9,7 +9,7 @@
 #include <noli/mesh.h>
 #include <noli/proof.h>
 #include "certify/json.h"
-#include "proofs/prover/tokens/proof_walk.h"
+#include "proofs/prover/cells/labels.h"
 
 namespace noli {
 

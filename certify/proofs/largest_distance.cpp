@@ -6,7 +6,7 @@
 
 #include <noli/findings.h>
 #include "certify/simulate/exact_gap.h"
-#include "proofs/prover/tokens/mesh_paths.h"
+#include "proofs/prover/tokens/no_proof.h"
 #include "proofs/prover/witness/feature_sides.h"
 
 namespace noli {
@@ -45,15 +45,15 @@ class Cells {
 
 }  // namespace
 
-std::optional<LargestDistance> largest_distance(const StepProver& prover, const Mesh& mesh, std::span<const Position> x,
-                                                double eta, const VerifyOptions& options) {
+std::optional<LargestDistance> largest_distance(const WindowVerifier& verifier, const Mesh& mesh,
+                                                std::span<const Position> x, const LeastDistance& distance,
+                                                const VerifyOptions& options) {
   const WorldLines rest = WorldLines::from_frames(x, x);
-  const MeshPaths paths(prover.tree(), mesh.vertex_count, prover.claim().ring);
-  const Cells cells(mesh, rest, prover.claim().dimension, paths);
-  for (LargestDistance found{eta, eta};;) {
+  const Cells cells(mesh, rest, options.dimension, *distance.paths);
+  for (LargestDistance found{distance.eta, distance.eta};;) {
     try {
-      const bool whole = prover.with_distance(found.allowed).prove(rest, options, [](std::string_view) {});
-      return whole && found.allowed < eta ? std::optional(found) : std::nullopt;
+      const bool whole = verifier.prove(rest, options, {found.allowed, distance.paths}, [](std::string_view) {});
+      return whole && found.allowed < distance.eta ? std::optional(found) : std::nullopt;
     } catch (const TooNear& near) {
       const double limit = cells.above_distance(near.first_cell, near.second_cell);
       if (!(limit * (1 - 0x1p-20) < found.allowed) || limit == 0) return std::nullopt;

@@ -8,8 +8,13 @@
 
 #include <noli/sequence.h>
 #include <noli/verify.h>
+#include "certify/proofs/largest_distance.h"
+#include "proofs/prover/cells/labels.h"
+#include "proofs/prover/tokens/mesh_paths.h"
+#include "proofs/prover/tokens/no_proof.h"
 #include "proofs/prover/tokens/proof_file.h"
-#include "proofs/prover/tokens/step_prover.h"
+#include "proofs/prover/windows/window_verifier.h"
+#include "proofs/prover/witness/witness.h"
 #include "trajectory/merge.h"
 
 namespace noli {
@@ -20,11 +25,11 @@ Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome
 
 class FrameProof {
  public:
-  /// `mesh` is what is compared (after merging), `exclusions` or none what of it is not, which has to outlive this; the
-  /// rest is what the claim says of it. Writes to request.open_proof(claim).
+  /// `mesh` is what is compared (after merging), `exclusions` or none what of it is not; the rest is what
+  /// the claim says of it. `x`: positions where the first step begins, by which cells are put into a tree. Writes to
+  /// request.open_proof(claim).
   FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
-             const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x_t0,
-             std::span<const Position> x_t1);
+             const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x);
 
   /// Whether the verifier's proofs do for a request: those that know neither a least distance nor exclusions.
   static bool is_by_verifier(const VerifyRequest& request) { return request.min_distance == 0 && !request.ignore; }
@@ -40,14 +45,17 @@ class FrameProof {
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
               const StepResult& result);
-
-  /// Precondition: not is_by_verifier(request).
-  const StepProver& prover() const { return *prover_; }
-
   /// The same for one in which something comes nearer than the least distance.
   bool refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1, const TooNear& near);
 
+  /// The largest least distance that positions allow, if it is less than what was asked for. Precondition: not
+  /// is_by_verifier(request).
+  std::optional<LargestDistance> largest(std::span<const Position> x, const VerifyOptions& options) const {
+    return largest_distance(*prover_, mesh_, x, {eta_, &paths_}, options);
+  }
+
  private:
+  WitnessStep what(std::size_t step, const WorldLines& lines) const;
   bool write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness);
   /// What step's times are more than those of two frames.
   double shift(std::size_t step) const { return rest_ ? 0 : static_cast<double>(step); }
@@ -61,7 +69,9 @@ class FrameProof {
   bool rest_;
   bool tree_written_ = false;
   std::vector<std::uint32_t> leaf_cells_;  ///< of the tree that was written last, with the verifier's proofs
-  std::optional<StepProver> prover_;
+  CellLabels labels_;
+  MeshPaths paths_;
+  std::optional<WindowVerifier> prover_;  ///< where the verifier's proofs do not do
   ProofFile file_;
 };
 

@@ -2,53 +2,17 @@
 #include "certify/proofs/prove_run.h"
 
 #include <noli/errors.h>
-#include "proofs/prover/cells/features.h"
-#include "proofs/prover/windows/forest.h"
-#include "trajectory/stop.h"
 
 namespace noli {
 namespace {
 
-/// 2 g + s, as proofs/FORMAT.md has it.
-std::vector<std::uint32_t> labels_of(const RunScene& scene) {
-  std::vector<std::uint32_t> labels;
-  for (std::uint32_t c = 0; c < scene.mesh.cell_count(); ++c) {
-    const auto vertices = corners(scene.mesh, c);
-    const std::size_t count = corner_count(scene.mesh, c);
-    bool scripted = true;
-    for (std::size_t i = 0; i < count; ++i) scripted = scripted && (scene.labels[vertices[i]] & scripted_vertex) != 0;
-    const std::uint32_t group = scene.exclusions.empty() ? 0 : scene.exclusions.groups[vertices[0]];
-    labels.push_back(2 * group + (scripted ? 1 : 0));
-  }
-  return labels;
+CellLabels labels_of(const RunScene& scene) {
+  std::vector<std::uint8_t> scripted;
+  for (const std::uint8_t label : scene.labels) scripted.push_back(label & scripted_vertex);
+  return labels_of_run(scene.mesh, scripted, scene.exclusions);
 }
 
-/// Those pairs of labels that occur and are not compared.
-LabelPairs excluded_pairs(const RunScene& scene, const std::vector<std::uint32_t>& labels) {
-  const std::set<std::uint32_t> there(labels.begin(), labels.end());
-  LabelPairs pairs;
-  for (const std::uint32_t a : there) {
-    for (const std::uint32_t b : there) {
-      const bool scripted = a % 2 == 1 && b % 2 == 1;
-      const auto group = [](std::uint32_t label) { return static_cast<std::uint16_t>(label / 2); };
-      if (a <= b && (scripted || scene.exclusions.excluded(group(a), group(b)))) pairs.insert({a, b});
-    }
-  }
-  return pairs;
-}
-
-StepProver make_prover(const RunScene& scene, std::span<const Position> x, const RunProof::Claim& claim,
-                       const std::vector<std::uint32_t>& labels) {
-  const int dimension = static_cast<int>(scene.header.dimension);
-  const Forest forest(scene.mesh, x, {dimension, claim.strict, {}, nullptr});
-  std::vector<std::uint32_t> order, ends;
-  for (const Leaf& leaf : forest.leaves()) order.push_back(leaf.cell);
-  for (const Tree& tree : forest.trees()) ends.push_back(tree.root.begin + tree.root.count);
-  return StepProver(scene.mesh, order, ends, labels,
-                    {dimension, claim.strict, excluded_pairs(scene, labels), claim.eta, claim.ring});
-}
-
-ProofHeader header_of(const RunScene& scene, const RunProof::Claim& claim, const std::vector<std::uint32_t>& labels) {
+ProofHeader header_of(const RunScene& scene, const RunProof::Claim& claim, const CellLabels& labels) {
   ProofHeader header;
   header.source = ProofSource::run;
   header.dimension = static_cast<int>(scene.header.dimension);
@@ -57,8 +21,8 @@ ProofHeader header_of(const RunScene& scene, const RunProof::Claim& claim, const
   header.ring = claim.ring;
   header.vertices = scene.mesh.vertex_count;
   header.mesh = &scene.mesh;
-  header.labels = labels;
-  header.excluded = excluded_pairs(scene, labels);
+  header.labels = labels.of;
+  header.excluded = labels.excluded;
   return header;
 }
 
@@ -75,25 +39,27 @@ CommitPoint last_commit(const std::filesystem::path& file, std::uint64_t groups)
 }  // namespace
 
 void set_cells_of_run(Claim& claim, const RunScene& scene) {
-  const std::vector<std::uint32_t> labels = labels_of(scene);
-  set_cells(claim, scene.mesh, labels, excluded_pairs(scene, labels));
+  const CellLabels labels = labels_of(scene);
+  set_cells(claim, scene.mesh, labels.of, labels.excluded);
 }
 
 std::filesystem::path proof_path(const std::filesystem::path& run_folder) { return run_folder / "proof.blocks"; }
 
-RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, const Claim& claim)
-    : RunProof(scene, x, claim, labels_of(scene),
-               [&](const ProofHeader& header) { return ProofFile(std::move(sink), header); }) {}
+RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, const WindowVerifier& verifier,
+                   const Claim& claim)
+    : RunProof(scene, verifier, claim, [&](const ProofHeader& header) { return ProofFile(std::move(sink), header); }) {}
 
-RunProof::RunProof(const RunScene& scene, std::span<const Position> x, const Claim& claim,
-                   const std::vector<std::uint32_t>& labels, const std::function<ProofFile(const ProofHeader&)>& open)
+RunProof::RunProof(const RunScene& scene, const WindowVerifier& verifier, const Claim& claim,
+                   const std::function<ProofFile(const ProofHeader&)>& open)
     : scene_(scene),
+      verifier_(verifier),
       claim_(claim),
-      prover_(make_prover(scene, x, claim, labels)),
-      file_(open(header_of(scene, claim, labels))) {}
+      labels_(labels_of(scene)),
+      paths_(scene_.mesh, claim.ring),
+      file_(open(header_of(scene, claim, labels_))) {}
 
 std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_folder, std::uint64_t windows,
-                                           const RunScene& scene, std::span<const Position> x,
+                                           const RunScene& scene, const WindowVerifier& verifier,
                                            const VerifyOptions& options) {
   const std::filesystem::path file = proof_path(run_folder);
   // Before the first window nothing was told of the proof, and a loss of power may have left any part of it.
@@ -101,7 +67,7 @@ std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_fold
   if (committed.groups == 0) std::filesystem::remove(file);  // there is none, or not even its claim was written
   auto sink =
       std::make_unique<FileSink>(file, committed.groups == 0 ? FileSink::Open::create : FileSink::Open::existing);
-  std::unique_ptr<RunProof> proof(new RunProof(scene, x, {}, labels_of(scene), [&](const ProofHeader& header) {
+  std::unique_ptr<RunProof> proof(new RunProof(scene, verifier, {}, [&](const ProofHeader& header) {
     return committed.groups == 0 ? ProofFile(std::move(sink), header) : ProofFile(std::move(sink), committed, header);
   }));
   const std::uint64_t proved = std::max<std::uint64_t>(committed.groups, 1) - 1;
@@ -118,15 +84,16 @@ std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_fold
 bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
                      const VerifyOptions& options) {
   file_.begin_step(window, ProofFile::Kind::proof, lines, 0, hash);
-  if (file_.committed().groups == 1) file_.tree(prover_.tree().encoded());
-  return prover_.write(file_, lines, options);
+  if (file_.committed().groups == 1) file_.tree(verifier_.encoded_tree());
+  const LeastDistance distance{claim_.eta, &paths_};
+  return file_.tokens([&](const auto& take) { return verifier_.prove(lines, options, distance, take); });
 }
 
 void RunProof::commit() { file_.commit(); }
 
 WitnessStep RunProof::what(const WorldLines& lines) const {
   return {scene_.mesh,   lines,      0,           static_cast<int>(scene_.header.dimension),
-          claim_.strict, claim_.eta, claim_.ring, &prover_};
+          claim_.strict, claim_.eta, claim_.ring, &labels_};
 }
 
 bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
@@ -137,8 +104,7 @@ bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha25
 }
 
 bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const TooNear& near) {
-  const MeshPaths paths(prover_.tree(), scene_.mesh.vertex_count, claim_.ring);
-  return write_witness(window, lines, hash, witness_of(what(lines), near, paths));
+  return write_witness(window, lines, hash, witness_of(what(lines), near, paths_));
 }
 
 bool RunProof::write_witness(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "certify/proofs/claim.h"
+#include "certify/proofs/largest_distance.h"
+#include "proofs/prover/tokens/mesh_paths.h"
+#include "proofs/prover/tokens/no_proof.h"
 #include "proofs/prover/tokens/proof_file.h"
-#include "proofs/prover/tokens/step_prover.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "proofs/prover/witness/witness.h"
 #include "trajectory/blocks/run_file.h"
@@ -32,13 +34,12 @@ class RunProof {
     std::uint32_t ring = 1;  ///< features that a path of fewer edges joins may be nearer than that
   };
 
-  /// Writes to an empty sink. `x`: positions at the beginning of the run, by which cells are
-  /// put into a tree.
-  RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, std::span<const Position> x, const Claim& claim);
+  /// Writes to an empty sink. `verifier`: of the run, which has to outlive this.
+  RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, const WindowVerifier& verifier, const Claim& claim);
   /// Goes on with the proof of a run of which so many windows are committed: cuts off what is about others, and proves
   /// those that it lacks. Throws InputError when the proof cannot be read.
   static std::unique_ptr<RunProof> resume(const std::filesystem::path& run_folder, std::uint64_t windows,
-                                          const RunScene& scene, std::span<const Position> x,
+                                          const RunScene& scene, const WindowVerifier& verifier,
                                           const VerifyOptions& options);
 
   /// Writes the proof of a window in which nothing touches; it does not count before commit(). `hash`: of its group in
@@ -49,22 +50,27 @@ class RunProof {
 
   /// Writes a witness for a window that has a contact, and commits it. False if none was found.
   bool refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const WindowResult& result);
-  const StepProver& prover() const { return prover_; }
-
   /// The same for one in which something comes nearer than the least distance.
   bool refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const TooNear& near);
 
+  /// The largest least distance that positions allow, if it is less than what was asked for.
+  std::optional<LargestDistance> largest(std::span<const Position> x, const VerifyOptions& options) const {
+    return largest_distance(verifier_, scene_.mesh, x, {claim_.eta, &paths_}, options);
+  }
+
  private:
-  RunProof(const RunScene& scene, std::span<const Position> x, const Claim& claim,
-           const std::vector<std::uint32_t>& labels, const std::function<ProofFile(const ProofHeader&)>& open);
+  RunProof(const RunScene& scene, const WindowVerifier& verifier, const Claim& claim,
+           const std::function<ProofFile(const ProofHeader&)>& open);
 
   WitnessStep what(const WorldLines& lines) const;
   bool write_witness(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
                      const std::optional<std::string>& witness);
 
   RunScene scene_;
+  const WindowVerifier& verifier_;
   Claim claim_;
-  StepProver prover_;
+  CellLabels labels_;
+  MeshPaths paths_;
   ProofFile file_;
 };
 

@@ -172,14 +172,6 @@ class Run {
     return options;
   }
 
-  VerifyOptions proof_options() const {
-    VerifyOptions options;
-    options.threads = request_.threads;
-    options.stop = request_.stop;
-    options.deadline = deadline_;
-    return options;
-  }
-
   /// A run to be gone on with may have no window yet.
   void refuse_contact_at_start() const {
     const std::string found =
@@ -254,7 +246,7 @@ class Run {
       if (record_ == RecordMode::full && request_.prove) {
         proof_ =
             std::make_unique<RunProof>(std::make_unique<FileSink>(proof_path(folder_.path()), FileSink::Open::create),
-                                       run_scene(scene), positions_of<Dim>(built_.model.x), RunProof::Claim{});
+                                       run_scene(scene), verifier_, RunProof::Claim{});
       }
       go_on_with(std::move(simulation));
       return;
@@ -284,8 +276,7 @@ class Run {
     const bool proved = std::filesystem::exists(proof_path(folder_.path())) || last.windows == 0;
     if (record_ == RecordMode::full && request_.prove && proved) {
       try {
-        proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), positions_of<Dim>(built_.model.x),
-                                  proof_options());
+        proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), verifier_, window_options());
       } catch (const NoProof& none) {
         outcome_.no_proof = none.what();  // it ended before this already
       }
@@ -361,7 +352,7 @@ class Run {
   /// it, and no checker accepts that for the whole. False if it was stopped.
   bool prove(std::uint64_t index, const WorldLines& lines) {
     try {
-      return proof_->prove(index, lines, writer_->open_window_hash(), proof_options());
+      return proof_->prove(index, lines, writer_->open_window_hash(), window_options());
     } catch (const NoProof& none) {
       folder_.log({{"event", "no_proof"}, {"window", index}, {"why", none.what()}});
       outcome_.no_proof = fmt::format("window {}: {}", index + 1, none.what());

@@ -55,8 +55,12 @@ class CellPairs {
     if (!settle_usual(a, b, same)) settle_unusual(a, b, same);
   }
 
+  /// Whether it was stopped, and left something out.
+  bool stopped() const { return stops && stopped_; }
+
   /// Settles the obligation about the features of one cell.
   void settle_self(const Cell& c) {
+    if constexpr (stops) return write_self(c);
     if (c.corners == 3) {
       for (unsigned i = 0; i < 3; ++i) settle_opposite(c, i);
     } else if (options_.strict && c.corners == 2 && (c.owned & cell_bit) != 0 && c.vertices[0] != c.vertices[1] &&
@@ -68,6 +72,9 @@ class CellPairs {
   }
 
  private:
+  /// Tokens of a window, which has been decided.
+  static constexpr bool stops = Out::on && !Positions::straight;
+
   struct Parts {
     CornerMask a, b;
   };
@@ -294,16 +301,23 @@ class CellPairs {
         usual || search(pair, guess, {}, 0) ? std::nullopt : resist(pair, guess, *progress.gathered, parts);
     const PairSet left = progress.left & within;
     progress.left &= ~within;
-    if (!resistance) return;
+    if constexpr (!stops) {
+      if (resistance) open(progress, parts, left, *resistance);
+    }
+  }
+
+  /// Parts that resist: their pairs of features that are left are decided one by one.
+  void open(Progress& progress, Parts parts, PairSet left, Resistance resistance) {
+    const auto& [a, b] = *progress.gathered;
     progress.open = true;
     for (PairSet todo = left; todo != 0; todo &= todo - 1) {
-      if (counted_here(todo, a, b, positions_.leftovers())) examine(first_of(todo, a, b), resistance->begin);
+      if (counted_here(todo, a, b, positions_.leftovers())) examine(first_of(todo, a, b), resistance.begin);
     }
     if constexpr (Out::on) {
       if (!tally_.found_any()) open_.push_back({tokens_.place(), &progress.a, &progress.b, parts.a, parts.b});
     }
     if (&progress.a == &progress.b || !options_.initial || progress.meets_at_begin) return;
-    progress.meets_at_begin = !resistance->apart_at_begin &&
+    progress.meets_at_begin = !resistance.apart_at_begin &&
                               meet_at_begin<Dim>(positions_.at_begin(a), parts.a, positions_.at_begin(b), parts.b);
   }
 
@@ -314,6 +328,9 @@ class CellPairs {
       const bool apart_at_begin = find_direction(pair, guess, {0, 0}, search_rounds).has_value();
       if (apart_at_begin && search_halves(pair, guess, {}, halvings)) return std::nullopt;
       return Resistance{positions_.begin_time(), apart_at_begin};
+    } else if constexpr (Out::on) {
+      stopped_ = !positions_.prove_apart(cells.a, parts.a, cells.b, parts.b, tokens_);
+      return std::nullopt;
     } else {
       const auto begin = positions_.resisting(cells.a, parts.a, cells.b, parts.b, tally_);
       if (!begin) return std::nullopt;
@@ -385,6 +402,7 @@ class CellPairs {
   Tally& tally_;
   Out& tokens_;
   std::vector<OpenParts<Dim>>& open_;
+  bool stopped_ = false;
 };
 
 }  // namespace noli

@@ -58,18 +58,10 @@ struct MappedVertex {
   Lanes t0 = {}, t1 = {};
 };
 
-Lanes lower(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-Lanes higher(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-
-GroupBox merge(const GroupBox& a, const GroupBox& b) {
-  return {lower(a.low_t0, b.low_t0), lower(a.low_t1, b.low_t1), higher(a.high_t0, b.high_t0),
-          higher(a.high_t1, b.high_t1)};
-}
-
 GroupBox box_of(const std::array<VertexId, 3>& corners, const MappedVertex* mapped) {
   const MappedVertex &a = mapped[corners[0]], &b = mapped[corners[1]], &c = mapped[corners[2]];
-  return {lower(a.t0, lower(b.t0, c.t0)), lower(a.t1, lower(b.t1, c.t1)), higher(a.t0, higher(b.t0, c.t0)),
-          higher(a.t1, higher(b.t1, c.t1))};
+  return {least(a.t0, least(b.t0, c.t0)), least(a.t1, least(b.t1, c.t1)), greatest(a.t0, greatest(b.t0, c.t0)),
+          greatest(a.t1, greatest(b.t1, c.t1))};
 }
 
 /// Puts entries into the order of the leaves and fits the boxes.
@@ -104,7 +96,7 @@ class Builder {
     split(g);
     finish(g.left(), leaf_cells, boxes);
     finish(g.right(), leaf_cells, boxes);
-    boxes[g.node] = merge(boxes[g.left().node], boxes[g.right().node]);
+    boxes[g.node] = merged(boxes[g.left().node], boxes[g.right().node]);
   }
 
  private:
@@ -176,7 +168,7 @@ Hierarchy::Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span
   parallel_for(level.size(), threads,
                [&](std::size_t i) { builder.finish(level[i], leaf_cells_.get(), boxes_.get()); });
   std::reverse(inner.begin(), inner.end());  // children before parents
-  for (const Group g : inner) boxes_[g.node] = merge(boxes_[g.left().node], boxes_[g.right().node]);
+  for (const Group g : inner) boxes_[g.node] = merged(boxes_[g.left().node], boxes_[g.right().node]);
 }
 
 }  // namespace noli

@@ -39,6 +39,14 @@ struct alignas(64) GroupBox {
   Lanes low_t0, low_t1, high_t0, high_t1;
 };
 
+inline Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+inline Lanes greatest(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+
+inline GroupBox merged(const GroupBox& a, const GroupBox& b) {
+  return {least(a.low_t0, b.low_t0), least(a.low_t1, b.low_t1), greatest(a.high_t0, b.high_t0),
+          greatest(a.high_t1, b.high_t1)};
+}
+
 /// Whether a comparison holds in some lane.
 template <class Comparison>
 bool any_lane(const Comparison& lanes) {

@@ -68,13 +68,23 @@ class TaskWalk {
            const typename Positions::Tally& none)
       : positions_(positions), options_(options), stop_(stop), none_(none), top_{none} {}
 
-  /// Walks the top of the trees, where there is little to do, then what is below: tasks about at most `grain` cells.
-  void run(std::span<const Obligation> obligations, std::uint32_t grain, Progress& progress, double from, double to) {
-    cut_into_tasks(obligations, grain);
+  /// Walks the top of the trees, where there is little to do: top(traversal), false when it was not finished. What is
+  /// below becomes tasks about at most `grain` cells.
+  template <class Top>
+  void cut(std::uint32_t grain, const Top& top) {
+    Traversal<Positions, Out> traversal(positions_, options_, stop_, top_.tally, top_.out);
+    traversal.defer(grain, tasks_);
+    top_.finished = !stop_.raised() && top(traversal);
     outcomes_.resize(tasks_.size());
-    progress.begin(from, to, tasks_.size());
+  }
+
+  /// Settles the tasks; calls done(task) behind each, from any thread.
+  template <class Done>
+  void run(const Done& done) {
     parallel_for(tasks_.size(), options_.threads, [&](std::size_t i) {
-      if (i <= first_found_) run_task(i, progress);
+      if (i > first_found_) return;
+      run_task(i);
+      done(i);
     });
     add_up();
   }
@@ -85,20 +95,12 @@ class TaskWalk {
   Outcome& outcome(std::size_t task) { return *outcomes_[task]; }
 
  private:
-  void cut_into_tasks(std::span<const Obligation> obligations, std::uint32_t grain) {
-    Traversal<Positions, Out> traversal(positions_, options_, stop_, top_.tally, top_.out);
-    traversal.defer(grain, tasks_);
-    top_.finished = !stop_.raised();
-    for (const Obligation& obligation : obligations) top_.finished = top_.finished && traversal.run(obligation);
-  }
-
-  void run_task(std::size_t i, Progress& progress) {
+  void run_task(std::size_t i) {
     outcomes_[i] = std::make_unique<Outcome>(Outcome{none_});
     Outcome& outcome = *outcomes_[i];
     Traversal<Positions, Out> traversal(positions_, options_, stop_, outcome.tally, outcome.out);
     outcome.finished = traversal.run(tasks_[i].obligation);
     if (options_.first_only && outcome.tally.found_any()) lower_first_found(i);
-    progress.task_done();
   }
 
   void lower_first_found(std::size_t i) {

@@ -96,8 +96,8 @@ class Traversal {
       if ((notes & after_split) != 0) tokens_.right();
       if ((notes & axis_code) != 0) return tokens_.axis(notes & axis_code);
     }
-    if (positions_.left_out(pair)) return;
-    if (positions_.settled_at_once(pair)) {
+    if (positions_.left_out(pair)) return tokens_.excluded();
+    if (!Out::on && positions_.settled_at_once(pair)) {
       ++closed_;
       return;
     }
@@ -156,9 +156,9 @@ class Traversal {
       const unsigned of_left = order_of(left), of_right = order_of(right);
       closed_ += (of_left != 0 ? 1 : 0) + (of_right != 0 ? 1 : 0);
       // What separates both separates the whole: one token.
-      if ((of_left & of_right) != 0) return stack_.push(left, axis_code_of(of_left & of_right));
-      stack_.push(right, axis_code_of(of_right));
-      stack_.push(left, axis_code_of(of_left) | after_split);
+      if ((of_left & of_right) != 0) return stack_.push(left, Tokens::axis_code_of(of_left & of_right));
+      stack_.push(right, Tokens::axis_code_of(of_right));
+      stack_.push(left, Tokens::axis_code_of(of_left) | after_split);
     }
   }
 
@@ -171,7 +171,7 @@ class Traversal {
     if constexpr (Out::on) {
       const unsigned order = order_of(pair);
       closed_ += order != 0 ? 1 : 0;
-      stack_.push(pair, axis_code_of(order));
+      stack_.push(pair, Tokens::axis_code_of(order));
     } else {
       const bool separated = axis_separates(first_box(pair), second_box(pair));
       closed_ += separated ? 1 : 0;
@@ -183,21 +183,8 @@ class Traversal {
     return separating_axes(first_box(pair), second_box(pair));
   }
 
-  /// The code of the least axis; 0 if there is none.
-  static std::uint8_t axis_code_of(unsigned axes) {
-    static constexpr auto codes = [] {
-      std::array<std::uint8_t, 9> all{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        all[k] = Tokens::axis_code(k, true);
-        all[4 + k] = Tokens::axis_code(k, false);
-      }
-      return all;
-    }();
-    return codes[static_cast<std::size_t>(std::countr_zero(axes | 1U << 8))];
-  }
-
   void look_around() {
-    if (first_only_ && tally_.found_any()) stopped_ = true;
+    if ((first_only_ && tally_.found_any()) || cell_pairs_.stopped()) stopped_ = true;
   }
 
   void look_at_clock() {

@@ -34,8 +34,9 @@ class Verification {
     TaskWalk<Straight<Dim>, Out> walk(positions, options_, stop_, none_);
     Progress progress(options_);
     const Group root = hierarchy_->root();
-    const std::array<Obligation, 1> all = {Obligation{root, root}};
-    walk.run(all, std::max(root.count / grain_share, least_grain), progress, 0, 1);
+    walk.cut(std::max(root.count / grain_share, least_grain), [&](auto& top) { return top.run({root, root}); });
+    progress.begin(0, 1, walk.tasks().size());
+    walk.run([&](std::size_t /*task*/) { progress.task_done(); });
     auto& sum = walk.sum();
     VerifyResult result{sum.tally.findings(sum.finished), sum.tally.earliest.first(), nullptr};
     if constexpr (Out::on) {

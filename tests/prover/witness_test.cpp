@@ -7,6 +7,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -320,10 +321,9 @@ TEST_F(Judge, KnowsBreakpoints) {
 }
 
 TEST_F(Judge, KnowsWhatIsNotCompared) {
-  const std::vector<std::uint32_t> order = {0, 1}, ends = {1, 2}, labels = {3, 5};
   for (const LabelPairs& pairs : {LabelPairs{{3, 5}}, LabelPairs{{3, 3}}}) {
-    const StepProver prover(mesh, order, ends, labels, {3, false, pairs, 0, 1});
-    const WitnessStep step{mesh, lines, 0, 3, false, 0, 1, &prover};
+    const CellLabels labels{{3, 5}, pairs};
+    const WitnessStep step{mesh, lines, 0, 3, false, 0, 1, &labels};
     const bool excluded = pairs.contains({3, 5});
     EXPECT_EQ(fault_of_witness(step, encoded(right)).value_or(""), excluded ? "the pair is excluded" : "");
     const FeatureContact contact{FeaturePair::vertex_edge, {0, 1, 2}, {0.25, 0.5}};

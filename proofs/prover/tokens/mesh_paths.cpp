@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <map>
 
+#include "proofs/prover/cells/features.h"
+
 namespace noli {
 
-MeshPaths::MeshPaths(const ProofTree& tree, std::size_t vertices, std::uint32_t ring) : tree_(tree), ring_(ring) {
+MeshPaths::MeshPaths(const Mesh& mesh, std::uint32_t ring) : mesh_(mesh), ring_(ring) {
   if (ring < 2) return;
-  std::vector<std::vector<std::uint32_t>> lists(vertices);
-  for (const ProofTree::Node& node : tree.nodes()) {
-    if (!node.leaf()) continue;
-    const ProofCell& cell = tree.cell(node.cell);
-    for (std::size_t i = 0; i < cell.corners; ++i) lists[cell.vertices[i]].push_back(node.cell);
+  std::vector<std::vector<std::uint32_t>> lists(mesh.vertex_count);
+  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+    for (const VertexId v : corners(mesh, c)) {
+      if (lists[v].empty() || lists[v].back() != c) lists[v].push_back(c);
+    }
   }
   begin_.push_back(0);
   for (const auto& list : lists) {
@@ -30,9 +32,8 @@ std::optional<MeshPaths::Steps> MeshPaths::find(VertexId v, VertexId w) const {
     std::vector<VertexId> next;
     for (const VertexId u : frontier) {
       for (std::uint32_t i = begin_[u]; i < begin_[u + 1]; ++i) {
-        const ProofCell& cell = tree_.cell(cells_[i]);
-        for (std::size_t k = 0; k < cell.corners; ++k) {
-          if (from.insert({cell.vertices[k], {cells_[i], u}}).second) next.push_back(cell.vertices[k]);
+        for (const VertexId end : corners(mesh_, cells_[i])) {
+          if (from.insert({end, {cells_[i], u}}).second) next.push_back(end);
         }
       }
     }

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "proofs/prover/tokens/proof_tree.h"
+#include <noli/mesh.h>
 
 namespace noli {
 
@@ -22,13 +22,13 @@ class MeshPaths {
  public:
   using Steps = std::vector<std::array<std::uint32_t, 2>>;
 
-  MeshPaths(const ProofTree& tree, std::size_t vertices, std::uint32_t ring);
+  MeshPaths(const Mesh& mesh, std::uint32_t ring);
 
   /// A shortest path from v to w, of fewer than K edges; nothing if there is none.
   std::optional<Steps> find(VertexId v, VertexId w) const;
 
  private:
-  const ProofTree& tree_;
+  const Mesh& mesh_;
   std::uint32_t ring_;
   std::vector<std::uint32_t> begin_, cells_;  ///< those of vertex v are cells_[begin_[v]] to cells_[begin_[v + 1]]
 };

@@ -132,4 +132,16 @@ void ProofFile::tokens(const JoinedTokens& all) {
   blocks.flush();
 }
 
+bool ProofFile::tokens(const std::function<bool(const std::function<void(std::string_view)>&)>& make) {
+  bool whole = false;
+  try {
+    whole = make([this](std::string_view payload) { tokens(payload); });
+  } catch (...) {
+    discard();
+    throw;
+  }
+  if (!whole) discard();
+  return whole;
+}
+
 }  // namespace noli

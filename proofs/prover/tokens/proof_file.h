@@ -2,17 +2,18 @@
 //
 // Writes proof files (proofs/FORMAT.md): the claim, then step after step, each committed when it is complete.
 //
-// What this does not do: it makes no proof (proofs/prover/tokens/step_prover.h) and reads none.
+// What this does not do: it makes no proof and reads none.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <span>
 
-#include "proofs/prover/tokens/proof_walk.h"
+#include "proofs/prover/cells/labels.h"
 #include "proofs/prover/tokens/tokens.h"
 #include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/sha256.h"
+#include "trajectory/world_lines.h"
 
 namespace noli {
 
@@ -56,6 +57,8 @@ class ProofFile {
   void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
   /// All tokens of a step.
   void tokens(const JoinedTokens& tokens);
+  /// All tokens that `make` gives away, or, when it returns false or throws, no step.
+  bool tokens(const std::function<bool(const std::function<void(std::string_view)>&)>& make);
   void witness(std::string_view payload) { blocks_.append(four_letters("WITN"), payload); }
   void commit() { blocks_.commit(); }
   /// Drops the step that was begun.

@@ -5,7 +5,7 @@
 // Notation
 //   part     vertices of a cell, by a mask of its corners
 //   piece    the share [k / 2^e, (k + 1) / 2^e] of the step
-//   span     a piece for whose ends, or times a little outside it, there are chords of all vertices
+//   span     the piece in which they are to be separated
 //   chord, radius   as in proofs/prover/windows/chord.h; of a vertex without breakpoints inside the radius is 0, and
 //                   its chord
 //            is its motion
@@ -19,7 +19,6 @@
 #pragma once
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <noli/findings.h>
@@ -27,7 +26,6 @@
 #include "proofs/prover/cells/direction_search.h"
 #include "proofs/prover/cells/exact_direction.h"
 #include "proofs/prover/tokens/mesh_paths.h"
-#include "proofs/prover/tokens/proof_tree.h"
 #include "proofs/prover/tokens/short_direction.h"
 #include "proofs/prover/tokens/tokens.h"
 #include "proofs/prover/traversal.h"
@@ -35,14 +33,18 @@
 
 namespace noli {
 
-/// Two parts for which no direction was found, however short the piece.
-struct NoProof : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+/// The vertices of a part, each once.
+struct ProofCell {
+  std::array<VertexId, 3> vertices{};
+  std::uint8_t corners = 0;
 
-/// A vertex over the span.
-template <int Dim>
-using ProofChord = Chord<Dim>;
+  void add(VertexId v) {
+    for (std::size_t i = 0; i < corners; ++i) {
+      if (vertices[i] == v) return;
+    }
+    vertices[corners++] = v;
+  }
+};
 
 /// A share of the step.
 struct Piece {
@@ -68,17 +70,17 @@ template <int Dim>
 class ProofParts {
  public:
   /// `eta`, `paths`: the least distance, and who may be nearer than that (nobody needs it where it is 0).
-  ProofParts(const WorldLines& lines, const std::vector<ProofChord<Dim>>& chords, const Piece& span, double eta,
-             const MeshPaths* paths, const StopSignal& stop)
-      : lines_(lines), chords_(chords), span_(span), eta_(eta), paths_(paths), stop_(stop) {}
+  ProofParts(const WorldLines& lines, const Piece& span, double eta, const MeshPaths* paths, const StopSignal& stop)
+      : lines_(lines), span_(span), eta_(eta), paths_(paths), stop_(stop) {}
 
-  /// Writes the tokens for two cells; not all of them if it was stopped. Throws TooNear, NoProof.
+  /// Writes the tokens for parts of two cells that have no vertex in common; not all of them if it was stopped. Throws
+  /// TooNear, NoProof.
   void settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b, Tokens& tokens) {
     known_ = false;
     first_cell_ = i;
     second_cell_ = j;
     distance_ = eta_;
-    drop_common({a, all_corners(a.corners)}, {b, all_corners(b.corners)}, tokens);
+    separate({a, all_corners(a.corners)}, {b, all_corners(b.corners)}, tokens);
   }
 
   bool stopped() const { return stopped_; }
@@ -104,22 +106,12 @@ class ProofParts {
   static constexpr unsigned exact_from = 6, give_up = 1000, give_up_near = 120, interval_bits = 20;
   static constexpr std::size_t most_exact = 60;
 
-  /// The first vertex that both have is dropped from one and from the other.
-  void drop_common(Part a, Part b, Tokens& tokens) {
-    for (std::size_t i = 0; i < a.cell.corners; ++i) {
-      if (!a.has(i)) continue;
-      for (std::size_t j = 0; j < b.cell.corners; ++j) {
-        if (!b.has(j) || a.cell.vertices[i] != b.cell.vertices[j]) continue;
-        tokens.drop(0);
-        drop_common(a.without(i), b, tokens);
-        drop_common(a, b.without(j), tokens);
-        return;
-      }
-    }
+  void separate(Part a, Part b, Tokens& tokens) {
     if (a.mask == 0 || b.mask == 0) return tokens.empty();
-    const auto pair = pair_over(a, b, [&](VertexId v) -> const ProofChord<Dim>& { return chords_[v]; });
-    if (distance_ > 0 && !closed_at_once(pair, tokens)) return go_around(a, b, pair, tokens);
-    if (distance_ == 0) separate(a, b, pair, tokens);
+    const Pair pair = *pair_in(a, b, span_);
+    if (closed_at_once(pair, tokens)) return;
+    if (distance_ > 0) return go_around(a, b, pair, tokens);
+    halve(a, b, pair, span_, tokens);
   }
 
   /// Whether a direction is found for the whole span.
@@ -142,10 +134,10 @@ class ProofParts {
         const auto path = paths_->find(a.cell.vertices[i], b.cell.vertices[j]);
         if (!path) continue;
         tokens.ring(a.cell.vertices[i], *path);
-        drop_common(a.without(i), b, tokens);
-        drop_common(a, b.without(j), tokens);
+        separate(a.without(i), b, tokens);
+        separate(a, b.without(j), tokens);
         const double distance = std::exchange(distance_, 0);
-        drop_common(a, b, tokens);
+        separate(a, b, tokens);
         distance_ = distance;
         return;
       }
@@ -202,11 +194,6 @@ class ProofParts {
     return pair;
   }
 
-  /// Over the whole span the directions of the cells' other parts are tried first.
-  void separate(const Part& a, const Part& b, const Pair& pair, Tokens& tokens) {
-    if (!closed_at_once(pair, tokens)) halve(a, b, pair, span_, tokens);
-  }
-
   std::optional<Direction<Dim>> find(const Pair& pair, const Interval& interval) const {
     return find_direction<Dim>(pair.points, between_middles(pair.points), interval, search_rounds,
                                [&](const Direction<Dim>& n) { return bound_of(pair, n); });
@@ -254,7 +241,7 @@ class ProofParts {
   std::optional<Pair> pair_in(const Part& a, const Part& b, const Piece& piece) const {
     const auto times = piece.times(lines_);
     if (!times) return std::nullopt;
-    std::array<ProofChord<Dim>, 6> chords;
+    std::array<Chord<Dim>, 6> chords;
     std::array<VertexId, 6> ids;
     std::size_t n = 0;
     for (const Part* part : {&a, &b}) {
@@ -265,7 +252,7 @@ class ProofParts {
         ++n;
       }
     }
-    return pair_over(a, b, [&](VertexId v) -> const ProofChord<Dim>& {
+    return pair_over(a, b, [&](VertexId v) -> const Chord<Dim>& {
       return chords[static_cast<std::size_t>(std::find(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(n), v) -
                                              ids.begin())];
     });
@@ -400,7 +387,6 @@ class ProofParts {
   }
 
   const WorldLines& lines_;
-  const std::vector<ProofChord<Dim>>& chords_;
   Piece span_;
   double eta_;
   const MeshPaths* paths_;

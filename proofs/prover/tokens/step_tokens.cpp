@@ -33,15 +33,6 @@ class FewVertices {
   std::vector<Position> x_t0_, x_t1_;
 };
 
-template <int Dim>
-std::vector<ProofChord<Dim>> chords_of(const WorldLines& lines) {
-  std::vector<ProofChord<Dim>> chords;
-  for (VertexId v = 0; v < lines.vertex_count(); ++v) {
-    chords.push_back(chord_of<Dim>(WorldLine(lines, v), lines.first_time(), lines.last_time()));
-  }
-  return chords;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -49,8 +40,7 @@ std::optional<Tokens> prove_apart(const OpenParts<Dim>& parts, const StopSignal&
   FewVertices vertices;
   const ProofCell a = vertices.add(*parts.a, parts.a_part), b = vertices.add(*parts.b, parts.b_part);
   const WorldLines lines = vertices.lines();
-  const std::vector<ProofChord<Dim>> chords = chords_of<Dim>(lines);
-  ProofParts<Dim> prover(lines, chords, {Integer(0), 0}, 0, nullptr, stop);
+  ProofParts<Dim> prover(lines, {Integer(0), 0}, 0, nullptr, stop);
   Tokens tokens;
   try {
     prover.settle(0, a, 1, b, tokens);

@@ -37,6 +37,14 @@ std::string encoded_tree(std::span<const std::uint32_t> leaf_cells) {
   return bytes;
 }
 
+std::string encoded_join(std::span<const std::string> trees) {
+  if (trees.size() == 1) return trees[0];
+  std::string bytes;
+  put_uint(bytes, 0);
+  bytes += encoded_join(trees.first(trees.size() / 2));
+  return bytes += encoded_join(trees.subspan(trees.size() / 2));
+}
+
 void Tokens::add_piece(std::size_t bytes) {
   constexpr std::size_t first_size = 1024;  // many lists are short
   if (!pieces_.empty()) pieces_.back().size = used();

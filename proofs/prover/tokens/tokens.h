@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,6 +26,9 @@ void put_uint(std::string& bytes, std::uint64_t value);
 void put_sint(std::string& bytes, const Integer& value);
 /// The payload of block TREE, where each node over m > 1 leaves has the first m / 2 of them in its left child.
 std::string encoded_tree(std::span<const std::uint32_t> leaf_cells);
+
+/// The same of a node over some trees, halved in the same way.
+std::string encoded_join(std::span<const std::string> trees);
 
 /// The first byte of each token; what follows it is in proofs/FORMAT.md.
 enum class TokenCode : std::uint8_t {
@@ -64,6 +68,18 @@ class Tokens {
   void axis(std::uint8_t code) { put(static_cast<TokenCode>(code)); }
   static constexpr std::uint8_t axis_code(std::size_t k, bool up) {
     return static_cast<std::uint8_t>(static_cast<std::size_t>(TokenCode::axis) + 2 * k + (up ? 0 : 1));
+  }
+  /// The code of the least of some separating axes (proofs/prover/hierarchy.h); 0 if there is none.
+  static std::uint8_t axis_code_of(unsigned axes) {
+    static constexpr auto codes = [] {
+      std::array<std::uint8_t, 9> all{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        all[k] = axis_code(k, true);
+        all[4 + k] = axis_code(k, false);
+      }
+      return all;
+    }();
+    return codes[static_cast<std::size_t>(std::countr_zero(axes | 1U << 8))];
   }
   void empty() { put(TokenCode::empty); }
   void drop(std::size_t k) { put(static_cast<TokenCode>(static_cast<std::size_t>(TokenCode::drop) + k)); }
@@ -119,6 +135,7 @@ struct NoTokens {
   void left() {}
   void right() {}
   void parts() {}
+  void excluded() {}
   void one() {}
   void both() {}
   void empty() {}

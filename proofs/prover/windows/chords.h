@@ -9,10 +9,19 @@
 #pragma once
 
 #include "proofs/prover/group_pair.h"
+#include "proofs/prover/tokens/proof_parts.h"
 #include "proofs/prover/windows/pieces.h"
 #include "proofs/prover/windows/window_boxes.h"
 
 namespace noli {
+
+/// What tokens have to show, and when to give up.
+struct SpanProof {
+  Piece span;
+  double eta;              ///< the least distance, which the radii of the chords have room for
+  const MeshPaths* paths;  ///< who may be nearer than that
+  const StopSignal& stop;
+};
 
 /// As Straight in proofs/prover/straight.h.
 template <int Dim>
@@ -24,8 +33,10 @@ class Chords {
   using Gathered = WindowCell<Dim>;
   using Tally = WindowTally;
 
-  Chords(const WorldLines& lines, const Forest& forest, const WindowChords<Dim>& chords, const WindowBoxes<Dim>& boxes)
-      : lines_(lines), forest_(forest), chords_(chords), boxes_(boxes), pieces_(lines, chords.span) {}
+  /// `proof`: where tokens are written.
+  Chords(const WorldLines& lines, const Forest& forest, const WindowChords<Dim>& chords, const WindowBoxes<Dim>& boxes,
+         const SpanProof* proof = nullptr)
+      : lines_(lines), forest_(forest), chords_(chords), boxes_(boxes), pieces_(lines, chords.span), proof_(proof) {}
 
   void begin(const Obligation& obligation) { part_ = forest_.part_of(obligation.first, obligation.second); }
 
@@ -33,11 +44,7 @@ class Chords {
   Cell cell(Group leaf) const { return {forest_.leaf(leaf), chords_.of.data()}; }
   const Leftovers& leftovers() const { return forest_.leftovers(); }
 
-  bool left_out(const GroupPair& pair) const {
-    const Group a = pair.first(), b = pair.second();
-    return (forest_.scripted(a) && forest_.scripted(b)) ||
-           (pair.both_leaves() && forest_.excluded(forest_.leaf(a), forest_.leaf(b)));
-  }
+  bool left_out(const GroupPair& pair) const { return forest_.left_out(pair.first(), pair.second()); }
 
   bool settled_at_once(const GroupPair& pair) const {
     if (part_ == nullptr) return false;
@@ -52,6 +59,13 @@ class Chords {
   bool from_the_beginning() const { return begin_time() == lines_.first_time(); }
   Gathered at_begin(const Gathered& cell) const { return pieces_.at_begin(cell); }
 
+  /// Writes the tokens for parts without a common vertex, or some of them: false if it was stopped.
+  bool prove_apart(const Gathered& a, CornerMask a_part, const Gathered& b, CornerMask b_part, Tokens& tokens) const {
+    ProofParts<Dim> parts(lines_, proof_->span, proof_->eta, proof_->paths, proof_->stop);
+    parts.settle(a.cell, vertices_of(a, a_part), b.cell, vertices_of(b, b_part), tokens);
+    return !parts.stopped();
+  }
+
   /// Where the first piece begins in which no direction separates two parts, if there is one.
   std::optional<double> resisting(const Gathered& a, CornerMask a_part, const Gathered& b, CornerMask b_part,
                                   Tally& tally) const {
@@ -62,6 +76,14 @@ class Chords {
   }
 
  private:
+  static ProofCell vertices_of(const Gathered& cell, CornerMask part) {
+    ProofCell vertices;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if ((part >> i & 1) != 0) vertices.add(cell.vertices[i]);
+    }
+    return vertices;
+  }
+
   /// Pairs of fewer cells are settled one by one without asking whether the sheet is monotone around them.
   static constexpr std::uint32_t worth_asking = 8;
 
@@ -93,6 +115,7 @@ class Chords {
   const WindowChords<Dim>& chords_;
   const WindowBoxes<Dim>& boxes_;
   Pieces<Dim> pieces_;
+  const SpanProof* proof_;
   const Tree* part_ = nullptr;
 };
 

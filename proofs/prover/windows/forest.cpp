@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "proofs/prover/tokens/tokens.h"
 #include "proofs/prover/windows/layout.h"
 #include "proofs/prover/windows/window_owners.h"
 
@@ -91,12 +92,6 @@ Extent extent_of(const std::array<VertexId, 3>& v, std::span<const Point2> r) {
           above(std::max({r[v[0]][0], r[v[1]][0], r[v[2]][0]})), above(std::max({r[v[0]][1], r[v[1]][1], r[v[2]][1]}))};
 }
 
-Leaf leaf_of(const Mesh& mesh, std::uint32_t cell, const CellFeatures& features, bool scripted,
-             const Exclusions& exclusions) {
-  return {names_of(mesh, features, cell), scripted,
-          exclusions.empty() ? std::uint16_t{0} : exclusions.groups[corners(mesh, cell)[0]]};
-}
-
 /// For each vertex the length of the shortest edge of a cell that it is an end of; infinite if there is none.
 std::vector<float> sizes_of(const Mesh& mesh, std::span<const Position> x, int dimension) {
   std::vector<float> size(x.size(), std::numeric_limits<float>::infinity());
@@ -153,8 +148,8 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOption
       part_of_(mesh.vertex_count, no_part),
       sizes_(sizes_of(mesh, x, options.dimension)) {
   CellFeatures features = find_owners(mesh, options.strict);
-  const std::vector<std::uint8_t> scripted = scripted_cells(mesh, options.scripted);
-  prefer_free_owners(mesh, scripted, features);
+  const std::vector<std::uint32_t> labels = run_labels(mesh, options.scripted, exclusions_);
+  prefer_free_owners(mesh, labels, features);
 
   const Sheets parts = parts_of(mesh, x, options.dimension);
   const std::vector<std::uint32_t> rest = rest_of(mesh, parts);
@@ -170,7 +165,7 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOption
     sort_leaves(Entries(entries).subspan(begin));
     for (std::size_t i = begin; i < entries.size(); ++i) {
       const std::uint32_t cell = entries[i].cell;
-      leaves_.push_back(leaf_of(mesh, cell, features, scripted[cell] != 0, exclusions_));
+      leaves_.push_back({names_of(mesh, features, cell), labels[cell]});
     }
     add_tree(sheet, part, begin, entries.size());
   };
@@ -183,6 +178,17 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOption
   if (!rest.empty()) grow(rest, false, false);
   for (const Tree& tree : trees_) finish(tree.root, parts.layout, tree.sheet);
   make_charts(mesh, x, options.dimension);
+}
+
+std::string Forest::encoded() const {
+  std::vector<std::string> trees;
+  std::vector<std::uint32_t> cells;
+  for (const Tree& tree : trees_) {
+    cells.clear();
+    for (std::uint32_t i = 0; i < tree.root.count; ++i) cells.push_back(leaves_[tree.root.begin + i].cell);
+    trees.push_back(encoded_tree(cells));
+  }
+  return encoded_join(trees);
 }
 
 const Tree* Forest::part_of(Group a, Group b) const {
@@ -207,10 +213,10 @@ void Forest::add_tree(bool sheet, bool part, std::size_t begin, std::size_t end)
   Tree tree;
   tree.sheet = sheet;
   tree.part = part;
-  tree.root = {static_cast<std::uint32_t>(scripted_.size()), static_cast<std::uint32_t>(begin),
+  tree.root = {static_cast<std::uint32_t>(labels_.size()), static_cast<std::uint32_t>(begin),
                static_cast<std::uint32_t>(end - begin)};
-  scripted_.resize(scripted_.size() + 2 * (end - begin) - 1);
-  if (sheet) extents_.resize(scripted_.size());
+  labels_.resize(labels_.size() + 2 * (end - begin) - 1);
+  if (sheet) extents_.resize(labels_.size());
   for (std::size_t i = begin; i < end; ++i) {
     tree.vertices.insert(tree.vertices.end(), leaves_[i].vertices.begin(), leaves_[i].vertices.end());
   }
@@ -224,13 +230,14 @@ void Forest::add_tree(bool sheet, bool part, std::size_t begin, std::size_t end)
 
 void Forest::finish(Group g, std::span<const Point2> layout, bool sheet) {
   if (g.is_leaf()) {
-    scripted_[g.node] = leaf(g).scripted ? 1 : 0;
+    labels_[g.node] = leaf(g).label;
     if (sheet) extents_[g.node] = extent_of(leaf(g).vertices, layout);
     return;
   }
   finish(g.left(), layout, sheet);
   finish(g.right(), layout, sheet);
-  scripted_[g.node] = scripted(g.left()) && scripted(g.right()) ? 1 : 0;
+  const std::uint32_t left = labels_[g.left().node], right = labels_[g.right().node];
+  labels_[g.node] = left == right ? left : no_label;
   if (sheet) extents_[g.node] = merged(extent(g.left()), extent(g.right()));
 }
 

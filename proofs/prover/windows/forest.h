@@ -17,10 +17,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <noli/mesh.h>
 #include "proofs/prover/cells/features.h"
+#include "proofs/prover/cells/labels.h"
 #include "proofs/prover/cells/leftover.h"
 #include "proofs/prover/cells/moving_cell.h"
 #include "proofs/prover/windows/charts.h"
@@ -30,8 +32,7 @@ namespace noli {
 
 /// What is known of a cell whatever it does.
 struct Leaf : CellNames {
-  bool scripted;        ///< all its vertices are
-  std::uint16_t group;  ///< as in Exclusions
+  std::uint32_t label;  ///< as in proofs/prover/cells/labels.h
 };
 
 /// A closed rectangle.
@@ -71,15 +72,16 @@ class Forest {
   const std::vector<Tree>& trees() const { return trees_; }
   /// The part that both groups are of; nullptr if they are of different trees, or of that of the rest.
   const Tree* part_of(Group a, Group b) const;
-  std::size_t node_count() const { return scripted_.size(); }
+  std::size_t node_count() const { return labels_.size(); }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   const Leaf& leaf(Group g) const { return leaves_[g.begin]; }
-  /// Whether all cells of a group are scripted.
-  bool scripted(Group g) const { return scripted_[g.node] != 0; }
-  /// Whether two cells, or a cell and itself, are not to be compared.
-  bool excluded(const Leaf& a, const Leaf& b) const {
-    return !exclusions_.empty() && exclusions_.excluded(a.group, b.group);
+  /// Whether two groups, each of one label, are not to be compared.
+  bool left_out(Group a, Group b) const {
+    const std::uint32_t of_a = labels_[a.node], of_b = labels_[b.node];
+    return of_a != no_label && of_b != no_label && noli::left_out(of_a, of_b, exclusions_);
   }
+  /// The payload of block TREE (proofs/FORMAT.md): over all trees one that halves their list.
+  std::string encoded() const;
 
   /// The tree of the part that a vertex is in.
   static constexpr std::uint32_t no_part = ~std::uint32_t{0};
@@ -96,6 +98,8 @@ class Forest {
   const Extent& extent(Group g) const { return extents_[g.node]; }
 
  private:
+  static constexpr std::uint32_t no_label = ~std::uint32_t{0};
+
   void add_tree(bool sheet, bool part, std::size_t begin, std::size_t end);
   void finish(Group g, std::span<const Point2> layout, bool sheet);
   void make_charts(const Mesh& mesh, std::span<const Position> x, int dimension);
@@ -104,7 +108,7 @@ class Forest {
   std::vector<Leaf> leaves_;
   std::vector<LaidFace> laid_faces_;
   Exclusions exclusions_;
-  std::vector<std::uint8_t> scripted_;
+  std::vector<std::uint32_t> labels_;  ///< of all cells of a node, or no_label
   std::vector<Extent> extents_;
   std::optional<Charts> charts_;
   Leftovers leftovers_;

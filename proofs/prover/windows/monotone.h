@@ -74,8 +74,6 @@ struct TangentBox {
 };
 
 inline Lanes lanes(float x) { return Lanes{x, x, x, x}; }
-inline Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-inline Lanes greatest(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes absolute(const Lanes& a) { return greatest(a, -a); }
 
 constexpr float unbounded = 0x1p126F;

@@ -23,11 +23,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 GroupBox empty_box() { return {lanes(infinity), lanes(infinity), lanes(-infinity), lanes(-infinity)}; }
 
-GroupBox merged(const GroupBox& a, const GroupBox& b) {
-  return {least(a.low_t0, b.low_t0), least(a.low_t1, b.low_t1), greatest(a.high_t0, b.high_t0),
-          greatest(a.high_t1, b.high_t1)};
-}
-
 /// Bounds of [0, count), made piece by piece in parallel and merged in order.
 template <class Bounds, class Of>
 Bounds merged_over(std::size_t count, int threads, const Bounds& none, const Of& of) {
@@ -46,8 +41,8 @@ Bounds merged_over(std::size_t count, int threads, const Bounds& none, const Of&
 }  // namespace
 
 template <int Dim>
-WindowBoxes<Dim>::WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads)
-    : forest_(forest), chords_(chords), threads_(threads) {
+WindowBoxes<Dim>::WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads, bool monotone)
+    : forest_(forest), chords_(chords), threads_(threads), asked_monotone_(monotone) {
   if (forest.trees().size() > 1) find_phi();
   bound_roots();
 }
@@ -71,7 +66,7 @@ void WindowBoxes<Dim>::bound_roots() {
     const auto box = [&](std::size_t i) { return box_around(chords_.of[tree.vertices[i]]); };
     root_boxes_.push_back(trees.size() == 1 ? GroupBox{}
                                             : merged_over(tree.vertices.size(), threads_, empty_box(), box));
-    root_monotone_.push_back(tree.sheet && sheet_monotone(tree) ? 1 : 0);
+    root_monotone_.push_back(asked_monotone_ && tree.sheet && sheet_monotone(tree) ? 1 : 0);
   }
 }
 
@@ -159,8 +154,9 @@ void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
   boxes_.resize(forest_.node_count());
   for (const std::size_t t : trees) {
     const Tree& tree = forest_.trees()[t];
-    if (tree.part && !tree.sheet && monotone_.empty()) look_at_charts();
-    if (tree.sheet && tangents_.empty()) tangents_.resize(forest_.node_count());
+    const bool sheet = asked_monotone_ && tree.sheet;
+    if (asked_monotone_ && tree.part && !tree.sheet && monotone_.empty()) look_at_charts();
+    if (sheet && tangents_.empty()) tangents_.resize(forest_.node_count());
     std::vector<Group> level = {tree.root}, inner;
     while (level.size() < 64 && level.back().count >= 64) {
       inner.insert(inner.end(), level.begin(), level.end());
@@ -171,8 +167,8 @@ void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
       }
       level = std::move(next);
     }
-    parallel_for(level.size(), threads_, [&](std::size_t i) { fit(level[i], tree.sheet); });
-    for (auto g = inner.rbegin(); g != inner.rend(); ++g) join(*g, tree.sheet);
+    parallel_for(level.size(), threads_, [&](std::size_t i) { fit(level[i], sheet); });
+    for (auto g = inner.rbegin(); g != inner.rend(); ++g) join(*g, sheet);
   }
 }
 

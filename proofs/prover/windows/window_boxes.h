@@ -26,7 +26,8 @@ struct Phi {
 template <int Dim>
 class WindowBoxes {
  public:
-  WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads);
+  /// `monotone`: whether it is asked which sheets and charts are.
+  WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads, bool monotone = true);
 
   /// Makes the bounds of all groups of some trees, given by their numbers.
   void make(const std::vector<std::size_t>& trees);
@@ -56,6 +57,7 @@ class WindowBoxes {
   const Forest& forest_;
   const WindowChords<Dim>& chords_;
   int threads_;
+  bool asked_monotone_;
   std::array<Phi, Dim> phi_;
   std::vector<GroupBox> root_boxes_, boxes_;
   std::vector<TangentBox> tangents_;

@@ -38,8 +38,8 @@ struct Counts {
 template <int Dim>
 class Filler {
  public:
-  Filler(WindowChords<Dim>& chords, const WorldLines& lines, const Forest& forest)
-      : chords_(chords), lines_(lines), forest_(forest) {
+  Filler(WindowChords<Dim>& chords, const WorldLines& lines, const Forest& forest, double distance)
+      : chords_(chords), lines_(lines), forest_(forest), distance_(distance) {
     for (const Tree& tree : forest.trees()) origins_.push_back(lines.positions(tree.vertices[0]).front());
   }
 
@@ -52,6 +52,7 @@ class Filler {
       stored.x[k] = BothEnds(chord.x_t0[k], chord.x_t1[k]);
       stored.radius[k] = rounded_up(chord.radius[k]);
       most = std::max(most, stored.radius[k]);
+      if (distance_ > 0) stored.radius[k] = rounded_up(chord.radius[k] + farther(chord.x_t0[k], chord.x_t1[k]));
     }
     const std::uint32_t part = forest_.part_of(v);
     if (part != Forest::no_part) chords_.near[v] = near_vertex(stored, origins_[part]);
@@ -60,20 +61,26 @@ class Filler {
   }
 
  private:
+  /// The distance, with room for the rounding of the bounds that have it added.
+  double farther(double x_t0, double x_t1) const {
+    return distance_ + 0x1p-50 * (std::abs(x_t0) + std::abs(x_t1) + distance_);
+  }
+
   WindowChords<Dim>& chords_;
   const WorldLines& lines_;
   const Forest& forest_;
+  double distance_;
   std::vector<Position> origins_;
 };
 
 }  // namespace
 
 template <int Dim>
-WindowChords<Dim> chords_over(Span span, const WorldLines& lines, const Forest& forest, int threads) {
+WindowChords<Dim> chords_over(Span span, const WorldLines& lines, const Forest& forest, int threads, double distance) {
   constexpr std::size_t piece = 512;
   const std::size_t vertices = lines.vertex_count(), pieces = (vertices + piece - 1) / piece;
   WindowChords<Dim> chords{span, std::vector<VertexChord<Dim>>(vertices), std::vector<NearVertex>(vertices)};
-  Filler<Dim> filler(chords, lines, forest);
+  Filler<Dim> filler(chords, lines, forest, distance);
   std::vector<Counts> counts(pieces);
   parallel_for(pieces, threads, [&](std::size_t i) {
     Counts sum;
@@ -89,7 +96,7 @@ WindowChords<Dim> chords_over(Span span, const WorldLines& lines, const Forest& 
   return chords;
 }
 
-template WindowChords<2> chords_over(Span, const WorldLines&, const Forest&, int);
-template WindowChords<3> chords_over(Span, const WorldLines&, const Forest&, int);
+template WindowChords<2> chords_over(Span, const WorldLines&, const Forest&, int, double);
+template WindowChords<3> chords_over(Span, const WorldLines&, const Forest&, int, double);
 
 }  // namespace noli

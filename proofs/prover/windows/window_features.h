@@ -5,7 +5,7 @@
 // Notation
 //   piece   a time in which none of the vertices in question has a breakpoint: all move linearly
 //
-// What this does not do: it looks for no directions (proofs/prover/windows/window_pair.h).
+// What this does not do: it looks for no directions (proofs/prover/windows/pieces.h).
 #pragma once
 
 #include <array>

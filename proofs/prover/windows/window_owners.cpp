@@ -27,33 +27,24 @@ void for_features(const Mesh& mesh, std::uint32_t cell, const Visit& visit) {
 
 }  // namespace
 
-std::vector<std::uint8_t> scripted_cells(const Mesh& mesh, std::span<const std::uint8_t> scripted) {
-  std::vector<std::uint8_t> result(mesh.cell_count(), 0);
-  if (scripted.empty()) return result;
-  for (std::uint32_t cell = 0; cell < result.size(); ++cell) {
-    const auto v = corners(mesh, cell);
-    result[cell] = scripted[v[0]] != 0 && scripted[v[1]] != 0 && scripted[v[2]] != 0 ? 1 : 0;
-  }
-  return result;
-}
-
-void prefer_free_owners(const Mesh& mesh, const std::vector<std::uint8_t>& scripted_cell, CellFeatures& features) {
+void prefer_free_owners(const Mesh& mesh, const std::vector<std::uint32_t>& labels, CellFeatures& features) {
   struct Owner {
     std::uint32_t cell;
     FeatureMask bit;
   };
+  const auto scripted = [&](std::uint32_t cell) { return labels[cell] % 2 == 1; };
   std::unordered_map<Key, Owner> corner_owners, edge_owners;
   const auto owners_of = [&](FeatureMask bit) -> auto& { return bit < edge_bit(0) ? corner_owners : edge_owners; };
-  const auto cells = static_cast<std::uint32_t>(scripted_cell.size());
+  const auto cells = static_cast<std::uint32_t>(labels.size());
   for (std::uint32_t cell = 0; cell < cells; ++cell) {
-    if (scripted_cell[cell] == 0) continue;
+    if (!scripted(cell)) continue;
     for_features(mesh, cell, [&](Key key, FeatureMask bit) {
       if ((features.owned[cell] & bit) != 0) owners_of(bit)[key] = {cell, bit};
     });
   }
   if (corner_owners.empty()) return;
   for (std::uint32_t cell = 0; cell < cells; ++cell) {
-    if (scripted_cell[cell] != 0) continue;
+    if (scripted(cell)) continue;
     for_features(mesh, cell, [&](Key key, FeatureMask bit) {
       const auto found = owners_of(bit).find(key);
       if (found == owners_of(bit).end()) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which cells are scripted, and which cell a vertex or edge belongs to when pairs of scripted cells are not looked at.
+// Which cell a vertex or edge belongs to when pairs of scripted cells are not looked at.
 //
 // A pair of features counts if some pair of cells that have them is looked at. It is examined where the obligations of
 // its two owners are; so a feature that a cell has which is not scripted must not belong to a scripted one.
@@ -9,18 +9,14 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "proofs/prover/cells/features.h"
 
 namespace noli {
 
-/// For each cell 1 if all its vertices are scripted, else 0. `scripted` as in WindowOptions.
-std::vector<std::uint8_t> scripted_cells(const Mesh& mesh, std::span<const std::uint8_t> scripted);
-
 /// Passes corners and edges that belong to a scripted cell on to the least cell that has them and is not scripted,
-/// where there is one.
-void prefer_free_owners(const Mesh& mesh, const std::vector<std::uint8_t>& scripted_cell, CellFeatures& features);
+/// where there is one. `labels`: as in proofs/prover/cells/labels.h.
+void prefer_free_owners(const Mesh& mesh, const std::vector<std::uint32_t>& labels, CellFeatures& features);
 
 }  // namespace noli

@@ -54,8 +54,11 @@ class Verification {
     TaskWalk<Chords<Dim>, NoTokens> walk(positions, options_, stop_, none_);
     const std::vector<Obligation> open = settle_roots(boxes, walk.sum().tally);
     const auto cells = static_cast<std::uint32_t>(forest_.leaves().size());
-    walk.run(open, std::max(cells / grain_share, least_grain), progress_, share(chords.span.begin),
-             share(chords.span.end));
+    walk.cut(std::max(cells / grain_share, least_grain), [&](auto& top) {
+      return std::ranges::all_of(open, [&](const Obligation& obligation) { return top.run(obligation); });
+    });
+    progress_.begin(share(chords.span.begin), share(chords.span.end), walk.tasks().size());
+    walk.run([&](std::size_t /*task*/) { progress_.task_done(); });
     return std::move(walk.sum());
   }
 
@@ -66,7 +69,7 @@ class Verification {
     std::vector<bool> needed(trees.size(), false);
     const auto settle = [&](std::size_t i, std::size_t j) {
       const Group a = trees[i].root, b = trees[j].root;
-      if (forest_.scripted(a) && forest_.scripted(b)) return;
+      if (forest_.left_out(a, b)) return;
       if (i == j ? boxes.root_monotone(i) : axis_separates(boxes.root_box(i), boxes.root_box(j))) {
         ++tally.obligations;
       } else {

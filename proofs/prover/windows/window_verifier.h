@@ -18,13 +18,15 @@
 // question, until a direction holds or no breakpoint is left inside; each of its pairs of features the same way; and
 // what resists in a piece without breakpoints is decided exactly (include/noli/contact.h, kernel/motion.h).
 //
-// What this does not do: it writes no proof, knows no thickness, and reads no files.
+// What this does not do: it writes no files (proofs/prover/tokens/proof_file.h), and reads none.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <noli/mesh.h>
@@ -36,6 +38,7 @@
 namespace noli {
 
 class Forest;
+class MeshPaths;
 
 /// `prove` is not looked at.
 struct WindowOptions : VerifyOptions {
@@ -59,6 +62,12 @@ struct WindowResult : Findings {
   std::optional<FirstInWindow> first;
 };
 
+/// What is claimed of distances beside that nothing touches.
+struct LeastDistance {
+  double eta = 0;                    ///< features are more than that apart
+  const MeshPaths* paths = nullptr;  ///< but for those that a short path joins; not needed where `eta` is 0
+};
+
 /// Verifies windows of one run, one after another.
 class WindowVerifier {
  public:
@@ -77,6 +86,17 @@ class WindowVerifier {
   /// Deterministic, for any number of threads, as verify_step is. Memory is linear in the mesh, beside the lines. May
   /// be called from several threads at once. Throws std::bad_alloc, and what `progress` throws.
   WindowResult verify(const WorldLines& lines, const WindowOptions& options) const;
+
+  /// The tree of its proofs: the payload of block TREE (proofs/FORMAT.md).
+  std::string encoded_tree() const;
+
+  /// Writes the proof of a window in which nothing touches: gives `take` payloads of blocks TOKS, in order, from one
+  /// thread at a time. They depend on the lines, the mesh and the claim alone. Tokens are made by several threads and
+  /// given away in order: memory grows with the number of threads, not with the proof. False if it was stopped (stop,
+  /// deadline). Ask verify() first: where there is a contact, this gives up only after a long time. Throws TooNear,
+  /// NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and deadline count.
+  bool prove(const WorldLines& lines, const VerifyOptions& options, const LeastDistance& distance,
+             const std::function<void(std::string_view)>& take) const;
 
  private:
   std::unique_ptr<const Forest> forest_;  ///< nullptr if there are no cells

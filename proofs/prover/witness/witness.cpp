@@ -101,13 +101,7 @@ void reduce(Weights& side) {
 
 class Search {
  public:
-  explicit Search(const WitnessStep& step) : step_(step), motion_(step.lines, step.shift, step.dimension, step.eta) {
-    if (step.excluded == nullptr || step.excluded->claim().excluded.empty()) return;
-    labels_.resize(step.mesh.cell_count());
-    for (const ProofTree::Node& node : step.excluded->tree().nodes()) {
-      if (node.leaf()) labels_[node.cell] = node.label;
-    }
-  }
+  explicit Search(const WitnessStep& step) : step_(step), motion_(step.lines, step.shift, step.dimension, step.eta) {}
 
   std::optional<std::string> of_features(const FeatureContact& contact) {
     const Sides sides = sides_of(contact);
@@ -159,12 +153,7 @@ class Search {
     return true;
   }
 
-  bool compared(std::uint32_t i, std::uint32_t j) const {
-    if (i == j && !step_.strict) return false;
-    if (labels_.empty()) return true;
-    const auto [a, b] = std::minmax(labels_[i], labels_[j]);
-    return !step_.excluded->claim().excluded.contains({a, b});
-  }
+  bool compared(std::uint32_t i, std::uint32_t j) const { return (i != j || step_.strict) && step_.compares(i, j); }
 
   bool choose_cells(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q) {
     for (const std::uint32_t i : of_p) {
@@ -472,22 +461,11 @@ class Search {
 
   const WitnessStep& step_;
   IntegerMotion motion_;
-  std::vector<std::uint32_t> labels_;     ///< of the cells; empty if all pairs are compared
   std::array<std::uint32_t, 2> cells_{};  ///< which the witness names
   std::optional<std::string> payload_;
 };
 
 }  // namespace
-
-bool are_compared(const WitnessStep& step, std::uint32_t i, std::uint32_t j) {
-  if (step.excluded == nullptr || step.excluded->claim().excluded.empty()) return true;
-  const auto& nodes = step.excluded->tree().nodes();
-  const auto label = [&](std::uint32_t cell) {
-    return std::ranges::find_if(nodes, [&](const auto& node) { return node.leaf() && node.cell == cell; })->label;
-  };
-  const auto [a, b] = std::minmax({label(i), label(j)});
-  return !step.excluded->claim().excluded.contains({a, b});
-}
 
 std::optional<std::string> witness_of(const WitnessStep& step, const FeatureContact& contact) {
   return Search(step).of_features(contact);

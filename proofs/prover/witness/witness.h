@@ -26,8 +26,9 @@
 #include <string_view>
 
 #include <noli/findings.h>
+#include "proofs/prover/cells/labels.h"
 #include "proofs/prover/tokens/mesh_paths.h"
-#include "proofs/prover/tokens/step_prover.h"
+#include "proofs/prover/tokens/no_proof.h"
 #include "proofs/prover/verifier.h"
 #include "trajectory/world_lines.h"
 
@@ -40,17 +41,16 @@ struct WitnessStep {
   double shift;  ///< its times are those of the lines and this more, exactly
   int dimension;
   bool strict;
-  double eta = 0;                        ///< the least distance
-  std::uint32_t ring = 1;                ///< features that a path of fewer edges joins may be nearer
-  const StepProver* excluded = nullptr;  ///< its labels and pairs of labels are not compared; nothing: all cells are
+  double eta = 0;                      ///< the least distance
+  std::uint32_t ring = 1;              ///< features that a path of fewer edges joins may be nearer
+  const CellLabels* labels = nullptr;  ///< which say what is not compared; nothing: all cells are
+
+  bool compares(std::uint32_t i, std::uint32_t j) const { return labels == nullptr || !labels->leave_out(i, j); }
 };
 
 /// Why a checker would refuse the payload of a block WITN, in words: it judges all conditions and limits of
 /// proofs/FORMAT.md, section 5. Nothing if it holds.
 std::optional<std::string> fault_of_witness(const WitnessStep& step, std::string_view payload);
-
-/// Whether the labels of two cells are not a pair that is excluded.
-bool are_compared(const WitnessStep& step, std::uint32_t i, std::uint32_t j);
 
 /// The payload for a pair of features that meets; nothing if none was found.
 std::optional<std::string> witness_of(const WitnessStep& step, const FeatureContact& contact);

@@ -203,7 +203,7 @@ class Judge {
 
   void require_two_sides(std::uint32_t i, std::uint32_t j) const {
     require(i != j || step_.strict, "it is about one cell");
-    require(are_compared(step_, i, j), "the pair is excluded");
+    require(step_.compares(i, j), "the pair is excluded");
     for (const Corner& corner : p_) {
       require(std::ranges::find(q_, corner.v, &Corner::v) == q_.end(), "a vertex is on both sides");
     }

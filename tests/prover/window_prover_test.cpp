@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/tokens/step_prover.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 
+#include "proofs/prover/tokens/no_proof.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "window_scenes.h"
 
 namespace noli::testing {
@@ -26,20 +26,23 @@ struct Written {
 };
 
 Written prove(const LineScene& scene, const VerifyOptions& options) {
-  const std::vector<std::uint32_t> order = {0, 1}, ends = {2}, labels = {0, 0};
-  const StepProver prover(scene.mesh, order, ends, labels, {2, false, {}, 0, 1});
+  WindowOptions window;
+  window.dimension = 2;
+  const std::vector<Position> x = {scene.paths[0][0].x, scene.paths[1][0].x};
+  const WindowVerifier verifier(scene.mesh, x, window);
   Written written{false, 0};
-  written.whole = prover.prove(scene.lines(), options, [&](std::string_view bytes) { written.bytes += bytes.size(); });
+  written.whole =
+      verifier.prove(scene.lines(), options, {}, [&](std::string_view bytes) { written.bytes += bytes.size(); });
   return written;
 }
 
-TEST(StepProver, TwoPointsWithManyBreakpointsNeedADirectionForEachQuarterAtLeast) {
+TEST(WindowProver, TwoPointsWithManyBreakpointsNeedADirectionForEachQuarterAtLeast) {
   const Written written = prove(orbit(2048), {});
   EXPECT_TRUE(written.whole);
   EXPECT_GE(written.bytes, 1024u) << "each direction holds for less than half a round";
 }
 
-TEST(StepProver, LooksForAStopWithinOnePairOfCells) {
+TEST(WindowProver, LooksForAStopWithinOnePairOfCells) {
   std::atomic<bool> stop = true;
   VerifyOptions options;
   options.stop = &stop;
@@ -49,7 +52,7 @@ TEST(StepProver, LooksForAStopWithinOnePairOfCells) {
   EXPECT_FALSE(prove(orbit(2048), options).whole);
 }
 
-TEST(StepProver, TwoPointsThatMeetHaveNoProof) {
+TEST(WindowProver, TwoPointsThatMeetHaveNoProof) {
   LineScene scene = orbit(4);
   scene.paths[0][2].x = {0, 0, 0};
   EXPECT_THROW(prove(scene, {}), NoProof);
