@@ -9,7 +9,7 @@
 //   }
 //
 // All are std::runtime_error, and what() is one line. Beside them Noli throws std::system_error (disk, processes),
-// std::bad_alloc, and what a callback throws. A verdict is a result and never an exception.
+// std::bad_alloc, and what a callback throws. A verdict is a result, never an exception. Thread safety: any thread.
 #pragma once
 
 #include <cstdint>

@@ -72,8 +72,8 @@ std::vector<std::string> weakenings(const Claim& claim);
 /// not asked by name. Throws InputError.
 std::vector<std::string> read_claim_file(const std::filesystem::path& file);
 
-/// For VerifyRequest::open_proof: makes the file of the proof. Throws std::system_error when the file is there already or
-/// cannot be made.
+/// For VerifyRequest::open_proof: makes the file of the proof. Throws std::system_error when it cannot be made, or
+/// is there already.
 std::function<std::unique_ptr<Sink>(const Claim&)> proof_to_file(std::filesystem::path file);
 
 enum class Checker { plain, verified };
@@ -103,7 +103,7 @@ struct CheckRequest {
   std::filesystem::path programs = {};      ///< the folder that the checkers are in; empty: that of this program
 };
 
-/// Starts a checker on a proof in a file and waits for its end. Precondition: request.proof. Throws Stopped; HelperError
+/// Starts a checker on a proof in a file and waits for its end. Precondition: proof. Throws Stopped; HelperError
 /// when the machine failed the checker (memory, a signal); std::runtime_error when the checker is not there, reads no
 /// more, or ends with a code that it may not.
 CheckerVerdict check_proof(const CheckRequest& request);

@@ -10,8 +10,8 @@
 //   vertex_vertex     points v | w
 //
 // Features are closed; degenerate ones are what their hull is (a face may be a segment or a point).
-// Coordinates are finite doubles and are taken as they are: nothing here rounds, welds or snaps. Their unit of length is
-// the caller's.
+// Coordinates are finite doubles and are taken as they are: nothing here rounds, welds or snaps. Their unit of
+// length is the caller's.
 //
 //   noli::VertexFace3 query;
 //   query.x_t0 = {{{0.2, 0.2, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};   // v, f0, f1, f2 at t = 0

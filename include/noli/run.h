@@ -9,7 +9,7 @@
 //   layer     of contact: a penalty that acts on a pair of features below a distance of its own
 //   step      of a vertex: the time between two of its breakpoints that follow one another
 //   bin b     the steps from 2^((2 b - 1) / 8) to 2^((2 b + 1) / 8) s, the upper end not included
-//   B         K + V - D: kinetic energy and all potentials, less what damping and friction have taken since the beginning
+//   B         K + V - D: kinetic energy and all potentials, less what damping and friction took since the beginning
 //
 // Phases: what a run is busy with
 //   force        positions of a force's vertices and its impulse

@@ -8,12 +8,12 @@
 //   if (outcome.verdict == noli::Verdict::contact) ...  // outcome.first says who, when and how
 //
 // Notation
-//   step k     from frame k to frame k + 1, between which each vertex moves along a straight line; or window k of a run.
+//   step k     from frame k to frame k + 1, between which each vertex moves along a line; or window k of a run.
 //              Counted from 1 in all that is reported
 //   proof      noli/proof.h; one is written where `open_proof` says
 //
 // Units: coordinates and distances in the unit of the files; times in [0, 1] of the step, in seconds for a run.
-// Errors: as run_verify says. Thread safety: any number of verifications may be at work at once, each with its own stop;
+// Errors: as run_verify says. Thread safety: any number of verifications may run at once, each with its own stop;
 // nothing is printed. Callbacks come from the calling thread or, serialised, from threads of the verification.
 // Frames in memory: noli/sequence.h.
 #pragma once

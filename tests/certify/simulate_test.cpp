@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,19 @@ TEST_F(SimulateInProcess, ErrorsAreExceptions) {
   asked.scene = folder.write("none.json", "{}");
   asked.run = folder / "other";
   EXPECT_THROW(run_simulate(asked), InputError);
+}
+
+TEST_F(SimulateInProcess, AStopOfItsOwnEndsItAtTheLastWindow) {
+  std::atomic<bool> stop = false;
+  SimulateRequest asked = request();
+  asked.stop = &stop;
+  asked.keep_going = [&](const SeriesRow&) {
+    stop = true;
+    return true;
+  };
+  const SimulateOutcome outcome = run_simulate(asked);
+  EXPECT_EQ(outcome.end, RunEnd::interrupted);
+  EXPECT_LT(outcome.windows, outcome.windows_total);
 }
 
 }  // namespace

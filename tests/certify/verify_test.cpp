@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <set>
 #include <string>
@@ -86,6 +87,16 @@ TEST_F(VerifyInProcess, AStopLeavesItUndecided) {
   EXPECT_EQ(outcome.verdict, Verdict::undecided);
   EXPECT_FALSE(outcome.complete);
   EXPECT_TRUE(outcome.interrupted);
+}
+
+TEST_F(VerifyInProcess, TwoAtOnceHaveStopsOfTheirOwn) {
+  const VerifyRequest goes_on = falling(1.5);
+  VerifyRequest stopped = goes_on;
+  const std::atomic<bool> stop = true;
+  stopped.stop = &stop;
+  auto other = std::async(std::launch::async, [&] { return run_verify(goes_on).verdict; });
+  EXPECT_EQ(run_verify(stopped).verdict, Verdict::undecided);
+  EXPECT_EQ(other.get(), Verdict::no_contact);
 }
 
 TEST_F(VerifyInProcess, BadInputIsAnException) {
