@@ -2,6 +2,7 @@
 #include "certify/proofs/prove_run.h"
 
 #include <noli/errors.h>
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trajectory/formats/frame_inputs.h"
+#include "trajectory/stop.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

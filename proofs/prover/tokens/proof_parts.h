@@ -26,6 +26,7 @@
 #include "proofs/prover/cells/direction_search.h"
 #include "proofs/prover/cells/exact_direction.h"
 #include "proofs/prover/tokens/mesh_paths.h"
+#include "proofs/prover/tokens/no_proof.h"
 #include "proofs/prover/tokens/short_direction.h"
 #include "proofs/prover/tokens/tokens.h"
 #include "proofs/prover/traversal.h"
