@@ -14,10 +14,10 @@
 
 namespace noli {
 
-/// The bounds for the positions x at rest if they are below `distance.eta`; nothing if that is allowed itself, or the search was
-/// stopped. Each pair that is too near gives the next smaller limit, decided exactly; that a distance is allowed is
-/// proved. (Why not to the last double: in a regular mesh thousands of pairs have that distance, and each would need
-/// exact arithmetic.) `mesh`: that of the verifier. `distance`: what was asked for. Of the options as
+/// The bounds for the positions x at rest if they are below `distance.eta`; nothing if that is allowed itself, or the
+/// search was stopped. Each pair that is too near gives the next smaller limit, decided exactly; that a distance is
+/// allowed is proved. (Why not to the last double: in a regular mesh thousands of pairs have that distance, and each
+/// would need exact arithmetic.) `mesh`: that of the verifier. `distance`: what was asked for. Of the options as
 /// WindowVerifier::prove, and the dimension.
 std::optional<LargestDistance> largest_distance(const WindowVerifier& verifier, const Mesh& mesh,
                                                 std::span<const Position> x, const LeastDistance& distance,

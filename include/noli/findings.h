@@ -52,7 +52,7 @@ struct InitialIntersection {
 
 /// What is found in a step, or in a window.
 struct Findings {
-  bool complete = true;  ///< false: stopped early (stop, deadline, first_only); counts are then lower bounds
+  bool complete = true;      ///< false: stopped early (stop, deadline, first_only); counts are then lower bounds
   ContactCounts contacts{};  ///< by FeaturePair: pairs that meet in the closed step
   std::uint64_t initial_intersections = 0;
   std::vector<FeatureContact> reports;               ///< the first max_reports in canonical order (pair, then vertices)

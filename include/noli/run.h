@@ -35,8 +35,8 @@
 #include <string_view>
 #include <vector>
 
-#include <noli/query.h>
 #include <noli/mesh.h>
+#include <noli/query.h>
 
 namespace noli {
 

@@ -31,9 +31,9 @@
 #include <vector>
 
 #include <noli/contact.h>
-#include <noli/time_of_impact.h>
 #include <noli/findings.h>
 #include <noli/mesh.h>
+#include <noli/time_of_impact.h>
 
 namespace noli {
 

@@ -32,9 +32,9 @@
 #include <string_view>
 #include <vector>
 
+#include <noli/findings.h>
 #include <noli/run.h>
 #include <noli/sequence.h>
-#include <noli/findings.h>
 
 namespace noli {
 

@@ -29,12 +29,12 @@
 #include <string_view>
 #include <vector>
 
-#include <noli/proof.h>
 #include <noli/contact.h>
-#include <noli/time_of_impact.h>
 #include <noli/findings.h>
 #include <noli/frames.h>
 #include <noli/mesh.h>
+#include <noli/proof.h>
+#include <noli/time_of_impact.h>
 
 namespace noli {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Noli's own answers, as a library like any other. The exact arithmetic of include/noli/contact.h; a time of impact is the
-// beginning of the kernel's enclosure, early by a part in 2^20 of the step or so. A tolerance of 0 asks for the first
-// time itself, rounded down (include/noli/time_of_impact.h), which takes longer.
+// Noli's own answers, as a library like any other. The exact arithmetic of include/noli/contact.h; a time of impact is
+// the beginning of the kernel's enclosure, early by a part in 2^20 of the step or so. A tolerance of 0 asks for the
+// first time itself, rounded down (include/noli/time_of_impact.h), which takes longer.
 //
 // What this does not do: judge the audit. The truth of an audit is the same kernel's.
 #include <noli/ccd_plugin.h>

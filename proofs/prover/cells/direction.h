@@ -90,8 +90,8 @@ double reach_of(const std::array<std::array<std::array<double, 8>, Dim>, 2>& d) 
 
 }  // namespace detail
 
-/// The pair of two parts, neither of them empty. The origin is corner `origin` of a. `Cell`: MovingCell, or one that has
-/// more to it.
+/// The pair of two parts, neither of them empty. The origin is corner `origin` of a. `Cell`: MovingCell, or one that
+/// has more to it.
 template <class Cell>
 PartPair<Cell::dim> pair_of(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, std::size_t origin) {
   constexpr int Dim = Cell::dim;

@@ -41,8 +41,8 @@ struct WindowChords {
   std::size_t restless = 0;          ///< number of restless vertices
 };
 
-/// Linear in the number of breakpoints. What is separated with radii that have `distance` added to them is farther apart
-/// than twice that.
+/// Linear in the number of breakpoints. What is separated with radii that have `distance` added to them is farther
+/// apart than twice that.
 template <int Dim>
 WindowChords<Dim> chords_over(Span span, const WorldLines& lines, const Forest& forest, int threads,
                               double distance = 0);
