@@ -38,7 +38,7 @@ struct Plan {
   }
 };
 
-/// The least tau >= 0 at which |e + tau w| = radius; infinity if there is none. Precondition: |e| <= radius.
+/// The least tau >= 0 at which |e + tau w| = radius; infinity if it never is. Precondition: |e| <= radius.
 template <int Dim>
 double time_to_leave(const Vector<Dim>& e, const Vector<Dim>& w, double radius) {
   const double a = w.squaredNorm(), b = e.dot(w), c = e.squaredNorm() - radius * radius;

@@ -203,7 +203,7 @@ class CodimensionOne {
   /// The insides seen along the first axis.
   const auto& insides() { return view(0).insides; }
 
-  /// The functions of the first view that is not degenerate throughout; if there is none, those of the parts.
+  /// The functions of the first view that is not degenerate throughout; if all are, those of the parts.
   template <class Visit>
   bool any_critical(Visit&& visit) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -56,7 +56,7 @@ struct RunSummary {
   double time = 0;  ///< of the last window's end [s]
   std::uint64_t breakpoints = 0, halvings = 0;
   std::array<std::uint64_t, force_kinds> events{};
-  double smallest_step = 0;             ///< of a free vertex [s]; 0: there is none
+  double smallest_step = 0;             ///< of a free vertex [s]; 0: no vertex is free
   std::optional<EnergySummary> energy;  ///< nothing: no windows
   std::optional<ActingMoment> deepest, nearest;
   std::optional<ExactGap> gap;

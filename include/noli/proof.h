@@ -13,7 +13,7 @@
 // Notation
 //   claim     what is said of a motion, field by field (proofs/FORMAT.md, section 6). Which of two claims is the
 //             stronger one is for checkers to decide
-//   checker   a program of its own: noli_check, or noli_check_verified, which is extracted from a proof in Coq
+//   checker   a separate program: noli_check, or noli_check_verified, which is extracted from a proof in Coq
 //
 // Units: distances in the unit of the coordinates; times in steps of frames, in seconds of a run.
 // Errors: as each function says. Thread safety: any thread; two checks may run at once.

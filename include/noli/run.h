@@ -185,7 +185,7 @@ constexpr std::string_view name(Phase phase) {
 /// By Phase [s].
 using PhaseSeconds = std::array<double, phase_count>;
 
-/// A number that is none appeared.
+/// A NaN or an infinity appeared.
 struct NotFinite {
   double time;
   std::optional<ForceKind> kind;  ///< of the force that left it; nothing: free motion did

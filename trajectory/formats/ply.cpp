@@ -29,7 +29,7 @@ namespace {
 //   require_room(element)   fails when the remaining bytes cannot hold what the header promises
 //   begin_entry(element, i), end_entry()
 //   real(type)              a finite coordinate           integer(type)   a whole number
-//   list_size(type, items)  a length that fits the rest   skip(type)      a value that nobody needs
+//   list_size(type, items)  a length that fits the rest   skip(type)      an unused value
 //   finish()                fails when anything follows
 //   fail(problem)           InputError at the value that was read last
 

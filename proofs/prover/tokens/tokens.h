@@ -69,7 +69,7 @@ class Tokens {
   static constexpr std::uint8_t axis_code(std::size_t k, bool up) {
     return static_cast<std::uint8_t>(static_cast<std::size_t>(TokenCode::axis) + 2 * k + (up ? 0 : 1));
   }
-  /// The code of the least of some separating axes (proofs/prover/hierarchy.h); 0 if there is none.
+  /// The code of the least of some separating axes (proofs/prover/hierarchy.h); 0 without any.
   static std::uint8_t axis_code_of(unsigned axes) {
     static constexpr auto codes = [] {
       std::array<std::uint8_t, 9> all{};

@@ -65,7 +65,7 @@ struct WindowResult : Findings {
 /// What is claimed of distances beside that nothing touches.
 struct LeastDistance {
   double eta = 0;                    ///< features are more than that apart
-  const MeshPaths* paths = nullptr;  ///< but for those that a short path joins; not needed where `eta` is 0
+  const MeshPaths* paths = nullptr;  ///< except those that a short path joins; not needed where `eta` is 0
 };
 
 /// Verifies windows of one run, one after another.
