@@ -16,7 +16,7 @@
 namespace noli::app {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* ccd_footer =
     "Each query is decided exactly. Where a file has labels (the truth, a last column of 0 or 1), they are compared: "
     "exit 1 when one\n"
     "disagrees. A row is a point: x numerator, x denominator, y .., z .. [, label]; a query is its points at t = 0, "
@@ -142,7 +142,7 @@ ExitCode run(CcdArguments& arguments) {
 
 Command add_ccd(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("ccd", "Decide files of queries; compare with their labels");
-  command->footer(footer);
+  command->footer(ccd_footer);
   const auto arguments = std::make_shared<CcdArguments>();
   CcdRequest& request = arguments->request;
   command->add_option("files", request.files, "Files of queries (CSV)")->required()->type_name("QUERIES.csv");

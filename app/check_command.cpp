@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer =
+constexpr const char* check_footer =
     "Runs the checker, a separate small program that trusts nothing of this one (proofs/FORMAT.md, proofs/checker).\n"
     "What has to be proved is your choice, not the proof's. Unless you ask for something else: frames in motion (or "
     "the run), all\n"
@@ -181,7 +181,7 @@ ExitCode run(const CheckArguments& arguments) {
 
 Command add_check(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("check", "Does a proof hold?");
-  command->footer(footer);
+  command->footer(check_footer);
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("files", arguments->files, "A proof, then PLY or OBJ files or a run; or a run alone")
       ->required()

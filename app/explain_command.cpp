@@ -17,7 +17,7 @@
 namespace noli::app {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* explain_footer =
     "Of a scene: prints the defaults that were taken, what will be active and what is left out and why, steps, events "
     "a second, "
     "bytes and warnings. Nothing is simulated.\n"
@@ -64,7 +64,7 @@ ExitCode run(const ExplainArguments& arguments) {
 Command add_explain(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("explain", "What a scene will do, and what it will not; or how a run went");
-  command->footer(footer);
+  command->footer(explain_footer);
   const auto arguments = std::make_shared<ExplainArguments>();
   command->add_option("scene", arguments->scene, "A scene, or the folder of a run")
       ->required()

@@ -17,7 +17,7 @@
 namespace noli::app {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* export_footer =
     "Frames are samples: straight lines between them are not the certified motion, the world lines of the run are.\n"
     "Figures: step-histogram (how long the steps of vertices are over time), energy, momentum; a picture or, as CSV, "
     "the\n"
@@ -78,7 +78,7 @@ ExitCode run(const ExportArguments& arguments) {
 
 Command add_export(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("export", "Frames of a run, for other programs, and figures of it");
-  command->footer(footer);
+  command->footer(export_footer);
   const auto arguments = std::make_shared<ExportArguments>();
   ExportRequest* const request = &arguments->frames;
   command->add_option("run", request->run, "The folder of a run")->required()->type_name("RUN");

@@ -22,7 +22,7 @@
 namespace noli::app {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* info_footer =
     "For meshes (PLY, OBJ): format, counts, extent, what is degenerate. For queries (CSV): how many, how many with a "
     "label. For the folder of a run: windows, times, breakpoints, bytes, and whether the file is whole. For proofs: "
     "what they claim, steps, times, bytes.\n"
@@ -127,7 +127,7 @@ ExitCode run(const InfoArguments& arguments) {
 
 Command add_info(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("info", "What is in a file");
-  command->footer(footer);
+  command->footer(info_footer);
   const auto arguments = std::make_shared<InfoArguments>();
   command->add_option("files", arguments->files, "PLY, OBJ or CSV files, proofs, or folders of runs")
       ->required()

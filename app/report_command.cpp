@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer =
+constexpr const char* report_footer =
     "One page with everything in it, for any browser, without a network: verdict and statement, the motion with its "
     "contacts, energies,\n"
     "steps and gaps over time, tables of audits and pictures. Inputs in any order: the folder of one run; results that "
@@ -254,7 +254,7 @@ ExitCode run(const ReportArguments& arguments) {
 
 Command add_report(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("report", "A page about a run, a verdict or an audit, for a browser");
-  command->footer(footer);
+  command->footer(report_footer);
   const auto arguments = std::make_shared<ReportArguments>();
   command->add_option("inputs", arguments->inputs, "A run; results (--json); frames; pictures")
       ->required()

@@ -14,7 +14,7 @@
 namespace noli::app {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* schema_footer =
     "Each result that --json writes names its schema and version: \"schema\": \"noli-verify\", \"version\": 1.\n"
     "Examples:\n"
     "  noli schema                         the names\n"
@@ -44,7 +44,7 @@ ExitCode run(const std::optional<std::string>& name) {
 
 Command add_schema(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("schema", "Print the JSON Schema of a result or an input");
-  command->footer(footer);
+  command->footer(schema_footer);
   const auto name = std::make_shared<std::optional<std::string>>();
   command->add_option("name", *name, "Which one; without it, the names are listed")->type_name("NAME");
   return {command, [name] { return run(*name); }};

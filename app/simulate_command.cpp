@@ -33,7 +33,7 @@ ExitCode exit_code(const SimulateOutcome& outcome) {
   return ExitCode::failure;
 }
 
-constexpr const char* footer =
+constexpr const char* simulate_footer =
     "Each window of simulated time is verified exactly before it is committed to the run, so what is in a run never\n"
     "contains a contact. Where one comes, the run ends (exit 1) with the features, the kind and the exact first time; "
     "the\n"
@@ -112,7 +112,7 @@ ExitCode run(SimulateArguments& arguments) {
 
 Command add_simulate(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("simulate", "Run a scene, certified window by window");
-  command->footer(footer);
+  command->footer(simulate_footer);
   const auto arguments = std::make_shared<SimulateArguments>();
   SimulateRequest& request = arguments->request;
   command->add_option("scene", request.scene, "A scene (`noli schema scene` says what can be in it)")

@@ -33,7 +33,7 @@
 namespace noli::app {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* verify_footer =
     "Decides every step from one frame to the next exactly, and stops after the first step that has a contact.\n"
     "A separate checker, which trusts nothing of this program, checks the proof. The last line is the verdict:\n"
     "  proved      the checker accepted the proof: nothing touches           exit 0\n"
@@ -382,7 +382,7 @@ void add_flags(CLI::App& command, VerifyRequest& request) {
 
 Command add_verify(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("verify", "Did anything touch between these frames?");
-  command->footer(footer);
+  command->footer(verify_footer);
   const auto arguments = std::make_shared<VerifyArguments>();
   add_options(*command, *arguments);
   add_run_options(*command, arguments->request);

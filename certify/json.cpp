@@ -13,7 +13,9 @@ void write(const Json& value, std::size_t depth, std::string& out);
 
 void new_line(std::size_t depth, std::string& out) { out.append(1, '\n').append(2 * depth, ' '); }
 
-std::string quoted(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string json_string(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 void write_array(const Json& array, std::size_t depth, std::string& out) {
   const bool flat = std::none_of(array.begin(), array.end(), [](const Json& item) { return item.is_structured(); });
@@ -35,7 +37,7 @@ void write_object(const Json& object, std::size_t depth, std::string& out) {
   for (const auto& [key, item] : object.items()) {
     if (!first) out += ',';
     new_line(depth + 1, out);
-    out += quoted(key) + ": ";
+    out += json_string(key) + ": ";
     write(item, depth + 1, out);
     first = false;
   }
@@ -51,7 +53,7 @@ void write(const Json& value, std::size_t depth, std::string& out) {
   } else if (value.is_number_float()) {
     out += std::isfinite(value.get<double>()) ? digits17(value.get<double>()) : "null";
   } else if (value.is_string()) {
-    out += quoted(value.get<std::string>());
+    out += json_string(value.get<std::string>());
   } else {
     out += value.dump();
   }

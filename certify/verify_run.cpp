@@ -38,9 +38,9 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
   }
 }
 
-class Run {
+class SequenceVerification {
  public:
-  explicit Run(const VerifyRequest& request)
+  explicit SequenceVerification(const VerifyRequest& request)
       : request_(request),
         inputs_(request.frames, request.polygons),
         sequence_(request.frames, motion_of(request), inputs_.reader()) {
@@ -338,6 +338,6 @@ bool VerifyOutcome::stop_for(const VerifyRequest& request) {
   return interrupted || out_of_time;
 }
 
-VerifyOutcome run_verify(const VerifyRequest& request) { return Run(request)(); }
+VerifyOutcome run_verify(const VerifyRequest& request) { return SequenceVerification(request)(); }
 
 }  // namespace noli

@@ -83,12 +83,12 @@ std::optional<double> filtered(const A& a, const B& b, const Point<Dim>& n, doub
 int sign(const Exact& x) { return static_cast<int>(CGAL::sign(x)); }
 
 /// Doubles in ascending order are integers in ascending order; -0 comes just before 0.
-std::int64_t rank_of(double x) {
+std::int64_t order_of(double x) {
   const auto bits = std::bit_cast<std::int64_t>(x);
   return bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits - 1;
 }
-double of_rank(std::int64_t rank) {
-  return std::bit_cast<double>(rank >= 0 ? rank : std::numeric_limits<std::int64_t>::min() - rank - 1);
+double of_order(std::int64_t order) {
+  return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order - 1);
 }
 
 /// Near the quotient; anything when that is not to be had in double.
@@ -96,20 +96,20 @@ double about(const Exact& a, const Exact& b) { return CGAL::to_double(a) / CGAL:
 
 /// The largest double that is not after the zero of a falling line, which is not before `from`.
 double zero_rounded_down(const Line<Exact>& line, double from) {
-  std::int64_t low = rank_of(from), high = rank_of(infinity);  // of_rank(low) <= zero < of_rank(high)
-  const auto probe = [&](std::int64_t rank) {
-    if (rank > low && rank < high) (sign(value_at(line, of_rank(rank))) >= 0 ? low : high) = rank;
+  std::int64_t low = order_of(from), high = order_of(infinity);  // of_order(low) <= zero < of_order(high)
+  const auto probe = [&](std::int64_t order) {
+    if (order > low && order < high) (sign(value_at(line, of_order(order))) >= 0 ? low : high) = order;
   };
   const double guess = about(line.offset, -line.slope);
   if (std::isfinite(guess)) {
-    for (const std::int64_t step : {0, 1, -1, 64, -64}) probe(rank_of(guess) + step);
+    for (const std::int64_t step : {0, 1, -1, 64, -64}) probe(order_of(guess) + step);
   }
   while (low + 1 < high) probe(std::midpoint(low, high));  // their difference might overflow
-  return of_rank(low);
+  return of_order(low);
 }
 
 template <int Dim, class A, class B>
-double exact(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
+double exact_failure_time(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
   const Line<Exact> line = margin<Exact, Dim>(a, b, n, g);
   if (sign(value_at(line, from)) <= 0) return from;
   return sign(line.slope) >= 0 ? infinity : zero_rounded_down(line, from);
@@ -123,7 +123,7 @@ double failure_time(const A& a, const B& b, const Point<A::dimension>& n, double
   if (rounding_self_test().directed_ok) {
     if (const auto answer = filtered<Dim>(a, b, n, g, from)) return *answer;
   }
-  return exact<Dim>(a, b, n, g, from);
+  return exact_failure_time<Dim>(a, b, n, g, from);
 }
 
 template double failure_time(const Ray<2>&, const Ray<2>&, const Point2&, double, double);

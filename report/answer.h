@@ -25,6 +25,9 @@ struct AnswerPair {
   std::string key, value;
 };
 
+/// How many in a second; 0 where there was no time.
+inline double rate(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
+
 class Answer {
  public:
   explicit Answer(std::string_view verdict, std::initializer_list<AnswerPair> pairs = {})

@@ -19,8 +19,6 @@ std::string names_of(const RunExplanation& e, const ActingLayer& action) {
   return e.log.names.pair(action.pair, vertices_of(action), "and");
 }
 
-double per(double count, double time) { return time > 0 ? count / time : 0; }
-
 // --- JSON ------------------------------------------------------------------------------------------------------------
 
 Json moment_json(const RunExplanation& e, const std::optional<ActingMoment>& moment) {
@@ -67,7 +65,7 @@ Json kinds_json(const RunExplanation& e, double time) {
     if (time == 0) {
       json[kind] = e.events[k];
     } else {
-      json[kind] = per(static_cast<double>(e.events[k]), time);
+      json[kind] = rate(static_cast<double>(e.events[k]), time);
     }
   }
   return json;
@@ -80,10 +78,10 @@ std::string events_text(const RunExplanation& e) {
   for (std::size_t k = 0; k < e.events.size(); ++k) {
     if (e.events[k] == 0) continue;
     text += fmt::format("  {:<12} {:>14} {:>12.4g} a second of simulated time\n", name(static_cast<ForceKind>(k)),
-                        e.events[k], per(static_cast<double>(e.events[k]), e.time));
+                        e.events[k], rate(static_cast<double>(e.events[k]), e.time));
   }
   text += fmt::format("  {:<12} {:>14} {:>12.4g}\n", "breakpoints", e.breakpoints,
-                      per(static_cast<double>(e.breakpoints), e.time));
+                      rate(static_cast<double>(e.breakpoints), e.time));
   return text;
 }
 
@@ -145,13 +143,13 @@ std::string energy_text(const RunExplanation& e) {
 std::string certificates_text(const RunExplanation& e) {
   if (!e.log.has_contact) return "";
   const certificates::CertificateCounts& c = e.log.certificates;
-  const auto rate = [&](std::uint64_t n) { return per(static_cast<double>(n), e.time); };
+  const auto in_a_second = [&](std::uint64_t n) { return rate(static_cast<double>(n), e.time); };
   return fmt::format(
       "Certificates, a second of simulated time: {:.4g} slices, {:.4g} tubes left, {:.4g} plans, {:.4g} repairs, "
       "{:.4g} "
       "activations, {:.4g} deactivations; at most {} near pairs at a time.\n",
-      rate(c.slices), rate(c.tubes), rate(c.plans), rate(c.repairs), rate(c.activations), rate(c.deactivations),
-      c.most_near);
+      in_a_second(c.slices), in_a_second(c.tubes), in_a_second(c.plans), in_a_second(c.repairs),
+      in_a_second(c.activations), in_a_second(c.deactivations), c.most_near);
 }
 
 std::string time_text(const RunExplanation& e) {

@@ -71,7 +71,7 @@ Json too_near_json(const SimulateOutcome& outcome) {
 
 /// What begins within all layers is no matter of the motion.
 std::string too_near_text(const SimulateOutcome& outcome) {
-  const std::string names = on_one_line(outcome.first_names);
+  const std::string pair = on_one_line(outcome.first_names);
   const std::optional<StartGap>& start = outcome.start_gap;
   const std::string begins = start ? fmt::format(
                                          "the scene begins with them {:.6g} m apart, within the thickness of "
@@ -79,13 +79,13 @@ std::string too_near_text(const SimulateOutcome& outcome) {
                                          start->gap, start->thickness, start->last)
                                    : "";
   if (start && outcome.limit->time == 0) {
-    return fmt::format("Too near at the start: {} need more layers of contact than \"most_layers\" allows: {}.", names,
+    return fmt::format("Too near at the start: {} need more layers of contact than \"most_layers\" allows: {}.", pair,
                        begins);
   }
   return fmt::format(
       "Too near in window {}: {} need more layers of contact than \"most_layers\" allows, at {} s{}. The "
       "window is not part of the run.",
-      refused_window(outcome), names, digits17(outcome.limit->time), start ? "; " + begins : "");
+      refused_window(outcome), pair, digits17(outcome.limit->time), start ? "; " + begins : "");
 }
 
 /// All windows are there, and nothing touches in them.
@@ -152,8 +152,6 @@ std::string committed_text(const SimulateRequest& request, const SimulateOutcome
   return fmt::format("{} windows of {} s committed to {}, each verified exactly: {}", outcome.windows,
                      outcome.window_length, run, statement(outcome));
 }
-
-double per(double count, double seconds) { return seconds > 0 ? count / seconds : 0; }
 
 /// What stands behind the verdict.
 std::string place(const SimulateOutcome& outcome) {
@@ -262,8 +260,9 @@ Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& ou
   answer.details += fmt::format(
       "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
       "beside it; {:.0f} MB.\n",
-      outcome.seconds, outcome.simulating_seconds, per(static_cast<double>(outcome.events), outcome.simulating_seconds),
-      outcome.breakpoints, outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
+      outcome.seconds, outcome.simulating_seconds,
+      rate(static_cast<double>(outcome.events), outcome.simulating_seconds), outcome.breakpoints,
+      outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
   answer.details += fmt::format("Busy with: {}.\n", phases_text(outcome.phases));
   return answer;
 }

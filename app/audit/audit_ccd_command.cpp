@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "app/audit/library_options.h"
 #include "app/commands.h"
-#include "app/library_options.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* ccd_footer =
+constexpr const char* audit_ccd_footer =
     "Asks libraries of continuous collision detection each query of the files, and compares with what is exactly true: "
     "false positives,\n"
     "false negatives, times of impact that are late or early, failures, crashes, hangs, memory that grows, time per "
@@ -111,7 +111,7 @@ ExitCode run(AuditArguments& arguments) {
 Command add_audit_ccd(CLI::App& audit) {
   CLI::App* const command =
       audit.add_subcommand("ccd", "Libraries of continuous collision detection, against the truth");
-  command->footer(ccd_footer);
+  command->footer(audit_ccd_footer);
   const auto arguments = std::make_shared<AuditArguments>();
   audit::AuditRequest& request = arguments->request;
   command->add_option("--library", request.libraries, "A library to ask; may be given more than once")

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer =
+constexpr const char* precision_footer =
     "Runs the scene in double and, event by event in the same order, in MPFR numbers of other precisions: how far "
     "apart "
     "positions,\n"
@@ -109,7 +109,7 @@ ExitCode run(const PrecisionArguments& arguments) {
 
 Command add_audit_precision(CLI::App& audit) {
   CLI::App* const command = audit.add_subcommand("precision", "How far double precision carries a scene");
-  command->footer(footer);
+  command->footer(precision_footer);
   const auto arguments = std::make_shared<PrecisionArguments>();
   command->add_option("scene", arguments->scene, "A scene, as for `noli simulate`")
       ->required()

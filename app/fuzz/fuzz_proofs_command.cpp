@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer =
+constexpr const char* proofs_footer =
     "Breaks good proofs in many ways, with and without putting checksums and hashes right again. Both checkers have to "
     "say the same\n"
     "of a mutant, and none may be accepted whose claim is false: that is decided by an oracle that does not look at "
@@ -301,7 +301,7 @@ ExitCode again(const ProofsArguments& arguments) {
 
 Command add_fuzz_proofs(CLI::App& fuzz) {
   CLI::App* const command = fuzz.add_subcommand("proofs", "Broken proofs, on which both checkers have to agree");
-  command->footer(footer);
+  command->footer(proofs_footer);
   const auto arguments = std::make_shared<ProofsArguments>();
   command->add_option("files", arguments->files, "A proof, then the PLY or OBJ files, or the run, that it is about")
       ->type_name("PROOF TRAJECTORY");

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include <noli/errors.h>
+#include "app/audit/library_options.h"
 #include "app/commands.h"
 #include "app/fuzz/fuzz_options.h"
-#include "app/library_options.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer =
+constexpr const char* scenes_footer =
     "Small scenes with one thing about them extreme: each is simulated, its run verified and its proof checked, and "
     "simulated again\n"
     "with an interruption, after which it has to go on with the same bytes. Some are wrong in one place, which the "
@@ -185,7 +185,7 @@ ExitCode again(const ScenesArguments& arguments) {
 Command add_fuzz_scenes(CLI::App& fuzz_app) {
   CLI::App* const command =
       fuzz_app.add_subcommand("scenes", "Extreme and invalid scenes, through simulate, verify, check and resume");
-  command->footer(footer);
+  command->footer(scenes_footer);
   const auto arguments = std::make_shared<ScenesArguments>();
   add_fuzz_options(*command, arguments->common, "scenes");
   add_again_options(*command, arguments->again, "scene", "SCENE.json", {});

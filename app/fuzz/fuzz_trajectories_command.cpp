@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer =
+constexpr const char* trajectories_footer =
     "Motions of small meshes whose contacts are planted at a known time and place, or missed by one unit:\n"
     "written as PLY or OBJ, read back, given to `noli verify`, and its proof or witness to both checkers. A\n"
     "wrong answer is made smaller and saved as frames, with the command that shows it again. With --library\n"
@@ -196,7 +196,7 @@ ExitCode run(TrajectoriesArguments& arguments) {
 Command add_fuzz_trajectories(CLI::App& fuzz_app) {
   CLI::App* const command = fuzz_app.add_subcommand(
       "trajectories", "Motions with planted contacts, through files, verifier, proof and both checkers, or a library");
-  command->footer(footer);
+  command->footer(trajectories_footer);
   const auto arguments = std::make_shared<TrajectoriesArguments>();
   add_fuzz_options(*command, arguments->common, "motions");
   command->add_option("--max-findings", arguments->max_findings, "Make smaller and save at most so many")

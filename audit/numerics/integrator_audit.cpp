@@ -17,7 +17,7 @@ using integrator::Model;
 
 /// A pass that is shorter is made again, up to so often.
 constexpr double short_pass = 0.1;
-constexpr int most_passes = 5;
+constexpr int most_repetitions = 5;
 
 struct Interrupted {};
 struct NotFinite {};
@@ -198,7 +198,7 @@ class Audit {
       last = checked(run());
       seconds.push_back(last.seconds);
       sum += last.seconds;
-    } while (sum < short_pass && seconds.size() < most_passes);
+    } while (sum < short_pass && seconds.size() < most_repetitions);
     std::sort(seconds.begin(), seconds.end());
     IntegratorPoint point{factor, step, last.events, last.finite, last.converged, {}, seconds[seconds.size() / 2]};
     if (last.finite) point.errors = reference.errors(model_, last.samples);

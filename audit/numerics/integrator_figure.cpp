@@ -18,16 +18,16 @@ using report::LogScale;
 using report::Svg;
 using report::Tick;
 
-constexpr const char* grey = "#444444";
-constexpr double panel_width = 380, panel_height = 300, gap_x = 110, gap_y = 110, left = 96, top = 84;
+constexpr const char* axis_grey = "#444444";
+constexpr double panel_size_x = 380, panel_size_y = 300, gap_x = 110, gap_y = 110, margin_left = 96, margin_top = 84;
 
-constexpr std::size_t columns = 2;  ///< of panels
+constexpr std::size_t panel_columns = 2;  ///< of panels
 
-struct Quantity {
+struct ErrorPanel {
   const char* words;
   double IntegratorErrors::*error;
 };
-constexpr std::array<Quantity, 4> quantities = {
+constexpr std::array<ErrorPanel, 4> error_panels = {
     {{"error of the trajectory [m]", &IntegratorErrors::trajectory},
      {"error of energy / largest kinetic", &IntegratorErrors::energy},
      {"error of momentum / largest", &IntegratorErrors::momentum},
@@ -48,20 +48,20 @@ const char* words_of(const std::string& method) {
 void axes(Svg& svg, const LogScale& x, const LogScale& y, const char* words) {
   for (const Tick& tick : logarithmic_ticks(x.low, x.high)) {
     svg.line({x(tick.value), y.to}, {x(tick.value), y.from}, "#eeeeee");
-    svg.line({x(tick.value), y.from}, {x(tick.value), y.from + 5}, grey);
+    svg.line({x(tick.value), y.from}, {x(tick.value), y.from + 5}, axis_grey);
     svg.text({x(tick.value), y.from + 20}, tick.words, Anchor::middle);
   }
   for (const Tick& tick : logarithmic_ticks(y.low, y.high)) {
     svg.line({x.from, y(tick.value)}, {x.to, y(tick.value)}, "#eeeeee");
-    svg.line({x.from - 5, y(tick.value)}, {x.from, y(tick.value)}, grey);
+    svg.line({x.from - 5, y(tick.value)}, {x.from, y(tick.value)}, axis_grey);
     svg.text({x.from - 9, y(tick.value) + 4.5}, tick.words, Anchor::end);
   }
-  svg.frame({x.from, y.to}, {x.to - x.from, y.from - y.to}, grey);
+  svg.frame({x.from, y.to}, {x.to - x.from, y.from - y.to}, axis_grey);
   svg.text({0.5 * (x.from + x.to), y.from + 42}, "run time [s]", Anchor::middle);
   svg.text({x.from - 68, 0.5 * (y.from + y.to)}, words, Anchor::middle, true);
 }
 
-void panel(Svg& svg, const IntegratorResult& result, const Quantity& quantity, Svg::Point corner) {
+void panel(Svg& svg, const IntegratorResult& result, const ErrorPanel& quantity, Svg::Point corner) {
   std::vector<double> times, errors;
   for (const MethodResult& method : result.methods) {
     for (const IntegratorPoint& point : method.points) {
@@ -70,8 +70,8 @@ void panel(Svg& svg, const IntegratorResult& result, const Quantity& quantity, S
       errors.push_back(point.errors.*quantity.error);
     }
   }
-  const LogScale x = logarithmic_scale(times, corner[0], corner[0] + panel_width);
-  const LogScale y = logarithmic_scale(errors, corner[1] + panel_height, corner[1]);
+  const LogScale x = logarithmic_scale(times, corner[0], corner[0] + panel_size_x);
+  const LogScale y = logarithmic_scale(errors, corner[1] + panel_size_y, corner[1]);
   axes(svg, x, y, quantity.words);
   for (const MethodResult& method : result.methods) {
     std::vector<Svg::Point> points;
@@ -84,7 +84,7 @@ void panel(Svg& svg, const IntegratorResult& result, const Quantity& quantity, S
 }
 
 void legend(Svg& svg, const IntegratorResults& results) {
-  double x = left;
+  double x = margin_left;
   for (const MethodResult& method : results.front().methods) {
     svg.rectangle({x, 42}, {9, 9}, colour_of(method.method));
     svg.text({x + 15, 51}, words_of(method.method));
@@ -96,17 +96,18 @@ void legend(Svg& svg, const IntegratorResults& results) {
 
 std::string integrator_svg(const IntegratorResults& results) {
   const std::string title = "Integration: error against run time";
-  const std::size_t rows = (quantities.size() + columns - 1) / columns;  // of a scene
-  Svg svg(left + static_cast<double>(columns) * (panel_width + gap_x) - gap_x + 30,
-          top + static_cast<double>(rows * results.size()) * (panel_height + gap_y), title);
-  svg.text({left, 28}, title);
+  const std::size_t rows = (error_panels.size() + panel_columns - 1) / panel_columns;  // of a scene
+  Svg svg(margin_left + static_cast<double>(panel_columns) * (panel_size_x + gap_x) - gap_x + 30,
+          margin_top + static_cast<double>(rows * results.size()) * (panel_size_y + gap_y), title);
+  svg.text({margin_left, 28}, title);
   if (!results.empty()) legend(svg, results);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const double y = top + static_cast<double>(rows * i) * (panel_height + gap_y);
-    svg.text({left, y - 8}, on_one_line(results[i].title));
-    for (std::size_t k = 0; k < quantities.size(); ++k) {
-      const auto column = static_cast<double>(k % columns), row = static_cast<double>(k / columns);
-      panel(svg, results[i], quantities[k], {left + column * (panel_width + gap_x), y + row * (panel_height + gap_y)});
+    const double y = margin_top + static_cast<double>(rows * i) * (panel_size_y + gap_y);
+    svg.text({margin_left, y - 8}, on_one_line(results[i].title));
+    for (std::size_t k = 0; k < error_panels.size(); ++k) {
+      const auto column = static_cast<double>(k % panel_columns), row = static_cast<double>(k / panel_columns);
+      panel(svg, results[i], error_panels[k],
+            {margin_left + column * (panel_size_x + gap_x), y + row * (panel_size_y + gap_y)});
     }
   }
   return svg.finish();

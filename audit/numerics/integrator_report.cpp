@@ -62,7 +62,7 @@ Json timing_json(const IntegratorResult& result) {
 
 // --- text ------------------------------------------------------------------------------------------------------------
 
-std::string number(double x) { return fmt::format("{:.2g}", x); }
+std::string two_digits(double x) { return fmt::format("{:.2g}", x); }
 
 /// How many times smaller the error of the trajectory became, as a power of the step's factor.
 std::string order(const MethodResult& method, std::size_t i) {
@@ -76,9 +76,9 @@ std::string order(const MethodResult& method, std::size_t i) {
 void append_rows(const MethodResult& method, std::vector<TableRow>& rows) {
   for (std::size_t i = 0; i < method.points.size(); ++i) {
     const IntegratorPoint& point = method.points[i];
-    const auto of = [&](double error) { return point.finite ? number(error) : std::string("not finite"); };
+    const auto of = [&](double error) { return point.finite ? two_digits(error) : std::string("not finite"); };
     rows.push_back({method.method + (point.converged ? "" : " (not solved)"), fmt::format("{:g}", point.factor),
-                    number(point.least_step), std::to_string(point.events), of(point.errors.trajectory),
+                    two_digits(point.least_step), std::to_string(point.events), of(point.errors.trajectory),
                     order(method, i), of(point.errors.energy), of(point.errors.momentum),
                     of(point.errors.angular_momentum), fmt::format("{:.3g}", point.seconds)});
   }
@@ -96,7 +96,8 @@ void append_result(const IntegratorResult& result, std::string& text) {
   text += table_text(rows, 1);
   const IntegratorErrors& u = result.uncertainty;
   fmt::format_to(out, "The reference itself is uncertain by: trajectory {} m, energy {}, momentum {}, angular {}.\n",
-                 number(u.trajectory), number(u.energy), number(u.momentum), number(u.angular_momentum));
+                 two_digits(u.trajectory), two_digits(u.energy), two_digits(u.momentum),
+                 two_digits(u.angular_momentum));
   if (!result.plain) {
     text +=
         "With damping, scripts or contact `verlet` is this integrator with one step for all forces, "

@@ -11,7 +11,7 @@
 namespace noli::audit {
 namespace {
 
-std::string number(double x) { return fmt::format("{:.3g}", x); }
+std::string three_digits(double x) { return fmt::format("{:.3g}", x); }
 
 /// The last window that is as far as runs can be compared.
 const EnergyError* last_in_order(const PrecisionOutcome& outcome) {
@@ -39,22 +39,17 @@ std::string vertices_text(const certificates::Stencil& pair) {
 
 // --- text ------------------------------------------------------------------------------------------------------------
 
-std::string first_time(const CourseChanges::Way& way) { return way.first ? number(way.first->time) : "-"; }
+std::string first_time(const CourseChanges::Way& way) { return way.first ? three_digits(way.first->time) : "-"; }
 
 TableRow row_of(const PrecisionRun& run, std::size_t windows) {
   windows = std::min(windows, run.drifts.size());
   const Drift last = windows > 0 ? run.drifts[windows - 1] : Drift{};
   const CourseChanges& changes = run.changes;
-  return {std::to_string(run.arithmetic.bits),
-          number(greatest_position(run, windows)),
-          number(last.position),
-          number(last.position_rms),
-          number(last.energy),
-          number(last.momentum),
-          number(last.angular_momentum),
-          first_time(changes.acts),
-          first_time(changes.corners),
-          first_time(changes.parts),
+  return {std::to_string(run.arithmetic.bits), three_digits(greatest_position(run, windows)),
+          three_digits(last.position),         three_digits(last.position_rms),
+          three_digits(last.energy),           three_digits(last.momentum),
+          three_digits(last.angular_momentum), first_time(changes.acts),
+          first_time(changes.corners),         first_time(changes.parts),
           first_time(changes.sticks)};
 }
 
@@ -72,26 +67,28 @@ std::string order_text(const PrecisionOutcome& outcome) {
   const auto& acts = outcome.runs.back().changes.acts.first;
   if (acts && acts->time == *time) {
     return fmt::format("Order of events: another from {} s on, when layer {} acts between vertices {} in {} only.\n",
-                       number(*time), acts->layer, vertices_text(acts->pair),
+                       three_digits(*time), acts->layer, vertices_text(acts->pair),
                        acts->acts_in_double ? "double" : fmt::format("{} bits", outcome.runs.back().arithmetic.bits));
   }
   return fmt::format(
       "Order of events: another from {} s on, where {} comes before {}, which double has at one time and the other way "
       "round.\n",
-      number(*time), outcome.tie->first, outcome.tie->second);
+      three_digits(*time), outcome.tie->first, outcome.tie->second);
 }
 
 std::string energy_text(const PrecisionOutcome& outcome) {
   if (last_in_order(outcome) == nullptr) return "";
   const EnergyError& last = *last_in_order(outcome);
-  const std::string head = fmt::format("Energy of double at {} s: {} J. ", number(last.time), number(last.energy));
+  const std::string head =
+      fmt::format("Energy of double at {} s: {} J. ", three_digits(last.time), three_digits(last.energy));
   if (outcome.not_conserved) {
     return head +
            fmt::format("Gained by rounding {} J. It is not conserved here ({}), so that truncation cannot be told.\n",
-                       number(last.rounding), *outcome.not_conserved);
+                       three_digits(last.rounding), *outcome.not_conserved);
   }
   return head + fmt::format("Gained by truncation {} J, by rounding {} J: rounding is {} of both.\n",
-                            number(last.truncation), number(last.rounding), number(last.share_of_rounding()));
+                            three_digits(last.truncation), three_digits(last.rounding),
+                            three_digits(last.share_of_rounding()));
 }
 
 // --- JSON ------------------------------------------------------------------------------------------------------------
@@ -162,17 +159,17 @@ report::Answer precision_answer(const PrecisionOutcome& outcome) {
   const bool compared = !outcome.energies.empty();
   const double time = compared ? outcome.energies.back().time : 0;
   const auto if_compared = [&](const std::string& text) { return compared ? text : std::string("unknown"); };
-  const std::string position = number(greatest_position(outcome.runs.back(), outcome.windows_in_order()));
+  const std::string position = three_digits(greatest_position(outcome.runs.back(), outcome.windows_in_order()));
   report::Answer answer(precision_verdict(outcome),
                         {{"windows", outcome.windows},
-                         {"time", number(time)},
+                         {"time", three_digits(time)},
                          {"vertices", outcome.vertices},
                          {"events", outcome.events},
                          {"examined", outcome.examined},
                          {"impulses", outcome.impulses},
                          {"bits", outcome.runs.back().arithmetic.bits},
                          {"position", if_compared(position)},
-                         {"order_changes", changes ? number(*changes) : if_compared("none")},
+                         {"order_changes", changes ? three_digits(*changes) : if_compared("none")},
                          {"complete", outcome.complete}});
   std::string& text = answer.text;
   if (outcome.difference) {

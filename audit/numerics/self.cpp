@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <noli/errors.h>
+#include "audit/numerics/stability_point.h"
 #include "audit/numerics/stability_rows.h"
 #include "certify/process/run_program.h"
 #include "certify/process/scratch_folder.h"
@@ -54,11 +55,6 @@ std::string told(const ProgramEnd& run) {
   const std::string words =
       run.out.starts_with("verdict") || run.err.empty() ? first_line(run.out) : first_complaint(run.err);
   return run.brief() + ": " + (words.empty() ? "it says nothing" : on_one_line(words));
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string milliseconds(nanoseconds time) {

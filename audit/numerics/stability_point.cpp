@@ -23,11 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A table of numbers with a line of names (`noli export --figure ... -o FILE.csv`).
 class Columns {
  public:
@@ -299,6 +294,11 @@ class Asking {
 };
 
 }  // namespace
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 StabilityPoint ask_point(const StabilityCase& what, const fs::path& folder, const StabilityOptions& options) {
   Asking asking(folder, options);

@@ -14,4 +14,7 @@ namespace noli::audit {
 StabilityPoint ask_point(const StabilityCase& what, const std::filesystem::path& folder,
                          const StabilityOptions& options);
 
+/// Of a file; nothing where it cannot be read.
+std::string bytes_of(const std::filesystem::path& path);
+
 }  // namespace noli::audit

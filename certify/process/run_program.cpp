@@ -13,7 +13,7 @@ bool plain(const std::string& word) {
   return !word.empty() && word.find_first_not_of(harmless) == std::string::npos;
 }
 
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
   if (plain(word)) return word;
   std::string result = "'";
   for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -28,7 +28,7 @@ ProgramEnd run_program(std::vector<std::string> words, const ProgramLimits& limi
 
 std::string shell_words(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
   return line;
 }
 

@@ -11,7 +11,7 @@ namespace noli {
 namespace {
 
 /// The groups of cells, and those pairs of them that have cells on both sides.
-CellLabels labels_of(const Mesh& mesh, const Exclusions* exclusions) {
+CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions) {
   CellLabels labels{std::vector<std::uint32_t>(mesh.cell_count(), 0), {}};
   if (exclusions == nullptr) return labels;
   for (std::uint32_t c = 0; c < labels.of.size(); ++c) labels.of[c] = exclusions->groups[corners(mesh, c)[0]];
@@ -59,7 +59,7 @@ Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome
   claim.ring = request.ring;
   claim.merged = outcome.merged_vertices;
   claim.to = request.constant_motion ? 1 : static_cast<double>(outcome.steps_total);
-  const CellLabels labels = labels_of(mesh, exclusions);
+  const CellLabels labels = labels_of_frames(mesh, exclusions);
   set_cells(claim, mesh, labels.of, labels.excluded);
   return claim;
 }
@@ -72,7 +72,7 @@ FrameProof::FrameProof(const VerifyRequest& request, const Claim& claim, int dim
       ring_(request.ring),
       strict_(request.strict),
       rest_(request.constant_motion),
-      labels_(labels_of(mesh, exclusions)),
+      labels_(labels_of_frames(mesh, exclusions)),
       paths_(mesh, request.ring),
       file_(make_file(request, claim, dimension, mesh, classes, labels_)) {
   if (is_by_verifier(request)) return;

@@ -7,7 +7,7 @@
 namespace noli {
 namespace {
 
-CellLabels labels_of(const RunScene& scene) {
+CellLabels labels_of_scene(const RunScene& scene) {
   std::vector<std::uint8_t> scripted;
   for (const std::uint8_t label : scene.labels) scripted.push_back(label & scripted_vertex);
   return labels_of_run(scene.mesh, scripted, scene.exclusions);
@@ -40,7 +40,7 @@ CommitPoint last_commit(const std::filesystem::path& file, std::uint64_t groups)
 }  // namespace
 
 void set_cells_of_run(Claim& claim, const RunScene& scene) {
-  const CellLabels labels = labels_of(scene);
+  const CellLabels labels = labels_of_scene(scene);
   set_cells(claim, scene.mesh, labels.of, labels.excluded);
 }
 
@@ -55,7 +55,7 @@ RunProof::RunProof(const RunScene& scene, const WindowVerifier& verifier, const 
     : scene_(scene),
       verifier_(verifier),
       claim_(claim),
-      labels_(labels_of(scene)),
+      labels_(labels_of_scene(scene)),
       paths_(scene_.mesh, claim.ring),
       file_(open(header_of(scene, claim, labels_))) {}
 

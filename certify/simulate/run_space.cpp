@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 /// line of the log. Of its proof: step and commit, and 20 (in the plane) to 125 bytes for each cell.
 constexpr double window_overhead = 900, proof_overhead = 200, proof_of_cell = 110;
 /// Of series.h5: a row for each window, and what it has without any.
-constexpr double series_row = 450, series_overhead = 25e3;
+constexpr double series_row_size = 450, series_file_size = 25e3;
 
 /// The folder, or the nearest one above it that is there.
 fs::path there_or_above(fs::path folder) {
@@ -56,7 +56,7 @@ RunBytes bytes_to_come(const integrator::Scene& scene, const integrator::Explana
   bytes.motion = to_come * bytes_a_window(scene, explanation, run);
   if (!run.series) return bytes;
   const double frames = windows * scene.window * scene.frame_rate + 1;  // the file is written anew, as a whole
-  bytes.series = frames * (24.0 * static_cast<double>(run.vertices) + 8) + windows * series_row + series_overhead;
+  bytes.series = frames * (24.0 * static_cast<double>(run.vertices) + 8) + windows * series_row_size + series_file_size;
   return bytes;
 }
 

@@ -74,9 +74,9 @@ StepResult as_step(WindowResult window) {
 }
 
 template <int Dim>
-class Run {
+class CertifiedRun {
  public:
-  Run(const SimulateRequest& request, const integrator::Scene& scene)
+  CertifiedRun(const SimulateRequest& request, const integrator::Scene& scene)
       : request_(request),
         built_(integrator::build_model<Dim>(scene)),
         names_(names_of(built_.bodies)),
@@ -561,7 +561,7 @@ SimulateOutcome stopped_early(const SimulateRequest& request, const integrator::
 
 template <int Dim>
 SimulateOutcome run_in(const SimulateRequest& request, const integrator::Scene& scene) {
-  std::optional<Run<Dim>> run;
+  std::optional<CertifiedRun<Dim>> run;
   try {
     run.emplace(request, scene);
   } catch (const Stopped& stop) {

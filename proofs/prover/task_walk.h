@@ -57,6 +57,9 @@ struct WalkOutcome {
   bool finished = false;
 };
 
+/// A window's walk is cut into tasks about no fewer cells.
+inline constexpr std::uint32_t least_window_grain = 64;
+
 /// `Positions`, `Out`: as in proofs/prover/traversal.h.
 template <class Positions, class Out>
 class TaskWalk {

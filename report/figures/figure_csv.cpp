@@ -32,7 +32,7 @@ std::string of(const char* what, std::size_t kind) {
   return fmt::format("{}_{} [J]", what, name(static_cast<ForceKind>(kind)));
 }
 
-std::string steps(const FigureData& data) {
+std::string steps_table(const FigureData& data) {
   StepHistogram all;
   for (const auto& window : data.windows) all.add(window.row.steps);
   Table table;
@@ -58,7 +58,7 @@ std::string steps(const FigureData& data) {
   return table.finish();
 }
 
-std::string energy(const FigureData& data) {
+std::string energy_table(const FigureData& data) {
   Table table;
   for (const char* column : {"time [s]", "kinetic [J]", "kinetic_mean [J]"}) table.name(column);
   for (const char* what : {"potential", "work", "damping_work"}) {
@@ -76,7 +76,7 @@ std::string energy(const FigureData& data) {
   return table.finish();
 }
 
-std::string momentum(const FigureData& data) {
+std::string momentum_table(const FigureData& data) {
   Table table;
   table.name("time [s]");
   for (const char* what : {"momentum", "angular_momentum"}) {
@@ -95,6 +95,6 @@ std::string momentum(const FigureData& data) {
 
 }  // namespace
 
-FigureWriters csv_writers() { return {steps, energy, momentum}; }
+FigureWriters csv_writers() { return {steps_table, energy_table, momentum_table}; }
 
 }  // namespace noli::report

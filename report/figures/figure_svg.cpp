@@ -14,7 +14,7 @@ namespace {
 using integrator::ForceKind;
 using Point = Svg::Point;
 
-constexpr double width = 900, left = 96, right = 700;
+constexpr double page_width = 900, field_left = 96, field_right = 700;
 constexpr std::size_t most_columns = 600;  ///< about one for each pixel
 
 std::string titled(const FigureData& data, const std::string& what) {
@@ -22,7 +22,7 @@ std::string titled(const FigureData& data, const std::string& what) {
 }
 
 Scale time_scale(const FigureData& data) {
-  return {data.windows.front().begin, data.windows.back().row.time, left, right};
+  return {data.windows.front().begin, data.windows.back().row.time, field_left, field_right};
 }
 
 // --- steps -----------------------------------------------------------------------------------------------------------
@@ -91,7 +91,7 @@ std::vector<Point> area(const Field& field, const std::vector<Column>& columns, 
 void colour_bar(Svg& svg, const Shown& shown, const Field& field) {
   const double low = bin_begin(shown.first), high = bin_begin(shown.last + 1);
   const Scale scale{std::log10(low), std::log10(high), field.y.from, field.y.to};
-  constexpr double x = right + 40, thick = 22;
+  constexpr double x = field_right + 40, thick = 22;
   for (std::int64_t bin = shown.first; bin <= shown.last; ++bin) {
     const double bottom = scale(std::log10(bin_begin(bin))), top = scale(std::log10(bin_begin(bin + 1)));
     svg.rectangle({x, top}, {thick, bottom - top + (bin > shown.first ? 0.5 : 0)}, shown.fill(bin));
@@ -109,8 +109,8 @@ std::string steps(const FigureData& data) {
   const std::vector<Column> columns = columns_of(data);
   const bool free = std::any_of(columns.begin(), columns.end(), [](const Column& c) { return !c.steps.bins.empty(); });
   const std::string title = titled(data, "steps of vertices");
-  Svg svg(width, 470, title);
-  svg.text({left, 30}, title);
+  Svg svg(page_width, 470, title);
+  svg.text({field_left, 30}, title);
   const Field field{time_scale(data), {0, 100, 400, 50}};
   if (free) {
     const Shown shown(columns);
@@ -169,8 +169,8 @@ void draw(Svg& svg, const FigureData& data, const std::vector<Curve>& curves, co
     const char* const stroke = colours[i % std::size(colours)];
     svg.polyline(points_of(data, curves[i], field), stroke, 1.6);
     const double y = field.y.to + 14 + 20 * static_cast<double>(i);
-    svg.line({right + 20, y - 4}, {right + 44, y - 4}, stroke);
-    svg.text({right + 52, y}, curves[i].name);
+    svg.line({field_right + 20, y - 4}, {field_right + 44, y - 4}, stroke);
+    svg.text({field_right + 52, y}, curves[i].name);
   }
   field.axes(svg, "time [s]", y_words);
 }
@@ -207,8 +207,8 @@ std::vector<Curve> energies(const FigureData& data) {
 
 std::string energy(const FigureData& data) {
   const std::string title = titled(data, "energy");
-  Svg svg(width, 470, title);
-  svg.text({left, 30}, title);
+  Svg svg(page_width, 470, title);
+  svg.text({field_left, 30}, title);
   const std::vector<Curve> curves = energies(data);
   draw(svg, data, curves, {time_scale(data), value_scale(curves, 400, 50)}, "energy [J]");
   return svg.finish();
@@ -216,8 +216,8 @@ std::string energy(const FigureData& data) {
 
 std::string momentum(const FigureData& data) {
   const std::string title = titled(data, "momentum");
-  Svg svg(width, 790, title);
-  svg.text({left, 30}, title);
+  Svg svg(page_width, 790, title);
+  svg.text({field_left, 30}, title);
   std::vector<Curve> linear, angular;
   static constexpr const char* axes[] = {"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -15,7 +15,7 @@ Stencil pair_of(std::uint32_t a, std::uint32_t b) {
 }
 
 TEST(PairNumbers, AreThoseOfAMapWhateverComesAndGoes) {
-  test::Random random(1);
+  noli::test::Random random(1);
   constexpr int firsts = 4, seconds = 7;
   PairNumbers numbers(firsts);
   std::map<PairKey, std::uint32_t> expected;

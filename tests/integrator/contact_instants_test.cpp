@@ -22,7 +22,7 @@ using test::Instants;
 
 const std::filesystem::path folder = std::filesystem::path(NOLI_SOURCE_DIR) / "scenes";
 
-const std::vector<std::string> with_contact = {
+const std::vector<std::string> scenes_with_contact = {
     "billiard",      "bounce",       "bowline",   "compactor",   "curtains",        "drape_mesh",
     "drape_sphere",  "graded_sheet", "incline",   "nails",       "plane_compactor", "plane_compactor_elastic",
     "plane_curtain", "plane_nails",  "reef_knot", "restitution", "ring_in_box",     "sphere_plate",
@@ -34,7 +34,7 @@ TEST(Instants, AreLookedAtOfEachSceneWithContact) {
     if (entry.path().extension() != ".json") continue;
     if (read_scene(entry.path(), Form::brief).contact) names.insert(entry.path().stem().string());
   }
-  EXPECT_EQ(names, std::set<std::string>(with_contact.begin(), with_contact.end()));
+  EXPECT_EQ(names, std::set<std::string>(scenes_with_contact.begin(), scenes_with_contact.end()));
 }
 
 /// At the first `most` instants; `blind`: with no word of the layers that are active.
@@ -68,8 +68,8 @@ void report(const std::string& name, const InstantCounts& c) {
 
 class InstantsOf : public testing::TestWithParam<std::string> {};
 
-const auto name_of = [](const auto& scene) { return scene.param; };
-INSTANTIATE_TEST_SUITE_P(Scenes, InstantsOf, testing::ValuesIn(with_contact), name_of);
+INSTANTIATE_TEST_SUITE_P(Scenes, InstantsOf, testing::ValuesIn(scenes_with_contact),
+                         [](const auto& scene) { return scene.param; });
 
 TEST_P(InstantsOf, SlowNoPairIsNearerThanItsNextLayer) {
   const InstantCounts c = look(GetParam());

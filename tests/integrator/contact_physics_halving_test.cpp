@@ -158,15 +158,15 @@ TEST(Incline, BoxesStickAndSlide) {
 std::vector<double> speed_ratios(Model<double, 2> model, std::size_t balls) {
   model.window_length = 0.01;  // the lowest rise takes 0.045 s
   Simulation<double, 2> simulation(model);
-  const double eta = model.contact->materials[0].thickness;
+  const double thickness = model.contact->materials[0].thickness;
   std::vector<double> fall(balls), rise(balls);
   for (int w = 0; w < 200; ++w) {
     test::run(simulation, 1);
     const auto s = simulation.snapshot();
     const auto mean = simulation.mean_velocities();
     for (std::size_t i = 0; i < balls; ++i) {
-      if (s.x[i][1] < eta) continue;
-      const double speed = std::sqrt(mean[i].squaredNorm() + 2 * 9.8 * (s.x[i][1] - eta));
+      if (s.x[i][1] < thickness) continue;
+      const double speed = std::sqrt(mean[i].squaredNorm() + 2 * 9.8 * (s.x[i][1] - thickness));
       if (fall[i] == 0) fall[i] = speed;
       if (s.v[i][1] > 0 && rise[i] == 0) rise[i] = speed;
     }

@@ -17,7 +17,7 @@ namespace {
 std::uint64_t work_of(const certificates::CertificateCounts& c) { return c.repairs + c.plans + c.tubes; }
 
 /// Events by the time at which they are.
-class Instants {
+class InstantSet {
  public:
   void add(double t, std::uint64_t events) {
     sum_ = t == time_ ? sum_ + events : events;
@@ -67,7 +67,7 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
   NoRecording nothing;
   Account<double, 3> account;
   contact.start(0);
-  Instants failures, plans, fired;
+  InstantSet failures, plans, fired;
   for (;;) {
     const double certificate = contact.next_certificate(), layer = contact.next_layer();
     const double t = std::min(certificate, layer);

@@ -23,8 +23,6 @@ using integrator::VertexVectors;
 using test::greatest;
 using test::Random;
 
-constexpr int shapes = 100;
-
 /// A turn by 36.87... degrees: cosine 0.8, sine 0.6.
 Vec<double, 3> moved(const Vec<double, 3>& x) {
   return {0.8 * x[0] - 0.6 * x[1] + 3, 0.6 * x[0] + 0.8 * x[1] - 2, x[2] + 1};
@@ -44,7 +42,7 @@ void expect_no_force_at_rest(const F& force, VertexVectors<double, F::dimension,
 
 TEST(RestTest, NoForceWhereTheForceWasMade) {
   Random random(5);
-  for (int i = 0; i < shapes; ++i) {
+  for (int i = 0; i < test::shape_count; ++i) {
     // Shapes that are not slivers: a scaled unit shape, disturbed.
     const auto r = test::random_stencil<4, 3>(random, 0.2);
     const Vec<double, 3> x0 = r[0], x1 = r[1] + Vec<double, 3>(1, 0, 0), x2 = r[2] + Vec<double, 3>(0, 1, 0),

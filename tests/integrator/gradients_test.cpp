@@ -24,8 +24,6 @@ using test::Big;
 using test::greatest;
 using test::Random;
 
-constexpr int shapes = 100;
-
 template <class S, int Dim, std::size_t N>
 VertexVectors<S, Dim, N> minus(const VertexVectors<S, Dim, N>& a, const VertexVectors<S, Dim, N>& b) {
   VertexVectors<S, Dim, N> result;
@@ -96,7 +94,7 @@ TYPED_TEST_SUITE(Elastic, AllForces);
 
 TYPED_TEST(Elastic, GradientIsThatOfTheEnergy) {
   Random random(1);
-  for (int i = 0; i < shapes; ++i) {
+  for (int i = 0; i < test::shape_count; ++i) {
     const auto force = this->force(random);
     const auto x = this->shape(random);
     const auto big = test::convert<Big>(force);
@@ -109,7 +107,7 @@ TYPED_TEST(Elastic, GradientIsThatOfTheEnergy) {
 
 TYPED_TEST(Elastic, MeasureGradientsAreThoseOfTheMeasures) {
   Random random(2);
-  for (int i = 0; i < shapes; ++i) {
+  for (int i = 0; i < test::shape_count; ++i) {
     const auto force = this->force(random);
     const auto x = this->shape(random);
     const auto big = test::convert<Big>(force);
@@ -141,7 +139,7 @@ std::vector<Big> strains(const F& f, const VertexVectors<Big, Dim, N>& x) {
 /// The energy is at most that of springs on the measures, of the stiffness that step estimates use.
 TYPED_TEST(Elastic, StiffnessBoundsTheEnergy) {
   Random random(3);
-  for (int i = 0; i < shapes; ++i) {
+  for (int i = 0; i < test::shape_count; ++i) {
     const auto force = test::convert<Big>(this->force(random));
     const auto x = test::to_big(this->shape(random));
     const auto s = strains(force, x);
@@ -156,7 +154,7 @@ TYPED_TEST(Elastic, StiffnessBoundsTheEnergy) {
 TYPED_TEST(Elastic, NeitherPushesNorTurnsAsAWhole) {
   constexpr int Dim = TypeParam::dimension;
   Random random(4);
-  for (int i = 0; i < shapes; ++i) {
+  for (int i = 0; i < test::shape_count; ++i) {
     const auto force = this->force(random);
     const auto x = this->shape(random);
     auto all = force.measure_gradients(x);

@@ -21,7 +21,7 @@ std::vector<certificates::PairKey> keys(const PairList& list) {
 }
 
 TEST(PairList, IsASortedSetWhateverJoinsAndLeaves) {
-  test::Random random(1);
+  noli::test::Random random(1);
   PairList list;
   std::map<certificates::PairKey, certificates::Stencil> expected;
   for (int round = 0; round < 300; ++round) {

@@ -10,6 +10,9 @@
 
 namespace noli::test {
 
+/// Of each force so many shapes are tried.
+inline constexpr int shape_count = 100;
+
 /// Each coordinate in [-reach, reach).
 template <std::size_t N, int Dim>
 integrator::VertexVectors<double, Dim, N> random_stencil(Random& random, double reach) {

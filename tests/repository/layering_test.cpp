@@ -13,12 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lines(const std::vector<std::string>& all) {
-  std::string text;
-  for (const std::string& line : all) text += line + "\n";
-  return text;
-}
-
 TEST(Layering, TheProjectKeepsTheTable) {
   const auto violations = layering_violations(NOLI_SOURCE_DIR);
   EXPECT_TRUE(violations.empty()) << lines(violations);

@@ -59,12 +59,6 @@ std::vector<std::string> dead_places(const fs::path& root, const std::string& te
   return dead;
 }
 
-std::string lines(const std::vector<std::string>& all) {
-  std::string text;
-  for (const std::string& line : all) text += line + "\n";
-  return text;
-}
-
 TEST(Links, OfDocumentsLeadSomewhere) {
   int seen = 0;
   for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) {

@@ -61,4 +61,10 @@ std::string quoted(const std::string& text) {
   return word + "'";
 }
 
+std::string lines(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& line : all) text += line + "\n";
+  return text;
+}
+
 }  // namespace noli::repository

@@ -35,4 +35,7 @@ CommandResult run(const std::string& command);
 /// The text as one word of a shell command.
 std::string quoted(const std::string& text);
 
+/// Each on a line of its own.
+std::string lines(const std::vector<std::string>& all);
+
 }  // namespace noli::repository

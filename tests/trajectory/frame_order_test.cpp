@@ -24,7 +24,7 @@ Paths cloth(const std::vector<int>& numbers) {
   return paths;
 }
 
-std::string refusal(const Paths& frames) {
+std::string order_refusal(const Paths& frames) {
   return input_error([&] { order_frames(frames); });
 }
 Paths natural(const Paths& frames) { return order_frames(frames, FrameOrder::natural).frames; }
@@ -34,7 +34,7 @@ std::vector<std::string> notes(const Paths& frames) { return order_frames(frames
 TEST(FrameOrder, TheShellPutsTenBeforeTwo) {
   const Paths shell = cloth({0, 1, 10, 11, 2, 3, 4, 5, 6, 7, 8, 9});
   const Paths time = cloth({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
-  EXPECT_EQ(refusal(shell), std::string("frames: cloth_10.obj comes before cloth_2.obj") + advice);
+  EXPECT_EQ(order_refusal(shell), std::string("frames: cloth_10.obj comes before cloth_2.obj") + advice);
   const OrderedFrames sorted = order_frames(shell, FrameOrder::natural);
   EXPECT_EQ(sorted.frames, time);
   EXPECT_EQ(sorted.how, "sorted by the numbers in the names (--order natural)");
@@ -62,55 +62,55 @@ TEST(FrameOrder, NamesThatDifferInMoreThanNumbersAreTakenAsTheyAre) {
 }
 
 TEST(FrameOrder, ExtensionsAndFoldersBelongToTheName) {
-  EXPECT_EQ(refusal({"a_2.ply", "a_1.obj"}), std::string("frames: a_2.ply comes before a_1.obj") + advice);
-  EXPECT_EQ(refusal({"run_10/end.ply", "run_9/end.ply"}),
+  EXPECT_EQ(order_refusal({"a_2.ply", "a_1.obj"}), std::string("frames: a_2.ply comes before a_1.obj") + advice);
+  EXPECT_EQ(order_refusal({"run_10/end.ply", "run_9/end.ply"}),
             std::string("frames: run_10/end.ply comes before run_9/end.ply") + advice);
   expect_taken({"run_1/a_9.ply", "run_2/a_3.ply"});
   expect_taken({"./a_1.ply", "a_2.ply"});
-  EXPECT_NE(refusal({"./a_2.ply", "a_1.ply"}), "");
+  EXPECT_NE(order_refusal({"./a_2.ply", "a_1.ply"}), "");
 }
 
 TEST(FrameOrder, SeveralNumbersCompareOneAfterTheOther) {
   expect_taken({"s1_f9.ply", "s1_f10.ply", "s2_f1.ply"});
-  EXPECT_NE(refusal({"s2_f1.ply", "s1_f9.ply"}), "");
+  EXPECT_NE(order_refusal({"s2_f1.ply", "s1_f9.ply"}), "");
   expect_taken({"v1.2.9.ply", "v1.2.10.ply", "v1.10.1.ply"});
-  EXPECT_NE(refusal({"v1.2.10.ply", "v1.2.9.ply"}), "");
+  EXPECT_NE(order_refusal({"v1.2.10.ply", "v1.2.9.ply"}), "");
 }
 
 TEST(FrameOrder, NumbersOfAnyLengthWithLeadingZeros) {
   expect_taken({"a_007.ply", "a_8.ply", "a_08.ply", "a_0009.ply"});
   const std::string nines(40, '9');
   expect_taken({"a_" + nines + ".ply", "a_1" + std::string(40, '0') + ".ply"});
-  EXPECT_NE(refusal({"a_1" + std::string(40, '0') + ".ply", "a_" + nines + ".ply"}), "");
-  EXPECT_NE(refusal({"a_1" + nines + "1.ply", "a_1" + nines + "0.ply"}), "") << "the last of 42 digits decides";
+  EXPECT_NE(order_refusal({"a_1" + std::string(40, '0') + ".ply", "a_" + nines + ".ply"}), "");
+  EXPECT_NE(order_refusal({"a_1" + nines + "1.ply", "a_1" + nines + "0.ply"}), "") << "the last of 42 digits decides";
 }
 
 TEST(FrameOrder, AsksWhereANumberMayBeADecimalOrTwo) {
   expect_taken({"t_0.10.ply", "t_0.90.ply", "t_1.00.ply"});
   expect_taken({"t_0.5.ply", "t_1.ply", "t_1.5.ply"});
   EXPECT_EQ(
-      refusal({"t_0.9.ply", "t_0.10.ply"}),
+      order_refusal({"t_0.9.ply", "t_0.10.ply"}),
       std::string("frames: t_0.9.ply comes before t_0.10.ply, which is against their numbers if these are decimals "
                   "(0.10 before 0.9)") +
           advice);
   EXPECT_EQ(
-      refusal({"t_0.10.ply", "t_0.9.ply"}),
+      order_refusal({"t_0.10.ply", "t_0.9.ply"}),
       std::string("frames: t_0.10.ply comes before t_0.9.ply, which is their order only if the numbers are decimals "
                   "(0.10 before 0.9)") +
           advice);
   EXPECT_EQ(natural({"t_0.9.ply", "t_0.10.ply"}), (Paths{"t_0.10.ply", "t_0.9.ply"}));
   expect_taken({"t_0.05.ply", "t_0.1.ply", "t_0.15.ply"});  // nobody counts 05 and 1
-  EXPECT_NE(refusal({"t_0.1.ply", "t_0.05.ply"}), "");
+  EXPECT_NE(order_refusal({"t_0.1.ply", "t_0.05.ply"}), "");
 }
 
 TEST(FrameOrder, ExponentsAndSigns) {
   expect_taken({"t_9e-05.ply", "t_0.0001.ply", "t_1.5e+01.ply", "t_16.ply"});
-  EXPECT_NE(refusal({"t_1e-04.ply", "t_1e-05.ply"}), "");
-  EXPECT_NE(refusal({"t1e6.ply", "t1e5.ply"}), "") << "two numbers, with a letter between them";
+  EXPECT_NE(order_refusal({"t_1e-04.ply", "t_1e-05.ply"}), "");
+  EXPECT_NE(order_refusal({"t1e6.ply", "t1e5.ply"}), "") << "two numbers, with a letter between them";
   expect_taken({"z_-10.ply", "z_-9.ply", "z_-0.ply", "z_0.ply", "z_1.ply"});
-  EXPECT_NE(refusal({"z_-9.ply", "z_-10.ply"}), "");
+  EXPECT_NE(order_refusal({"z_-9.ply", "z_-10.ply"}), "");
   expect_taken({"cloth-9.ply", "cloth-10.ply"});
-  EXPECT_NE(refusal({"cloth-10.ply", "cloth-9.ply"}), "");
+  EXPECT_NE(order_refusal({"cloth-10.ply", "cloth-9.ply"}), "");
 }
 
 TEST(FrameOrder, FamiliesKeepTheirPlaces) {
@@ -171,7 +171,7 @@ RC_GTEST_PROP(FrameOrder, PermutedNames, ()) {
   RC_ASSERT(order_frames(given, FrameOrder::given).frames == given);
   RC_ASSERT(order_frames(time).frames == time);
   if (given == time) return;
-  const std::string problem = refusal(given);
+  const std::string problem = order_refusal(given);
   bool named = false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     for (std::size_t j = i + 1; j < given.size(); ++j) {

@@ -15,8 +15,8 @@ struct BadPly {
 };
 
 const std::string start = "ply\nformat ascii 1.0\n";
-const std::string xy = start + "element vertex 2\nproperty double x\nproperty double y\n";  // lines 3 to 5
-const std::string faces = xy + "element face 1\nproperty list uchar int vertex_indices\n";  // 6, 7
+const std::string xy = start + "element vertex 2\nproperty double x\nproperty double y\n";     // lines 3 to 5
+const std::string one_face = xy + "element face 1\nproperty list uchar int vertex_indices\n";  // 6, 7
 const std::string edges = xy + "element edge 1\nproperty int vertex1\nproperty int vertex2\n";
 
 const BadPly bad_plys[] = {
@@ -62,7 +62,7 @@ const BadPly bad_plys[] = {
      "line 6: element 'face' has no list vertex_indices or vertex_index"},
     {"scalar_corners", xy + "element face 1\nproperty int vertex_index\nend_header\n1 1\n2 2\n3\n",
      "line 6: element 'face' has no list vertex_indices or vertex_index"},
-    {"both_corners", faces + "property list uchar int vertex_index\nend_header\n1 1\n2 2\n1 0 1 0\n",
+    {"both_corners", one_face + "property list uchar int vertex_index\nend_header\n1 1\n2 2\n1 0 1 0\n",
      "line 6: faces have both vertex_indices and vertex_index"},
     {"real_corners", xy + "element face 1\nproperty list uchar float vertex_index\nend_header\n1 1\n2 2\n1 0\n",
      "line 6: property 'vertex_index' must be of an integer type"},
@@ -102,14 +102,14 @@ const BadPly bad_plys[] = {
     {"integer_no_double",
      start + "element vertex 1\nproperty int64 x\nproperty int y\nend_header\n9007199254740993 1\n",
      "line 7: the integer 9007199254740993 is not exactly a double"},
-    {"index_out_of_range", faces + "end_header\n1 1\n2 2\n3 0 1 2\n",
+    {"index_out_of_range", one_face + "end_header\n1 1\n2 2\n3 0 1 2\n",
      "line 11: vertex index 2 is out of range, the file has 2 vertices, counted from 0"},
-    {"negative_index", faces + "end_header\n1 1\n2 2\n3 0 1 -1\n",
+    {"negative_index", one_face + "end_header\n1 1\n2 2\n3 0 1 -1\n",
      "line 11: vertex index -1 is out of range, the file has 2 vertices, counted from 0"},
-    {"no_corner", faces + "end_header\n1 1\n2 2\n0\n", "line 11: a face without vertices"},
-    {"long_list", faces + "end_header\n1 1\n2 2\n200 0 1 1\n",
+    {"no_corner", one_face + "end_header\n1 1\n2 2\n0\n", "line 11: a face without vertices"},
+    {"long_list", one_face + "end_header\n1 1\n2 2\n200 0 1 1\n",
      "line 11: truncated: a list of 200 items, but only 10 bytes remain"},
-    {"short_list", faces + "end_header\n1 1\n2 2\n4 0 1 1\n", "line 11: the line ends within an entry of 'face'"},
+    {"short_list", one_face + "end_header\n1 1\n2 2\n4 0 1 1\n", "line 11: the line ends within an entry of 'face'"},
     {"huge_index",
      xy + "element face 1\nproperty list uchar uint64 vertex_index\nend_header\n1 1\n2 2\n1 18446744073709551615\n",
      "line 11: the number 18446744073709551615 is too large"},

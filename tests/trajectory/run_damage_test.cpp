@@ -114,7 +114,7 @@ void set(Block& block, std::size_t offset, T value) {
 
 // Blocks of the sample: HEAD MESH LABL CMIT, then WIND LINE VELO STAT CMIT (full) or WIND HASH FRAM.. ENDP VELO STAT
 // CMIT.
-constexpr std::size_t head = 0, mesh = 1, labels = 2, first_window = 4, second_window = 9;
+constexpr std::size_t head = 0, mesh_block = 1, labels = 2, first_window = 4, second_window = 9;
 
 struct Spoiled {
   const char* name;
@@ -139,14 +139,14 @@ const Spoiled spoiled_runs[] = {
     {"head_too_short", full, [](Blocks& b) { b[head].payload.pop_back(); },
      "byte 36: the block ends within a value: expected 8 bytes, found 7"},
     {"no_head", full, [](Blocks& b) { b.erase(b.begin()); }, "byte 16: expected block 'HEAD', found 'MESH'"},
-    {"no_vertices", full, [](Blocks& b) { set(b[mesh], 0, std::uint64_t{0}); },
+    {"no_vertices", full, [](Blocks& b) { set(b[mesh_block], 0, std::uint64_t{0}); },
      "byte 84: a mesh of 0 vertices; expected 1 to 4294967296"},
-    {"too_many_faces", full, [](Blocks& b) { set(b[mesh], 8, std::uint64_t{1} << 62); },
+    {"too_many_faces", full, [](Blocks& b) { set(b[mesh_block], 8, std::uint64_t{1} << 62); },
      "byte 84: more cells than the block has bytes"},
-    {"one_face_more", full, [](Blocks& b) { set(b[mesh], 8, std::uint64_t{2}); },
+    {"one_face_more", full, [](Blocks& b) { set(b[mesh_block], 8, std::uint64_t{2}); },
      "byte 92: expected the vertices of all cells, 9 of 4 bytes each, found 24 bytes"},
-    {"face_beyond", full, [](Blocks& b) { set(b[mesh], 36, 6u); }, "byte 92: vertex 6 of 6"},
-    {"point_beyond", full, [](Blocks& b) { set(b[mesh], 52, 0xffffffffu); }, "byte 112: vertex 4294967295 of 6"},
+    {"face_beyond", full, [](Blocks& b) { set(b[mesh_block], 36, 6u); }, "byte 92: vertex 6 of 6"},
+    {"point_beyond", full, [](Blocks& b) { set(b[mesh_block], 52, 0xffffffffu); }, "byte 112: vertex 4294967295 of 6"},
     {"label", full, [](Blocks& b) { b[labels].payload[2] = 2; }, "byte 134: the label 2 is not known; expected 0 or 1"},
     {"label_missing", full, [](Blocks& b) { b[labels].payload.pop_back(); },
      "byte 132: expected the labels of all vertices, 6 of 1 bytes each, found 5 bytes"},

@@ -38,6 +38,9 @@ constexpr FourLetters four_letters(const char (&letters)[5]) {
   return code;
 }
 
+/// The letters in quotes, for messages.
+std::string letters_of(FourLetters code);
+
 namespace block_format {
 inline constexpr std::string_view magic{"\x89NOLI\r\n\x1a",
                                         8};  ///< a transfer that changes line ends or bit 7 spoils it

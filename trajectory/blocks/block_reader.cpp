@@ -24,12 +24,6 @@ std::uint64_t size_of(std::istream& stream, const std::string& name) {
   return static_cast<std::uint64_t>(size);
 }
 
-std::string letters_of(FourLetters kind) {
-  std::string text;
-  put(text, kind);
-  return in_quotes(text);
-}
-
 /// The checksum at the end of `bytes`, which are a block or as long as one, is that of the rest.
 bool checksum_fits(std::string_view bytes) {
   const std::string_view covered = bytes.substr(0, bytes.size() - block_format::checksum_size);
@@ -43,6 +37,12 @@ Sha256Digest digest_at(const std::string& payload, std::size_t offset) {
 }
 
 }  // namespace
+
+std::string letters_of(FourLetters code) {
+  std::string text;
+  put(text, code);
+  return in_quotes(text);
+}
 
 BlockReader::BlockReader(const std::filesystem::path& path, FourLetters content)
     : name_(path.string()), stream_(std::make_unique<std::ifstream>(open_regular_file(path))) {

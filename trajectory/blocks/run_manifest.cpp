@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* scene_name = "scene.json";
-constexpr const char* format_name = "noli run";
+constexpr const char* manifest_format = "noli run";
 constexpr int format_version = 1;
 
 Json parse(const std::string& text, const std::string& file) {
@@ -43,8 +43,8 @@ std::string text_at(const Json& json, const std::string& pointer, const std::str
 
 void check_format(const Json& json, const std::string& file) {
   const std::string format = text_at(json, "/format", file);
-  if (format != format_name) {
-    throw InputError(file, "/format", fmt::format("expected '{}', found {}", format_name, in_quotes(format)));
+  if (format != manifest_format) {
+    throw InputError(file, "/format", fmt::format("expected '{}', found {}", manifest_format, in_quotes(format)));
   }
   const Json& version = member(json, "/version", file);
   if (version != format_version) {
@@ -68,7 +68,7 @@ std::string read_file_of_run(const std::filesystem::path& path) {
 Sha256Digest write_manifest(const std::filesystem::path& folder, std::string_view scene,
                             const std::map<std::string, std::string>& versions,
                             const std::optional<Sha256Digest>& model) {
-  Json manifest = {{"format", format_name},
+  Json manifest = {{"format", manifest_format},
                    {"version", format_version},
                    {"scene", {{"file", scene_name}, {"sha256", hex(sha256(scene))}}},
                    {"versions", versions}};

@@ -14,12 +14,6 @@
 namespace noli {
 namespace {
 
-std::string letters_of(FourLetters kind) {
-  std::string text;
-  put(text, kind);
-  return in_quotes(text);
-}
-
 /// Which kinds may come after `before` in a window; a window ends with its commit.
 std::vector<FourLetters> successors(FourLetters before, RecordMode record) {
   switch (before) {

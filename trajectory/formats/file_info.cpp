@@ -14,7 +14,7 @@
 namespace noli {
 namespace {
 
-std::string format_name(PlyFormat format) {
+std::string ply_format_name(PlyFormat format) {
   switch (format) {
     case PlyFormat::ascii: return "PLY ASCII";
     case PlyFormat::binary_little_endian: return "PLY binary little-endian";
@@ -90,7 +90,7 @@ FileInfo describe_file(const std::filesystem::path& path) {
     return info;
   }
   const PlyHeader header = parse_ply_header(bytes, path.string());
-  info.format = format_name(header.format);
+  info.format = ply_format_name(header.format);
   info.number_type = number_type(*header.find("vertex"));  // parse_frame has seen it
   return info;
 }

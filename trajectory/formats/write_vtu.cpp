@@ -78,20 +78,20 @@ std::span<const double> coordinates(const std::vector<Position>& positions) {
 }
 
 template <class Arrays>
-std::string format_grid(const Frame& frame, Arrays arrays) {
+std::string format_grid(const Frame& frame, Arrays written) {
   const VtkCells cells = vtk_cells(frame.mesh);
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
   text += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n",
                       frame.positions.size(), cells.types.size());
-  text += arrays.element("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", coordinates(frame.positions), 3);
+  text += written.element("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", coordinates(frame.positions), 3);
   text += "      </Points>\n      <Cells>\n";
   text +=
-      arrays.element("type=\"Int64\" Name=\"connectivity\"", std::span<const std::uint64_t>(cells.connectivity), 12);
-  text += arrays.element("type=\"Int64\" Name=\"offsets\"", std::span<const std::uint64_t>(cells.offsets), 12);
-  text += arrays.element("type=\"UInt8\" Name=\"types\"", std::span<const std::uint8_t>(cells.types), 24);
-  return text + "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n" + arrays.appended() + "</VTKFile>\n";
+      written.element("type=\"Int64\" Name=\"connectivity\"", std::span<const std::uint64_t>(cells.connectivity), 12);
+  text += written.element("type=\"Int64\" Name=\"offsets\"", std::span<const std::uint64_t>(cells.offsets), 12);
+  text += written.element("type=\"UInt8\" Name=\"types\"", std::span<const std::uint8_t>(cells.types), 24);
+  return text + "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n" + written.appended() + "</VTKFile>\n";
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class MemorySink : public Sink {
   std::string& bytes_;
 };
 
-FrameMotion frames_of(const Mutating& m) {
+FrameMotion frames_of_mutant(const Mutating& m) {
   if (m.frames) return *m.frames;
   FrameMotion motion;
   for (const std::string& bytes : m.from.files) {
@@ -71,7 +71,7 @@ void fit_hashes(Mutating& m) {
   if (!claim || m.from.extension == "blocks" || (claim->source != 0 && claim->source != 1)) return;
   if (claim->dimension != 2 && claim->dimension != 3) return;
   if (!std::isfinite(claim->eta)) return;
-  const FrameMotion motion = frames_of(m);
+  const FrameMotion motion = frames_of_mutant(m);
   const auto mesh = claimed_mesh(*claim, motion.mesh);
   if (!mesh || motion.frames.empty() || motion.frames[0].empty()) return;
   const ProofGroups anew = written_anew(*claim, *mesh, motion);

@@ -9,16 +9,7 @@ namespace noli::audit {
 
 namespace {
 
-constexpr Answers every_answer = {true, true, true, true};
-constexpr Answers no_crossing = {true, true, false, true};
 constexpr Answers apart_or_persistent = {true, false, false, true};
-constexpr QueryType vertex_face = {FeaturePair::vertex_face, 3};
-constexpr QueryType edge_edge = {FeaturePair::edge_edge, 3};
-constexpr QueryType vertex_edge_3d = {FeaturePair::vertex_edge, 3};
-constexpr QueryType vertex_edge_2d = {FeaturePair::vertex_edge, 2};
-constexpr Flavour plain = {any_directions, 1 << 16, 1 << 16, any_time};
-
-std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
 
 Directions independent_in_floor(Random& random) {
   Directions d = any_directions(random, 2);
@@ -73,7 +64,8 @@ Made flat_with(ContactKind kind, const QueryType& type, Random& random) {
 
 /// A motion of vertex and edge in the plane, seen in space.
 Made in_a_plane(ContactKind kind, Random& random) {
-  Made made = recipe(kind == ContactKind::touching ? ContactKind::crossing : kind, vertex_edge_2d, plain, random);
+  Made made =
+      recipe(kind == ContactKind::touching ? ContactKind::crossing : kind, vertex_edge_2d, plain_flavour, random);
   made.query.type = vertex_edge_3d;
   if (made.truth == ContactKind::crossing) made.truth = ContactKind::touching;
   return made;
@@ -126,7 +118,7 @@ WholePoints tangential(const QueryType& type, const Meeting& m, Random& random) 
 }
 
 Generated double_roots(const QueryType& type, const Answers& declared, Random& random) {
-  if (random.one_in(3)) return finish(recipe(random_answer(declared, random), type, plain, random), random);
+  if (random.one_in(3)) return finish(recipe(random_answer(declared, random), type, plain_flavour, random), random);
   const Meeting m = random_meeting(type, random.one_in(4) ? Place::border : Place::inside, random);
   const WholePoints v = tangential(type, m, random);
   return finish({passing(type, m.x, v, any_time(random)), {}}, random);
@@ -170,7 +162,7 @@ Made gliding(ContactKind kind, const QueryType& type, Random& random) {
 Generated sliding(const QueryType& type, const Answers& declared, Random& random) {
   const ContactKind kind = random_answer(declared, random);
   if (kind == ContactKind::persistent && random.one_in(3)) {
-    return finish(carried(type, random.one_of(meeting_places), plain, random), random);
+    return finish(carried(type, random.one_of(meeting_places), plain_flavour, random), random);
   }
   Made made = gliding(kind, type, random);
   carry_anywhere(made.query, random, type.dimension, 1 << 16);
@@ -181,7 +173,8 @@ Generated sliding(const QueryType& type, const Answers& declared, Random& random
 /// and turn over.
 Generated rotations(const QueryType& type, const Answers& declared, Random& random) {
   const ContactKind kind = random_answer(declared, random);
-  if (kind == ContactKind::persistent || random.one_in(3)) return finish(recipe(kind, type, plain, random), random);
+  if (kind == ContactKind::persistent || random.one_in(3))
+    return finish(recipe(kind, type, plain_flavour, random), random);
   const Place place = kind == ContactKind::apart      ? Place::missed
                       : kind == ContactKind::crossing ? Place::inside
                                                       : random.one_of(meeting_places);

@@ -11,11 +11,7 @@ namespace noli::audit {
 
 namespace {
 
-constexpr Answers every_answer = {true, true, true, true};
 constexpr Answers generic_answers = {true, false, true, false};
-constexpr Flavour plain = {any_directions, 1 << 16, 1 << 16, any_time};
-
-std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
 
 template <class Function>
 void for_each_coordinate(AnyQuery& query, const Function& function) {
@@ -46,7 +42,7 @@ Generated scales(const QueryType& type, const Answers& declared, Random& random)
   const int common = random.one_of(exponents);
   AxisExponents scale = {common, common, common};
   if (random.one_in(2)) scale = {random.one_of(exponents), random.one_of(exponents), random.one_of(exponents)};
-  Generated generated = finish(recipe(random_answer(declared, random), type, plain, random), random, scale);
+  Generated generated = finish(recipe(random_answer(declared, random), type, plain_flavour, random), random, scale);
   if (!random.one_in(16)) return generated;
   generated.truth.reset();
   const std::size_t i = random.below(generated.query.size());
@@ -57,7 +53,7 @@ Generated scales(const QueryType& type, const Answers& declared, Random& random)
 
 /// Far from the origin, by 2^40 (about 1e12) and more.
 Generated far_away(const QueryType& type, const Answers& declared, Random& random) {
-  Made made = recipe(random_answer(declared, random), type, plain, random);
+  Made made = recipe(random_answer(declared, random), type, plain_flavour, random);
   const Whole offset = random_whole(random, type.dimension, std::int64_t{1} << random.between(40, 44));
   carry(made.query, offset, random.one_in(2) ? offset : random_whole(random, type.dimension, std::int64_t{1} << 40));
   return finish(made, random);
@@ -72,7 +68,7 @@ void nudge(AnyQuery& query, Random& random) {
 
 /// An exact contact, or a near miss, of which one coordinate is moved to the next double.
 Generated one_ulp(const QueryType& type, const Answers& declared, Random& random) {
-  Generated generated = finish(recipe(random_answer(declared, random), type, plain, random), random);
+  Generated generated = finish(recipe(random_answer(declared, random), type, plain_flavour, random), random);
   if (random.one_in(3)) return generated;
   generated.truth.reset();
   nudge(generated.query, random);
@@ -81,7 +77,7 @@ Generated one_ulp(const QueryType& type, const Answers& declared, Random& random
 
 /// All coordinates rounded to few bits after a contact was made exactly: what a file in single precision holds.
 Generated rounded(const QueryType& type, const Answers& declared, Random& random) {
-  Generated generated = finish(recipe(random_answer(declared, random), type, plain, random), random);
+  Generated generated = finish(recipe(random_answer(declared, random), type, plain_flavour, random), random);
   if (random.one_in(2)) return generated;
   generated.truth.reset();
   for_each_coordinate(generated.query, [](double& x) { x = static_cast<double>(static_cast<float>(x)); });

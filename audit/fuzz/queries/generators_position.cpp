@@ -9,13 +9,6 @@ namespace noli::audit {
 
 namespace {
 
-constexpr Answers every_answer = {true, true, true, true};
-constexpr Answers no_crossing = {true, true, false, true};
-constexpr QueryType vertex_face = {FeaturePair::vertex_face, 3};
-constexpr QueryType edge_edge = {FeaturePair::edge_edge, 3};
-
-std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
-
 StepTime coarse_time(Random& random) {
   const std::int64_t n = random.between(2, 4);
   return {random.between(1, n - 1), n};

@@ -16,7 +16,7 @@ Whole least_step(const Whole& line, const Whole& to) {
   return {};
 }
 
-Meeting vertex_face(Place place, const Ratios& r, const Directions& d) {
+Meeting vertex_face_meeting(Place place, const Ratios& r, const Directions& d) {
   const auto& [p, q] = d;
   switch (place) {
     case Place::inside: {
@@ -27,7 +27,7 @@ Meeting vertex_face(Place place, const Ratios& r, const Directions& d) {
     case Place::corner: return {{Whole{}, Whole{}, p, q}, {1, -1, 0, 0}};
     case Place::missed: {
       const Whole step = least_step(p, q);
-      if (step == Whole{}) return vertex_face(Place::outside, r, d);
+      if (step == Whole{}) return vertex_face_meeting(Place::outside, r, d);
       return {{Whole{}, step - r[1] * p, step + r[0] * p, step + q}, {}};
     }
     case Place::outside: break;
@@ -45,7 +45,7 @@ Meeting edges(std::int64_t i, std::int64_t j, std::int64_t k, std::int64_t l, co
   return {{a0, a1, b0, b1}, {j * (k + l), i * (k + l), -l * (i + j), -k * (i + j)}};
 }
 
-Meeting edge_edge(Place place, const Ratios& r, const Directions& d) {
+Meeting edge_edge_meeting(Place place, const Ratios& r, const Directions& d) {
   const auto& [p, q] = d;
   switch (place) {
     case Place::inside: return edges(r[0], r[1], r[2], r[3], d);
@@ -53,7 +53,7 @@ Meeting edge_edge(Place place, const Ratios& r, const Directions& d) {
     case Place::corner: return edges(0, r[1], 0, r[3], d);
     case Place::missed: {
       const Whole step = least_step(q, p);
-      if (step == Whole{}) return edge_edge(Place::outside, r, d);
+      if (step == Whole{}) return edge_edge_meeting(Place::outside, r, d);
       const Meeting border = edges(0, r[1], r[2], r[3], d);
       return {{border.x[0] + step, border.x[1] + step, border.x[2], border.x[3]}, {}};
     }
@@ -91,8 +91,8 @@ Ratios random_ratios(Random& random) {
 
 Meeting meeting(const QueryType& type, Place place, const Ratios& ratios, const Directions& directions) {
   switch (type.pair) {
-    case FeaturePair::vertex_face: return vertex_face(place, ratios, directions);
-    case FeaturePair::edge_edge: return edge_edge(place, ratios, directions);
+    case FeaturePair::vertex_face: return vertex_face_meeting(place, ratios, directions);
+    case FeaturePair::edge_edge: return edge_edge_meeting(place, ratios, directions);
     case FeaturePair::vertex_edge: return vertex_edge(place, ratios, directions.p);
     case FeaturePair::vertex_vertex: break;
   }

@@ -43,6 +43,16 @@ struct QueryFamily {
   Generated (*make)(const QueryType& type, const Answers& declared, Random& random);
 };
 
+// What the families share.
+inline constexpr Answers every_answer = {true, true, true, true};
+inline constexpr Answers no_crossing = {true, true, false, true};
+inline constexpr QueryType vertex_face = {FeaturePair::vertex_face, 3};
+inline constexpr QueryType edge_edge = {FeaturePair::edge_edge, 3};
+inline constexpr QueryType vertex_edge_3d = {FeaturePair::vertex_edge, 3};
+inline constexpr QueryType vertex_edge_2d = {FeaturePair::vertex_edge, 2};
+inline constexpr Flavour plain_flavour = {any_directions, 1 << 16, 1 << 16, any_time};
+inline std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
+
 /// Where the families are defined: generators_space.cpp, ...
 std::vector<QueryFamily> families_of_position();  ///< special positions of the features at the contact
 std::vector<QueryFamily> families_of_motion();    ///< special motions

@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t motions_per_block = 16;
-
 /// A motion that the library was asked.
 struct AskedMotion {
   FrameMotion motion;

@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t motions_per_block = 16;
-
 /// A motion that was judged.
 struct Judged {
   FrameMotion motion;

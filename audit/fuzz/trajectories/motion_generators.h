@@ -6,6 +6,7 @@
 // A generator uses nothing but the random numbers that it is given.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ struct MotionGenerator {
   std::string_view attacks;  ///< one line
   GeneratedMotion (*make)(Random& random);
 };
+
+/// A fuzzer's generators take turns over blocks of so many motions.
+inline constexpr std::uint64_t motions_per_block = 16;
 
 /// All generators; the order never depends on anything.
 std::span<const MotionGenerator> motion_generators();

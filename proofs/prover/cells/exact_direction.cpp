@@ -7,37 +7,35 @@ namespace noli {
 
 namespace {
 
-using Vector = IntegerVector;
+Integer inner(const IntegerVector& a, const IntegerVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Integer inner(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+IntegerVector minus(const IntegerVector& a, const IntegerVector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vector cross(const Vector& a, const Vector& b) {
+IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// What a direction has to separate, and how far.
 struct Question {
-  const std::vector<Vector>& differences;
+  const std::vector<IntegerVector>& differences;
   const Integer& least2;
 };
 
-bool separates(const Vector& n, const Question& question) {
+bool separates(const IntegerVector& n, const Question& question) {
   const Integer least = question.least2 * inner(n, n);
-  return std::all_of(question.differences.begin(), question.differences.end(), [&](const Vector& w) {
+  return std::all_of(question.differences.begin(), question.differences.end(), [&](const IntegerVector& w) {
     const Integer along = inner(n, w);
     return along.sign() > 0 && (least.is_zero() || along * along > least);
   });
 }
 
 /// n with so many bits in its longest component, the rest rounded away.
-Vector rounded(const Vector& n, std::size_t bits) {
+IntegerVector rounded(const IntegerVector& n, std::size_t bits) {
   std::size_t most = 0;
   for (const Integer& part : n) most = std::max(most, part.bit_length());
   if (most <= bits) return n;
   const std::size_t drop = most - bits;
-  Vector result = n;
+  IntegerVector result = n;
   for (Integer& part : result) {
     part += Integer(1) << (drop - 1);
     part >>= drop;
@@ -47,11 +45,11 @@ Vector rounded(const Vector& n, std::size_t bits) {
 
 /// The same direction in as few bits as are enough, of some numbers that are tried; nothing if it takes more than a
 /// proof has room for.
-std::optional<Vector> shortened(const Vector& n, const Question& question) {
+std::optional<IntegerVector> shortened(const IntegerVector& n, const Question& question) {
   constexpr std::array<std::size_t, 14> tried = {9,   15,  22,  30,   40,   60,   90,
                                                  130, 200, 400, 1000, 2400, 5000, most_direction_bits};
   for (const std::size_t bits : tried) {
-    Vector shorter = rounded(n, bits);
+    IntegerVector shorter = rounded(n, bits);
     if (separates(shorter, question)) return shorter;
   }
   return std::nullopt;
@@ -61,8 +59,8 @@ class Search {
  public:
   explicit Search(const Question& question) : question_(question), d_(question.differences) {}
 
-  std::optional<Vector> operator()() {
-    for (const Vector& w : d_) {
+  std::optional<IntegerVector> operator()() {
+    for (const IntegerVector& w : d_) {
       if (take(w)) return found_;
     }
     for (std::size_t i = 0; i < d_.size(); ++i) {
@@ -73,7 +71,7 @@ class Search {
     for (std::size_t i = 0; i < d_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         for (std::size_t k = 0; k < j; ++k) {
-          Vector n = cross(minus(d_[j], d_[i]), minus(d_[k], d_[i]));
+          IntegerVector n = cross(minus(d_[j], d_[i]), minus(d_[k], d_[i]));
           if (take(n) || take({-n[0], -n[1], -n[2]})) return found_;
         }
       }
@@ -83,20 +81,20 @@ class Search {
 
  private:
   /// From the origin to the line through w along u, times |u|^2.
-  static Vector across(const Vector& w, const Vector& u) {
+  static IntegerVector across(const IntegerVector& w, const IntegerVector& u) {
     const Integer uu = inner(u, u), wu = inner(w, u);
     return {w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu};
   }
 
-  bool take(const Vector& n) {
+  bool take(const IntegerVector& n) {
     if (!separates(n, question_)) return false;
     found_ = shortened(n, question_);
     return found_.has_value();
   }
 
   Question question_;
-  const std::vector<Vector>& d_;
-  std::optional<Vector> found_;
+  const std::vector<IntegerVector>& d_;
+  std::optional<IntegerVector> found_;
 };
 
 }  // namespace

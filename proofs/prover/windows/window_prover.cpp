@@ -11,8 +11,7 @@ namespace noli {
 
 namespace {
 
-constexpr std::uint32_t grain_share = 128;
-constexpr std::uint32_t least_grain = 64;
+constexpr std::uint32_t proof_grain_share = 128;
 
 using Take = std::function<void(std::string_view)>;
 
@@ -105,7 +104,7 @@ class Proof {
     TaskWalk<Chords<Dim>, Tokens> walk(positions, options_, stop_, none_);
     const auto cells = static_cast<std::uint32_t>(forest_.leaves().size());
     Tokens& top = walk.sum().out.tokens;
-    walk.cut(std::max(cells / grain_share, least_grain),
+    walk.cut(std::max(cells / proof_grain_share, least_window_grain),
              [&](auto& below) { return RootWalk<Dim>(forest_, boxes, top, below).run(); });
     return give_in_order(walk);
   }

@@ -13,7 +13,6 @@ namespace {
 
 /// As in verifier.cpp.
 constexpr std::uint32_t grain_share = 256;
-constexpr std::uint32_t least_grain = 64;
 
 template <int Dim>
 using WindowOutcome = WalkOutcome<Chords<Dim>, NoTokens>;
@@ -54,7 +53,7 @@ class Verification {
     TaskWalk<Chords<Dim>, NoTokens> walk(positions, options_, stop_, none_);
     const std::vector<Obligation> open = settle_roots(boxes, walk.sum().tally);
     const auto cells = static_cast<std::uint32_t>(forest_.leaves().size());
-    walk.cut(std::max(cells / grain_share, least_grain), [&](auto& top) {
+    walk.cut(std::max(cells / grain_share, least_window_grain), [&](auto& top) {
       return std::ranges::all_of(open, [&](const Obligation& obligation) { return top.run(obligation); });
     });
     progress_.begin(share(chords.span.begin), share(chords.span.end), walk.tasks().size());

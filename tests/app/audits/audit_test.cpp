@@ -18,15 +18,16 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string row(int x, int y, int z, const std::string& label) {
+std::string labelled_row(int x, int y, int z, const std::string& label) {
   const auto cell = [](int value) { return std::to_string(value) + ",1,"; };
   return cell(x) + cell(y) + cell(z) + label + "\n";
 }
 
 /// A vertex that moves from height 1 to `end` over a face that does not move.
 std::string vertex_face(int x, int end, const std::string& label) {
-  const std::string face = row(-4, -4, 0, label) + row(4, -4, 0, label) + row(0, 8, 0, label);
-  return row(x, 0, 1, label) + face + row(x, 0, end, label) + face;
+  const std::string face =
+      labelled_row(-4, -4, 0, label) + labelled_row(4, -4, 0, label) + labelled_row(0, 8, 0, label);
+  return labelled_row(x, 0, 1, label) + face + labelled_row(x, 0, end, label) + face;
 }
 
 class AuditCcd : public testing::Test {

@@ -9,7 +9,7 @@
 namespace noli::app_tests {
 namespace {
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(Simulate, WindowsCountFromOneInEveryCommand) {
   const std::string file = scene(falling_triangle()), run = run_path("run");
@@ -18,7 +18,7 @@ TEST_F(Simulate, WindowsCountFromOneInEveryCommand) {
   EXPECT_EQ(json["windows"], 39);
   EXPECT_EQ(json["first"]["window"], 40);
   const Process told = run_noli({"simulate", file, "-o", run, "--force"});
-  EXPECT_TRUE(says(told.out, "Contact in window 40: ")) << told.out;
+  EXPECT_TRUE(contains(told.out, "Contact in window 40: ")) << told.out;
 
   const auto again = [&](const std::string& window) {
     return run_noli(
@@ -27,12 +27,12 @@ TEST_F(Simulate, WindowsCountFromOneInEveryCommand) {
   for (const char* window : {"1", "39"}) {
     const Process same = again(window);
     EXPECT_EQ(same.exit_code, 0) << same.err;
-    EXPECT_TRUE(says(same.out, std::string(" window ") + window)) << same.out;
+    EXPECT_TRUE(contains(same.out, std::string(" window ") + window)) << same.out;
   }
   EXPECT_EQ(
       json_of({"simulate", file, "--reproduce", run, "--window", "39", "-o", run_path("last.block")}, 0)["window"], 39);
-  EXPECT_TRUE(says(again("0").err, "--window: 0: expected a whole number from 1")) << again("0").err;
-  EXPECT_TRUE(says(again("40").err, "has 39 windows, counted from 1; expected one of them, found 40"));
+  EXPECT_TRUE(contains(again("0").err, "--window: 0: expected a whole number from 1")) << again("0").err;
+  EXPECT_TRUE(contains(again("40").err, "has 39 windows, counted from 1; expected one of them, found 40"));
   // The first one begins where the scene does.
   ASSERT_EQ(again("1").exit_code, 0);
   const std::string block = bytes_of(run_path("again.block"));
@@ -65,8 +65,8 @@ TEST_F(Simulate, ExplainNamesWindowsFromOne) {
     EXPECT_LE(worst["time"].get<double>(), worst["window"].get<double>() * length * (1 + 1e-9));
   }
   const std::string text = run_noli({"explain", run}).out;
-  EXPECT_TRUE(says(text, "(window " + json["deepest"]["window"].dump() + ")")) << text;
-  EXPECT_FALSE(says(text, "(window 0)")) << text;
+  EXPECT_TRUE(contains(text, "(window " + json["deepest"]["window"].dump() + ")")) << text;
+  EXPECT_FALSE(contains(text, "(window 0)")) << text;
 }
 
 TEST_F(Simulate, PairsThatAreTooNearAreNamedWithTheirWindow) {
@@ -90,7 +90,8 @@ TEST_F(Simulate, NumbersRunOutInAWindowThatIsNamed) {
   ASSERT_EQ(blown["verdict"], "not_finite");
   EXPECT_EQ(blown["not_finite"]["window"].get<std::uint64_t>(), blown["windows"].get<std::uint64_t>() + 1);
   const Process told = run_noli({"simulate", scene(json), "-o", run_path("run"), "--force"});
-  EXPECT_TRUE(says(told.out, "Numbers run out in window " + blown["not_finite"]["window"].dump() + ":")) << told.out;
+  EXPECT_TRUE(contains(told.out, "Numbers run out in window " + blown["not_finite"]["window"].dump() + ":"))
+      << told.out;
 }
 
 TEST_F(Simulate, VerifyKnowsHowManyWindowsTheSceneAsksFor) {
@@ -120,8 +121,9 @@ TEST_F(Simulate, UntilBeyondTheDurationHasToBeMeant) {
   const std::string file = scene(hanging_sheet()), run = run_path("run");  // 0.25 s in 25 windows
   const Process beyond = run_noli({"simulate", file, "-o", run, "--until", "0.5"});
   EXPECT_EQ(beyond.exit_code, 3);
-  EXPECT_TRUE(says(beyond.err, "--until 0.5: ")) << beyond.err;
-  EXPECT_TRUE(says(beyond.err, "has a duration of 0.25 s; expected no later time, or --past-duration")) << beyond.err;
+  EXPECT_TRUE(contains(beyond.err, "--until 0.5: ")) << beyond.err;
+  EXPECT_TRUE(contains(beyond.err, "has a duration of 0.25 s; expected no later time, or --past-duration"))
+      << beyond.err;
   EXPECT_FALSE(fs::exists(run));
   EXPECT_EQ(run_noli({"simulate", file, "-o", run, "--past-duration"}).exit_code, 3);
   // Up to the end it is not beyond.
@@ -142,7 +144,7 @@ TEST_F(Simulate, AuditsOfPrecisionStopAtTheDurationToo) {
     return run_noli(words);
   };
   EXPECT_EQ(audit({}).exit_code, 3);
-  EXPECT_TRUE(says(audit({}).err, "--past-duration")) << audit({}).err;
+  EXPECT_TRUE(contains(audit({}).err, "--past-duration")) << audit({}).err;
   EXPECT_EQ(audit({"--past-duration"}).exit_code, 0);
 }
 
@@ -153,7 +155,8 @@ TEST_F(Simulate, AuditsOfPrecisionStopAtTheDurationToo) {
 void expect_done_or_undecided(const Process& process) {
   if (process.out.empty()) {
     EXPECT_EQ(process.exit_code, 2) << process.err;
-    EXPECT_TRUE(says(process.err, "the time limit has passed") || says(process.err, "interrupted")) << process.err;
+    EXPECT_TRUE(contains(process.err, "the time limit has passed") || contains(process.err, "interrupted"))
+        << process.err;
     return;
   }
   const Json json = Json::parse(process.out);

@@ -38,8 +38,8 @@ std::string end_of(const std::string& input) {
 }
 
 /// Each file of the folder has its end in the list, and each of the list its file.
-void expect_ends(const std::string& folder, Ends ends) {
-  for (const auto& file : fs::directory_iterator(fs::path(NOLI_SOURCE_DIR) / folder)) {
+void expect_ends(const std::string& seeds, Ends ends) {
+  for (const auto& file : fs::directory_iterator(fs::path(NOLI_SOURCE_DIR) / seeds)) {
     if (!file.is_regular_file()) continue;
     const std::string name = file.path().filename();
     const auto expected = ends.find(name);
@@ -48,7 +48,7 @@ void expect_ends(const std::string& folder, Ends ends) {
     EXPECT_TRUE(expected->second.empty() ? end.empty() : end.starts_with(expected->second)) << name << ": " << end;
     ends.erase(expected);
   }
-  for (const auto& [name, end] : ends) ADD_FAILURE() << folder << '/' << name << " is not there";
+  for (const auto& [name, end] : ends) ADD_FAILURE() << seeds << '/' << name << " is not there";
 }
 
 TEST(SceneSeeds, EndAsExpected) {
