@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <vector>
 
 #include "app/exit_code.h"
 
@@ -26,7 +27,10 @@ Command add_info(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_schema(CLI::App& app);
 
-/// Below `noli fuzz` and `noli audit`.
+/// `noli fuzz` and `noli audit` with all that is below them or, where they are not built, what says so.
+std::vector<Command> add_audits(CLI::App& app);
+
+// Below `noli fuzz` and `noli audit`.
 Command add_fuzz_queries(CLI::App& fuzz);
 Command add_fuzz_trajectories(CLI::App& fuzz);
 Command add_fuzz_proofs(CLI::App& fuzz);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <string>
 #include <system_error>
@@ -13,14 +15,13 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "audit/fuzz/not_saved.h"
 #include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {
 
 constexpr const char* description = "Noli proves that things that move do not touch: exact answers, no tolerance.";
-constexpr const char* footer =
+constexpr const char* program_footer =
     "Exit codes: 0 what was asked holds; 1 it does not; 2 undecided (limit, interrupt); 3 the input or the command "
     "line is at\n"
     "fault; 4 an internal check failed, or the machine did.\n"
@@ -38,34 +39,6 @@ constexpr const char* footer =
     "  noli audit self                        all that noli has to look at itself with\n"
     "`noli COMMAND --help` says more.";
 
-CLI::App& add_fuzz(CLI::App& app) {
-  CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
-  fuzz->require_subcommand(1);
-  fuzz->footer(
-      "Examples:\n"
-      "  noli fuzz queries --for 60s --seed 1\n"
-      "  noli fuzz queries --library ./mine.so --for 60s\n"
-      "  noli fuzz trajectories --for 60s --seed 1\n"
-      "  noli fuzz scenes --for 60s --seed 1\n"
-      "  noli fuzz proofs --for 60s --seed 1\n"
-      "`noli fuzz queries --help` says more.");
-  return *fuzz;
-}
-
-CLI::App& add_audit(CLI::App& app) {
-  CLI::App* const audit = app.add_subcommand("audit", "How far can numbers, and somebody else's code, be trusted?");
-  audit->require_subcommand(1);
-  audit->footer(
-      "Examples:\n"
-      "  noli audit ccd --library ./mine.so queries-edge-edge.csv\n"
-      "  noli audit precision scenes/bounce.json --short\n"
-      "  noli audit integrator --svg integrator.svg     error against run time\n"
-      "  noli audit stability                           how far it goes, and how it ends there\n"
-      "  noli audit self                                all that noli has to look at itself with\n"
-      "`noli audit ccd --help` says more, and so for each.");
-  return *audit;
-}
-
 ExitCode complain(ExitCode code, const std::string& message) {
   std::fputs(fmt::format("noli: {}\n", on_one_line(message)).c_str(), stderr);
   return code;
@@ -80,30 +53,14 @@ std::string joined_lines(std::string text) {
 
 ExitCode parse_and_run(int argc, char** argv) {
   CLI::App app(description, "noli");
-  app.footer(footer);
+  app.footer(program_footer);
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
-  CLI::App &fuzz = add_fuzz(app), &audit = add_audit(app);
-  const std::vector<Command> commands = {
-      add_verify(app),
-      add_check(app),
-      add_ccd(app),
-      add_info(app),
-      add_simulate(app),
-      add_explain(app),
-      add_export(app),
-      add_report(app),
-      add_schema(app),
-      add_fuzz_queries(fuzz),
-      add_fuzz_trajectories(fuzz),
-      add_fuzz_proofs(fuzz),
-      add_fuzz_scenes(fuzz),
-      add_audit_ccd(audit),
-      add_audit_precision(audit),
-      add_audit_integrator(audit),
-      add_audit_self(audit),
-      add_audit_stability(audit),
+  std::vector<Command> commands = {
+      add_verify(app),  add_check(app),  add_ccd(app),    add_info(app),   add_simulate(app),
+      add_explain(app), add_export(app), add_report(app), add_schema(app),
   };
+  std::ranges::move(add_audits(app), std::back_inserter(commands));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -133,8 +90,6 @@ ExitCode guarded(int argc, char** argv) {
   } catch (const WriteError& error) {
     return complain(ExitCode::failure, error.what());
   } catch (const HelperError& error) {
-    return complain(ExitCode::failure, error.what());
-  } catch (const audit::NotSavedError& error) {
     return complain(ExitCode::failure, error.what());
   } catch (const std::system_error& error) {
     return complain(ExitCode::failure, error.what());

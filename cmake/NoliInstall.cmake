@@ -7,13 +7,16 @@ install(TARGETS noli_kernel noli_trajectory noli_certificates noli_integrator no
         EXPORT noliTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS noli_check EXPORT noliTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS noli noli_ccd_host noli_check_host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS noli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(NOLI_WITH_AUDIT)
+  install(TARGETS noli_ccd_host noli_check_host RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # Nothing that ships stands on these, so a build of `noli` alone is installed without them.
+  install(TARGETS ${NOLI_CCD_PLUGINS} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/noli/ccd OPTIONAL)
+endif()
 if(NOLI_WITH_HDF5)
   install(TARGETS noli_series RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 install(DIRECTORY include/noli DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-# Nothing that ships stands on these, so a build of `noli` alone is installed without them.
-install(TARGETS ${NOLI_CCD_PLUGINS} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/noli/ccd OPTIONAL)
 install(DIRECTORY scenes schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/noli)
 install(FILES LICENSE README.md THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

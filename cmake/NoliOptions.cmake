@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 option(NOLI_BUILD_TESTS "Build the tests" ON)
+option(NOLI_WITH_AUDIT "Build `noli audit` and `noli fuzz`" ON)
 option(NOLI_BUILD_BENCH "Build the benchmarks (needs Google Benchmark)" OFF)
 option(NOLI_BUILD_FUZZERS "Build the libFuzzer targets (needs clang)" OFF)
+if(NOT NOLI_WITH_AUDIT AND (NOLI_BUILD_TESTS OR NOLI_BUILD_BENCH OR NOLI_BUILD_FUZZERS))
+  message(FATAL_ERROR "NOLI_WITH_AUDIT is OFF, but tests, benchmarks and fuzzers need it")
+endif()
 set(NOLI_PARALLEL "TBB" CACHE STRING "Back end of the parallel layer: TBB or STD (std::thread; for ThreadSanitizer)")
 set_property(CACHE NOLI_PARALLEL PROPERTY STRINGS TBB STD)
 if(NOT NOLI_PARALLEL MATCHES "^(TBB|STD)$")

@@ -3,9 +3,9 @@
 // `noli fuzz trajectories --library`: a run, and a saved motion again, against somebody else's library.
 #pragma once
 
+#include "app/audit/library_options.h"
 #include "app/exit_code.h"
 #include "app/fuzz/fuzz_options.h"
-#include "app/library_options.h"
 
 namespace noli::app {
 

@@ -6,16 +6,12 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
-namespace noli::audit {
+#include <noli/errors.h>
 
-/// A fault of the machine. what() is one line.
-struct NotSavedError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+namespace noli::audit {
 
 class NotSaved {
  public:
@@ -31,9 +27,9 @@ class NotSaved {
     }
   }
 
-  /// Throws NotSavedError if something was not saved.
+  /// Throws WriteError if something was not saved.
   void require_nothing() const {
-    if (why_) throw NotSavedError("not all that was found is saved: " + *why_);
+    if (why_) throw WriteError("not all that was found is saved: " + *why_);
   }
 
  private:

@@ -69,6 +69,17 @@ bool speaks_of_gpl_alone(std::string_view text) {
   return true;
 }
 
+/// The sources that are compiled as one file (cmake/NoliBatches.cmake), or this one.
+std::vector<fs::path> sources_of(const fs::path& file) {
+  if (file.parent_path().filename() != "Unity") return {file};
+  static const std::regex include("#include \"([^\"]*)\"");
+  const std::string text = read_text(file);
+  std::vector<fs::path> sources;
+  for (auto found = std::sregex_iterator(text.begin(), text.end(), include); found != std::sregex_iterator(); ++found)
+    sources.emplace_back((*found)[1].str());
+  return sources;
+}
+
 bool is_cgal(const fs::path& path) { return contains(path.generic_string(), "/include/CGAL/"); }
 
 }  // namespace
@@ -92,8 +103,9 @@ std::vector<CompileCommand> compile_commands(const fs::path& build) {
   std::vector<CompileCommand> commands;
   for (const auto& entry : nlohmann::json::parse(read_text(build / "compile_commands.json"))) {
     const std::string command = std::regex_replace(entry.at("command").get<std::string>(), output, "");
-    commands.push_back({entry.at("file").get<std::string>(), std::regex_replace(command, input, ""),
-                        entry.at("directory").get<std::string>()});
+    for (const fs::path& source : sources_of(entry.at("file").get<std::string>())) {
+      commands.push_back({source, std::regex_replace(command, input, ""), entry.at("directory").get<std::string>()});
+    }
   }
   return commands;
 }

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 /// The layers whose code is in the libraries or in the command.
 const std::set<std::string> shipped = {"kernel",         "trajectory", "certificates", "integrator", "proofs",
-                                       "proofs/checker", "audit",      "app",          "oracle",     "include"};
+                                       "proofs/checker", "certify",    "report",       "audit",      "app",
+                                       "oracle",         "include"};
 
 fs::path in_project(const fs::path& file) { return file.lexically_relative(NOLI_SOURCE_DIR); }
 
@@ -85,12 +86,6 @@ std::vector<fs::path> files_read_for_what_ships() {
   return {all.begin(), all.end()};
 }
 
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
 bool reads(const std::vector<fs::path>& files, const std::string& part) {
   return std::any_of(files.begin(), files.end(),
                      [&](const fs::path& f) { return f.string().find(part) != std::string::npos; });
@@ -101,7 +96,7 @@ TEST(LicencesSlow, WhatShipsStandsOnNothingStricterThanLgpl) {
   EXPECT_TRUE(reads(files, "/include/CGAL/")) << "the scan no longer sees what the kernel stands on";
   EXPECT_TRUE(reads(files, "gmp"));
   const auto violations = licence_violations(files);
-  EXPECT_TRUE(violations.empty()) << joined(violations);
+  EXPECT_TRUE(violations.empty()) << lines(violations);
 }
 
 /// Compiles one line with the kernel's flags and judges all that the compiler then reads.
@@ -113,18 +108,18 @@ std::vector<std::string> violations_of(const std::string& line) {
 
 TEST(Licences, APlantedGplPackageOfCgalIsFound) {
   const auto violations = violations_of("#include <CGAL/Triangulation_2.h>");
-  EXPECT_NE(joined(violations).find("/CGAL/Triangulation_2.h is licensed GPL-3.0-or-later"), std::string::npos)
-      << joined(violations);
-  EXPECT_NE(joined(violations).find("/CGAL/license/"), std::string::npos);
+  EXPECT_NE(lines(violations).find("/CGAL/Triangulation_2.h is licensed GPL-3.0-or-later"), std::string::npos)
+      << lines(violations);
+  EXPECT_NE(lines(violations).find("/CGAL/license/"), std::string::npos);
 }
 
-TEST(Licences, AnLgplPackageOfCgalIsNot) { EXPECT_EQ(joined(violations_of("#include <CGAL/Interval_nt.h>")), ""); }
+TEST(Licences, AnLgplPackageOfCgalIsNot) { EXPECT_EQ(lines(violations_of("#include <CGAL/Interval_nt.h>")), ""); }
 
 TEST(Licences, APlantedMprealIsFound) {
   const TemporaryFolder scratch;
   write_file(scratch.path() / "mpreal.h", "// a wrapper\n");
   const auto violations = violations_of("#include \"" + (scratch.path() / "mpreal.h").string() + "\"");
-  EXPECT_EQ(violations.size(), 1U) << joined(violations);
+  EXPECT_EQ(violations.size(), 1U) << lines(violations);
 }
 
 TEST(Licences, ACompilerThatFailsIsNoticed) {
@@ -181,7 +176,7 @@ TEST(Licences, TheCommandNeedsTheStatedLibrariesOnly) {
   const auto [exit_code, output] = run("readelf -d " + quoted(NOLI_COMMAND));
   ASSERT_EQ(exit_code, 0);
   ASSERT_NE(output.find("(NEEDED)"), std::string::npos);
-  EXPECT_EQ(joined(unexpected_libraries(output)), "");
+  EXPECT_EQ(lines(unexpected_libraries(output)), "");
 }
 
 /// What it needs, and what that needs.
@@ -193,14 +188,14 @@ std::string ldd(const std::string& program) {
 }
 
 TEST(Licences, NeitherHdf5NorWhatItsPackageBringsIsInTheCommand) {
-  EXPECT_EQ(joined(network_libraries(ldd(NOLI_COMMAND))), "");
+  EXPECT_EQ(lines(network_libraries(ldd(NOLI_COMMAND))), "");
 }
 
 TEST(Licences, APlantedNetworkIsFound) {
   const auto found = network_libraries(
       "\tlibgmp.so.10 => /lib/libgmp.so.10 (0x1)\n\tlibcurl-gnutls.so.4 => /lib/x (0x2)\n\tlibc.so.6 => /lib/c "
       "(0x3)\n");
-  EXPECT_EQ(joined(found), "libcurl-gnutls.so.4\n");
+  EXPECT_EQ(lines(found), "libcurl-gnutls.so.4\n");
 }
 
 #ifdef NOLI_SERIES
@@ -228,7 +223,7 @@ TEST(Licences, NoLibraryOfOursRefersToHdf5) {
 TEST(Licences, APlantedLibraryIsFound) {
   const auto found = unexpected_libraries(
       " 0x1 (NEEDED)  Shared library: [libgmp.so.10]\n 0x1 (NEEDED)  Shared library: [libreadline.so.8]\n");
-  EXPECT_EQ(joined(found), "libreadline.so.8\n");
+  EXPECT_EQ(lines(found), "libreadline.so.8\n");
 }
 
 bool has_word(const std::string& flags, const std::string& word) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/library_options.h"
+#include "app/audit/library_options.h"
 
 #include <fmt/format.h>
 
