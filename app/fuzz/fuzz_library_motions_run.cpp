@@ -12,13 +12,11 @@
 #include <noli/errors.h>
 #include "app/output.h"
 #include "app/process.h"
-#include "app/progress.h"
 #include "audit/fuzz/trajectories/fuzz_library_motions.h"
 #include "audit/fuzz/trajectories/save_motion.h"
 #include "certify/json.h"
 #include "certify/process/run_program.h"
 #include "certify/result_file.h"
-#include "certify/stopwatch.h"
 
 namespace noli::app {
 namespace {
@@ -177,24 +175,16 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
   const Output output(arguments.common.results, {arguments.theirs.asked.path});
   require_writable_folder(arguments.common.out, "--out");
   audit::LibraryMotionOptions options;
+  set_common(options, arguments.common);
   options.asked = arguments.theirs.asked;
-  options.limits = arguments.common.limits;
   options.families = arguments.families;
   options.first_only = arguments.theirs.first_only;
   options.max_findings = arguments.max_findings;
-  options.out = arguments.common.out;
-  options.corpus = corpus_folder(arguments.common);
   options.replay_command = replay_command(arguments.theirs);
-  const Stopwatch watch;
-  const audit::LibraryMotionReport report = with_progress("fuzz trajectories", [&](const auto& show) {
-    options.limits.progress = show;
-    return audit::fuzz_library_motions(options);
-  });
-  const double seconds = watch.seconds();
-  output.write("fuzz-library-trajectories", report_answer(arguments, report, seconds),
-               report_json(arguments, report, seconds));
-  report.not_saved.require_nothing();
-  return fuzz_exit_code(report.findings_total, report.extent);
+  return run_fuzzer(
+      "fuzz trajectories", "fuzz-library-trajectories", output, options, audit::fuzz_library_motions,
+      [&](const auto& report, double seconds) { return report_answer(arguments, report, seconds); },
+      [&](const auto& report, double seconds) { return report_json(arguments, report, seconds); });
 }
 
 ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
@@ -208,7 +198,8 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   const Again result = look_again(arguments);
   const audit::FrameMotion& motion = result.motion;
-  const char* const word = interrupted() ? "undecided" : result.found ? "finding" : "no_finding";
+  const bool unknown = interrupted(), finding = result.found.has_value();
+  const char* const word = again_verdict(unknown, finding);
   report::Answer answer(
       word,
       {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
@@ -226,8 +217,7 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
                 {"vertices", motion.mesh.vertex_count},
                 {"difference", result.found ? Json(result.found->words) : Json()},
                 {"folder", result.saved ? Json(result.saved->string()) : Json()}});
-  if (interrupted()) return ExitCode::undecided;
-  return result.found ? ExitCode::refuted : ExitCode::holds;
+  return again_exit_code(unknown, finding);
 }
 
 }  // namespace noli::app

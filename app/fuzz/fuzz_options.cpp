@@ -72,6 +72,12 @@ std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& 
   return arguments.corpus;
 }
 
+void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments) {
+  settings.limits = arguments.limits;
+  settings.out = arguments.out;
+  settings.corpus = corpus_folder(arguments);
+}
+
 const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent) {
   if (extent.interrupted) return "undecided";
   if (findings > 0) return "finding";
@@ -87,6 +93,14 @@ ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent)
 ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t done, bool interrupted) {
   if (interrupted || done == 0) return ExitCode::undecided;
   return findings > 0 ? ExitCode::refuted : ExitCode::holds;
+}
+
+const char* again_verdict(bool unknown, bool finding) {
+  return unknown ? "undecided" : finding ? "finding" : "no_finding";
+}
+
+ExitCode again_exit_code(bool unknown, bool finding) {
+  return unknown ? ExitCode::undecided : finding ? ExitCode::refuted : ExitCode::holds;
 }
 
 }  // namespace noli::app

@@ -11,7 +11,9 @@
 
 #include "app/exit_code.h"
 #include "app/output.h"
-#include "audit/fuzz/fuzz_blocks.h"
+#include "app/progress.h"
+#include "audit/fuzz/fuzzing.h"
+#include "certify/stopwatch.h"
 
 namespace noli::app {
 
@@ -51,10 +53,33 @@ void settle_limits(FuzzArgumentsInCommon& arguments);
 /// The folder of --corpus, made if it is not there. Throws UsageError.
 std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& arguments);
 
+/// What all fuzzers are told. Throws UsageError.
+void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments);
+
 /// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", "no_finding".
 const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent);
 ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent);
 /// The same of `done` queries.
 ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t done, bool interrupted);
+
+/// Of something that was judged again: "undecided", "finding", "no_finding".
+const char* again_verdict(bool unknown, bool finding);
+ExitCode again_exit_code(bool unknown, bool finding);
+
+/// Runs fuzz(options), shows how far it is as "fuzz ITEMS", and writes a result with this schema: answer_of(report,
+/// seconds) and json_of(report, seconds). Throws WriteError when not all that was found could be saved.
+template <class Options, class Fuzz, class AnswerOf, class JsonOf>
+ExitCode run_fuzzer(const char* items, const char* schema, const Output& output, Options& options, const Fuzz& fuzz,
+                    const AnswerOf& answer_of, const JsonOf& json_of) {
+  const Stopwatch watch;
+  const auto report = with_progress(items, [&](const auto& show) {
+    options.limits.progress = show;
+    return fuzz(options);
+  });
+  const double seconds = watch.seconds();
+  output.write(schema, answer_of(report, seconds), json_of(report, seconds));
+  report.not_saved.require_nothing();
+  return fuzz_exit_code(report.findings_total, report.extent);
+}
 
 }  // namespace noli::app

@@ -13,7 +13,6 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "app/progress.h"
 #include "audit/fuzz/proofs/fuzz_proofs.h"
 #include "audit/fuzz/proofs/minimise_proof.h"
 #include "audit/fuzz/shape_corpus.h"
@@ -23,7 +22,6 @@
 #include "certify/process/this_program.h"
 #include "certify/proofs/checker.h"
 #include "certify/result_file.h"
-#include "certify/stopwatch.h"
 #include "trajectory/text.h"
 
 namespace noli::app {
@@ -229,23 +227,19 @@ ExitCode run(ProofsArguments& arguments) {
   const ScratchFolder scratch(ScratchFolder::Place::memory);
   CheckersBeside checkers(scratch.path());
   audit::ProofFuzzOptions options;
-  options.limits = arguments.common.limits;
-  options.out = arguments.common.out;
-  options.corpus = corpus_folder(arguments.common);
+  set_common(options, arguments.common);
   options.verified_every = arguments.verified_every;
   options.make_checkers = checkers.make();
   options.cases = cases(arguments, scratch.path());
   if (options.cases.empty() && !interrupted()) throw std::runtime_error("no proof could be made to begin with");
-  const Stopwatch watch;
-  const audit::ProofFuzzReport report = with_progress("fuzz proofs", [&](const auto& show) {
-    options.limits.progress = show;
-    return audit::fuzz_proofs(options);
-  });
-  const double seconds = watch.seconds();
-  output.write("fuzz-proofs", report_answer(arguments, report, options.cases.size(), seconds),
-               report_json(arguments, report, options.cases.size(), seconds));
-  report.not_saved.require_nothing();
-  return fuzz_exit_code(report.findings_total, report.extent);
+  return run_fuzzer(
+      "fuzz proofs", "fuzz-proofs", output, options, audit::fuzz_proofs,
+      [&](const auto& report, double seconds) {
+        return report_answer(arguments, report, options.cases.size(), seconds);
+      },
+      [&](const auto& report, double seconds) {
+        return report_json(arguments, report, options.cases.size(), seconds);
+      });
 }
 
 /// Writes it into --out; where.
@@ -276,7 +270,7 @@ ExitCode again(const ProofsArguments& arguments) {
   }
   const audit::ProofJudgement& judged = proof.judgement;
   const bool stopped = judged.stopped || interrupted();
-  const char* const word = stopped ? "undecided" : finding ? "finding" : "no_finding";
+  const char* const word = again_verdict(stopped, finding);
   const char* const verified = judged.verified ? word_of(*judged.verified) : "not_asked";
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
   report::Answer answer(word, {{"plain", word_of(judged.plain)}, {"verified", verified}, {"claim", claim}});
@@ -293,8 +287,7 @@ ExitCode again(const ProofsArguments& arguments) {
                 {"claim", claim},
                 {"difference", finding ? Json(judged.difference) : Json()},
                 {"folder", saved ? Json(saved->string()) : Json()}});
-  if (stopped) return ExitCode::undecided;
-  return finding ? ExitCode::refuted : ExitCode::holds;
+  return again_exit_code(stopped, finding);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "app/output.h"
 #include "app/output_files.h"
 #include "app/process.h"
-#include "app/progress.h"
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/scenes/fuzz_scenes.h"
 #include "certify/json.h"
@@ -18,7 +17,6 @@
 #include "certify/process/scratch_folder.h"
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
-#include "certify/stopwatch.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -114,20 +112,13 @@ ExitCode fuzz(ScenesArguments& arguments) {
   require_writable_folder(arguments.common.out, "--out");
   const ScratchFolder scratch(ScratchFolder::Place::memory);
   audit::SceneFuzzOptions options;
-  options.limits = arguments.common.limits;
+  set_common(options, arguments.common);
   options.noli = this_program();
   options.work_folder = scratch.path();
-  options.out = arguments.common.out;
-  options.corpus = corpus_folder(arguments.common);
-  const Stopwatch watch;
-  const audit::SceneFuzzReport report = with_progress("fuzz scenes", [&](const auto& show) {
-    options.limits.progress = show;
-    return audit::fuzz_scenes(options);
-  });
-  const double seconds = watch.seconds();
-  output.write("fuzz-scenes", report_answer(arguments, report, seconds), report_json(arguments, report, seconds));
-  report.not_saved.require_nothing();
-  return fuzz_exit_code(report.findings_total, report.extent);
+  return run_fuzzer(
+      "fuzz scenes", "fuzz-scenes", output, options, audit::fuzz_scenes,
+      [&](const auto& report, double seconds) { return report_answer(arguments, report, seconds); },
+      [&](const auto& report, double seconds) { return report_json(arguments, report, seconds); });
 }
 
 /// A saved scene again, as it is or made smaller.
@@ -162,7 +153,8 @@ ExitCode again(const ScenesArguments& arguments) {
     write_file(*saved, scene.dump(2) + '\n');
   }
   judgement.stopped |= interrupted();
-  const char* const word = judgement.stopped ? "undecided" : judgement.difference ? "finding" : "no_finding";
+  const bool finding = judgement.difference.has_value();
+  const char* const word = again_verdict(judgement.stopped, finding);
   report::Answer answer(word, {{"end", judgement.end.empty() ? "none" : judgement.end},
                                {"verified", judgement.verified},
                                {"resumed", judgement.resumed}});
@@ -176,8 +168,7 @@ ExitCode again(const ScenesArguments& arguments) {
                 {"resumed", judgement.resumed},
                 {"difference", judgement.difference ? Json(*judgement.difference) : Json()},
                 {"file", saved ? Json(saved->string()) : Json()}});
-  if (judgement.stopped) return ExitCode::undecided;
-  return judgement.difference ? ExitCode::refuted : ExitCode::holds;
+  return again_exit_code(judgement.stopped, finding);
 }
 
 }  // namespace

@@ -12,14 +12,12 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "app/progress.h"
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
 #include "audit/fuzz/trajectories/save_motion.h"
 #include "audit/fuzz/trajectories/verify_program.h"
 #include "certify/json.h"
 #include "certify/result_file.h"
-#include "certify/stopwatch.h"
 #include "trajectory/write_file.h"
 
 namespace noli::app {
@@ -117,22 +115,15 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   audit::VerifyProgram subject(arguments.verified_every, interrupted());
   if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
   audit::TrajectoryOptions options;
-  options.limits = arguments.common.limits;
+  set_common(options, arguments.common);
   options.families = arguments.families;
   options.decide = [&](const audit::FrameMotion& motion) { return subject(motion); };
   options.max_findings = arguments.max_findings;
-  options.out = arguments.common.out;
-  options.corpus = corpus_folder(arguments.common);
   options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
-  const Stopwatch watch;
-  const audit::TrajectoryReport report = with_progress("fuzz trajectories", [&](const auto& show) {
-    options.limits.progress = show;
-    return audit::fuzz_trajectories(options);
-  });
-  const double seconds = watch.seconds();
-  output.write("fuzz-trajectories", report_answer(arguments, report, seconds), report_json(arguments, report, seconds));
-  report.not_saved.require_nothing();
-  return fuzz_exit_code(report.findings_total, report.extent);
+  return run_fuzzer(
+      "fuzz trajectories", "fuzz-trajectories", output, options, audit::fuzz_trajectories,
+      [&](const auto& report, double seconds) { return report_answer(arguments, report, seconds); },
+      [&](const auto& report, double seconds) { return report_json(arguments, report, seconds); });
 }
 
 /// A saved motion again, as it is or made smaller.
@@ -165,7 +156,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
     audit::save_motion(motion, *found, command, *saved);
   }
   const bool unknown = interrupted() || (undecided && !found);
-  const char* const word = unknown ? "undecided" : found ? "finding" : "no_finding";
+  const char* const word = again_verdict(unknown, found.has_value());
   report::Answer answer(
       word,
       {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
@@ -179,8 +170,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
                 {"vertices", motion.mesh.vertex_count},
                 {"difference", found ? Json(*found) : Json()},
                 {"folder", saved ? Json(saved->string()) : Json()}});
-  if (unknown) return ExitCode::undecided;
-  return found ? ExitCode::refuted : ExitCode::holds;
+  return again_exit_code(unknown, found.has_value());
 }
 
 ExitCode run(TrajectoriesArguments& arguments) {

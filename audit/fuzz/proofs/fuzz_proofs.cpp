@@ -7,10 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/proofs/minimise_mutant.h"
 #include "audit/fuzz/save_whole.h"
-#include "audit/fuzz/shape_corpus.h"
 #include "trajectory/write_file.h"
 
 namespace noli::audit {
@@ -19,33 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t mutants_per_block = 512;
-
 struct JudgedMutant {
   ProofMutant mutant;
   std::size_t from = 0;  ///< the number of its case
   ProofJudgement judgement;
 };
 
-class ProofFuzzing {
+class ProofFuzzing : public Fuzzing<ProofFuzzing, ProofFuzzOptions, ProofFuzzReport, JudgedMutant> {
  public:
-  explicit ProofFuzzing(const ProofFuzzOptions& options) : options_(options) {
-    if (options.corpus) corpus_.emplace(*options.corpus);
-  }
-
-  ProofFuzzReport run() {
-    if (corpus_) run_corpus();
-    report_.extent = fuzz_blocks(
-        options_.limits, mutants_per_block,
-        [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
-        [this](std::vector<JudgedMutant> block) { take_block(std::move(block)); });
-    report_.extent.items = report_.codes.all();
-    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
-    return std::move(report_);
-  }
-
- private:
-  bool stopped() const { return options_.limits.stop && options_.limits.stop->load(); }
+  static constexpr std::uint64_t items_per_block = 512;
+  using Fuzzing::Fuzzing;
 
   std::vector<JudgedMutant> make_block(std::uint64_t block, std::uint64_t count) const {
     Random random(options_.limits.seed, block);
@@ -56,7 +37,7 @@ class ProofFuzzing {
       JudgedMutant judged;
       judged.from = random.below(options_.cases.size());
       judged.mutant = make_mutant(options_.cases[judged.from], options_.cases, random);
-      const bool ask_verified = (block * mutants_per_block + index) % options_.verified_every == 0;
+      const bool ask_verified = (block * items_per_block + index) % options_.verified_every == 0;
       judged.judgement = judge_mutant(options_.cases[judged.from], judged.mutant, checkers, ask_verified);
       const bool finding = !judged.judgement.difference.empty();
       const bool may_be_kept = corpus_ && !finding && shapes.insert(shape_of(judged.judgement)).second;
@@ -66,27 +47,14 @@ class ProofFuzzing {
     return all;
   }
 
-  void run_corpus() {
-    const Checkers checkers = options_.make_checkers();
-    for (const std::string& name : corpus_->names()) {
-      if (stopped()) return;
-      const ProofFiles files = read_proof_files(corpus_->folder(name));
-      const ProofJudgement judged = judge_proof(files, checkers);
-      corpus_->reached(shape_of(judged));
-      if (judged.difference.empty()) continue;
-      ++report_.findings_total;
-      keep({"corpus/" + name, "", 0, 0, judged.difference, files, {}}, name);
-    }
-  }
-
-  static void count(const ProofAnswer& answer, CodeTally& tally) {
-    const bool failed = !answer.failure.empty();
-    ++(failed ? tally.failed : answer.code == 0 ? tally.accepted : answer.code == 1 ? tally.refuted : tally.rejected);
-  }
-
-  void take_block(std::vector<JudgedMutant> block) {
-    for (std::size_t index = 0; index < block.size(); ++index) take(block[index], index);
-    ++block_;
+  bool take_saved(const std::string& name) {
+    const ProofFiles files = read_proof_files(corpus_->folder(name));
+    const ProofJudgement judged = judge_proof(files, checkers());
+    corpus_->reached(shape_of(judged));
+    if (!judged.difference.empty() && is_kept())
+      keep(ProofFinding{"corpus/" + name, "", 0, 0, judged.difference, files, {}}, &ProofFinding::folder,
+           [&](ProofFinding& kept) { save(kept, unused(options_.out / name)); });
+    return true;
   }
 
   void take(const JudgedMutant& judged, std::size_t index) {
@@ -103,44 +71,42 @@ class ProofFuzzing {
     report_.judged += judgement.judged ? 1 : 0;
     report_.not_judged += said && !judgement.truth && judgement.difference.empty() ? 1 : 0;
     if (!judgement.difference.empty()) return shrink(judged, index);
-    if (!corpus_) return;
-    const std::string shape = shape_of(judgement);
-    if (!corpus_->reached(shape)) return;
-    report_.not_saved.attempt([&] {
-      corpus_->add(shape, [&](const fs::path& folder) {
-        write_proof_files(files_of(options_.cases[judged.from], judged.mutant), folder);
-      });
+    add_to_corpus(shape_of(judgement), [&](const fs::path& folder) {
+      write_proof_files(files_of(options_.cases[judged.from], judged.mutant), folder);
     });
+  }
+
+  std::uint64_t items() const { return report_.codes.all(); }
+
+ private:
+  static void count(const ProofAnswer& answer, CodeTally& tally) {
+    const bool failed = !answer.failure.empty();
+    ++(failed ? tally.failed : answer.code == 0 ? tally.accepted : answer.code == 1 ? tally.refuted : tally.rejected);
   }
 
   void shrink(const JudgedMutant& judged, std::size_t index) {
-    ++report_.findings_total;
-    if (report_.findings.size() >= options_.max_findings) return;
+    if (!is_kept()) return;
     const ProofCase& from = options_.cases[judged.from];
-    const Checkers checkers = options_.make_checkers();
     const std::string& difference = judged.judgement.difference;
     const ProofMutant simpler = minimise(from, judged.mutant, [&](const ProofMutant& candidate) {
-      return judge_mutant(from, candidate, checkers, true).difference == difference;
+      return judge_mutant(from, candidate, checkers(), true).difference == difference;
     });
-    keep({from.name, judged.mutant.mutations, block_, index, difference, files_of(from, simpler), {}},
-         fmt::format("seed{}-block{}-index{}", options_.limits.seed, block_, index));
+    keep(ProofFinding{from.name, judged.mutant.mutations, block_, index, difference, files_of(from, simpler), {}},
+         &ProofFinding::folder, [&](ProofFinding& kept) { save(kept, folder_for(kept.block, kept.index, "")); });
   }
 
-  void keep(ProofFinding finding, const std::string& name) {
-    if (report_.findings.size() >= options_.max_findings) return;
-    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding, name); })) finding.folder.clear();
-    report_.findings.push_back(std::move(finding));
+  /// For what is judged one after another.
+  const Checkers& checkers() {
+    if (!checkers_) checkers_ = options_.make_checkers();
+    return *checkers_;
   }
 
-  void save(ProofFinding& finding, const std::string& name) const {
-    finding.folder = unused(options_.out / name);
-    save_finding(finding.files, finding.name + ": " + finding.mutations, finding.difference, finding.folder);
+  static void save(ProofFinding& finding, const fs::path& folder) {
+    finding.folder = folder;
+    save_finding(finding.files, finding.name + ": " + finding.mutations, finding.difference, folder);
   }
 
-  const ProofFuzzOptions& options_;
-  std::optional<ShapeCorpus> corpus_;
-  std::uint64_t block_ = 0;
-  ProofFuzzReport report_;
+  std::optional<Checkers> checkers_;
 };
 
 }  // namespace

@@ -25,22 +25,17 @@
 #include <string>
 #include <vector>
 
-#include "audit/fuzz/fuzz_blocks.h"
-#include "audit/fuzz/not_saved.h"
+#include "audit/fuzz/fuzzing.h"
 #include "audit/fuzz/proofs/proof_judge.h"
 #include "audit/fuzz/proofs/proof_mutations.h"
 
 namespace noli::audit {
 
-struct ProofFuzzOptions {
-  FuzzLimits limits;
+struct ProofFuzzOptions : FuzzSettings {
   std::vector<ProofCase> cases;  ///< at least one
   MakeCheckers make_checkers;    ///< plain: asked about every mutant
   std::uint64_t verified_every =
-      50;                     ///< asked about one mutant of so many, and all that are accepted of a changed claim
-  std::filesystem::path out;  ///< folder, made for the first finding; empty: nothing is saved
-  std::size_t max_findings = 20;
-  std::optional<std::filesystem::path> corpus;  ///< folder that is there: asked about first, added to
+      50;  ///< asked about one mutant of so many, and all that are accepted of a changed claim
 };
 
 struct ProofFinding {
@@ -60,16 +55,12 @@ struct CodeTally {
   std::uint64_t all() const { return accepted + refuted + rejected + failed; }
 };
 
-struct ProofFuzzReport {
-  FuzzExtent extent;
-  NotSaved not_saved;
+struct ProofFuzzReport : FuzzTotals {
   CodeTally codes;
   std::map<std::string, CodeTally> mutations;  ///< by name
   std::uint64_t checked_verified = 0;
   std::uint64_t judged = 0;      ///< accepted or refuted, of a changed claim or trajectory, and decided by the oracle
   std::uint64_t not_judged = 0;  ///< the same, about a run
-  std::uint64_t findings_total = 0;
-  std::size_t corpus_size = 0;  ///< proofs in the corpus, of before and new
   std::vector<ProofFinding> findings;
 };
 

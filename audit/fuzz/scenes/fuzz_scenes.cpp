@@ -8,10 +8,8 @@
 #include <utility>
 
 #include <noli/errors.h>
-#include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/save_whole.h"
-#include "audit/fuzz/shape_corpus.h"
 #include "integrator/scene/json_text.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/text.h"
@@ -23,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t scenes_per_block = 4;
 constexpr const char *scene_file = "scene.json", *wrong_place_file = "wrong_place";  // of a corpus
 
 /// The word behind a key in what --porcelain prints: "verdict=no_contact end=done windows=5".
@@ -165,21 +162,47 @@ struct JudgedScene {
   SceneJudgement judgement;
 };
 
-class SceneFuzzing {
+class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzReport, JudgedScene> {
  public:
-  explicit SceneFuzzing(const SceneFuzzOptions& options) : options_(options) {
-    if (options.corpus) corpus_.emplace(*options.corpus);
+  static constexpr std::uint64_t items_per_block = 4;
+  using Fuzzing::Fuzzing;
+
+  std::optional<JudgedScene> make(std::uint64_t block, std::size_t index, Random& random) const {
+    const auto all = scene_generators();
+    const SceneGenerator& by = all[(block * items_per_block + index) % all.size()];
+    JudgedScene one{by.make(random), std::string(by.name), {}};
+    one.judgement = judge(one.made);
+    if (one.judgement.stopped) return std::nullopt;
+    return one;
   }
 
-  SceneFuzzReport run() {
-    if (corpus_) run_corpus();
-    report_.extent = fuzz_blocks(
-        options_.limits, scenes_per_block,
-        [this](std::uint64_t block, std::uint64_t count) { return make_block(block, count); },
-        [this](std::vector<JudgedScene> block) { take_block(std::move(block)); });
-    report_.extent.items = taken_;
-    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
-    return std::move(report_);
+  bool take_saved(const std::string& name) {
+    const fs::path folder = corpus_->folder(name), wrong = folder / wrong_place_file;
+    JudgedScene one{{read_saved_scene(folder / scene_file), {}}, "corpus/" + name, {}};
+    if (fs::exists(wrong)) one.made.wrong_place = first_line(read_whole_file(wrong));
+    one.judgement = judge(one.made);
+    if (one.judgement.difference) found(one, 0);
+    return true;
+  }
+
+  void take(const JudgedScene& one, std::size_t index) {
+    ++report_.ends[one.generator][one.judgement.end.empty() ? "failed" : one.judgement.end];
+    report_.verified += one.judgement.verified ? 1 : 0;
+    report_.resumed += one.judgement.resumed ? 1 : 0;
+    if (one.judgement.difference) return found(one, index);
+    // The simulations of a generator that end in the same way have one shape.
+    add_to_corpus(one.generator + ": " + without_numbers(one.judgement.end), [&](const fs::path& folder) {
+      write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
+      if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
+    });
+  }
+
+  std::uint64_t items() const {
+    std::uint64_t sum = 0;
+    for (const auto& [generator, ends] : report_.ends) {
+      for (const auto& [end, count] : ends) sum += count;
+    }
+    return sum;
   }
 
  private:
@@ -191,60 +214,8 @@ class SceneFuzzing {
     return judgement;
   }
 
-  std::vector<JudgedScene> make_block(std::uint64_t block, std::uint64_t count) const {
-    const auto all = scene_generators();
-    Random random(options_.limits.seed, block);
-    std::vector<JudgedScene> judged;
-    for (std::uint64_t index = 0; index < count; ++index) {
-      const SceneGenerator& by = all[(block * scenes_per_block + index) % all.size()];
-      JudgedScene one{by.make(random), std::string(by.name), {}};
-      one.judgement = judge(one.made);
-      if (one.judgement.stopped) break;
-      judged.push_back(std::move(one));
-    }
-    return judged;
-  }
-
-  void run_corpus() {
-    for (const std::string& name : corpus_->names()) {
-      if (options_.limits.stop && options_.limits.stop->load()) return;
-      const fs::path folder = corpus_->folder(name), wrong = folder / wrong_place_file;
-      JudgedScene one{{read_saved_scene(folder / scene_file), {}}, "corpus/" + name, {}};
-      if (fs::exists(wrong)) one.made.wrong_place = first_line(read_whole_file(wrong));
-      one.judgement = judge(one.made);
-      if (one.judgement.difference) keep(std::move(one), 0);
-    }
-  }
-
-  /// The simulations of a generator that end in the same way have one shape.
-  void add_to_corpus(const JudgedScene& one) {
-    const std::string shape = one.generator + ": " + without_numbers(one.judgement.end);
-    if (!corpus_->reached(shape)) return;
-    report_.not_saved.attempt([&] {
-      corpus_->add(shape, [&](const fs::path& folder) {
-        write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
-        if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
-      });
-    });
-  }
-
-  void take_block(std::vector<JudgedScene> block) {
-    for (std::size_t index = 0; index < block.size(); ++index) {
-      JudgedScene& one = block[index];
-      ++taken_;
-      ++report_.ends[one.generator][one.judgement.end.empty() ? "failed" : one.judgement.end];
-      report_.verified += one.judgement.verified ? 1 : 0;
-      report_.resumed += one.judgement.resumed ? 1 : 0;
-      if (corpus_ && !one.judgement.difference) add_to_corpus(one);
-      if (one.judgement.difference) keep(std::move(one), index);
-    }
-    ++block_;
-  }
-
-  void keep(JudgedScene one, std::size_t index) {
-    ++report_.findings_total;
-    if (report_.findings.size() >= options_.max_findings) return;
-    if (++alike_[*one.judgement.difference] > options_.max_alike) return;
+  void found(const JudgedScene& one, std::size_t index) {
+    if (!is_kept() || ++alike_[*one.judgement.difference] > options_.max_alike) return;
     SceneFinding finding{one.generator, block_, index, *one.judgement.difference, one.made.scene, one.made.scene, {}};
     finding.wrong_place = one.made.wrong_place;
     const std::string kind(kind_of(finding.difference));
@@ -253,16 +224,13 @@ class SceneFuzzing {
     // A scene that is wrong stays wrong in other places when something is left out: its message proves nothing then.
     if (!one.made.wrong_place) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
     finding.difference = now(finding.shrunk).value_or(finding.difference);
-    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.file.clear();
-    report_.findings.push_back(std::move(finding));
+    keep(std::move(finding), &SceneFinding::file, [this](SceneFinding& kept) { save(kept); });
   }
 
   void save(SceneFinding& finding) const {
     const bool known = finding.generator.starts_with("corpus/");
-    const fs::path folder =
-        unused(options_.out / (known ? finding.generator
-                                     : fmt::format("seed{}-block{}-index{}-{}", options_.limits.seed, finding.block,
-                                                   finding.index, finding.generator)));
+    const fs::path folder = known ? unused(options_.out / finding.generator)
+                                  : folder_for(finding.block, finding.index, "-" + finding.generator);
     finding.file = folder / scene_file;
     std::vector<std::string> command = {"noli", "fuzz", "scenes", "--replay", finding.file};
     if (finding.wrong_place) command.insert(command.end(), {"--wrong-place", *finding.wrong_place});
@@ -272,12 +240,8 @@ class SceneFuzzing {
     });
   }
 
-  const SceneFuzzOptions& options_;
   mutable std::atomic<std::uint64_t> number_ = 0;
-  std::uint64_t block_ = 0, taken_ = 0;
   std::map<std::string, std::size_t> alike_;  ///< by difference
-  std::optional<ShapeCorpus> corpus_;
-  SceneFuzzReport report_;
 };
 
 }  // namespace

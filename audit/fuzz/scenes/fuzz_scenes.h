@@ -23,8 +23,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/fuzz/fuzz_blocks.h"
-#include "audit/fuzz/not_saved.h"
+#include "audit/fuzz/fuzzing.h"
 #include "audit/fuzz/scenes/scene_generators.h"
 #include "certify/process/run_program.h"
 
@@ -33,15 +32,11 @@ namespace noli::audit {
 /// Runs `noli` with these arguments. Called from several threads at once.
 using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
 
-struct SceneFuzzOptions {
-  FuzzLimits limits;
+struct SceneFuzzOptions : FuzzSettings {
   RunNoli noli;
-  std::filesystem::path work_folder;            ///< folder that is there, for runs
-  std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
-  std::size_t max_findings = 20;                ///< shrink and save at most that many; all are counted
-  std::size_t max_alike = 3;                    ///< and at most so many whose difference has the same words
-  std::size_t shrink_budget = 150;              ///< scenes to try for each of them
-  std::optional<std::filesystem::path> corpus;  ///< folder that is there: judged first, added to
+  std::filesystem::path work_folder;  ///< folder that is there, for runs
+  std::size_t max_alike = 3;          ///< findings with the same words that are kept
+  std::size_t shrink_budget = 150;    ///< scenes to try for each of them
 };
 
 struct SceneFinding {
@@ -54,14 +49,10 @@ struct SceneFinding {
   std::optional<std::string> wrong_place{};
 };
 
-struct SceneFuzzReport {
-  FuzzExtent extent;
-  NotSaved not_saved;
+struct SceneFuzzReport : FuzzTotals {
   /// By generator, how often simulations came to which end: "exit 0", ...
   std::map<std::string, std::map<std::string, std::uint64_t>> ends;
   std::uint64_t verified = 0, resumed = 0;
-  std::size_t corpus_size = 0;  ///< scenes in the corpus, of before and new
-  std::uint64_t findings_total = 0;
   std::vector<SceneFinding> findings;
 };
 

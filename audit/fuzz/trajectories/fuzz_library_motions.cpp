@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "audit/fuzz/finding_name.h"
-#include "audit/fuzz/shape_corpus.h"
 #include "audit/fuzz/trajectories/fuzz_trajectories.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
 #include "audit/fuzz/trajectories/save_motion.h"
@@ -44,14 +43,16 @@ LibraryUnderTest asked_while_shrinking(LibraryUnderTest library, MotionFault fau
   return library;
 }
 
-class LibraryMotionFuzzing {
+class LibraryMotionFuzzing
+    : public Fuzzing<LibraryMotionFuzzing, LibraryMotionOptions, LibraryMotionReport, AskedMotion> {
  public:
+  static constexpr std::uint64_t items_per_block = motions_per_block;
+
   explicit LibraryMotionFuzzing(const LibraryMotionOptions& options)
-      : options_(options), asked_(options.asked), generators_(motion_generators(options.families)) {
+      : Fuzzing(options), asked_(options.asked), generators_(motion_generators(options.families)) {
     for (const MotionGenerator& generator : generators_) {
       report_.generators.push_back({std::string(generator.name), std::string(generator.attacks), 0, 0, {}});
     }
-    if (options.corpus) corpus_.emplace(*options.corpus);
   }
 
   LibraryMotionReport run() {
@@ -61,38 +62,26 @@ class LibraryMotionFuzzing {
       asked_.host.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*limit);
     }
     report_.knows_times = knows_times(options_.asked);
-    if (corpus_) run_corpus();
-    if (!enough()) {
-      report_.extent = fuzz_blocks(
-          options_.limits, motions_per_block,
-          [this](std::uint64_t block, std::uint64_t count) { return ask_block(block, count); },
-          [this](AskedBlock block) {
-            take_block(std::move(block));
-            return !enough();
-          });
-    }
+    report_ = Fuzzing::run();
     shrink_findings();
     report_.extent.interrupted |= stopped();  // while they were shrunk
-    report_.extent.items = 0;                 // an interruption leaves blocks that are not whole
-    for (const LibraryMotionTally& tally : report_.generators) report_.extent.items += tally.motions;
-    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
     return std::move(report_);
   }
 
- private:
-  bool stopped() const { return options_.limits.stop != nullptr && options_.limits.stop->load(); }
   bool enough() const { return options_.first_only && report_.findings_total > 0; }
 
-  const MotionGenerator& generator_of(std::uint64_t block, std::size_t index) const {
-    return generators_[(block * motions_per_block + index) % generators_.size()];
+  std::uint64_t items() const {
+    std::uint64_t sum = 0;
+    for (const LibraryMotionTally& tally : report_.generators) sum += tally.motions;
+    return sum;
   }
 
-  AskedBlock ask_block(std::uint64_t block, std::uint64_t count) const {
+  AskedBlock make_block(std::uint64_t block, std::uint64_t count) const {
     Random random(options_.limits.seed, block);
     AskedBlock result;
     std::uint64_t costly = 0;
     for (std::size_t index = 0; index < count; ++index) {
-      GeneratedMotion made = generator_of(block, index).make(random);
+      GeneratedMotion made = generators_[which(block, index)].make(random);
       if (costly >= asked_.host.most_hangs) {
         ++result.not_asked;
         continue;
@@ -107,25 +96,25 @@ class LibraryMotionFuzzing {
     return result;
   }
 
-  void run_corpus() {
-    const std::vector<std::string> names = corpus_->names();  // none of those that are added
-    for (const std::string& name : names) {
-      if (stopped() || enough()) return;
-      AskedMotion asked{read_frames(corpus_->folder(name)), {}};
-      asked.answer = ask_motion(asked_, asked.motion, {}, {report_.knows_times, false});
-      if (asked.answer.stopped) return;
-      take(std::move(asked), "corpus/" + name, 0, nullptr);
-    }
+  bool take_saved(const std::string& name) {
+    AskedMotion asked{read_frames(corpus_->folder(name)), {}};
+    asked.answer = ask_motion(asked_, asked.motion, {}, {report_.knows_times, false});
+    if (asked.answer.stopped) return false;
+    take(std::move(asked), "corpus/" + name, 0, nullptr);
+    return true;
   }
 
   void take_block(AskedBlock block) {
     for (std::size_t index = 0; index < block.motions.size(); ++index) {
-      const std::size_t which = (block_ * motions_per_block + index) % report_.generators.size();
-      LibraryMotionTally& tally = report_.generators[which];
+      LibraryMotionTally& tally = report_.generators[which(block_, index)];
       take(std::move(block.motions[index]), tally.name, index, &tally);
     }
     report_.not_asked += block.not_asked;
-    ++block_;
+  }
+
+ private:
+  std::size_t which(std::uint64_t block, std::size_t index) const {
+    return (block * motions_per_block + index) % generators_.size();
   }
 
   void take(AskedMotion asked, const std::string& generator, std::size_t index, LibraryMotionTally* tally) {
@@ -134,22 +123,22 @@ class LibraryMotionFuzzing {
     report_.candidates += answer.candidates;
     report_.false_positives += answer.false_positives;
     if (tally != nullptr) ++tally->motions, tally->contacts += answer.contacts;
-    if (corpus_ && corpus_->reached("library" + answer.shape) && tally != nullptr && !answer.found) {
-      report_.not_saved.attempt([&] {
-        corpus_->add("library" + answer.shape, [&](const fs::path& folder) { write_frames(asked.motion, folder); });
-      });
+    if (tally != nullptr && !answer.found) {
+      add_to_corpus("library" + answer.shape, [&](const fs::path& folder) { write_frames(asked.motion, folder); });
+    } else if (corpus_) {
+      corpus_->reached("library" + answer.shape);
     }
     if (!answer.found) return;
     const auto fault = static_cast<std::size_t>(answer.found->fault);
     ++report_.faults[fault];
     if (tally != nullptr) ++tally->faults[fault];
     report_.through += answer.found->through ? 1 : 0;
-    ++report_.findings_total;
-    keep({*answer.found, generator, block_, index, asked.motion, asked.motion, 1, {}});
+    keep_first({*answer.found, generator, block_, index, asked.motion, asked.motion, 1, {}});
   }
 
   /// The first of its like, saved as it is: it is shrunk later, and should not be lost until then.
-  void keep(LibraryMotionFinding finding) {
+  void keep_first(LibraryMotionFinding finding) {
+    const bool room = is_kept();
     const auto alike = std::ranges::find_if(report_.findings, [&](const LibraryMotionFinding& other) {
       return other.found.is_like(finding.found) && other.generator == finding.generator;
     });
@@ -157,7 +146,7 @@ class LibraryMotionFuzzing {
       ++alike->alike;
       return;
     }
-    if (report_.findings.size() >= options_.max_findings) return;
+    if (!room) return;
     if (!options_.out.empty()) finding.folder = unused(options_.out / folder_name(finding));
     save(finding);
     report_.findings.push_back(std::move(finding));
@@ -193,12 +182,8 @@ class LibraryMotionFuzzing {
     for (LibraryMotionFinding& finding : findings) save(finding);
   }
 
-  const LibraryMotionOptions& options_;
   LibraryUnderTest asked_;  ///< to be asked until the time of the run is over
   std::vector<MotionGenerator> generators_;
-  std::optional<ShapeCorpus> corpus_;
-  std::uint64_t block_ = 0;
-  LibraryMotionReport report_;
 };
 
 }  // namespace

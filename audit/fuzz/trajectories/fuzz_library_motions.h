@@ -23,22 +23,17 @@
 #include <string>
 #include <vector>
 
-#include "audit/fuzz/fuzz_blocks.h"
-#include "audit/fuzz/not_saved.h"
+#include "audit/fuzz/fuzzing.h"
 #include "audit/fuzz/trajectories/library_motion.h"
 
 namespace noli::audit {
 
-struct LibraryMotionOptions {
+struct LibraryMotionOptions : FuzzSettings {
   LibraryUnderTest asked;
-  FuzzLimits limits;
-  std::vector<std::string> families;            ///< names of generators; none: all of them
-  bool first_only = false;                      ///< stop behind the first block that has a finding
-  std::size_t max_findings = 20;                ///< shrink and save at most that many
-  std::size_t shrink_budget = 1000;             ///< motions that the library is asked for each of them
-  std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
-  std::optional<std::filesystem::path> corpus;  ///< folder that is there, of motions with different shapes
-  std::vector<std::string> replay_command;      ///< how a saved finding is shown again, but for its folder
+  std::vector<std::string> families;        ///< names of generators; none: all of them
+  bool first_only = false;                  ///< stop behind the first block that has a finding
+  std::size_t shrink_budget = 1000;         ///< motions that the library is asked for each finding
+  std::vector<std::string> replay_command;  ///< how a saved finding is shown again, but for its folder
 };
 
 using MotionFaultCounts = std::array<std::uint64_t, motion_fault_count>;
@@ -60,18 +55,15 @@ struct LibraryMotionTally {
   MotionFaultCounts faults{};
 };
 
-struct LibraryMotionReport {
-  FuzzExtent extent;            ///< items: motions that were asked, those of the corpus left out
+/// Items are motions that were asked, those of the corpus left out.
+struct LibraryMotionReport : FuzzTotals {
   std::uint64_t not_asked = 0;  ///< after too many hangs in their block
   std::uint64_t contacts = 0, candidates = 0, false_positives = 0;
   std::uint64_t through = 0;   ///< findings in whose step who trusts the library goes through a contact
   MotionFaultCounts faults{};  ///< of all findings, those of the corpus included
-  std::uint64_t findings_total = 0;
   std::vector<LibraryMotionFinding> findings;
   std::vector<LibraryMotionTally> generators;
-  std::uint64_t corpus_size = 0;  ///< motions in the corpus, of before and new
   bool knows_times = false;
-  NotSaved not_saved;
 };
 
 /// With a count, without a corpus and without hangs the report is the same for any number of threads. What cannot be

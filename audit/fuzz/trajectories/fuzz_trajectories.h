@@ -27,8 +27,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/fuzz/fuzz_blocks.h"
-#include "audit/fuzz/not_saved.h"
+#include "audit/fuzz/fuzzing.h"
 #include "audit/fuzz/trajectories/frame_motion.h"
 #include "audit/fuzz/trajectories/motion_oracle.h"
 #include "audit/fuzz/trajectories/whole_motion.h"
@@ -61,15 +60,11 @@ struct MotionAnswer {
 /// The subject. Called from several threads at once.
 using DecideMotion = std::function<MotionAnswer(const FrameMotion&)>;
 
-struct TrajectoryOptions {
-  FuzzLimits limits;
+struct TrajectoryOptions : FuzzSettings {
   DecideMotion decide;
-  std::vector<std::string> families;            ///< names of generators; none: all of them
-  std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
-  std::optional<std::filesystem::path> corpus;  ///< folder that is there, of motions with different shapes
-  std::size_t max_findings = 20;                ///< shrink and save at most that many; all are counted
-  std::size_t shrink_budget = 1000;             ///< calls of the subject for each of them
-  std::vector<std::string> replay_command;      ///< how a saved finding is shown again, but for its folder
+  std::vector<std::string> families;        ///< names of generators; none: all of them
+  std::size_t shrink_budget = 1000;         ///< calls of the subject for each finding
+  std::vector<std::string> replay_command;  ///< how a saved finding is shown again, but for its folder
 };
 
 struct TrajectoryFinding {
@@ -89,15 +84,11 @@ struct TrajectoryTally {
   std::uint64_t undecided = 0;           ///< in the time that there was
 };
 
-struct TrajectoryReport {
-  FuzzExtent extent;
-  NotSaved not_saved;
-  std::uint64_t findings_total = 0;
+struct TrajectoryReport : FuzzTotals {
   std::vector<TrajectoryFinding> findings;  ///< the first max_findings
   std::vector<TrajectoryTally> generators;
   std::uint64_t checked_plain = 0, checked_verified = 0;
-  std::uint64_t shapes = 0;       ///< different ones
-  std::uint64_t corpus_size = 0;  ///< motions in the corpus, of before and new
+  std::uint64_t shapes = 0;  ///< different ones
 };
 
 /// Runs until a limit. Throws std::invalid_argument for a family that is not there.
