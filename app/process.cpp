@@ -132,6 +132,7 @@ void install_signal_handlers() {
   on_signal(SIGINT, interrupt);
   on_signal(SIGTERM, interrupt);
   on_signal(SIGHUP, interrupt);
+  on_signal(SIGCHLD, SIG_DFL);  // who ignores it hands that down, and then children end without a trace
   on_signal(SIGPIPE, SIG_IGN);
   on_signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is then an error of write
 }

@@ -181,8 +181,10 @@ ProgramEnd Child::finish(const ProgramLimits& limits) {
 }
 
 bool Child::has_ended() const {
+  if (pid_ < 0) return true;
   siginfo_t info = {};
   const int error = ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT);
+  if (error != 0 && errno == ECHILD) return true;  // somebody else has waited for it
   if (error != 0 && errno != EINTR) fail("waiting for a program");
   return error == 0 && info.si_pid == pid_;
 }
@@ -190,8 +192,10 @@ bool Child::has_ended() const {
 ProgramEnd Child::end(ProgramEnd::Kind why, std::chrono::milliseconds patience) {
   ProgramEnd result;
   result.kind = why;
-  const int status = end_it(patience);
+  const std::optional<int> known = end_it(patience);
   if (why == ProgramEnd::Kind::exited) {
+    if (!known) throw std::system_error(ECHILD, std::generic_category(), "how a program ended");
+    const int status = *known;
     if (WIFSIGNALED(status)) result.kind = ProgramEnd::Kind::signalled;
     result.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
   }
@@ -206,8 +210,9 @@ ProgramEnd Child::end(ProgramEnd::Kind why, std::chrono::milliseconds patience) 
   return result;
 }
 
-/// Its status. What is left of its group is ended before its number can be another's.
-int Child::end_it(std::chrono::milliseconds patience) {
+/// Its status, if nobody else has taken it. What is left of its group is ended before its number can be another's.
+std::optional<int> Child::end_it(std::chrono::milliseconds patience) {
+  if (pid_ < 0) return std::nullopt;
   const auto signal = [this](int number) {
     ::kill(-pid_, number);
     ::kill(pid_, number);  // before it has a group of its own
@@ -218,10 +223,10 @@ int Child::end_it(std::chrono::milliseconds patience) {
   }
   signal(SIGKILL);
   int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0) {
-    if (errno != EINTR) fail("waiting for a program");
+  const pid_t pid = std::exchange(pid_, -1);
+  while (::waitpid(pid, &status, 0) < 0) {
+    if (errno != EINTR) return std::nullopt;
   }
-  pid_ = -1;
   return status;
 }
 

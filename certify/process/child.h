@@ -110,7 +110,7 @@ class Child {
   /// Writes to its input, and reads what it says meanwhile. `limits.time`: for which it may take nothing. `refused`: it
   /// reads no more. Throws std::system_error.
   Written write(std::string_view bytes, const ProgramLimits& limits);
-  /// The next bytes of its output; nothing when it ends or its time is up before (silent() tells).
+  /// The next bytes of its output, no more than it may say in all; nothing when it ends or its time is up before (silent() tells).
   std::optional<std::string> read(std::size_t count, const ProgramLimits& limits);
   /// Closes its input, reads the rest, and waits for its end; ends it at a limit, or when it has closed its output and
   /// does not end within time_to_stay. Precondition: its output or its errors are piped.
@@ -123,7 +123,7 @@ class Child {
   /// Whether it has closed its output and its errors.
   bool silent() const { return pipes_[1].get() < 0 && pipes_[2].get() < 0; }
   bool has_ended() const;
-  /// Ends it if it has not ended.
+  /// Ends it if it has not ended; once. Throws std::system_error if somebody else in this process has waited for it.
   ProgramEnd end(ProgramEnd::Kind why, std::chrono::milliseconds patience);
   /// What it has computed so far, all its threads together.
   std::chrono::nanoseconds computed() const;
@@ -133,7 +133,7 @@ class Child {
 
  private:
   bool take(std::size_t pipe);
-  int end_it(std::chrono::milliseconds patience);
+  std::optional<int> end_it(std::chrono::milliseconds patience);
 
   std::array<Descriptor, 3> pipes_;  ///< our ends
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

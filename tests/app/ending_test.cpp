@@ -171,5 +171,17 @@ TEST(Ending, TooLittleMemoryIsNoSuccess) {
   EXPECT_EQ(process.err, "noli: out of memory\n");
 }
 
+/// Who ignores the ends of its children hands that down, and then they end without a trace.
+TEST(Ending, AParentThatIgnoresItsChildrenChangesNothing) {
+  const Folder folder;
+  const auto a = folder.write("a.ply", sheets(4, 0)), b = folder.write("b.ply", sheets(4, 3));
+  ProcessOptions options;
+  options.program = "/bin/sh";
+  const Process process =
+      run_noli({"-c", "trap '' CHLD; exec \"$0\" verify \"$1\" \"$2\" --porcelain", NOLI_COMMAND, a, b}, options);
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_TRUE(process.out.starts_with("verdict=proved")) << process.out;
+}
+
 }  // namespace
 }  // namespace noli::app_tests
