@@ -329,7 +329,7 @@ class CellPairs {
       if (apart_at_begin && search_halves(pair, guess, {}, halvings)) return std::nullopt;
       return Resistance{positions_.begin_time(), apart_at_begin};
     } else if constexpr (Out::on) {
-      stopped_ = !positions_.prove_apart(cells.a, parts.a, cells.b, parts.b, tokens_);
+      if (!positions_.prove_apart(cells.a, parts.a, cells.b, parts.b, tokens_)) stopped_ = true;
       return std::nullopt;
     } else {
       const auto begin = positions_.resisting(cells.a, parts.a, cells.b, parts.b, tally_);

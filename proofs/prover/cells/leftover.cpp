@@ -100,6 +100,7 @@ bool Leftovers::is_narrow(const Key& key) { return key[1] == key[2] || key[2] ==
 const std::vector<Leftovers::Entry>& Leftovers::entries(bool narrow) const {
   Index& index = narrow ? narrow_ : wide_;
   std::call_once(index.made, [&] {
+    index.entries.clear();  // what a thread without memory has left
     for (std::size_t i = 0; i < count_; ++i) {
       const NumberedShape cell = shape_of_(i);
       const Key key = key_of(cell.shape);

@@ -115,15 +115,18 @@ class Proof {
     std::mutex mutex;
     std::vector<bool> ready(tasks.size(), false);
     std::size_t given = 0, place = 0;
+    bool failed = false;  // `take` has thrown: nothing is given twice
     walk.run([&](std::size_t task) {
       const std::lock_guard lock(mutex);
       ready[task] = walk.outcome(task).finished;
+      if (std::exchange(failed, true)) return;
       for (; given < tasks.size() && ready[given]; ++given) {
         top.give(place, tasks[given].tokens_before, take_);
         place = tasks[given].tokens_before;
         walk.outcome(given).out.tokens.give(take_);
         walk.outcome(given).out.tokens = {};
       }
+      failed = false;
     });
     if (!walk.sum().finished) return false;
     top.give(place, top.place(), take_);

@@ -33,7 +33,12 @@ class Verification {
   WindowResult run() {
     const Span window{lines_.first_time(), lines_.last_time()};
     WindowChords<Dim> chords = chords_over<Dim>(window, lines_, forest_, options_.threads);
-    if (!cut_time(chords) || !settle_halves(window)) sum_ = walk(chords);
+    if (!cut_time(chords)) {
+      sum_ = walk(chords);
+    } else if (!settle_halves(window)) {
+      sum_ = walk(chords);
+      if (!sum_.finished && !sum_.tally.found_any()) sum_ = std::move(*met_), sum_.finished = false;
+    }
     return {sum_.tally.findings(sum_.finished), sum_.tally.earliest.first()};
   }
 
@@ -96,10 +101,14 @@ class Verification {
 
   /// False as soon as something meets.
   bool settle_span(Span span) {
+    if (!sum_.finished) return true;
     const WindowChords<Dim> chords = chords_over<Dim>(span, lines_, forest_, options_.threads);
     if (cut_time(chords)) return settle_halves(span);
-    const WindowOutcome<Dim> outcome = walk(chords);
-    if (outcome.tally.found_any()) return false;
+    WindowOutcome<Dim> outcome = walk(chords);
+    if (outcome.tally.found_any()) {
+      met_ = std::move(outcome);
+      return false;
+    }
     sum_.tally += outcome.tally;
     sum_.finished = sum_.finished && outcome.finished;
     return true;
@@ -116,6 +125,7 @@ class Verification {
   Progress progress_;
   WindowTally none_;
   WindowOutcome<Dim> sum_;
+  std::optional<WindowOutcome<Dim>> met_;  ///< of the span in which something met
 };
 
 std::vector<Position> begin_of(const WorldLines& lines) {

@@ -87,12 +87,13 @@ class WindowVerifier {
   /// be called from several threads at once. Throws std::bad_alloc, and what `progress` throws.
   WindowResult verify(const WorldLines& lines, const WindowOptions& options) const;
 
-  /// The tree of its proofs: the payload of block TREE (proofs/FORMAT.md).
+  /// The tree of its proofs: the payload of block TREE (proofs/FORMAT.md). Precondition, here and below: there are
+  /// cells.
   std::string encoded_tree() const;
 
   /// Writes the proof of a window in which nothing touches: gives `take` payloads of blocks TOKS, in order, from one
   /// thread at a time. They depend on the lines, the mesh and the claim alone. Tokens are made by several threads and
-  /// given away in order: memory grows with the number of threads, not with the proof. False if it was stopped (stop,
+  /// given away in order: what is behind the slowest task waits in memory. False if it was stopped (stop,
   /// deadline). Ask verify() first: where there is a contact, this gives up only after a long time. Throws TooNear,
   /// NoProof, std::bad_alloc, and what `take` throws. Of the options only threads, stop and deadline count.
   bool prove(const WorldLines& lines, const VerifyOptions& options, const LeastDistance& distance,
