@@ -539,12 +539,12 @@ class CertifiedRun {
   std::optional<Simulation<double, Dim>> simulation_;
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
   Recording<double, Dim> recording_;
-  std::optional<Candidate<Dim>> candidate_;
   std::optional<EnergyWatch> energy_;
   Retries retries_;  ///< of the window that is next to be committed
   std::optional<integrator::ContactLimit> limit_;
   bool finite_ = true;  ///< all numbers of the window that is being integrated
   SimulateOutcome outcome_;
+  std::optional<Candidate<Dim>> candidate_;  ///< last: its verdict, which another thread makes, uses all of the others
 };
 
 /// Of a run that was stopped before its first window, while its model was built.
