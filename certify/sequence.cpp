@@ -6,32 +6,18 @@
 #include <utility>
 
 #include <noli/contact.h>
-#include "certify/queries/any_query.h"
+#include "certify/verification.h"
 #include "proofs/prover/verifier.h"
 #include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 namespace {
 
-AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
-                  std::span<const Position> x_t1) {
-  AnyQuery query{contact.pair, dimension, {}, {}};
-  for (std::size_t i = 0; i < query.size(); ++i) {
-    query.x_t0[i] = x_t0[contact.vertices[i]];
-    query.x_t1[i] = x_t1[contact.vertices[i]];
-  }
-  return query;
-}
-
 /// Kind and time of a contact that was found.
 FirstInStep exactly(const FeatureContact& contact, const AnyQuery& query) {
   const auto found = visit(query, [](const auto& typed) { return first_contact(typed); });
   if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
   return {contact, found->kind, found->time.lower()};
-}
-
-bool meets(const AnyQuery& query) {
-  return visit(query, [](const auto& typed) { return meet(typed); });
 }
 
 }  // namespace
@@ -96,16 +82,7 @@ void SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, St
   options.first_only = false;
   options.max_reports = 0;
   const VerifyResult resting = verify_between(x_t0, x_t0, options);
-  result.complete = result.complete && resting.complete;
-  result.stages += resting.stages;
-  for (std::size_t i = 0; i < result.contacts.size(); ++i) {
-    // Counts of what is not complete are lower bounds, and so must the difference be.
-    const std::uint64_t before = resting.complete ? resting.contacts[i] : result.contacts[i];
-    result.contacts[i] -= std::min(result.contacts[i], before);
-  }
-  std::erase_if(result.reports, [&](const FeatureContact& contact) {
-    return !resting.complete || meets(query_of(contact, options_.dimension, x_t0, x_t0));
-  });
+  drop_met_before(result, resting, options_.dimension, x_t0);
 }
 
 }  // namespace noli

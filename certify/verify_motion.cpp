@@ -10,7 +10,6 @@
 #include <noli/errors.h>
 #include <noli/verify.h>
 #include "certify/not_compared.h"
-#include "certify/proofs/largest_distance.h"
 #include "certify/proofs/lines_pipe.h"
 #include "certify/proofs/prove_run.h"
 #include "certify/runs/run_folder.h"
@@ -19,6 +18,7 @@
 #include "certify/runs/run_series_reader.h"
 #include "certify/simulate/windows_again.h"
 #include "certify/stopwatch.h"
+#include "certify/verification.h"
 #include "integrator/scene/scene.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/folder_lock.h"
@@ -38,10 +38,10 @@ RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log, doubl
   return ending;
 }
 
-class MotionRun {
+class RunVerification : private Verification {
  public:
-  explicit MotionRun(const VerifyRequest& request)
-      : request_(request),
+  explicit RunVerification(const VerifyRequest& request)
+      : Verification(request),
         run_(request.frames.at(0)),
         live_(request.live),
         log_(read_log(run_)),
@@ -86,8 +86,6 @@ class MotionRun {
   }
 
  private:
-  bool stopped() { return outcome_.stop_for(request_); }
-
   void verify_windows() {
     if (request_.reproduce) make_again();
     while (outcome_.complete) {
@@ -95,7 +93,7 @@ class MotionRun {
       // A stop after the last window changes nothing.
       if (!window || stopped() || !reproduce(*window)) break;
       verify(*window);
-      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+      if (enough()) break;
     }
   }
 
@@ -218,14 +216,19 @@ class MotionRun {
     if (!verifier_) verifier_.emplace(reader_.mesh(), beginning(window), options());
     if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
     outcome_.claim.to = window.end;
-    WindowResult result = verifier_->verify(*window.lines, options());
+    WindowOptions deciding = options();
+    deciding.progress = [this](double share) {
+      const double done = static_cast<double>(outcome_.steps.size()) + share;
+      tell("verify", std::min(1.0, done / static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1))));
+    };
+    WindowResult result = verifier_->verify(*window.lines, deciding);
     const bool drop = meeting_at_end_ && result.contact_count() > 0;
     meeting_at_end_ = result.contact_count() > 0;
     if (drop) drop_contacts_at_begin(window, result);
     outcome_.complete = result.complete;
     add(result);
-    const bool found = result.contact_count() + result.initial_intersections > 0;
-    if (request_.open_proof && (result.complete || found) && !outcome_.no_proof) prove(window, result);
+    if (const auto& first = result.first) add_first(first->contact, first->kind, first->lower(), reader_.mesh());
+    if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(window, result);
   }
 
   void prove(RunWindow& window, const WindowResult& result) {
@@ -237,7 +240,7 @@ class MotionRun {
       const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
       proof_ = std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), *verifier_, claim);
     }
-    if (result.contact_count() + result.initial_intersections > 0) {
+    if (result.touches()) {
       witness_sought_ = true;
       if (proof_->refute(window.index, *window.lines, window.group_hash, result)) ++outcome_.witnesses;
     } else if (!outcome_.touches()) {
@@ -262,17 +265,14 @@ class MotionRun {
 
   void prove_untouched(const RunWindow& window) {
     const VerifyOptions options = this->options();
-    try {
-      outcome_.complete = proof_->prove(window.index, *window.lines, window.group_hash, options);
-      if (outcome_.complete) proof_->commit();
-    } catch (const TooNear& near) {
-      outcome_.near = ListedNear{outcome_.steps.size(), near};
-      if (proof_->refute(window.index, *window.lines, window.group_hash, near)) ++outcome_.witnesses;
-      if (window.index == 0) outcome_.largest_distance = proof_->largest(beginning(window), options);
-    } catch (const NoProof&) {
-      outcome_.no_proof = true;
-      outcome_.complete = !request_.needs_proof();
-    }
+    search_proof(
+        [&] {
+          const bool proved = proof_->prove(window.index, *window.lines, window.group_hash, options);
+          if (proved) proof_->commit();
+          return proved;
+        },
+        [&](const TooNear& near) { return proof_->refute(window.index, *window.lines, window.group_hash, near); },
+        [&] { return proof_->largest(beginning(window), options); });
   }
 
   std::vector<Position> beginning(const RunWindow& window) const {
@@ -287,50 +287,19 @@ class MotionRun {
     WindowOptions resting = options();
     resting.first_only = false;
     resting.max_reports = 0;
-    const WindowResult before = verifier_->verify(WorldLines::from_frames(x, x), resting);
-    result.complete = result.complete && before.complete;
-    for (std::size_t i = 0; i < result.contacts.size(); ++i) {
-      const std::uint64_t known = before.complete ? before.contacts[i] : result.contacts[i];
-      result.contacts[i] -= std::min(result.contacts[i], known);
-    }
-    std::erase_if(result.reports, [&](const FeatureContact& c) { return c.first.begin <= window.begin; });
-  }
-
-  void add(const WindowResult& result) {
-    const std::size_t step = outcome_.steps.size() + 1;
-    outcome_.steps.push_back({result.contacts, result.initial_intersections});
-    for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += result.contacts[i];
-    outcome_.initial_intersections += result.initial_intersections;
-    outcome_.stages += result.stages;
-    outcome_.obligations += result.obligations;
-    outcome_.cell_pairs += result.cell_pairs;
-    for (const auto& contact : result.reports) {
-      if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
-    }
-    for (const auto& pair : result.initial_reports) {
-      if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
-    }
-    if (result.first && !outcome_.first) {
-      const FeatureContact& contact = result.first->contact;
-      outcome_.first =
-          First{contact, step, result.first->kind, result.first->lower(), face_of(reader_.mesh(), contact)};
-    }
+    drop_met_before(result, verifier_->verify(WorldLines::from_frames(x, x), resting), outcome_.dimension, x);
   }
 
   void conclude() {
     stopped();
-    const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
     outcome_.steps_total = ended_ ? reader_.windows() : std::max(outcome_.steps_total, outcome_.steps.size());
     outcome_.claim.steps = outcome_.steps_total;
     outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
     outcome_.open_window = ended_ && !live_ && reader_.open_window().has_value();
     if (live_) say_that_it_is_written();
-    outcome_.complete = outcome_.complete && (ended_ || enough);
     // A run of which nothing was committed yet proves nothing.
     if (outcome_.steps.empty()) outcome_.complete = false;
-    const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
-    const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
-    outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
+    set_verdict(ended_);
   }
 
   /// Not of a run that was killed while it was verified.
@@ -341,7 +310,6 @@ class MotionRun {
                     outcome_.steps_total, request_.follow ? "" : "; --follow waits for the others"));
   }
 
-  const VerifyRequest& request_;
   const std::filesystem::path& run_;
   bool live_;  ///< another process writes to it
   LogFacts log_;
@@ -354,11 +322,10 @@ class MotionRun {
   bool witness_sought_ = false;
   bool meeting_at_end_ = false;
   bool ended_ = false;  ///< all windows have been read
-  VerifyOutcome outcome_;
 };
 
 }  // namespace
 
-VerifyOutcome run_verify_motion(const VerifyRequest& request) { return MotionRun(request)(); }
+VerifyOutcome run_verify_motion(const VerifyRequest& request) { return RunVerification(request)(); }
 
 }  // namespace noli

@@ -12,9 +12,9 @@
 #include <noli/errors.h>
 #include <noli/sequence.h>
 #include "certify/groups.h"
-#include "certify/proofs/largest_distance.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/stopwatch.h"
+#include "certify/verification.h"
 #include "trajectory/cells.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frame_order.h"
@@ -38,10 +38,10 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
   }
 }
 
-class SequenceVerification {
+class SequenceVerification : private Verification {
  public:
   explicit SequenceVerification(const VerifyRequest& request)
-      : request_(request),
+      : Verification(request),
         inputs_(request.frames, request.polygons),
         sequence_(request.frames, motion_of(request), inputs_.reader()) {
     require_readable(request.frames);
@@ -62,12 +62,6 @@ class SequenceVerification {
   }
 
  private:
-  bool stopped() { return outcome_.stop_for(request_); }
-
-  void tell(std::string_view work, double share) const {
-    if (request_.progress) request_.progress(work, share);
-  }
-
   void verify_steps() {
     if (request_.merge_identical) find_classes();
     while (!stopped() && outcome_.complete && read_next(sequence_)) {
@@ -75,7 +69,7 @@ class SequenceVerification {
       require_plane();
       note_rest();
       verify();
-      if (outcome_.near || (outcome_.touches() && !request_.keep_going)) break;
+      if (enough()) break;
     }
   }
 
@@ -199,9 +193,8 @@ class SequenceVerification {
     if (by_verifier && request_.open_proof_at_once) begin_proof();
     const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
     outcome_.complete = result.complete;
-    add_counts(result);
-    add_reports(result);
-    if (result.first && !outcome_.first) outcome_.first = first_of(*result.first);
+    add(result);
+    if (const auto& first = result.first) add_first(first->contact, first->kind, first->time, verifier_->mesh());
     if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(result);
   }
 
@@ -224,62 +217,21 @@ class SequenceVerification {
   }
 
   void prove_untouched(const StepResult& result) {
-    if (!FrameProof::is_by_verifier(request_)) return search_proof();
-    if (!result.proof) return note_no_proof();
-    proof_->write(sequence_.step(), sequence_.x_t0(), sequence_.x_t1(), *result.proof);
-  }
-
-  /// With a least distance or exclusions.
-  void search_proof() {
-    const VerifyOptions options = verifier_->step_options();
     const auto step = sequence_.step();
-    try {
-      outcome_.complete = proof_->prove(step, sequence_.x_t0(), sequence_.x_t1(), options);
-    } catch (const TooNear& near) {
-      outcome_.near = ListedNear{step + 1, near};
-      if (proof_->refute(step, sequence_.x_t0(), sequence_.x_t1(), near)) ++outcome_.witnesses;
-      if (step == 0) outcome_.largest_distance = proof_->largest(sequence_.x_t0(), options);
-    } catch (const NoProof&) {
-      note_no_proof();
+    const auto x_t0 = sequence_.x_t0(), x_t1 = sequence_.x_t1();
+    if (FrameProof::is_by_verifier(request_)) {
+      if (!result.proof) return note_no_proof();
+      return proof_->write(step, x_t0, x_t1, *result.proof);
     }
-  }
-
-  void note_no_proof() {
-    outcome_.no_proof = true;
-    outcome_.complete = !request_.needs_proof();
-  }
-
-  void add_counts(const StepResult& result) {
-    outcome_.steps.push_back({result.contacts, result.initial_intersections});
-    for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += result.contacts[i];
-    outcome_.initial_intersections += result.initial_intersections;
-    outcome_.stages += result.stages;
-    outcome_.obligations += result.obligations;
-    outcome_.cell_pairs += result.cell_pairs;
-  }
-
-  void add_reports(const StepResult& result) {
-    const std::size_t step = sequence_.step() + 1;
-    for (const auto& contact : result.reports) {
-      if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
-    }
-    for (const auto& pair : result.initial_reports) {
-      if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
-    }
-  }
-
-  First first_of(const FirstInStep& first) const {
-    return {first.contact, sequence_.step() + 1, first.kind, first.time, face_of(verifier_->mesh(), first.contact)};
+    const VerifyOptions options = verifier_->step_options();
+    search_proof([&] { return proof_->prove(step, x_t0, x_t1, options); },
+                 [&](const TooNear& near) { return proof_->refute(step, x_t0, x_t1, near); },
+                 [&] { return proof_->largest(x_t0, options); });
   }
 
   void conclude() {
     stopped();
-    const bool all_steps = outcome_.steps.size() == outcome_.steps_total;
-    const bool enough = outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going);
-    outcome_.complete = outcome_.complete && (all_steps || enough);
-    const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
-    const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
-    outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
+    set_verdict(outcome_.steps.size() == outcome_.steps_total);
     put_notes();
     outcome_.inputs = inputs_.take_facts();
   }
@@ -298,7 +250,6 @@ class SequenceVerification {
     }
   }
 
-  const VerifyRequest& request_;
   FrameInputs inputs_;
   FrameSequence sequence_;  ///< reads by inputs_
   std::optional<IdenticalVertices> classes_;
@@ -306,7 +257,6 @@ class SequenceVerification {
   std::optional<SequenceVerifier> verifier_;
   std::optional<FrameProof> proof_;
   std::vector<std::string> at_rest_;  ///< notes on steps in which nothing moves
-  VerifyOutcome outcome_;
 };
 
 }  // namespace

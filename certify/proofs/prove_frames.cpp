@@ -22,8 +22,8 @@ CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions) {
   return labels;
 }
 
-ProofFile make_file(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
-                    const IdenticalVertices* classes, const CellLabels& labels) {
+ProofHeader header_of(const VerifyRequest& request, const Claim& claim, int dimension,
+                      const IdenticalVertices* classes) {
   ProofHeader header;
   header.source = request.constant_motion ? ProofSource::frames_at_rest : ProofSource::frames;
   header.dimension = dimension;
@@ -31,18 +31,14 @@ ProofFile make_file(const VerifyRequest& request, const Claim& claim, int dimens
   header.points = request.points;
   header.eta = request.min_distance;
   header.ring = request.ring;
-  header.vertices = mesh.vertex_count;
-  header.mesh = &mesh;
-  header.labels = labels.of;
   header.cells = digest_of_hex(claim.cells);
-  header.excluded = labels.excluded;
   if (classes != nullptr) {
     const auto& same = classes->representative();
     for (VertexId v = 0; v < same.size(); ++v) {
       if (same[v] != v) header.merged.push_back({v, same[v]});
     }
   }
-  return {request.open_proof(claim), header};
+  return header;
 }
 
 }  // namespace
@@ -66,15 +62,9 @@ Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome
 
 FrameProof::FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
                        const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x)
-    : mesh_(mesh),
-      dimension_(dimension),
-      eta_(request.min_distance),
-      ring_(request.ring),
-      strict_(request.strict),
-      rest_(request.constant_motion),
-      labels_(labels_of_frames(mesh, exclusions)),
-      paths_(mesh, request.ring),
-      file_(make_file(request, claim, dimension, mesh, classes, labels_)) {
+    : rest_(request.constant_motion),
+      proofs_(mesh, header_of(request, claim, dimension, classes), labels_of_frames(mesh, exclusions),
+              [&](const ProofHeader& header) { return ProofFile(request.open_proof(claim), header); }) {
   if (is_by_verifier(request)) return;
   WindowOptions options;
   options.dimension = dimension;
@@ -85,52 +75,31 @@ FrameProof::FrameProof(const VerifyRequest& request, const Claim& claim, int dim
 
 void FrameProof::write(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                        const StepProof& proof) {
-  begin(step, ProofFile::Kind::proof, WorldLines::from_frames(x_t0, x_t1));
-  if (leaf_cells_ != proof.leaf_cells) file_.tree(encoded_tree(proof.leaf_cells));
-  file_.tokens(proof.tokens);
-  file_.commit();
+  std::optional<std::string> tree;
+  if (leaf_cells_ != proof.leaf_cells) tree = encoded_tree(proof.leaf_cells);
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
+  proofs_.write(at(step, lines), tree, proof.tokens);
   leaf_cells_ = proof.leaf_cells;
 }
 
 bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                        const VerifyOptions& options) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  begin(step, ProofFile::Kind::proof, lines);
-  if (!tree_written_) file_.tree(prover_->encoded_tree());
-  const LeastDistance distance{eta_, &paths_};
-  if (!file_.tokens([&](const auto& take) { return prover_->prove(lines, options, distance, take); })) return false;
-  file_.commit();
-  tree_written_ = true;
+  if (!proofs_.prove(at(step, lines), *prover_, options)) return false;
+  proofs_.commit();
   return true;
-}
-
-void FrameProof::begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines) {
-  file_.begin_step(step, kind, lines, shift(step));
 }
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const StepResult& result) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  const auto first = result.first ? std::optional(result.first->contact) : std::nullopt;
-  return write_witness(step, lines, witness_of(what(step, lines), first, result.initial_reports, result.reports));
+  return proofs_.refute(at(step, lines), result.first ? std::optional(result.first->contact) : std::nullopt, result);
 }
 
 bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
                         const TooNear& near) {
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  return write_witness(step, lines, witness_of(what(step, lines), near, paths_));
-}
-
-WitnessStep FrameProof::what(std::size_t step, const WorldLines& lines) const {
-  return {mesh_, lines, shift(step), dimension_, strict_, eta_, ring_, &labels_};
-}
-
-bool FrameProof::write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness) {
-  if (!witness) return false;
-  begin(step, ProofFile::Kind::witness, lines);
-  file_.witness(*witness);
-  file_.commit();
-  return true;
+  return proofs_.refute(at(step, lines), near);
 }
 
 }  // namespace noli

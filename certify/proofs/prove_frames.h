@@ -8,13 +8,7 @@
 
 #include <noli/sequence.h>
 #include <noli/verify.h>
-#include "certify/proofs/largest_distance.h"
-#include "proofs/prover/cells/labels.h"
-#include "proofs/prover/tokens/mesh_paths.h"
-#include "proofs/prover/tokens/no_proof.h"
-#include "proofs/prover/tokens/proof_file.h"
-#include "proofs/prover/windows/window_verifier.h"
-#include "proofs/prover/witness/witness.h"
+#include "certify/proofs/step_proofs.h"
 #include "trajectory/merge.h"
 
 namespace noli {
@@ -51,28 +45,18 @@ class FrameProof {
   /// The largest least distance that positions allow, if it is less than what was asked for. Precondition: not
   /// is_by_verifier(request).
   std::optional<LargestDistance> largest(std::span<const Position> x, const VerifyOptions& options) const {
-    return largest_distance(*prover_, mesh_, x, {eta_, &paths_}, options);
+    return proofs_.largest(*prover_, x, options);
   }
 
  private:
-  WitnessStep what(std::size_t step, const WorldLines& lines) const;
-  bool write_witness(std::size_t step, const WorldLines& lines, const std::optional<std::string>& witness);
-  /// What step's times are more than those of two frames.
-  double shift(std::size_t step) const { return rest_ ? 0 : static_cast<double>(step); }
-  void begin(std::size_t step, ProofFile::Kind kind, const WorldLines& lines);
+  MotionStep at(std::size_t step, const WorldLines& lines) const {
+    return {step, lines, rest_ ? 0 : static_cast<double>(step)};
+  }
 
-  const Mesh& mesh_;
-  int dimension_;
-  double eta_;
-  std::uint32_t ring_;
-  bool strict_;
   bool rest_;
-  bool tree_written_ = false;
   std::vector<std::uint32_t> leaf_cells_;  ///< of the tree that was written last, with the verifier's proofs
-  CellLabels labels_;
-  MeshPaths paths_;
+  StepProofs proofs_;
   std::optional<WindowVerifier> prover_;  ///< where the verifier's proofs do not do
-  ProofFile file_;
 };
 
 }  // namespace noli

@@ -13,17 +13,13 @@ CellLabels labels_of_scene(const RunScene& scene) {
   return labels_of_run(scene.mesh, scripted, scene.exclusions);
 }
 
-ProofHeader header_of(const RunScene& scene, const RunProof::Claim& claim, const CellLabels& labels) {
+ProofHeader header_of(const RunScene& scene, const RunProof::Claim& claim) {
   ProofHeader header;
   header.source = ProofSource::run;
   header.dimension = static_cast<int>(scene.header.dimension);
   header.strict = claim.strict;
   header.eta = claim.eta;
   header.ring = claim.ring;
-  header.vertices = scene.mesh.vertex_count;
-  header.mesh = &scene.mesh;
-  header.labels = labels.of;
-  header.excluded = labels.excluded;
   return header;
 }
 
@@ -51,13 +47,8 @@ RunProof::RunProof(std::unique_ptr<Sink> sink, const RunScene& scene, const Wind
     : RunProof(scene, verifier, claim, [&](const ProofHeader& header) { return ProofFile(std::move(sink), header); }) {}
 
 RunProof::RunProof(const RunScene& scene, const WindowVerifier& verifier, const Claim& claim,
-                   const std::function<ProofFile(const ProofHeader&)>& open)
-    : scene_(scene),
-      verifier_(verifier),
-      claim_(claim),
-      labels_(labels_of_scene(scene)),
-      paths_(scene_.mesh, claim.ring),
-      file_(open(header_of(scene, claim, labels_))) {}
+                   const StepProofs::Open& open)
+    : scene_(scene), verifier_(verifier), proofs_(scene_.mesh, header_of(scene, claim), labels_of_scene(scene), open) {}
 
 std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_folder, std::uint64_t windows,
                                            const RunScene& scene, const WindowVerifier& verifier,
@@ -84,37 +75,18 @@ std::unique_ptr<RunProof> RunProof::resume(const std::filesystem::path& run_fold
 
 bool RunProof::prove(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
                      const VerifyOptions& options) {
-  file_.begin_step(window, ProofFile::Kind::proof, lines, 0, hash);
-  if (file_.committed().groups == 1) file_.tree(verifier_.encoded_tree());
-  const LeastDistance distance{claim_.eta, &paths_};
-  return file_.tokens([&](const auto& take) { return verifier_.prove(lines, options, distance, take); });
-}
-
-void RunProof::commit() { file_.commit(); }
-
-WitnessStep RunProof::what(const WorldLines& lines) const {
-  return {scene_.mesh,   lines,      0,           static_cast<int>(scene_.header.dimension),
-          claim_.strict, claim_.eta, claim_.ring, &labels_};
+  return proofs_.prove({window, lines, 0, hash}, verifier_, options);
 }
 
 bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
                       const WindowResult& result) {
   std::optional<FeatureContact> first;
   if (result.first) first = result.first->contact;
-  return write_witness(window, lines, hash, witness_of(what(lines), first, result.initial_reports, result.reports));
+  return proofs_.refute({window, lines, 0, hash}, first, result);
 }
 
 bool RunProof::refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const TooNear& near) {
-  return write_witness(window, lines, hash, witness_of(what(lines), near, paths_));
-}
-
-bool RunProof::write_witness(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
-                             const std::optional<std::string>& witness) {
-  if (!witness) return false;
-  file_.begin_step(window, ProofFile::Kind::witness, lines, 0, hash);
-  file_.witness(*witness);
-  file_.commit();
-  return true;
+  return proofs_.refute({window, lines, 0, hash}, near);
 }
 
 }  // namespace noli

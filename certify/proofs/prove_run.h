@@ -9,12 +9,7 @@
 #include <vector>
 
 #include "certify/proofs/claim.h"
-#include "certify/proofs/largest_distance.h"
-#include "proofs/prover/tokens/mesh_paths.h"
-#include "proofs/prover/tokens/no_proof.h"
-#include "proofs/prover/tokens/proof_file.h"
-#include "proofs/prover/windows/window_verifier.h"
-#include "proofs/prover/witness/witness.h"
+#include "certify/proofs/step_proofs.h"
 #include "trajectory/blocks/run_file.h"
 
 namespace noli {
@@ -46,7 +41,7 @@ class RunProof {
   /// trajectory.blocks. False if it was stopped; that, and TooNear and NoProof, which it throws, leave the file as it
   /// was.
   bool prove(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const VerifyOptions& options);
-  void commit();
+  void commit() { proofs_.commit(); }
 
   /// Writes a witness for a window that has a contact, and commits it. False if none was found.
   bool refute(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash, const WindowResult& result);
@@ -55,23 +50,15 @@ class RunProof {
 
   /// The largest least distance that positions allow, if it is less than what was asked for.
   std::optional<LargestDistance> largest(std::span<const Position> x, const VerifyOptions& options) const {
-    return largest_distance(verifier_, scene_.mesh, x, {claim_.eta, &paths_}, options);
+    return proofs_.largest(verifier_, x, options);
   }
 
  private:
-  RunProof(const RunScene& scene, const WindowVerifier& verifier, const Claim& claim,
-           const std::function<ProofFile(const ProofHeader&)>& open);
-
-  WitnessStep what(const WorldLines& lines) const;
-  bool write_witness(std::uint64_t window, const WorldLines& lines, const Sha256Digest& hash,
-                     const std::optional<std::string>& witness);
+  RunProof(const RunScene& scene, const WindowVerifier& verifier, const Claim& claim, const StepProofs::Open& open);
 
   RunScene scene_;
   const WindowVerifier& verifier_;
-  Claim claim_;
-  CellLabels labels_;
-  MeshPaths paths_;
-  ProofFile file_;
+  StepProofs proofs_;
 };
 
 }  // namespace noli

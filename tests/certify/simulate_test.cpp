@@ -2,9 +2,11 @@
 //
 // A scene as a program runs it: conditions, progress, stops.
 #include <noli/simulate.h>
+#include <noli/verify.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 #include <vector>
@@ -79,6 +81,22 @@ TEST_F(SimulateInProcess, TellsItsProgress) {
     EXPECT_GE(shares[i], i == 0 ? 0 : shares[i - 1]);
     EXPECT_LE(shares[i], 1);
   }
+}
+
+TEST_F(SimulateInProcess, VerifyingARunTellsItsProgress) {
+  SimulateRequest asked = request();
+  run_simulate(asked);
+  VerifyRequest verify;
+  verify.frames = {asked.run};
+  std::vector<double> shares;
+  verify.progress = [&](std::string_view work, double share) {
+    EXPECT_EQ(work, "verify");
+    shares.push_back(share);
+  };
+  EXPECT_EQ(run_verify_motion(verify).verdict, Verdict::no_contact);
+  ASSERT_FALSE(shares.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_EQ(shares.back(), 1);
 }
 
 TEST_F(SimulateInProcess, ErrorsAreExceptions) {

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/proofs/step_proofs.h"
+
+#include <utility>
+
+namespace noli {
+namespace {
+
+ProofHeader with_labels(ProofHeader header, const Mesh& mesh, const CellLabels& labels) {
+  header.mesh = &mesh;
+  header.vertices = mesh.vertex_count;
+  header.labels = labels.of;
+  header.excluded = labels.excluded;
+  return header;
+}
+
+}  // namespace
+
+StepProofs::StepProofs(const Mesh& mesh, ProofHeader header, CellLabels labels, const Open& open)
+    : mesh_(mesh),
+      labels_(std::move(labels)),
+      header_(with_labels(std::move(header), mesh, labels_)),
+      paths_(mesh, header_.ring),
+      file_(open(header_)) {}
+
+bool StepProofs::prove(const MotionStep& step, const WindowVerifier& verifier, const VerifyOptions& options) {
+  begin(step, ProofFile::Kind::proof);
+  if (file_.committed().groups == 1) file_.tree(verifier.encoded_tree());
+  const LeastDistance distance{header_.eta, &paths_};
+  return file_.tokens([&](const auto& take) { return verifier.prove(step.lines, options, distance, take); });
+}
+
+void StepProofs::write(const MotionStep& step, const std::optional<std::string>& tree, const JoinedTokens& tokens) {
+  begin(step, ProofFile::Kind::proof);
+  if (tree) file_.tree(*tree);
+  file_.tokens(tokens);
+  file_.commit();
+}
+
+bool StepProofs::refute(const MotionStep& step, const std::optional<FeatureContact>& first, const Findings& findings) {
+  return write_witness(step, witness_of(what(step), first, findings.initial_reports, findings.reports));
+}
+
+bool StepProofs::refute(const MotionStep& step, const TooNear& near) {
+  return write_witness(step, witness_of(what(step), near, paths_));
+}
+
+void StepProofs::begin(const MotionStep& step, ProofFile::Kind kind) {
+  if (step.hash) return file_.begin_step(step.number, kind, step.lines, step.shift, *step.hash);
+  file_.begin_step(step.number, kind, step.lines, step.shift);
+}
+
+WitnessStep StepProofs::what(const MotionStep& step) const {
+  return {mesh_, step.lines, step.shift, header_.dimension, header_.strict, header_.eta, header_.ring, &labels_};
+}
+
+bool StepProofs::write_witness(const MotionStep& step, const std::optional<std::string>& witness) {
+  if (!witness) return false;
+  begin(step, ProofFile::Kind::witness);
+  file_.witness(*witness);
+  file_.commit();
+  return true;
+}
+
+}  // namespace noli
