@@ -24,7 +24,8 @@ struct CompileCommand {
   std::filesystem::path folder;  ///< where it is run
 };
 
-/// The build's compile_commands.json, with a command for each source of a batch. Throws std::runtime_error when there is none.
+/// The build's compile_commands.json, with a command for each source of a batch (cmake/NoliBatches.cmake). Throws
+/// std::runtime_error when there is none.
 std::vector<CompileCommand> compile_commands(const std::filesystem::path& build);
 
 /// The absolute paths, links resolved, of all files that the compiler reads for `input` with the flags of `command`.

@@ -206,13 +206,14 @@ Sha256Digest frame_hash(std::string_view bytes) {
 
 FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& path) {
   FrameLook look;
-  const MeshFormat format = mesh_format(path);
   look.facts.file = path.string();
   look.facts.looked_at = true;
   look.facts.bytes = bytes.size();
   look.facts.sha256 = frame_hash(bytes);
-  look.cells =
-      format == MeshFormat::ply ? PlyLook(bytes, path.string(), look.facts).cells() : look_at_obj(bytes, look.facts);
+  switch (mesh_format(path)) {
+    case MeshFormat::ply: look.cells = PlyLook(bytes, path.string(), look.facts).cells(); break;
+    case MeshFormat::obj: look.cells = look_at_obj(bytes, look.facts); break;
+  }
   return look;
 }
 

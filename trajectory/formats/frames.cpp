@@ -70,8 +70,11 @@ Frame read_frame(const std::filesystem::path& path) {
 }
 
 Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Polygons* polygons) {
-  const bool ply = mesh_format(path) == MeshFormat::ply;
-  return ply ? parse_ply(bytes, path.string(), polygons) : parse_obj(bytes, path.string(), polygons);
+  switch (mesh_format(path)) {
+    case MeshFormat::ply: return parse_ply(bytes, path.string(), polygons);
+    case MeshFormat::obj: return parse_obj(bytes, path.string(), polygons);
+  }
+  throw std::logic_error("a format of meshes without a reader");
 }
 
 void require_same_mesh(const Mesh& expected, const std::filesystem::path& expected_path, const Mesh& found,
