@@ -64,7 +64,11 @@ bool CheckerProcess::stopped() const {
 }
 
 void CheckerProcess::write(std::string_view bytes) {
-  if (stopped() || child_.write(bytes, limits_) != Child::Written::refused) return;
+  if (stopped()) cut_ = true;
+  if (cut_) return;
+  const Child::Written written = child_.write(bytes, limits_);
+  cut_ = written == Child::Written::stopped;
+  if (written != Child::Written::refused) return;
   throw std::runtime_error(fmt::format("{} reads no more of the proof{}", name_of(checker_), why()));
 }
 
@@ -80,6 +84,7 @@ std::string CheckerProcess::why() {
 
 std::optional<CheckerVerdict> CheckerProcess::finish() {
   ProgramEnd end = child_.finish(limits_);
+  if (cut_) return std::nullopt;  // it has not had all of the proof
   switch (end.kind) {
     case ProgramEnd::Kind::exited: break;
     case ProgramEnd::Kind::stopped: return std::nullopt;

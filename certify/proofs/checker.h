@@ -28,7 +28,8 @@ class CheckerProcess {
   /// The next bytes of the proof. Nothing is written any more after a stop; finish() tells.
   /// Throws std::runtime_error when the checker reads no more.
   void write(std::string_view bytes);
-  /// Waits until it has read all that was written and has ended; nothing after a stop: then it is killed. Throws
+  /// Waits until it has read all that was written and has ended; nothing after a stop, also
+  /// one that came while it was written to: what it says is then not about all of the proof. Throws
   /// HelperError when the machine failed it (memory, a signal); std::runtime_error when it ended with another code than
   /// it may, or closed its output and stayed.
   std::optional<CheckerVerdict> finish();
@@ -41,6 +42,7 @@ class CheckerProcess {
   Checker checker_;
   const std::atomic<bool>* stop_;
   ProgramLimits limits_;
+  bool cut_ = false;  ///< something was not written, after a stop
   Child child_;
 };
 

@@ -13,6 +13,7 @@
 #include <string>
 
 #include <noli/errors.h>
+#include "certify/proofs/checker.h"
 #include "tests/support/temporary_folder.h"
 #include "trajectory/blocks/block_sink.h"
 
@@ -87,6 +88,21 @@ TEST_F(VerifyInProcess, AStopLeavesItUndecided) {
   EXPECT_EQ(outcome.verdict, Verdict::undecided);
   EXPECT_FALSE(outcome.complete);
   EXPECT_TRUE(outcome.interrupted);
+}
+
+/// What the checker then says is about a part of the proof, and no word on it.
+TEST_F(VerifyInProcess, AProofThatAStopHasCutIsNotJudged) {
+  const VerifyRequest request = falling(1.5);
+  std::atomic<bool> stop = false;
+  CheckRequest asked{.trajectory = request.frames, .stop = &stop, .programs = NOLI_PROGRAMS};
+  CheckerProcess whole(asked);
+  whole.write("no proof");
+  EXPECT_EQ(whole.finish()->code, 3);
+  CheckerProcess cut(asked);
+  stop = true;
+  cut.write("no proof");
+  stop = false;
+  EXPECT_FALSE(cut.finish().has_value());
 }
 
 TEST_F(VerifyInProcess, TwoAtOnceHaveStopsOfTheirOwn) {
