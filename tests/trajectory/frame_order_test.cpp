@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trajectory/formats/frame_order.h"
+#include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -51,6 +52,17 @@ TEST(FrameOrder, TheShellPutsTenBeforeTwo) {
     EXPECT_TRUE(order_frames(time, order).notes.empty());
   }
   EXPECT_EQ(order_frames(time).how, "as given, which is the order of the numbers in the names");
+}
+
+TEST(FrameOrder, AFolderIsOneHoweverItIsSpelled) {
+  const noli::test::TemporaryFolder folder;
+  std::filesystem::create_directory_symlink(folder.path(), folder / "link");
+  const std::string name = folder.path().filename().string();
+  for (const std::filesystem::path& other : {folder / "link", folder.path() / ".." / name, folder.path() / "."}) {
+    const Paths frames = {folder / "cloth_10.obj", other / "cloth_9.obj"};
+    EXPECT_NE(order_refusal(frames).find("comes before"), std::string::npos) << other;
+    expect_taken({other / "cloth_9.obj", folder / "cloth_10.obj"});
+  }
 }
 
 TEST(FrameOrder, NamesThatDifferInMoreThanNumbersAreTakenAsTheyAre) {

@@ -150,9 +150,28 @@ class Parser {
   NumberedName name_;
 };
 
-/// Of the path as it is given, without the extension.
-NumberedName numbers_of_name(const std::filesystem::path& path) {
-  const std::string text = (path.parent_path() / path.stem()).lexically_normal().string();
+/// A folder by the name that it was given first, however it is spelled later.
+class FolderNames {
+ public:
+  const fs::path& of(const fs::path& folder) {
+    const auto [known, is_new] = names_.try_emplace(folder.string());
+    if (is_new) {
+      std::error_code error;
+      const fs::path place = fs::weakly_canonical(folder.empty() ? "." : folder, error);
+      const auto first = places_.try_emplace(error ? folder.string() : place.string(), folder.lexically_normal()).first;
+      known->second = first->second;
+    }
+    return known->second;
+  }
+
+ private:
+  std::map<std::string, fs::path> names_;   ///< by spelling
+  std::map<std::string, fs::path> places_;  ///< by place
+};
+
+/// Of the name and its folder, without the extension.
+NumberedName numbers_of_name(const fs::path& path, FolderNames& folders) {
+  const std::string text = (folders.of(path.parent_path()) / path.stem()).string();
   return Parser(text).parse();
 }
 
@@ -258,8 +277,9 @@ class Orderer {
  public:
   explicit Orderer(std::vector<fs::path> frames) : frames_(std::move(frames)) {
     std::map<std::string, std::size_t> known;
+    FolderNames folders;
     for (std::size_t k = 0; k < frames_.size(); ++k) {
-      NumberedName name = numbers_of_name(frames_[k]);
+      NumberedName name = numbers_of_name(frames_[k], folders);
       if (name.decimals.empty()) continue;
       const auto [at, is_new] = known.emplace(name.pattern, families_.size());
       if (is_new) families_.emplace_back();
