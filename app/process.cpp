@@ -126,6 +126,14 @@ void stop_after(std::chrono::nanoseconds limit) {
   }
 }
 
+/// Whoever started this may have kept signals from it, for as long as it lives.
+void hear_signals() {
+  sigset_t heard;
+  ::sigemptyset(&heard);
+  for (const int signal : {signal_of_limit(), SIGALRM, SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&heard, signal);
+  ::pthread_sigmask(SIG_UNBLOCK, &heard, nullptr);
+}
+
 void install_signal_handlers() {
   on_signal(signal_of_limit(), time_has_passed);
   on_signal(SIGALRM, remind);
@@ -135,6 +143,7 @@ void install_signal_handlers() {
   on_signal(SIGCHLD, SIG_DFL);  // who ignores it hands that down, and then children end without a trace
   on_signal(SIGPIPE, SIG_IGN);
   on_signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is then an error of write
+  hear_signals();
 }
 
 void prepare_for_the_worst() {

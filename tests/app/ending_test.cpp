@@ -171,6 +171,18 @@ TEST(Ending, TooLittleMemoryIsNoSuccess) {
   EXPECT_EQ(process.err, "noli: out of memory\n");
 }
 
+TEST(Ending, ALimitIsHeardWhateverSignalsWereKeptFromIt) {
+  const Folder folder;
+  const auto pipe = folder.path("pipe.ply");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, &before);
+  const Process info = run_noli({"info", pipe, "--time-limit", "200ms"});
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  EXPECT_EQ(info.exit_code, 2) << info.err;
+}
+
 /// Who ignores the ends of its children hands that down, and then they end without a trace.
 TEST(Ending, AParentThatIgnoresItsChildrenChangesNothing) {
   const Folder folder;
