@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <noli/errors.h>
+#include "certify/process/run_program.h"
 
 namespace noli::audit {
 namespace {
@@ -31,6 +32,13 @@ std::vector<std::string> words(const HostOptions& options, const std::optional<f
   if (pipeline) result.emplace_back("--frames");
   if (library) result.push_back(fs::absolute(*library).string());
   return result;
+}
+
+/// Asked without a library, which could end with the same code.
+bool has_sandbox(const fs::path& host) {
+  ProgramLimits limits;
+  limits.time = std::chrono::seconds(10);
+  return run_program({host.string(), "--sandbox", "--probe"}, limits).exited_with(0);
 }
 
 [[noreturn]] void throw_no_sandbox() {
@@ -119,7 +127,7 @@ std::string HostProcess::said(ProgramEnd& end) {
 Ending HostProcess::ending() {
   ProgramEnd end = child_.end(ProgramEnd::Kind::exited, {});
   if (end.kind == ProgramEnd::Kind::signalled) return {Ending::Kind::crashed, end.words(), said(end)};
-  if (options_.sandbox && end.code == no_sandbox) throw_no_sandbox();
+  if (options_.sandbox && end.code == no_sandbox && !has_sandbox(options_.host)) throw_no_sandbox();
   const bool done = status_.phase.load(std::memory_order_acquire) == HostPhase::done;
   if (done && end.code == 0) return {Ending::Kind::finished, "", said(end)};
   return {Ending::Kind::crashed, fmt::format("it ended the program, with code {}", end.code), said(end)};

@@ -2,7 +2,7 @@
 //
 // noli_ccd_host [--sandbox] [LIBRARY]: asks a library the queries in the shared memory that its descriptor 3 is, and
 // ends. Without a library it asks the textbook method that is built in. noli_ccd_host [--sandbox] --frames LIBRARY: the
-// same for a step of a mesh (host/pipeline.h). All of it for `noli audit ccd`: whatever a library does to a process, it
+// same for a step of a mesh (host/pipeline.h). noli_ccd_host --sandbox --probe: whether there is a sandbox. All of it for `noli audit ccd`: whatever a library does to a process, it
 // does to this one.
 //
 // First each query once, its time taken by itself. Then all again and again, without a look at the clock in between but
@@ -11,6 +11,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -182,6 +183,10 @@ int main(int argc, char** argv) {
   ::setrlimit(RLIMIT_CORE, &none);
   const bool sandbox = argc > 1 && std::strcmp(argv[1], "--sandbox") == 0;
   if (sandbox) --argc, ++argv;
+#if defined(SYS_close_range)
+  ::syscall(SYS_close_range, 4U, ~0U, 0U);  // what whoever started `noli` has left open
+#endif
+  if (sandbox && argc > 1 && std::strcmp(argv[1], "--probe") == 0) return enter_sandbox() ? 0 : no_sandbox;
   void* const memory = shared_memory();
   if (memory == nullptr) {
     std::fputs("noli_ccd_host: a part of noli; expected to be started by `noli audit`\n", stderr);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `noli audit ccd --frames`: whole pipelines.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/app/audits/libraries.h"
 #include "tests/app/process.h"
@@ -69,7 +71,12 @@ TEST_F(AuditFrames, ASandboxKeepsALibraryFromOthers) {
   const std::string mine = folder.write("mine", "mine");
   ProcessOptions options;
   options.environment = {{"NOLI_TEST_FILE", mine}};
+  const std::string inherited = folder.path("inherited");
+  const int file = ::open(inherited.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  ASSERT_EQ(::dup2(file, 9), 9);  // what `noli` is started with
   const Process process = run_noli(command(faulty("attacks_others"), {"--sandbox", "--json", "-"}), options);
+  ::close(file);
+  ::close(9);
   if (process.err.find("filters no calls of the system") != std::string::npos) {
     EXPECT_EQ(process.exit_code, 3);
     GTEST_SKIP() << "this machine has no seccomp";
@@ -78,6 +85,10 @@ TEST_F(AuditFrames, ASandboxKeepsALibraryFromOthers) {
   const Json audit = Json::parse(process.out)["audits"][0];
   EXPECT_EQ(audit["ending"], "finished") << audit;
   EXPECT_EQ(read_text(mine), "mine");
+  EXPECT_EQ(read_text(inherited), "");
+  const Process ended = run_noli(command(faulty("ends_as_without_sandbox"), {"--sandbox", "--json", "-"}));
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;  // a library that says so is believed nothing
+  EXPECT_NE(Json::parse(ended.out)["audits"][0]["ending"], "finished");
   options.environment = {{"NOLI_TEST_FILE", folder.path("new")}};
   EXPECT_EQ(run_noli(command(faulty("attacks_others"), {"--sandbox"}), options).exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(folder.path("new")));

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Libraries for the tests of `noli audit ccd`, one for each way to behave (MISBEHAVIOUR, below), in C99. */
 #define _DEFAULT_SOURCE
+#include <errno.h>
 #include <fcntl.h>
 #include <noli/ccd_plugin.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 enum behaviour {
@@ -40,6 +43,7 @@ enum behaviour {
   writes_zeros_and_crashes, /* the same */
   marks_what_lies_behind,   /* finds nothing, and writes that all was found where something could be kept of it */
   says_why,                 /* to its standard error; then it crashes */
+  ends_as_without_sandbox,  /* at queries whose first coordinate is above 0 */
   attacks_others            /* ends its parent, writes to its memory and to the file that NOLI_TEST_FILE names */
 };
 
@@ -78,6 +82,7 @@ static void at_some_queries(double first) {
   if (IS(writes_zeros_and_crashes)) write_all_over(0);
   if (IS(crashes) || IS(writes_zeros_and_crashes)) crash();
   if (IS(ends_the_program)) exit(0);
+  if (IS(ends_as_without_sandbox)) _exit(97); /* audit/ccd/host/sandbox.h */
   for (volatile int again = 1; again && IS(hangs);) {
   }
   while (IS(sleeps)) pause();
@@ -112,6 +117,26 @@ static void mark(const double* positions_end, const uint32_t* edges) {
   }
 }
 
+static void must_be_refused(long result) {
+  if (result != -1 || (errno != EPERM && errno != ENOSYS)) crash();
+}
+
+/* Ways around the calls that are known for it. */
+static void attack_by_the_back_door(const char* name) {
+  int ends[2];
+  if (pipe(ends) != 0) crash();
+  must_be_refused(fcntl(ends[0], F_SETOWN, getppid()));
+  must_be_refused(fcntl(ends[0], 10 /* F_SETSIG */, SIGKILL));
+  close(ends[0]);
+  close(ends[1]);
+  must_be_refused(ioctl(0, TIOCSTI, "x"));
+  must_be_refused(syscall(452 /* fchmodat2 */, AT_FDCWD, name, 0777, 0));
+  must_be_refused(syscall(SYS_shmat, 0, NULL, 0));
+  must_be_refused(syscall(SYS_sched_setattr, getppid(), NULL, 0));
+  must_be_refused(syscall(SYS_mq_open, "noli", O_CREAT | O_RDWR, 0600, NULL));
+  if (write(9, "x", 1) > 0) crash(); /* that noli was started with */
+}
+
 /* Crashes when anything of that succeeds. */
 static void attack_others(void) {
   char path[64];
@@ -119,6 +144,7 @@ static void attack_others(void) {
   if (name == NULL || fopen(name, "w") != NULL) crash();
   snprintf(path, sizeof path, "/proc/%d/mem", (int)getppid());
   if (open(path, O_RDWR) >= 0) crash();
+  attack_by_the_back_door(name);
   if (kill(getppid(), SIGKILL) == 0 || unlink(name) == 0 || rename(name, "elsewhere") == 0) crash();
   const pid_t child = fork();
   if (child == 0) _exit(0);
