@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the verifications of frames and of runs share: step by step they add what was found, and in the end they conclude.
+// What the verifications of frames and of runs share: step by step they add what was found, in the end they conclude.
 #pragma once
 
 #include <span>

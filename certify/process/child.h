@@ -110,7 +110,8 @@ class Child {
   /// Writes to its input, and reads what it says meanwhile. `limits.time`: for which it may take nothing. `refused`: it
   /// reads no more. Throws std::system_error.
   Written write(std::string_view bytes, const ProgramLimits& limits);
-  /// The next bytes of its output, no more than it may say in all; nothing when it ends or its time is up before (silent() tells).
+  /// The next bytes of its output, no more than it may say in all; nothing when it ends or its time is up before
+  /// (silent() tells).
   std::optional<std::string> read(std::size_t count, const ProgramLimits& limits);
   /// Closes its input, reads the rest, and waits for its end; ends it at a limit, or when it has closed its output and
   /// does not end within time_to_stay. Precondition: its output or its errors are piped.
