@@ -2,8 +2,9 @@
 //
 // noli_ccd_host [--sandbox] [LIBRARY]: asks a library the queries in the shared memory that its descriptor 3 is, and
 // ends. Without a library it asks the textbook method that is built in. noli_ccd_host [--sandbox] --frames LIBRARY: the
-// same for a step of a mesh (host/pipeline.h). noli_ccd_host --sandbox --probe: tells whether there is a sandbox. All of
-// it for `noli audit ccd`: whatever a library does to a process, it does to this one.
+// same for a step of a mesh (host/pipeline.h). noli_ccd_host --sandbox --probe: tells whether there is a sandbox.
+//
+// All of it for `noli audit ccd`: whatever a library does to a process, it does to this one.
 //
 // First each query once, its time taken by itself. Then all again and again, without a look at the clock in between but
 // every so often: how long a query takes on the average, whether memory grows, whether answers stay the same.
