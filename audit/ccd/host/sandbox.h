@@ -103,27 +103,15 @@ class Filter {
   }
   /// Where any of these bits of an argument is set.
   void refuse_bits(long number, std::size_t argument, std::uint32_t bits) {
-    lines_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0, 4));
-    load(offsetof(seccomp_data, args) + 8 * argument);
-    lines_.push_back(BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, bits, 0, 1));
-    refuse(SECCOMP_RET_ERRNO | EPERM);
-    load(offsetof(seccomp_data, nr));
+    refuse_where(number, argument, BPF_JSET, bits, true);
   }
   /// Where none of these bits of an argument is set.
   void refuse_without(long number, std::size_t argument, std::uint32_t bits) {
-    lines_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0, 4));
-    load(offsetof(seccomp_data, args) + 8 * argument);
-    lines_.push_back(BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, bits, 1, 0));
-    refuse(SECCOMP_RET_ERRNO | EPERM);
-    load(offsetof(seccomp_data, nr));
+    refuse_where(number, argument, BPF_JSET, bits, false);
   }
   /// Where an argument is this number.
   void refuse_value(long number, std::size_t argument, std::uint32_t value) {
-    lines_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0, 4));
-    load(offsetof(seccomp_data, args) + 8 * argument);
-    lines_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1));
-    refuse(SECCOMP_RET_ERRNO | EPERM);
-    load(offsetof(seccomp_data, nr));
+    refuse_where(number, argument, BPF_JEQ, value, true);
   }
   /// Calls whose numbers are not less than this: as a kernel that does not know them.
   void refuse_from(std::uint32_t number) {
@@ -146,6 +134,16 @@ class Filter {
   }
 
  private:
+  /// Refuses a call whose argument passes the test, or fails it.
+  void refuse_where(long number, std::size_t argument, std::uint16_t test, std::uint32_t value, bool passes) {
+    const std::uint8_t if_true = passes ? 0 : 1, if_false = passes ? 1 : 0;
+    lines_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0, 4));
+    load(offsetof(seccomp_data, args) + 8 * argument);
+    const auto code = static_cast<std::uint16_t>(BPF_JMP | test | BPF_K);
+    lines_.push_back(BPF_JUMP(code, value, if_true, if_false));
+    refuse(SECCOMP_RET_ERRNO | EPERM);
+    load(offsetof(seccomp_data, nr));
+  }
   void load(std::size_t offset) {
     lines_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
   }
