@@ -53,7 +53,7 @@ void settle_limits(FuzzArgumentsInCommon& arguments);
 /// The folder of --corpus, made if it is not there. Throws UsageError.
 std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& arguments);
 
-/// What all fuzzers are told. Throws UsageError.
+/// Copies the limits, --out and --corpus. Throws UsageError.
 void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments);
 
 /// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", "no_finding".

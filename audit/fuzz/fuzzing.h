@@ -10,7 +10,7 @@
 //              items_per_block                  a constant
 //              make(block, index, random)       an item, or nothing when the user would not wait; called from several
 //                                               threads. Who has something to do for a whole block has make_block
-//              take(item, index)                counts it; then add_to_corpus, or is_kept and keep
+//              take(item, index)                counts it; then add_if_new, or is_kept and keep
 //              take_saved(name)                 the same of what is in the corpus; false when the user would not wait
 //              items()                          how many were counted
 //
@@ -35,7 +35,7 @@
 
 namespace noli::audit {
 
-/// What every fuzzer is told.
+/// Options that all fuzzers share.
 struct FuzzSettings {
   FuzzLimits limits;
   std::filesystem::path out;                    ///< folder, made for the first finding; empty: nothing is saved
@@ -43,7 +43,7 @@ struct FuzzSettings {
   std::optional<std::filesystem::path> corpus;  ///< folder that is there: judged first, added to
 };
 
-/// What every fuzzer tells.
+/// Results that all fuzzers share.
 struct FuzzTotals {
   FuzzExtent extent;
   NotSaved not_saved;
@@ -98,11 +98,20 @@ class Fuzzing {
  protected:
   bool stopped() const { return options_.limits.stop != nullptr && options_.limits.stop->load(); }
 
-  /// `write` puts an item with this shape into an empty folder. It does not, where the shape is known.
+  /// Generators take turns: the number of the one, of `count`, that makes this item.
+  static std::size_t turn_of(std::uint64_t block, std::size_t index, std::size_t count) {
+    return (block * Subject::items_per_block + index) % count;
+  }
+
+  /// `write` puts an item with this shape into an empty folder.
   template <class Write>
   void add_to_corpus(const std::string& shape, const Write& write) {
-    if (!corpus_ || !corpus_->reached(shape)) return;
-    report_.not_saved.attempt([&] { corpus_->add(shape, write); });
+    if (corpus_) report_.not_saved.attempt([&] { corpus_->add(shape, write); });
+  }
+  /// Skips shapes that the corpus already has.
+  template <class Write>
+  void add_if_new(const std::string& shape, const Write& write) {
+    if (corpus_ && corpus_->reached(shape)) add_to_corpus(shape, write);
   }
 
   /// Counts a finding; whether there is room for it in the report.

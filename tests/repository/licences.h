@@ -25,7 +25,7 @@ struct CompileCommand {
 };
 
 /// The build's compile_commands.json, with a command for each source of a batch (cmake/NoliBatches.cmake). Throws
-/// std::runtime_error when there is none.
+/// std::runtime_error when the file is missing.
 std::vector<CompileCommand> compile_commands(const std::filesystem::path& build);
 
 /// The absolute paths, links resolved, of all files that the compiler reads for `input` with the flags of `command`.

@@ -71,7 +71,7 @@ class ProofFuzzing : public Fuzzing<ProofFuzzing, ProofFuzzOptions, ProofFuzzRep
     report_.judged += judgement.judged ? 1 : 0;
     report_.not_judged += said && !judgement.truth && judgement.difference.empty() ? 1 : 0;
     if (!judgement.difference.empty()) return shrink(judged, index);
-    add_to_corpus(shape_of(judgement), [&](const fs::path& folder) {
+    add_if_new(shape_of(judgement), [&](const fs::path& folder) {
       write_proof_files(files_of(options_.cases[judged.from], judged.mutant), folder);
     });
   }

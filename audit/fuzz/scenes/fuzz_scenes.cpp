@@ -169,7 +169,7 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
 
   std::optional<JudgedScene> make(std::uint64_t block, std::size_t index, Random& random) const {
     const auto all = scene_generators();
-    const SceneGenerator& by = all[(block * items_per_block + index) % all.size()];
+    const SceneGenerator& by = all[turn_of(block, index, all.size())];
     JudgedScene one{by.make(random), std::string(by.name), {}};
     one.judgement = judge(one.made);
     if (one.judgement.stopped) return std::nullopt;
@@ -191,7 +191,7 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
     report_.resumed += one.judgement.resumed ? 1 : 0;
     if (one.judgement.difference) return found(one, index);
     // The simulations of a generator that end in the same way have one shape.
-    add_to_corpus(one.generator + ": " + without_numbers(one.judgement.end), [&](const fs::path& folder) {
+    add_if_new(one.generator + ": " + without_numbers(one.judgement.end), [&](const fs::path& folder) {
       write_file(folder / scene_file, one.made.scene.dump(2) + '\n');
       if (one.made.wrong_place) write_file(folder / wrong_place_file, *one.made.wrong_place + '\n');
     });

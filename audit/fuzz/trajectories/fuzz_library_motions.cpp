@@ -81,7 +81,7 @@ class LibraryMotionFuzzing
     AskedBlock result;
     std::uint64_t costly = 0;
     for (std::size_t index = 0; index < count; ++index) {
-      GeneratedMotion made = generators_[which(block, index)].make(random);
+      GeneratedMotion made = generators_[turn_of(block, index, generators_.size())].make(random);
       if (costly >= asked_.host.most_hangs) {
         ++result.not_asked;
         continue;
@@ -106,17 +106,13 @@ class LibraryMotionFuzzing
 
   void take_block(AskedBlock block) {
     for (std::size_t index = 0; index < block.motions.size(); ++index) {
-      LibraryMotionTally& tally = report_.generators[which(block_, index)];
+      LibraryMotionTally& tally = report_.generators[turn_of(block_, index, generators_.size())];
       take(std::move(block.motions[index]), tally.name, index, &tally);
     }
     report_.not_asked += block.not_asked;
   }
 
  private:
-  std::size_t which(std::uint64_t block, std::size_t index) const {
-    return (block * motions_per_block + index) % generators_.size();
-  }
-
   void take(AskedMotion asked, const std::string& generator, std::size_t index, LibraryMotionTally* tally) {
     const LibraryMotionAnswer& answer = asked.answer;
     report_.contacts += answer.contacts;
@@ -124,7 +120,7 @@ class LibraryMotionFuzzing
     report_.false_positives += answer.false_positives;
     if (tally != nullptr) ++tally->motions, tally->contacts += answer.contacts;
     if (tally != nullptr && !answer.found) {
-      add_to_corpus("library" + answer.shape, [&](const fs::path& folder) { write_frames(asked.motion, folder); });
+      add_if_new("library" + answer.shape, [&](const fs::path& folder) { write_frames(asked.motion, folder); });
     } else if (corpus_) {
       corpus_->reached("library" + answer.shape);
     }

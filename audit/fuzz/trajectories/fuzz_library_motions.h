@@ -33,7 +33,7 @@ struct LibraryMotionOptions : FuzzSettings {
   std::vector<std::string> families;        ///< names of generators; none: all of them
   bool first_only = false;                  ///< stop behind the first block that has a finding
   std::size_t shrink_budget = 1000;         ///< motions that the library is asked for each finding
-  std::vector<std::string> replay_command;  ///< how a saved finding is shown again, but for its folder
+  std::vector<std::string> replay_command;  ///< the command that replays a saved finding, without its folder
 };
 
 using MotionFaultCounts = std::array<std::uint64_t, motion_fault_count>;

@@ -64,30 +64,28 @@ class TrajectoryFuzzing : public Fuzzing<TrajectoryFuzzing, TrajectoryOptions, T
   }
 
   std::optional<Judged> make(std::uint64_t block, std::size_t index, Random& random) const {
-    return judge(generators_[which(block, index)].make(random), options_);
+    return judge(generators_[turn_of(block, index, generators_.size())].make(random), options_);
   }
 
   bool take_saved(const std::string& name) {
     const Judged judged = judge({read_frames(corpus_->folder(name)), {}}, options_);
     if (judged.answer.failure == "stopped") return false;
-    if (!judged.answer.undecided) corpus_->reached(judged.answer.shape), shapes_.insert(judged.answer.shape);
+    is_new(judged.answer);
     if (judged.difference) found(judged, name, 0, 0);
     return true;
   }
 
   void take(const Judged& judged, std::size_t index) {
     if (judged.answer.failure == "stopped") return;  // by the user
-    TrajectoryTally& tally = report_.generators[which(block_, index)];
+    TrajectoryTally& tally = report_.generators[turn_of(block_, index, generators_.size())];
     ++(judged.contact ? tally.contact : tally.apart);
     tally.undecided += judged.answer.undecided ? 1 : 0;
     if (judged.answer.contact && !judged.answer.has_proof) ++tally.without_witness;
     if (judged.answer.plain != CheckerWord::not_asked) ++report_.checked_plain;
     if (judged.answer.verified != CheckerWord::not_asked) ++report_.checked_verified;
-    const bool is_new = !judged.answer.undecided && shapes_.insert(judged.answer.shape).second;
-    report_.shapes = shapes_.size();
+    const bool added = is_new(judged.answer);
     if (judged.difference) return found(judged, tally.name, block_, index);
-    if (is_new)
-      add_to_corpus(judged.answer.shape, [&](const fs::path& folder) { write_frames(judged.motion, folder); });
+    if (added) add_to_corpus(judged.answer.shape, [&](const fs::path& folder) { write_frames(judged.motion, folder); });
   }
 
   std::uint64_t items() const {
@@ -97,9 +95,11 @@ class TrajectoryFuzzing : public Fuzzing<TrajectoryFuzzing, TrajectoryOptions, T
   }
 
  private:
-  /// Each motion of a block is of another generator.
-  std::size_t which(std::uint64_t block, std::size_t index) const {
-    return (block * motions_per_block + index) % generators_.size();
+  /// Whether no earlier answer had this shape.
+  bool is_new(const MotionAnswer& answer) {
+    const bool added = !answer.undecided && shapes_.insert(answer.shape).second;
+    report_.shapes = shapes_.size();
+    return added;
   }
 
   void found(const Judged& judged, const std::string& generator, std::uint64_t block, std::size_t index) {

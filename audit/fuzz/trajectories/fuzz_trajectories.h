@@ -64,7 +64,7 @@ struct TrajectoryOptions : FuzzSettings {
   DecideMotion decide;
   std::vector<std::string> families;        ///< names of generators; none: all of them
   std::size_t shrink_budget = 1000;         ///< calls of the subject for each finding
-  std::vector<std::string> replay_command;  ///< how a saved finding is shown again, but for its folder
+  std::vector<std::string> replay_command;  ///< the command that replays a saved finding, without its folder
 };
 
 struct TrajectoryFinding {
