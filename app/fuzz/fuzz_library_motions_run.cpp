@@ -79,7 +79,7 @@ Json finding_json(const LibraryMotionArguments& arguments, const audit::LibraryM
 
 Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report, double seconds) {
   const audit::LibraryUnderTest& library = arguments.theirs.asked;
-  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
+  Json json = {{"verdict", report.verdict()},
                {"library", library.path.string()},
                {"tolerance", library.tolerance},
                {"exact", library.exact},
@@ -119,10 +119,10 @@ std::string finding_text(const LibraryMotionArguments& arguments, const audit::L
 
 report::Answer report_answer(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
                              double seconds) {
-  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
-                                                                             {"contacts", report.contacts},
-                                                                             {"findings", report.findings_total},
-                                                                             {"through", report.through}});
+  report::Answer answer(report.verdict(), {{"trajectories", report.extent.items},
+                                           {"contacts", report.contacts},
+                                           {"findings", report.findings_total},
+                                           {"through", report.through}});
   for_each_fault(report.faults, [&](std::string_view fault, std::uint64_t count) { answer.add({fault, count}); });
   answer.add({"seed", arguments.common.limits.seed});
   std::string& text = answer.text;

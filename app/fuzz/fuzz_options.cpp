@@ -78,21 +78,10 @@ void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& argu
   settings.corpus = corpus_folder(arguments);
 }
 
-const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent) {
-  if (extent.interrupted) return "undecided";
-  if (findings > 0) return "finding";
-  return extent.items == 0 ? "undecided" : "no_finding";
-}
-
-ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent) {
-  if (extent.interrupted) return ExitCode::undecided;
-  if (findings > 0) return ExitCode::refuted;
-  return extent.items == 0 ? ExitCode::undecided : ExitCode::holds;
-}
-
-ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t done, bool interrupted) {
-  if (interrupted || done == 0) return ExitCode::undecided;
-  return findings > 0 ? ExitCode::refuted : ExitCode::holds;
+ExitCode fuzz_exit_code(const audit::FuzzTotals& report) {
+  if (report.extent.interrupted) return ExitCode::undecided;
+  if (report.findings_total > 0) return ExitCode::refuted;
+  return report.extent.items == 0 ? ExitCode::undecided : ExitCode::holds;
 }
 
 const char* again_verdict(bool unknown, bool finding) {

@@ -56,11 +56,8 @@ std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& 
 /// Copies the limits, --out and --corpus. Throws UsageError.
 void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments);
 
-/// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", "no_finding".
-const char* fuzz_verdict(std::uint64_t findings, const audit::FuzzExtent& extent);
-ExitCode fuzz_exit_code(std::uint64_t findings, const audit::FuzzExtent& extent);
-/// The same of `done` queries.
-ExitCode fuzz_exit_code(std::uint64_t findings, std::uint64_t done, bool interrupted);
+/// Of its verdict.
+ExitCode fuzz_exit_code(const audit::FuzzTotals& report);
 
 /// Of something that was judged again: "undecided", "finding", "no_finding".
 const char* again_verdict(bool unknown, bool finding);
@@ -79,7 +76,7 @@ ExitCode run_fuzzer(const char* items, const char* schema, const Output& output,
   const double seconds = watch.seconds();
   output.write(schema, answer_of(report, seconds), json_of(report, seconds));
   report.not_saved.require_nothing();
-  return fuzz_exit_code(report.findings_total, report.extent);
+  return fuzz_exit_code(report);
 }
 
 }  // namespace noli::app

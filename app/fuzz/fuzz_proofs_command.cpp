@@ -126,7 +126,7 @@ Json tally_json(const audit::CodeTally& tally) {
 
 Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
                  double seconds) {
-  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
+  Json json = {{"verdict", report.verdict()},
                {"seed", arguments.common.limits.seed},
                {"mutants", report.extent.items},
                {"findings", report.findings_total},
@@ -153,14 +153,14 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
 
 report::Answer report_answer(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
                              double seconds) {
-  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"mutants", report.extent.items},
-                                                                             {"findings", report.findings_total},
-                                                                             {"accepted", report.codes.accepted},
-                                                                             {"refuted", report.codes.refuted},
-                                                                             {"rejected", report.codes.rejected},
-                                                                             {"failed", report.codes.failed},
-                                                                             {"judged", report.judged},
-                                                                             {"seed", arguments.common.limits.seed}});
+  report::Answer answer(report.verdict(), {{"mutants", report.extent.items},
+                                           {"findings", report.findings_total},
+                                           {"accepted", report.codes.accepted},
+                                           {"refuted", report.codes.refuted},
+                                           {"rejected", report.codes.rejected},
+                                           {"failed", report.codes.failed},
+                                           {"judged", report.judged},
+                                           {"seed", arguments.common.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {

@@ -18,13 +18,11 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "app/progress.h"
 #include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/queries/fuzz_queries_report.h"
 #include "audit/fuzz/queries/minimise_query.h"
 #include "audit/fuzz/queries/saved_query.h"
 #include "certify/result_file.h"
-#include "certify/stopwatch.h"
 
 namespace noli::app {
 namespace {
@@ -55,7 +53,7 @@ constexpr const char* queries_footer =
     "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv";
 
 struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon {
-  std::size_t max_findings = audit::FuzzOptions().max_findings;
+  std::size_t max_findings = audit::FuzzSettings().max_findings;
   std::optional<std::string> replay, minimise;
   bool out_given = false;
 };
@@ -178,7 +176,7 @@ ExitCode replay(const FuzzArguments& arguments) {
                 {"findings", differences.size()},
                 {"probe", file.queries().at(0).probe.has_value()},
                 {"differences", differences}});
-  return fuzz_exit_code(differences.size(), queries, undecided);
+  return again_exit_code(undecided, !differences.empty());
 }
 
 /// "queries-edge-edge.csv" gives "queries-edge-edge-query3-minimised.csv", beside it or in the folder of --out.
@@ -201,8 +199,8 @@ ExitCode minimise(const FuzzArguments& arguments) {
   require_writable_file(minimised_name(arguments, 1), arguments.out_given ? "--out" : "--minimise");
   const std::vector<audit::Finding> findings = file.minimised();
   const std::size_t queries = file.queries().size();
-  const ExitCode code = fuzz_exit_code(findings.size(), queries, interrupted());
-  const char* const word = code == ExitCode::undecided ? "undecided" : findings.empty() ? "nothing_fails" : "finding";
+  const bool undecided = interrupted();
+  const char* const word = undecided ? "undecided" : findings.empty() ? "nothing_fails" : "finding";
   report::Answer answer(word, {{"queries", queries}, {"findings", findings.size()}});
   Json json = {{"verdict", word}, {"queries", queries}, {"findings", findings.size()}, {"reports", Json::array()}};
   for (const audit::Finding& finding : findings) {
@@ -219,36 +217,22 @@ ExitCode minimise(const FuzzArguments& arguments) {
                                {"command", command}});
   }
   output.write("fuzz-replay", answer, json);
-  return code;
+  return again_exit_code(undecided, !findings.empty());
 }
 
 // --- runs ------------------------------------------------------------------------------------------------------------
 
-/// What both kinds of runs are told. `progress` is added.
-template <class Options>
-Options options_of(const FuzzArguments& arguments) {
-  Options options;
-  options.limits = arguments.limits;
-  options.max_findings = arguments.max_findings;
-  options.out = arguments.out;
-  options.corpus = arguments.corpus.value_or("");
-  options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
-  return options;
-}
-
-/// Runs a fuzzer, shows how far it is, and says what came of it.
+/// Runs a fuzzer with the options that both kinds have.
 template <class Options, class Fuzz, class AnswerOf, class JsonOf>
-ExitCode run(Options options, const Output& output, const char* schema, const Fuzz& fuzz, const AnswerOf& answer_of,
-             const JsonOf& json_of) {
-  const Stopwatch watch;
-  const auto report = with_progress("fuzz queries", [&](const auto& show) {
-    options.limits.progress = show;
-    return fuzz(options);
-  });
-  const double seconds = watch.seconds();
-  output.write(schema, answer_of(options, report, seconds), json_of(options, report, seconds));
-  report.not_saved.require_nothing();
-  return fuzz_exit_code(report.findings_total, report.queries, report.interrupted);
+ExitCode run(const FuzzArguments& arguments, Options options, const Output& output, const char* schema,
+             const Fuzz& fuzz, const AnswerOf& answer_of, const JsonOf& json_of) {
+  set_common(options, arguments);
+  options.max_findings = arguments.max_findings;
+  options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
+  return run_fuzzer(
+      "fuzz queries", schema, output, options, fuzz,
+      [&](const auto& report, double seconds) { return answer_of(options, report, seconds); },
+      [&](const auto& report, double seconds) { return json_of(options, report, seconds); });
 }
 
 ExitCode run(FuzzArguments& arguments) {
@@ -258,15 +242,14 @@ ExitCode run(FuzzArguments& arguments) {
   settle_limits(arguments);
   const Output output(arguments.results, inputs(arguments));
   require_writable_folder(arguments.out, "--out");
-  corpus_folder(arguments);
   if (!arguments.asks_a_library()) {
-    return run(options_of<audit::FuzzOptions>(arguments), output, "fuzz-queries", audit::fuzz_queries,
-               audit::fuzz_answer, audit::fuzz_json);
+    return run(arguments, audit::QueryFuzzOptions(), output, "fuzz-queries", audit::fuzz_queries, audit::fuzz_answer,
+               audit::fuzz_json);
   }
-  auto options = options_of<audit::LibraryFuzzOptions>(arguments);
+  audit::LibraryFuzzOptions options;
   options.asked = arguments.asked;
   options.first_only = arguments.first_only;
-  return run(std::move(options), output, "fuzz-library-queries", audit::fuzz_library, audit::library_fuzz_answer,
+  return run(arguments, options, output, "fuzz-library-queries", audit::fuzz_library, audit::library_fuzz_answer,
              audit::library_fuzz_json);
 }
 

@@ -60,12 +60,9 @@ audit::RunNoli this_program() {
 }
 
 Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
-  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
-               {"seed", arguments.common.limits.seed},
-               {"scenes", report.extent.items},
-               {"findings", report.findings_total},
-               {"verified", report.verified},
-               {"resumed", report.resumed}};
+  Json json = {{"verdict", report.verdict()},   {"seed", arguments.common.limits.seed},
+               {"scenes", report.extent.items}, {"findings", report.findings_total},
+               {"verified", report.verified},   {"resumed", report.resumed}};
   json["ends"] = Json::object();
   for (const auto& [generator, ends] : report.ends) {
     for (const auto& [end, count] : ends) json["ends"][generator][end] = count;
@@ -83,11 +80,11 @@ Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport&
 }
 
 report::Answer report_answer(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
-  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"scenes", report.extent.items},
-                                                                             {"findings", report.findings_total},
-                                                                             {"verified", report.verified},
-                                                                             {"resumed", report.resumed},
-                                                                             {"seed", arguments.common.limits.seed}});
+  report::Answer answer(report.verdict(), {{"scenes", report.extent.items},
+                                           {"findings", report.findings_total},
+                                           {"verified", report.verified},
+                                           {"resumed", report.resumed},
+                                           {"seed", arguments.common.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {

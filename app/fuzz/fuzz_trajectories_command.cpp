@@ -56,7 +56,7 @@ std::uint64_t undecided(const audit::TrajectoryReport& report) {
 }
 
 Json report_json(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
-  Json json = {{"verdict", fuzz_verdict(report.findings_total, report.extent)},
+  Json json = {{"verdict", report.verdict()},
                {"seed", arguments.common.limits.seed},
                {"trajectories", report.extent.items},
                {"findings", report.findings_total},
@@ -86,10 +86,10 @@ Json report_json(const TrajectoriesArguments& arguments, const audit::Trajectory
 
 report::Answer report_answer(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report,
                              double seconds) {
-  report::Answer answer(fuzz_verdict(report.findings_total, report.extent), {{"trajectories", report.extent.items},
-                                                                             {"findings", report.findings_total},
-                                                                             {"checked", report.checked_plain},
-                                                                             {"seed", arguments.common.limits.seed}});
+  report::Answer answer(report.verdict(), {{"trajectories", report.extent.items},
+                                           {"findings", report.findings_total},
+                                           {"checked", report.checked_plain},
+                                           {"seed", arguments.common.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {

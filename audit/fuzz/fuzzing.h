@@ -11,7 +11,8 @@
 //              make(block, index, random)       an item, or nothing when the user would not wait; called from several
 //                                               threads. Who has something to do for a whole block has make_block
 //              take(item, index)                counts it; then add_if_new, or is_kept and keep
-//              take_saved(name)                 the same of what is in the corpus; false when the user would not wait
+//              take_saved(name)                 the same of what is in the corpus; false when the user would not wait.
+//                                               Who does not go by names has run_corpus and count_corpus
 //              items()                          how many were counted
 //
 // What this does not do: it knows nothing of what an item is.
@@ -49,10 +50,17 @@ struct FuzzTotals {
   NotSaved not_saved;
   std::uint64_t findings_total = 0;
   std::size_t corpus_size = 0;  ///< items in the corpus, of before and new
+
+  /// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", or what holds.
+  const char* verdict(const char* holds = "no_finding") const {
+    if (extent.interrupted) return "undecided";
+    if (findings_total > 0) return "finding";
+    return extent.items == 0 ? "undecided" : holds;
+  }
 };
 
 /// `Options` derive from FuzzSettings; `Report` from FuzzTotals, and has `findings`, a vector.
-template <class Subject, class Options, class Report, class Item>
+template <class Subject, class Options, class Report, class Item, class Corpus = ShapeCorpus>
 class Fuzzing {
  public:
   /// The options have to outlive this. Throws InputError for a corpus that cannot be read.
@@ -62,7 +70,7 @@ class Fuzzing {
 
   /// Once. Throws what the subject throws.
   Report run() {
-    run_corpus();
+    if (corpus_) self().run_corpus();
     if (!self().enough()) {
       report_.extent = fuzz_blocks(
           options_.limits, Subject::items_per_block,
@@ -74,11 +82,19 @@ class Fuzzing {
           });
     }
     report_.extent.items = self().items();  // an interruption leaves blocks that are not whole
-    report_.corpus_size = corpus_ ? corpus_->names().size() : 0;
+    if (corpus_) self().count_corpus();
     return std::move(report_);
   }
 
   bool enough() const { return false; }
+
+  void run_corpus() {
+    const std::vector<std::string> names = corpus_->names();  // none of those that are added
+    for (const std::string& name : names) {
+      if (stopped() || self().enough() || !self().take_saved(name)) return;
+    }
+  }
+  void count_corpus() { report_.corpus_size = corpus_->names().size(); }
 
   std::vector<Item> make_block(std::uint64_t block, std::uint64_t count) const {
     Random random(options_.limits.seed, block);
@@ -133,21 +149,13 @@ class Fuzzing {
   }
 
   const Options& options_;
-  std::optional<ShapeCorpus> corpus_;
+  std::optional<Corpus> corpus_;
   std::uint64_t block_ = 0;  ///< that is being taken
   Report report_;
 
  private:
   Subject& self() { return static_cast<Subject&>(*this); }
   const Subject& self() const { return static_cast<const Subject&>(*this); }
-
-  void run_corpus() {
-    if (!corpus_) return;
-    const std::vector<std::string> names = corpus_->names();  // none of those that are added
-    for (const std::string& name : names) {
-      if (stopped() || self().enough() || !self().take_saved(name)) return;
-    }
-  }
 };
 
 }  // namespace noli::audit

@@ -54,28 +54,29 @@ class FuzzQueries : public testing::Test {
   }
   ~FuzzQueries() override { std::filesystem::remove_all(options.out); }
 
-  FuzzOptions options;
+  QueryFuzzOptions options;
 };
 
 TEST_F(FuzzQueries, FindsNothingWhereNothingIsWrong) {
-  const FuzzReport report = fuzz_queries(options);
-  EXPECT_EQ(report.queries, *options.limits.count);
+  const QueryFuzzReport report = fuzz_queries(options);
+  EXPECT_EQ(report.extent.items, *options.limits.count);
   EXPECT_EQ(report.findings_total, 0U);
-  EXPECT_FALSE(report.interrupted);
+  EXPECT_FALSE(report.extent.interrupted);
   EXPECT_FALSE(std::filesystem::exists(options.out)) << "nothing to save, and yet a folder";
-  EXPECT_EQ(report.stages[Stage::gmp], report.queries);
+  EXPECT_EQ(report.stages[Stage::gmp], report.extent.items);
   const ProbeTally& probes = report.probes;
   const std::uint64_t distances = probes.apart + probes.within;
-  EXPECT_GE(distances, report.queries / queries_per_distance);
-  EXPECT_EQ(probes.failed + probes.failing + probes.never_failing, report.queries);
+  EXPECT_GE(distances, report.extent.items / queries_per_distance);
+  EXPECT_EQ(probes.failed + probes.failing + probes.never_failing, report.extent.items);
   for (const auto count : {probes.apart, probes.within}) EXPECT_GT(count, distances / 20);
-  for (const auto count : {probes.failed, probes.failing, probes.never_failing}) EXPECT_GT(count, report.queries / 20);
+  for (const auto count : {probes.failed, probes.failing, probes.never_failing})
+    EXPECT_GT(count, report.extent.items / 20);
 }
 
 TEST_F(FuzzQueries, FindsShrinksAndSavesAPlantedBug) {
   options.decide = forgets_the_end;
   options.max_findings = 3;
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   ASSERT_EQ(report.findings.size(), 3U);
   EXPECT_GT(report.findings_total, 3U);
   for (const Finding& finding : report.findings) {
@@ -91,7 +92,7 @@ TEST_F(FuzzQueries, FindsShrinksAndSavesAPlantedBug) {
 TEST_F(FuzzQueries, SavedFilesHoldTheQueryAndItsLabel) {
   options.decide = forgets_the_end;
   options.max_findings = 6;
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   ASSERT_FALSE(report.findings.empty());
   for (const Finding& finding : report.findings) {
     const QueryKind kind = file_kind(finding.query.pair);
@@ -124,7 +125,7 @@ TEST_F(FuzzQueries, FindsWrongKindsTimesAndEnclosures) {
   options.limits.count = 200;
   for (const auto& [word, decide] : subjects) {
     options.decide = decide;
-    const FuzzReport report = fuzz_queries(options);
+    const QueryFuzzReport report = fuzz_queries(options);
     ASSERT_EQ(report.findings.size(), 1U) << word;
     EXPECT_EQ(report.findings[0].difference.substr(0, word.size()), word);
   }
@@ -153,7 +154,7 @@ TEST_F(FuzzQueries, FindsWrongDistancesAndFailureTimes) {
   options.limits.count = 6000;
   for (const auto& [word, decide] : subjects) {
     options.decide_probe = decide;
-    const FuzzReport report = fuzz_queries(options);
+    const QueryFuzzReport report = fuzz_queries(options);
     ASSERT_EQ(report.findings.size(), 2U) << word;
     for (const Finding& finding : report.findings) {
       EXPECT_EQ(finding.difference.substr(0, word.size()), word);
@@ -169,7 +170,7 @@ TEST_F(FuzzQueries, FindsWrongDistancesAndFailureTimes) {
 TEST_F(FuzzQueries, ProbesLeaveTheStreamsOfQueriesAsTheyAre) {
   options.decide = forgets_the_end;
   options.max_findings = 2;
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   ASSERT_FALSE(report.findings.empty());
   const Finding& finding = report.findings[0];
   const auto generators = query_generators();
@@ -182,7 +183,7 @@ TEST_F(FuzzQueries, ProbesLeaveTheStreamsOfQueriesAsTheyAre) {
 TEST_F(FuzzQueries, SavedProbesComeBack) {
   options.decide_probe = [](const AnyQuery&, const Probe&) { return ProbeDecision{true, 0.25, 7}; };
   options.max_findings = 4;
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   ASSERT_EQ(report.findings.size(), 4U);
   for (const Finding& finding : report.findings) {
     std::ifstream file(finding.file);
@@ -223,11 +224,11 @@ TEST(Probe, LinesThatAreNoneAreRefused) {
 TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
   options.decide = forgets_the_end;
   options.max_findings = 4;
-  const FuzzReport one = fuzz_queries(options);
+  const QueryFuzzReport one = fuzz_queries(options);
   for (const int threads : {2, 5}) {
     options.limits.threads = threads;
-    const FuzzReport many = fuzz_queries(options);
-    EXPECT_EQ(many.queries, one.queries);
+    const QueryFuzzReport many = fuzz_queries(options);
+    EXPECT_EQ(many.extent.items, one.extent.items);
     EXPECT_EQ(many.answers, one.answers);
     EXPECT_EQ(many.stages, one.stages);
     EXPECT_EQ(many.probes, one.probes);
@@ -247,15 +248,15 @@ TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
 TEST_F(FuzzQueries, AsksTheCorpusFirst) {
   options.corpus = options.out / "corpus";
   options.limits.count = 1000;
-  const FuzzReport first = fuzz_queries(options);
+  const QueryFuzzReport first = fuzz_queries(options);
   EXPECT_GT(first.corpus.kept, 20U);
   EXPECT_EQ(first.corpus.signatures, first.corpus.kept);
   options.decide = forgets_the_end;
   options.limits.count = 1;
   options.max_findings = 1;
-  const FuzzReport second = fuzz_queries(options);
+  const QueryFuzzReport second = fuzz_queries(options);
   EXPECT_EQ(second.corpus.replayed, first.corpus.kept);
-  EXPECT_EQ(second.queries, first.corpus.kept + 1);
+  EXPECT_EQ(second.extent.items, first.corpus.kept + 1);
   ASSERT_EQ(second.findings.size(), 1U);
   EXPECT_EQ(second.findings[0].generator.substr(0, 7), "corpus/");
   EXPECT_EQ(kind_from_file_name(second.findings[0].file), file_kind(second.findings[0].query.pair));
@@ -282,7 +283,7 @@ TEST_F(FuzzQueries, ShrinksSingleQueries) {
 }
 
 TEST_F(FuzzQueries, AnotherSeedGivesOtherQueries) {
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   options.limits.seed = 6;
   EXPECT_NE(fuzz_queries(options).answers, report.answers);
 }
@@ -293,18 +294,18 @@ TEST_F(FuzzQueries, StopsWhenTold) {
   options.limits.stop = &stop;
   int calls = 0;
   options.limits.progress = [&](double) { stop = ++calls == 3; };
-  const FuzzReport report = fuzz_queries(options);
-  EXPECT_TRUE(report.interrupted);
+  const QueryFuzzReport report = fuzz_queries(options);
+  EXPECT_TRUE(report.extent.interrupted);
   EXPECT_EQ(calls, 3);
-  EXPECT_GT(report.queries, 0U);
+  EXPECT_GT(report.extent.items, 0U);
 }
 
 TEST_F(FuzzQueries, StopsWhenTimeIsUp) {
   options.limits.count.reset();
   options.limits.time_limit = std::chrono::milliseconds(1);
-  const FuzzReport report = fuzz_queries(options);
-  EXPECT_GT(report.queries, 0U);
-  EXPECT_FALSE(report.interrupted);
+  const QueryFuzzReport report = fuzz_queries(options);
+  EXPECT_GT(report.extent.items, 0U);
+  EXPECT_FALSE(report.extent.interrupted);
 }
 
 TEST_F(FuzzQueries, WantsToKnowWhenToStop) {
@@ -315,7 +316,7 @@ TEST_F(FuzzQueries, WantsToKnowWhenToStop) {
 TEST_F(FuzzQueries, SaysWhereItCannotSave) {
   std::ofstream(options.out) << "a file where a folder should be";
   options.decide = forgets_the_end;
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   EXPECT_THROW(report.not_saved.require_nothing(), std::runtime_error);
   ASSERT_FALSE(report.findings.empty()) << "what was found is told all the same";
   EXPECT_TRUE(report.findings[0].file.empty());
@@ -327,7 +328,7 @@ TEST_F(FuzzQueries, TheKernelPassesABlockOfEachGenerator) {
   options.decide = decide_with_kernel;
   options.decide_probe = probe_with_kernel;
   options.limits.count = query_generators().size() * queries_per_block;
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   EXPECT_EQ(report.findings_total, 0U) << report.findings.at(0).generator << ": " << report.findings.at(0).difference;
 }
 
@@ -341,7 +342,7 @@ TEST_F(FuzzQueries, SlowTheKernelPassesHalfAMillion) {
 #else
   options.limits.count = 500000;
 #endif
-  const FuzzReport report = fuzz_queries(options);
+  const QueryFuzzReport report = fuzz_queries(options);
   EXPECT_EQ(report.findings_total, 0U) << report.findings.at(0).generator << ": " << report.findings.at(0).difference;
   for (const GeneratorTally& tally : report.generators) {
     for (std::size_t kind = 0; kind < 4; ++kind) {

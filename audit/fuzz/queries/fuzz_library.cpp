@@ -138,10 +138,11 @@ void require_that_the_oracle_agrees(const AnyQuery& query) {
   throw std::logic_error("kernel and oracle disagree on a query that a library was found wrong on");
 }
 
-class LibraryFuzzing {
+class LibraryFuzzing : public Fuzzing<LibraryFuzzing, LibraryFuzzOptions, LibraryFuzzReport, Asked, QueryCorpus> {
  public:
-  explicit LibraryFuzzing(const LibraryFuzzOptions& options)
-      : options_(options), generators_(library_generators()), corpus_(read_corpus(options)) {
+  static constexpr std::uint64_t items_per_block = queries_per_block;
+
+  explicit LibraryFuzzing(const LibraryFuzzOptions& options) : Fuzzing(options), generators_(library_generators()) {
     for (const QueryGenerator& generator : generators_) {
       report_.generators.push_back({generator.name(), std::string(generator.attacks), generator.type.pair, 0, 0, {}});
     }
@@ -156,34 +157,16 @@ class LibraryFuzzing {
     }
     situation_.knows_times = report_.knows_times = knows_times(options_.asked);
     situation_.with_corpus = corpus_.has_value();
-    replay_corpus();
-    if (!enough()) {
-      const FuzzExtent extent = fuzz_blocks(
-          options_.limits, queries_per_block,
-          [&](std::uint64_t block, std::size_t queries) { return run_block(block, queries); },
-          [&](Asked asked) {
-            take(std::move(asked), &report_.generators[next_block_++ % generators_.size()]);
-            return !enough();
-          });
-      report_.interrupted = extent.interrupted;
-    }
+    report_ = Fuzzing::run();
     shrink_findings();
-    report_.interrupted |= options_.limits.stop != nullptr && options_.limits.stop->load();  // while they were shrunk
-    if (corpus_) {
-      report_.corpus.signatures = corpus_->signatures();
-      report_.corpus.kept = corpus_->kept();
-    }
+    report_.extent.interrupted |= stopped();  // while they were shrunk
     return std::move(report_);
   }
 
- private:
-  static std::optional<QueryCorpus> read_corpus(const LibraryFuzzOptions& options) {
-    return options.corpus.empty() ? std::nullopt : std::optional<QueryCorpus>(options.corpus);
-  }
-
   bool enough() const { return options_.first_only && report_.findings_total > 0; }
+  std::uint64_t items() const { return asked_; }
 
-  Asked run_block(std::uint64_t block, std::size_t count) const {
+  Asked make_block(std::uint64_t block, std::uint64_t count) const {
     const QueryGenerator& generator = generators_[block % generators_.size()];
     Random random(options_.limits.seed, block);
     std::vector<AnyQuery> queries;
@@ -194,9 +177,10 @@ class LibraryFuzzing {
     return ask_all(situation_, std::move(queries), blank);
   }
 
+  void take_block(Asked asked) { take(std::move(asked), &report_.generators[block_ % generators_.size()]); }
+
   /// Each query by itself, so that it does not matter what else is in the folder.
-  void replay_corpus() {
-    if (!corpus_) return;
+  void run_corpus() {
     std::vector<const CorpusQuery*> queries;
     for (const CorpusQuery& one : corpus_->queries()) {
       if (is_library_query({one.saved.query.pair, one.saved.query.dimension})) queries.push_back(&one);
@@ -216,10 +200,15 @@ class LibraryFuzzing {
     }
   }
 
+  void count_corpus() {
+    report_.corpus.signatures = corpus_->signatures();
+    report_.corpus.kept = corpus_->kept();
+  }
+
+ private:
   void take(Asked asked, LibraryTally* tally) {
-    report_.queries += asked.asked;
+    asked_ += asked.asked;
     report_.contacts += asked.contacts;
-    report_.findings_total += asked.findings.size();
     if (tally != nullptr) tally->asked += asked.asked, tally->contacts += asked.contacts;
     for (std::size_t i = 0; i < library_fault_count; ++i) {
       report_.faults[i] += asked.faults[i];
@@ -231,17 +220,18 @@ class LibraryFuzzing {
       if (!corpus_->reached(signature)) continue;
       report_.not_saved.attempt([&] { corpus_->keep(signature, {asked.queries[i], std::nullopt}, asked.contact[i]); });
     }
-    for (LibraryFinding& finding : asked.findings) keep(std::move(finding));
+    for (LibraryFinding& finding : asked.findings) keep_simplest(std::move(finding));
   }
 
   /// The simplest of each fault and generator, saved as it is: it is shrunk later, and should not be lost until then.
-  void keep(LibraryFinding finding) {
+  void keep_simplest(LibraryFinding finding) {
+    const bool room = is_kept();
     const auto same = [&](const LibraryFinding& other) {
       return other.found.is_like(finding.found) && other.generator == finding.generator;
     };
     auto& all = report_.findings;
     const auto found = std::find_if(all.begin(), all.end(), same);
-    if (found == all.end() && all.size() >= options_.max_findings) return;
+    if (found == all.end() && !room) return;
     finding.alike = 1;
     if (found != all.end()) {
       ++found->alike;
@@ -269,10 +259,7 @@ class LibraryFuzzing {
   }
 
   void save(LibraryFinding& finding) {
-    if (finding.file.empty() || report_.not_saved.attempt([&] { write(finding); })) return;
-    std::error_code ignored;  // part of it may be there
-    fs::remove(finding.file, ignored);
-    finding.file.clear();
+    if (!finding.file.empty() && !report_.not_saved.attempt([&] { write(finding); })) finding.file.clear();
   }
 
   void write(const LibraryFinding& finding) const {
@@ -306,13 +293,9 @@ class LibraryFuzzing {
     findings = std::move(different);
   }
 
-  const LibraryFuzzOptions& options_;
   std::vector<QueryGenerator> generators_;
-  std::optional<QueryCorpus> corpus_;
-  std::uint64_t next_block_ = 0;
   Situation situation_;
-  std::uint64_t corpus_findings_ = 0;
-  LibraryFuzzReport report_;
+  std::uint64_t asked_ = 0, corpus_findings_ = 0;
 };
 
 }  // namespace

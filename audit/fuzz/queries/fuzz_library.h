@@ -31,14 +31,9 @@
 
 namespace noli::audit {
 
-struct LibraryFuzzOptions {
+struct LibraryFuzzOptions : QueryFuzzSettings {
   LibraryUnderTest asked;
-  FuzzLimits limits;              ///< in queries
-  bool first_only = false;        ///< stop behind the first block that has a finding
-  std::size_t max_findings = 20;  ///< shrink and save at most that many
-  std::filesystem::path out;      ///< folder for them, made when there is one; empty: they are not saved
-  std::filesystem::path corpus;   ///< folder that is replayed first and added to; empty: none
-  std::function<std::string(const std::filesystem::path& file)> command;  ///< that asks a saved finding again
+  bool first_only = false;  ///< stop behind the first block that has a finding
 };
 
 using FaultCounts = std::array<std::uint64_t, library_fault_count>;
@@ -61,17 +56,14 @@ struct LibraryTally {
   FaultCounts faults{};  ///< those that do not count included
 };
 
-struct LibraryFuzzReport {
-  std::uint64_t queries = 0;   ///< asked, those of the corpus included
+/// Items are queries that were asked, those of the corpus included.
+struct LibraryFuzzReport : FuzzTotals {
   std::uint64_t contacts = 0;  ///< among them
   FaultCounts faults{};
-  std::uint64_t findings_total = 0;
   std::vector<LibraryFinding> findings;
   std::vector<LibraryTally> generators;
   CorpusTally corpus;
   bool knows_times = false;
-  bool interrupted = false;
-  NotSaved not_saved;
 };
 
 /// With `limits.count` and without hangs or memory limits the report is the same for any number of threads. Throws

@@ -80,7 +80,7 @@ std::optional<Stage> only_stage(const StageCounters& counters) {
   return found == all_stages.end() ? std::nullopt : std::optional(*found);
 }
 
-void judge(const FuzzOptions& options, const Item& item, BlockResult& result) {
+void judge(const QueryFuzzOptions& options, const Item& item, BlockResult& result) {
   const AnyQuery& query = item.generated.query;
   const Truth truth = truth_of(query);
   const ProbeTruth probe_truth = truth_of(query, item.probe);
@@ -96,7 +96,7 @@ void judge(const FuzzOptions& options, const Item& item, BlockResult& result) {
   report(difference(query, item.probe, probe_truth, options.decide_probe), Fault::probe);
   report(broken_promise(item, truth.kind), Fault::promise);
   result.stages += stages;
-  if (options.corpus.empty()) return;
+  if (!options.corpus) return;
   const double first = truth.time ? truth.time->lower() : 0;
   std::string reached = signature(query, only_stage(stages), truth.kind, first);
   const auto same = [&](const Reached& other) { return other.signature == reached; };
@@ -105,21 +105,8 @@ void judge(const FuzzOptions& options, const Item& item, BlockResult& result) {
   }
 }
 
-BlockResult run_block(const FuzzOptions& options, std::uint64_t block, std::size_t queries) {
-  const auto generators = query_generators();
-  const QueryGenerator& generator = generators[block % generators.size()];
-  Random random(options.limits.seed, block), probe_random(options.limits.seed, probe_stream + block);
-  BlockResult result;
-  for (std::size_t index = 0; index < queries; ++index) {
-    const Generated generated = generator(random);
-    const Probe probe = make_probe(generated.query, index % queries_per_distance == 0, probe_random);
-    judge(options, {generated, probe, generator.name(), block, index, generator.declared}, result);
-  }
-  return result;
-}
-
 /// A query of the corpus that was saved without a probe gets one that depends on its number.
-Item corpus_item(const FuzzOptions& options, const CorpusQuery& one, std::size_t number) {
+Item corpus_item(const QueryFuzzOptions& options, const CorpusQuery& one, std::size_t number) {
   Random random(options.limits.seed, corpus_stream + number);
   const AnyQuery& query = one.saved.query;
   const Probe probe = one.saved.probe ? *one.saved.probe : make_probe(query, true, random);
@@ -164,14 +151,14 @@ void shrink_probe(Finding& finding, const DecideProbe& decide) {
   finding.difference = fault(finding.shrunk, finding.probe).value();
 }
 
-std::string file_name(const FuzzOptions& options, const Finding& finding) {
+std::string file_name(const QueryFuzzOptions& options, const Finding& finding) {
   const bool corpus = finding.generator.starts_with("corpus/");
   return fmt::format("{}-{}{}-index{}-{}.csv", corpus ? "corpus" : fmt::format("seed{}", options.limits.seed),
                      corpus ? "query" : "block", finding.block, finding.index,
                      file_suffix({finding.query.pair, finding.query.dimension}));
 }
 
-void save(Finding& finding, const FuzzOptions& options) {
+void save(Finding& finding, const QueryFuzzOptions& options) {
   finding.file = unused(options.out / file_name(options, finding));
   std::vector<std::string> comments = {"# " + on_one_line(finding.difference)};
   if (options.command) comments.push_back("# " + options.command(finding.file));
@@ -179,32 +166,34 @@ void save(Finding& finding, const FuzzOptions& options) {
   save_query(finding.file, finding.shrunk, finding.truth != ContactKind::apart, comments);
 }
 
-class Fuzzing {
+class QueryFuzzing : public Fuzzing<QueryFuzzing, QueryFuzzOptions, QueryFuzzReport, Item, QueryCorpus> {
  public:
-  explicit Fuzzing(const FuzzOptions& options)
-      : options_(options), corpus_(options.corpus.empty() ? std::nullopt : std::optional<QueryCorpus>(options.corpus)) {
+  static constexpr std::uint64_t items_per_block = queries_per_block;
+
+  explicit QueryFuzzing(const QueryFuzzOptions& options) : Fuzzing(options) {
     for (const QueryGenerator& generator : query_generators()) {
       report_.generators.push_back({generator.name(), generator.type, generator.declared, {}});
     }
   }
 
-  FuzzReport run() {
-    replay_corpus();
-    const FuzzExtent extent = fuzz_blocks(
-        options_.limits, queries_per_block,
-        [&](std::uint64_t block, std::size_t queries) { return run_block(options_, block, queries); },
-        [&](BlockResult result) {
-          take(std::move(result), &report_.generators[next_block_++ % report_.generators.size()]);
-        });
-    report_.interrupted = extent.interrupted;
-    if (corpus_) report_.corpus.signatures = corpus_->signatures();
-    if (corpus_) report_.corpus.kept = corpus_->kept();
-    return std::move(report_);
+  BlockResult make_block(std::uint64_t block, std::uint64_t count) const {
+    const auto generators = query_generators();
+    const QueryGenerator& generator = generators[block % generators.size()];
+    Random random(options_.limits.seed, block), probe_random(options_.limits.seed, probe_stream + block);
+    BlockResult result;
+    for (std::size_t index = 0; index < count; ++index) {
+      const Generated generated = generator(random);
+      const Probe probe = make_probe(generated.query, index % queries_per_distance == 0, probe_random);
+      judge(options_, {generated, probe, generator.name(), block, index, generator.declared}, result);
+    }
+    return result;
   }
 
- private:
-  void replay_corpus() {
-    if (!corpus_) return;
+  void take_block(BlockResult result) {
+    take(std::move(result), &report_.generators[block_ % report_.generators.size()]);
+  }
+
+  void run_corpus() {
     const std::vector<CorpusQuery>& queries = corpus_->queries();
     std::vector<BlockResult> results(queries.size());
     parallel_for(queries.size(), options_.limits.threads,
@@ -217,38 +206,36 @@ class Fuzzing {
     report_.corpus.replayed = queries.size();
   }
 
+  void count_corpus() {
+    report_.corpus.signatures = corpus_->signatures();
+    report_.corpus.kept = corpus_->kept();
+  }
+
+  std::uint64_t items() const {
+    return std::accumulate(report_.answers.begin(), report_.answers.end(), std::uint64_t{0});
+  }
+
+ private:
   void take(BlockResult result, GeneratorTally* tally) {
     for (std::size_t kind = 0; kind < 4; ++kind) {
       if (tally != nullptr) tally->answers[kind] += result.answers[kind];
       report_.answers[kind] += result.answers[kind];
-      report_.queries += result.answers[kind];
     }
     report_.probes += result.probes;
     report_.stages += result.stages;
-    report_.findings_total += result.findings.size();
     for (const Reached& one : result.reached) {
       if (!corpus_->reached(one.signature)) continue;
       report_.not_saved.attempt([&] { corpus_->keep(one.signature, one.saved, one.contact); });
     }
-    for (RawFinding& raw : result.findings) keep(std::move(raw));
+    for (RawFinding& raw : result.findings) found(std::move(raw));
   }
 
-  void keep(RawFinding raw) {
-    if (report_.findings.size() >= options_.max_findings) return;
+  void found(RawFinding raw) {
+    if (!is_kept()) return;
     if (raw.fault == Fault::contact) shrink(raw.finding, options_.decide);
     if (raw.fault == Fault::probe) shrink_probe(raw.finding, options_.decide_probe);
-    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(raw.finding, options_); })) {
-      std::error_code ignored;  // part of it may be there
-      std::filesystem::remove(raw.finding.file, ignored);
-      raw.finding.file.clear();
-    }
-    report_.findings.push_back(std::move(raw.finding));
+    keep(std::move(raw.finding), &Finding::file, [this](Finding& finding) { save(finding, options_); });
   }
-
-  const FuzzOptions& options_;
-  std::optional<QueryCorpus> corpus_;
-  std::uint64_t next_block_ = 0;
-  FuzzReport report_;
 };
 
 }  // namespace
@@ -295,6 +282,6 @@ std::optional<Finding> shrunk_finding(const AnyQuery& query, const std::optional
   return finding;
 }
 
-FuzzReport fuzz_queries(const FuzzOptions& options) { return Fuzzing(options).run(); }
+QueryFuzzReport fuzz_queries(const QueryFuzzOptions& options) { return QueryFuzzing(options).run(); }
 
 }  // namespace noli::audit

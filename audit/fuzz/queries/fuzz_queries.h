@@ -27,8 +27,7 @@
 
 #include <noli/contact.h>
 #include <noli/time_of_impact.h>
-#include "audit/fuzz/fuzz_blocks.h"
-#include "audit/fuzz/not_saved.h"
+#include "audit/fuzz/fuzzing.h"
 #include "audit/fuzz/queries/probe.h"
 #include "audit/fuzz/queries/query_corpus.h"
 #include "certify/queries/any_query.h"
@@ -67,13 +66,12 @@ ProbeDecision probe_with_kernel(const AnyQuery& query, const Probe& probe);
 /// Queries of a block.
 constexpr std::uint64_t queries_per_block = 256;
 
-struct FuzzOptions {
-  FuzzLimits limits;              ///< in queries
-  std::filesystem::path out;      ///< folder, made when the first finding is saved; empty: findings are not saved
-  std::size_t max_findings = 20;  ///< shrink and save at most that many; all are counted
-  std::filesystem::path
-      corpus;  ///< folder that is replayed first and added to (audit/fuzz/queries/query_corpus.h); empty: none
+/// Options of fuzzers of queries. The corpus is one of queries (audit/fuzz/queries/query_corpus.h).
+struct QueryFuzzSettings : FuzzSettings {
   std::function<std::string(const std::filesystem::path& file)> command;  ///< that asks a saved finding again
+};
+
+struct QueryFuzzOptions : QueryFuzzSettings {
   Decide decide = decide_with_kernel;
   DecideProbe decide_probe = probe_with_kernel;
 };
@@ -110,23 +108,20 @@ struct ProbeTally {
   friend bool operator==(const ProbeTally&, const ProbeTally&) = default;
 };
 
-struct FuzzReport {
-  std::uint64_t queries = 0;
+/// Items are queries, those of the corpus included.
+struct QueryFuzzReport : FuzzTotals {
   std::array<std::uint64_t, 4> answers{};  ///< of the oracle, indexed by ContactKind
   ProbeTally probes;                       ///< one certificate per query, some distances
   std::vector<GeneratorTally> generators;  ///< in the order of query_generators()
   StageCounters stages;                    ///< of noli::contact, as counted by options.decide
-  std::uint64_t findings_total = 0;
-  std::vector<Finding> findings;  ///< the first max_findings: of the corpus, then by block and index
+  std::vector<Finding> findings;           ///< the first max_findings: of the corpus, then by block and index
   CorpusTally corpus;
-  bool interrupted = false;  ///< by the stop flag
-  NotSaved not_saved;
 };
 
 /// Runs until count, time limit or stop flag; at least one of the three must be given, else std::invalid_argument.
-/// With `count` the report is the same for any number of threads. What cannot be saved
-/// is in `not_saved`. Throws InputError when the corpus cannot be read.
-FuzzReport fuzz_queries(const FuzzOptions& options);
+/// With `count` the report is the same for any number of threads. What cannot be saved is in `not_saved`. Throws
+/// InputError when the corpus cannot be read.
+QueryFuzzReport fuzz_queries(const QueryFuzzOptions& options);
 
 /// What is wrong with the subject's answers to a saved query, one line each; nothing if they are the oracle's.
 std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe>& probe,

@@ -16,13 +16,6 @@ namespace {
 constexpr std::array<ContactKind, 4> kinds = {ContactKind::apart, ContactKind::touching, ContactKind::crossing,
                                               ContactKind::persistent};
 
-/// An interrupted run is undecided, whatever it has found: the findings are kept and listed.
-template <class Report>
-const char* verdict(const Report& report, const char* holds) {
-  if (report.interrupted || report.queries == 0) return "undecided";
-  return report.findings_total > 0 ? "finding" : holds;
-}
-
 int threads(int asked) { return asked > 0 ? asked : hardware_threads(); }
 
 Json answers_json(const std::array<std::uint64_t, 4>& answers) {
@@ -138,10 +131,10 @@ std::string generators_text(const LibraryFuzzOptions& options, const LibraryFuzz
 
 }  // namespace
 
-Json fuzz_json(const FuzzOptions& options, const FuzzReport& report, double seconds) {
-  Json json = {{"verdict", verdict(report, "no_difference")},
+Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds) {
+  Json json = {{"verdict", report.verdict("no_difference")},
                {"seed", options.limits.seed},
-               {"queries", report.queries},
+               {"queries", report.extent.items},
                {"findings", report.findings_total},
                {"answers", answers_json(report.answers)}};
   json["probes"] = probes_json(report.probes);
@@ -152,22 +145,22 @@ Json fuzz_json(const FuzzOptions& options, const FuzzReport& report, double seco
   json["generators"] = Json::array();
   for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
   json["stages"] = stages_json(report.stages);
-  if (!options.corpus.empty()) json["corpus"] = corpus_json(report.corpus);
+  if (options.corpus) json["corpus"] = corpus_json(report.corpus);
   json["timing"] = {{"seconds", seconds}, {"threads", threads(options.limits.threads)}};
   return json;
 }
 
-report::Answer fuzz_answer(const FuzzOptions& options, const FuzzReport& report, double seconds) {
+report::Answer fuzz_answer(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds) {
   report::Answer answer(
-      verdict(report, "no_difference"),
-      {{"queries", report.queries}, {"findings", report.findings_total}, {"seed", options.limits.seed}});
+      report.verdict("no_difference"),
+      {{"queries", report.extent.items}, {"findings", report.findings_total}, {"seed", options.limits.seed}});
   std::string& text = answer.text;
   const auto out = std::back_inserter(text);
   for (const auto& finding : report.findings) {
     fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
                    finding.difference, whereabouts(options, finding.file));
   }
-  if (!options.corpus.empty()) text += corpus_text(report.corpus);
+  if (options.corpus) text += corpus_text(report.corpus);
   text += "Answers of the oracle:\n";
   for (const auto& generator : report.generators) append_generator(generator, text);
   const ProbeTally& probes = report.probes;
@@ -180,16 +173,11 @@ report::Answer fuzz_answer(const FuzzOptions& options, const FuzzReport& report,
 }
 
 Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds) {
-  Json json = {{"verdict", verdict(report, "no_finding")},
-               {"library", options.asked.path.string()},
-               {"tolerance", options.asked.tolerance},
-               {"exact", options.asked.exact},
-               {"knows_times", report.knows_times},
-               {"seed", options.limits.seed},
-               {"queries", report.queries},
-               {"contacts", report.contacts},
-               {"findings", report.findings_total},
-               {"faults", faults_json(report.faults)}};
+  Json json = {{"verdict", report.verdict()},          {"library", options.asked.path.string()},
+               {"tolerance", options.asked.tolerance}, {"exact", options.asked.exact},
+               {"knows_times", report.knows_times},    {"seed", options.limits.seed},
+               {"queries", report.extent.items},       {"contacts", report.contacts},
+               {"findings", report.findings_total},    {"faults", faults_json(report.faults)}};
   json["reports"] = Json::array();
   for (const auto& finding : report.findings) {
     json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));
@@ -202,15 +190,15 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
                                   {"contacts", tally.contacts},
                                   {"faults", faults_json(tally.faults)}});
   }
-  if (!options.corpus.empty()) json["corpus"] = corpus_json(report.corpus);
+  if (options.corpus) json["corpus"] = corpus_json(report.corpus);
   json["timing"] = {{"seconds", seconds}, {"threads", threads(options.limits.threads)}};
   return json;
 }
 
 report::Answer library_fuzz_answer(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds) {
   report::Answer answer(
-      verdict(report, "no_finding"),
-      {{"queries", report.queries}, {"contacts", report.contacts}, {"findings", report.findings_total}});
+      report.verdict(),
+      {{"queries", report.extent.items}, {"contacts", report.contacts}, {"findings", report.findings_total}});
   for (const LibraryFault fault : faults) {
     answer.add({name(fault), report.faults[static_cast<std::size_t>(fault)]});
   }
@@ -222,7 +210,7 @@ report::Answer library_fuzz_answer(const LibraryFuzzOptions& options, const Libr
                    finding.found.words, finding.generator, finding.block, finding.index, finding.alike,
                    distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
   }
-  if (!options.corpus.empty()) text += corpus_text(report.corpus);
+  if (options.corpus) text += corpus_text(report.corpus);
   text += "Generators (what each attacks):\n" + generators_text(options, report);
   fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
   return answer;

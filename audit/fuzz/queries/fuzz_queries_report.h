@@ -12,8 +12,8 @@
 
 namespace noli::audit {
 
-report::Answer fuzz_answer(const FuzzOptions& options, const FuzzReport& report, double seconds);
-Json fuzz_json(const FuzzOptions& options, const FuzzReport& report, double seconds);
+report::Answer fuzz_answer(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds);
+Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds);
 
 report::Answer library_fuzz_answer(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds);
 Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds);

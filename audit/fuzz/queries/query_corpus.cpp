@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include "audit/fuzz/queries/oracle_bridge.h"
@@ -84,13 +83,7 @@ void QueryCorpus::keep(const std::string& signature, const SavedQuery& saved, bo
   if (saved.probe) comments.push_back(probe_line(saved.query, *saved.probe));
   fs::path file = folder_ / (signature + ".csv");
   for (int again = 2; fs::exists(file); ++again) file = folder_ / fmt::format("{}-{}.csv", signature, again);
-  try {
-    save_query(file, saved.query, contact, comments);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(file, ignored);
-    throw;
-  }
+  save_query(file, saved.query, contact, comments);
   ++kept_;
 }
 

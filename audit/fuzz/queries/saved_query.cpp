@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include <noli/errors.h>
 #include "trajectory/formats/query_csv.h"
@@ -55,7 +56,13 @@ void save_query(const std::filesystem::path& file, const AnyQuery& query, bool c
   text << type_line({query.pair, query.dimension}) << '\n';
   for (const std::string& comment : comments) text << comment << '\n';
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  write_file(file, text.str());
+  try {
+    write_file(file, text.str());
+  } catch (...) {
+    std::error_code ignored;  // part of it may be there
+    std::filesystem::remove(file, ignored);
+    throw;
+  }
 }
 
 std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {

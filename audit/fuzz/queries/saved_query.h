@@ -21,7 +21,7 @@ namespace noli::audit {
 std::string file_suffix(const QueryType& type);
 
 /// Writes `query`, labelled with `contact`, and then each comment on a line of its own. Comments begin with "# " and
-/// have one line each. Makes the folder. Throws std::system_error.
+/// have one line each. Makes the folder. Throws std::system_error; then nothing is left of the file.
 void save_query(const std::filesystem::path& file, const AnyQuery& query, bool contact,
                 std::span<const std::string> comments);
 
