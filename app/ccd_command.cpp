@@ -110,13 +110,9 @@ void append_file(const CcdFile& file, std::string& text) {
   }
 }
 
-report::Answer ccd_answer(const CcdOutcome& outcome) {
+report::Answer ccd_answer(const Json& json, const CcdOutcome& outcome) {
   const CcdCounts& total = outcome.total;
-  report::Answer answer(verdict(outcome), {{"queries", total.queries},
-                                           {"contacts", total.contacts},
-                                           {"labelled", total.labelled},
-                                           {"disagreements", total.disagreements},
-                                           {"complete", outcome.complete}});
+  report::Answer answer(json, {"queries", "contacts", "labelled", "disagreements", "complete"});
   for (const CcdFile& file : outcome.files) append_file(file, answer.text);
   answer.details = "Stages:";
   for (const Stage stage : all_stages) answer.details += fmt::format(" {} {}", name(stage), total.stages[stage]);
@@ -134,7 +130,8 @@ ExitCode run(CcdArguments& arguments) {
     request.progress = show;
     return run_ccd(request);
   });
-  output.write("ccd", ccd_answer(outcome), ccd_json(request, outcome));
+  const Json json = ccd_json(request, outcome);
+  output.write("ccd", ccd_answer(json, outcome), json);
   return exit_code(outcome);
 }
 

@@ -127,11 +127,11 @@ Json check_json(const CheckerVersion& checker, const fs::path& proof, const std:
 }
 
 /// The checker's first line without its verdict is the place; the line for programs is among the details.
-report::Answer check_answer(const CheckerVersion& checker, const CheckerVerdict& verdict, const char* word,
+report::Answer check_answer(const Json& json, const CheckerVersion& checker, const CheckerVerdict& verdict,
                             const std::vector<std::string>& notes) {
   const std::string line = first_line(verdict.words);
   const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
-  report::Answer answer(word, {{"checker", checker.name}, {"version", checker.version}});
+  report::Answer answer(json, {"checker=checker/name", "version=checker/version"});
   answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
   answer.text += report::notes_text(notes);
   answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
@@ -173,7 +173,7 @@ ExitCode run(const CheckArguments& arguments) {
   const CheckerVersion version = version_of(which);
   Json json = check_json(version, proof, asked, verdict, word);
   json["notes"] = notes;
-  output.write("check", check_answer(version, verdict, word, notes), json);
+  output.write("check", check_answer(json, version, verdict, notes), json);
   return static_cast<ExitCode>(verdict.code);
 }
 

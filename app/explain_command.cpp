@@ -41,7 +41,8 @@ ExitCode explain_folder(const ExplainArguments& arguments) {
   const Output output(arguments.results, {arguments.scene});
   if (!arguments.results.quiet) note_if_being_written(arguments.scene);
   const RunExplanation explanation = explain_run(arguments.scene);
-  output.write("explain-run", report::answer_of(explanation), report::to_json(explanation));
+  const Json json = report::to_json(explanation);
+  output.write("explain-run", report::answer_of(json, explanation), json);
   return ExitCode::holds;
 }
 

@@ -99,13 +99,12 @@ std::string as_text(const Json& value) {
   return text;
 }
 
-report::Answer info_answer(const Json& files) {
-  report::Answer answer("described", {{"files", files.size()}});
-  std::string& text = answer.text;
-  for (const Json& file : files) {
-    text += on_one_line(as_text(file["file"])) + '\n';
+report::Answer info_answer(const Json& json) {
+  report::Answer answer(json, {"files"});
+  for (const Json& file : json["files"]) {
+    answer.text += on_one_line(as_text(file["file"])) + '\n';
     for (const auto& [key, value] : file.items()) {
-      if (key != "file") text += fmt::format("  {} {}\n", key, as_text(value));
+      if (key != "file") answer.text += fmt::format("  {} {}\n", key, as_text(value));
     }
   }
   return answer;
@@ -114,12 +113,12 @@ report::Answer info_answer(const Json& files) {
 ExitCode run(const InfoArguments& arguments) {
   begin_work(arguments.time_limit);
   const Output output(arguments.results, arguments.files);
-  Json files = Json::array();
+  Json json = {{"verdict", "described"}, {"files", Json::array()}};
   for (const auto& path : arguments.files) {
     if (!arguments.results.quiet) note_if_being_written(path);
-    files.push_back(info_of(path));
+    json["files"].push_back(info_of(path));
   }
-  output.write("info", info_answer(files), {{"verdict", "described"}, {"files", files}});
+  output.write("info", info_answer(json), json);
   return ExitCode::holds;
 }
 

@@ -69,17 +69,16 @@ ExitCode reproduce(const SimulateArguments& arguments) {
   const Output output(arguments.results, {request.scene, *arguments.reproduce}, {{"-o", request.run}});
   const ReproduceOutcome outcome =
       run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
-  const char* const verdict = outcome.same ? "same" : "different";
-  report::Answer answer(verdict, {{"window", arguments.window}, {"breakpoints", outcome.breakpoints}});
+  const Json json = {{"verdict", outcome.same ? "same" : "different"},
+                     {"window", arguments.window},
+                     {"breakpoints", outcome.breakpoints},
+                     {"sha256", hex(outcome.found)},
+                     {"expected", hex(outcome.expected)}};
+  report::Answer answer(json, {"window", "breakpoints"});
   answer.text = fmt::format("{}, SHA-256 {}, is in {}.\n",
                             outcome.same ? "The window of the run" : "Another window than the run has",
                             hex(outcome.found), on_one_line(request.run.string()));
-  output.write("reproduce", answer,
-               {{"verdict", verdict},
-                {"window", arguments.window},
-                {"breakpoints", outcome.breakpoints},
-                {"sha256", hex(outcome.found)},
-                {"expected", hex(outcome.expected)}});
+  output.write("reproduce", answer, json);
   return outcome.same ? ExitCode::holds : ExitCode::refuted;
 }
 
@@ -104,7 +103,8 @@ ExitCode run(SimulateArguments& arguments) {
   request.progress = [&bars](std::string_view work, double share) { bars->show(work, share); };
   const SimulateOutcome outcome = run_simulate(request);
   bars.reset();
-  output.write("simulate", report::simulate_answer(request, outcome), report::simulate_json(request, outcome));
+  const Json json = report::simulate_json(request, outcome);
+  output.write("simulate", report::simulate_answer(json, request, outcome), json);
   return exit_code(outcome);
 }
 

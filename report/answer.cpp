@@ -25,7 +25,23 @@ std::string quoted_if_needed(const std::string& value) {
   return text + '"';
 }
 
+std::string value_text(const Json& value) {
+  if (value.is_array()) return std::to_string(value.size());
+  if (value.is_number_float()) return digits17(value.get<double>());
+  const std::string text = value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
+  return text.empty() ? "none" : text;
+}
+
 }  // namespace
+
+Answer::Answer(const Json& result, const std::vector<std::string>& members)
+    : verdict_(result.at("verdict").get<std::string>()) {
+  for (const std::string& member : members) {
+    const std::size_t path = member.find('=') + 1;  // 0 without one
+    add({member.substr(0, path == 0 ? member.size() : path - 1),
+         value_text(result.at(Json::json_pointer("/" + member.substr(path))))});
+  }
+}
 
 std::string Answer::porcelain() const {
   std::string line = "verdict=" + verdict_;

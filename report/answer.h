@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "certify/json.h"
+
 namespace noli::report {
 
 /// A key and its value, which may be anything that can be formatted.
@@ -32,6 +34,11 @@ class Answer {
  public:
   explicit Answer(std::string_view verdict, std::initializer_list<AnswerPair> pairs = {})
       : verdict_(verdict), pairs_(pairs) {}
+
+  /// The verdict and the pairs are members of the result, the JSON: numbers and words as it has them, the length of an
+  /// array, "none" for null and for an empty word. "accepted=codes/accepted" is the pair `accepted`, that member of
+  /// `codes`. Precondition: these members are there.
+  Answer(const Json& result, const std::vector<std::string>& members);
 
   void add(AnswerPair pair) { pairs_.push_back(std::move(pair)); }
 

@@ -197,11 +197,10 @@ Json to_json(const RunExplanation& e) {
   return json;
 }
 
-Answer answer_of(const RunExplanation& e) {
-  Answer answer("explained", {{"windows", e.windows},
-                              {"time", digits17(e.time)},
-                              {"deepest", e.deepest ? e.deepest->action.layer : 0},
-                              {"end", e.log.end().empty() ? "unknown" : e.log.end()}});
+Answer answer_of(const Json& json, const RunExplanation& e) {
+  Answer answer(json, {"windows", "time"});
+  answer.add({"deepest", e.deepest ? e.deepest->action.layer : 0});
+  answer.add({"end", e.log.end().empty() ? "unknown" : e.log.end()});
   std::string& text = answer.text;
   text += fmt::format("{}: {} windows, {} s.\n", on_one_line(e.title), e.windows, e.time);
   if (e.open_window) text += "The run ends in a window that was never committed; it is left out.\n";

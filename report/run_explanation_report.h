@@ -7,7 +7,8 @@
 
 namespace noli::report {
 
-Answer answer_of(const RunExplanation& explanation);
 Json to_json(const RunExplanation& explanation);
+/// `json`: that of to_json.
+Answer answer_of(const Json& json, const RunExplanation& explanation);
 
 }  // namespace noli::report

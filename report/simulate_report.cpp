@@ -233,13 +233,8 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   return json;
 }
 
-Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& outcome) {
-  Answer answer(verdict(outcome),
-                {{"end", name(outcome.end)},
-                 {"windows", outcome.windows},
-                 {"windows_total", outcome.windows_total},
-                 {"time", digits17(outcome.time)},
-                 {"first_time", outcome.contact ? digits17(outcome.contact->first->time) : std::string("none")}});
+Answer simulate_answer(const Json& json, const SimulateRequest& request, const SimulateOutcome& outcome) {
+  Answer answer(json, {"end", "windows", "windows_total", "time", "first_time"});
   answer.place = place(outcome);
   answer.next = next_step(request, outcome);
   std::string& text = answer.text;

@@ -13,7 +13,7 @@ namespace noli::report {
 
 Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcome);
 
-/// The same in words; the place of the verdict is a window and a time.
-Answer simulate_answer(const SimulateRequest& request, const SimulateOutcome& outcome);
+/// The same in words; the place of the verdict is a window and a time. `json`: that of simulate_json.
+Answer simulate_answer(const Json& json, const SimulateRequest& request, const SimulateOutcome& outcome);
 
 }  // namespace noli::report

@@ -76,7 +76,8 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
       audit::audit_pipeline({request.libraries, ordered.frames[0], ordered.frames[1], request.tolerances,
                              request.max_reports, request.host, arguments.polygons});
   outcome.notes.insert(outcome.notes.begin(), ordered.notes.begin(), ordered.notes.end());
-  output.write("audit-pipeline", audit::pipeline_answer(outcome), audit::pipeline_json(outcome));
+  const Json json = audit::pipeline_json(outcome);
+  output.write("audit-pipeline", audit::pipeline_answer(json, outcome), json);
   return exit_code(outcome.findings(), outcome.complete);
 }
 

@@ -101,13 +101,8 @@ std::string figures_text(const SelfPart& part) {
   return text;
 }
 
-report::Answer self_answer(const SelfArguments& arguments, const SelfReport& report, double seconds) {
-  report::Answer answer(verdict(exit_code(report, arguments.require_all)),
-                        {{"parts", report.parts.size()},
-                         {"held", report.count(PartState::held)},
-                         {"failed", report.count(PartState::failed)},
-                         {"skipped", report.count(PartState::skipped)},
-                         {"complete", report.complete}});
+report::Answer self_answer(const Json& json, const SelfReport& report, double seconds) {
+  report::Answer answer(json, {"parts", "held", "failed", "skipped", "complete"});
   std::string& text = answer.text;
   std::vector<audit::TableRow> rows = {{"part", "", "result", "figures", "seconds"}};
   for (const SelfPart& part : report.parts) {
@@ -147,7 +142,8 @@ ExitCode run(SelfArguments& arguments) {
   const Stopwatch watch;
   const SelfReport report = audit::audit_self(options);
   const double seconds = watch.seconds();
-  output.write("audit-self", self_answer(arguments, report, seconds), self_json(arguments, report, seconds));
+  const Json json = self_json(arguments, report, seconds);
+  output.write("audit-self", self_answer(json, report, seconds), json);
   return exit_code(report, arguments.require_all);
 }
 

@@ -130,12 +130,8 @@ std::string table(const StabilityReport& report) {
   return audit::table_text(rows, 2);
 }
 
-report::Answer stability_answer(const StabilityReport& report, double seconds) {
-  report::Answer answer(verdict(report), {{"rows", report.rows.size()},
-                                          {"points", report.points()},
-                                          {"held", report.held()},
-                                          {"findings", report.findings()},
-                                          {"complete", report.complete}});
+report::Answer stability_answer(const Json& json, const StabilityReport& report, double seconds) {
+  report::Answer answer(json, {"rows", "points", "held", "findings", "complete"});
   std::string& text = answer.text;
   text += table(report);
   const auto out = std::back_inserter(text);
@@ -193,7 +189,8 @@ ExitCode run(StabilityArguments& arguments) {
   const Stopwatch watch;
   const StabilityReport report = audit::audit_stability(rows, options);
   const double seconds = watch.seconds();
-  output.write("audit-stability", stability_answer(report, seconds), stability_json(report, seconds));
+  const Json json = stability_json(report, seconds);
+  output.write("audit-stability", stability_answer(json, report, seconds), json);
   return exit_code(report);
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,7 +76,7 @@ Json finding_json(const LibraryMotionArguments& arguments, const audit::LibraryM
           {"command", folder.empty() ? "" : again(arguments.theirs, folder)}};
 }
 
-Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report, double seconds) {
+Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report) {
   const audit::LibraryUnderTest& library = arguments.theirs.asked;
   Json json = {{"verdict", report.verdict()},
                {"library", library.path.string()},
@@ -103,7 +102,6 @@ Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMo
                                   {"contacts", generator.contacts},
                                   {"faults", faults_json(generator.faults)}});
   }
-  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
   return json;
 }
 
@@ -117,29 +115,28 @@ std::string finding_text(const LibraryMotionArguments& arguments, const audit::L
                             again(arguments.theirs, finding.folder));
 }
 
-report::Answer report_answer(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report,
-                             double seconds) {
-  report::Answer answer(report.verdict(), {{"trajectories", report.extent.items},
-                                           {"contacts", report.contacts},
-                                           {"findings", report.findings_total},
-                                           {"through", report.through}});
-  for_each_fault(report.faults, [&](std::string_view fault, std::uint64_t count) { answer.add({fault, count}); });
-  answer.add({"seed", arguments.common.limits.seed});
-  std::string& text = answer.text;
-  const auto out = std::back_inserter(text);
+std::string report_text(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report) {
+  std::string text;
   for (const auto& finding : report.findings) text += finding_text(arguments, finding);
   for (const auto& generator : report.generators) {
-    fmt::format_to(out, "  {:12} motions {:6} contacts {:6}", generator.name, generator.motions, generator.contacts);
+    text += fmt::format("  {:12} motions {:6} contacts {:6}", generator.name, generator.motions, generator.contacts);
     for_each_fault(generator.faults, [&](std::string_view fault, std::uint64_t count) {
-      if (count > 0) fmt::format_to(out, " {} {}", fault, count);
+      if (count > 0) text += fmt::format(" {} {}", fault, count);
     });
     text += '\n';
   }
-  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} motions.\n", report.corpus_size);
-  if (report.not_asked > 0) fmt::format_to(out, "Not asked, after too many hangs: {}.\n", report.not_asked);
-  fmt::format_to(out, "Candidates: {}. False positives among them: {}. Time: {:.1f} s.\n", report.candidates,
-                 report.false_positives, seconds);
-  return answer;
+  if (arguments.common.corpus) text += fmt::format("Corpus: {} motions.\n", report.corpus_size);
+  if (report.not_asked > 0) text += fmt::format("Not asked, after too many hangs: {}.\n", report.not_asked);
+  return text +
+         fmt::format("Candidates: {}. False positives among them: {}.\n", report.candidates, report.false_positives);
+}
+
+std::vector<std::string> pairs() {
+  std::vector<std::string> names = {"trajectories", "contacts", "findings", "through"};
+  for_each_fault({},
+                 [&](std::string_view fault, std::uint64_t) { names.push_back(fmt::format("{0}=faults/{0}", fault)); });
+  names.emplace_back("seed");
+  return names;
 }
 
 // --- a saved motion --------------------------------------------------------------------------------------------------
@@ -169,6 +166,11 @@ Again look_again(const LibraryMotionArguments& arguments) {
 
 }  // namespace
 
+Json motion_facts(const audit::FrameMotion& motion) {
+  return {
+      {"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}};
+}
+
 ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
   settle(arguments);
   settle_limits(arguments.common);
@@ -182,9 +184,9 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
   options.max_findings = arguments.max_findings;
   options.replay_command = replay_command(arguments.theirs);
   return run_fuzzer(
-      "fuzz trajectories", "fuzz-library-trajectories", output, options, audit::fuzz_library_motions,
-      [&](const auto& report, double seconds) { return report_answer(arguments, report, seconds); },
-      [&](const auto& report, double seconds) { return report_json(arguments, report, seconds); });
+      {"fuzz trajectories", "fuzz-library-trajectories", pairs()}, output, options, audit::fuzz_library_motions,
+      [&](const auto& report) { return report_json(arguments, report); },
+      [&](const auto& report) { return report_text(arguments, report); });
 }
 
 ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
@@ -197,27 +199,15 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   const Output output(arguments.common.results, inputs);
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   const Again result = look_again(arguments);
-  const audit::FrameMotion& motion = result.motion;
-  const bool unknown = interrupted(), finding = result.found.has_value();
-  const char* const word = again_verdict(unknown, finding);
-  report::Answer answer(
-      word,
-      {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
-  std::string& text = answer.text;
-  if (result.found) text += on_one_line(result.found->words) + '\n';
-  if (result.saved) {
-    text += fmt::format("saved as {}\n  again: {}\n", on_one_line(result.saved->string()),
-                        again(arguments.theirs, *result.saved));
-  }
-  output.write("fuzz-replay", answer,
-               {{"verdict", word},
-                {"library", arguments.theirs.asked.path.string()},
-                {"frames", motion.frames.size()},
-                {"cells", motion.mesh.cell_count()},
-                {"vertices", motion.mesh.vertex_count},
-                {"difference", result.found ? Json(result.found->words) : Json()},
-                {"folder", result.saved ? Json(result.saved->string()) : Json()}});
-  return again_exit_code(unknown, finding);
+  Json facts = {{"library", arguments.theirs.asked.path.string()}};
+  facts.update(motion_facts(result.motion));
+  return tell_again(output,
+                    {.unknown = interrupted(),
+                     .difference = result.found ? std::optional(result.found->words) : std::nullopt,
+                     .saved = result.saved,
+                     .facts = facts,
+                     .pairs = {"frames", "cells", "vertices"},
+                     .about_saved = result.saved ? "\n  again: " + again(arguments.theirs, *result.saved) : ""});
 }
 
 }  // namespace noli::app

@@ -6,6 +6,7 @@
 #include "app/audit/library_options.h"
 #include "app/exit_code.h"
 #include "app/fuzz/fuzz_options.h"
+#include "audit/fuzz/trajectories/frame_motion.h"
 
 namespace noli::app {
 
@@ -16,6 +17,9 @@ struct LibraryMotionArguments {
   std::size_t max_findings = 20;
   std::vector<std::string> families;  ///< names of generators; none: all of them
 };
+
+/// How large a motion is: frames, cells, vertices.
+Json motion_facts(const audit::FrameMotion& motion);
 
 /// Throws UsageError, InputError.
 ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments);

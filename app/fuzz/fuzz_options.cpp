@@ -4,6 +4,7 @@
 #include <limits>
 #include <system_error>
 
+#include <noli/errors.h>
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
@@ -84,12 +85,28 @@ ExitCode fuzz_exit_code(const audit::FuzzTotals& report) {
   return report.extent.items == 0 ? ExitCode::undecided : ExitCode::holds;
 }
 
-const char* again_verdict(bool unknown, bool finding) {
-  return unknown ? "undecided" : finding ? "finding" : "no_finding";
-}
-
 ExitCode again_exit_code(bool unknown, bool finding) {
   return unknown ? ExitCode::undecided : finding ? ExitCode::refuted : ExitCode::holds;
+}
+
+ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char* place) {
+  const bool finding = judged.difference.has_value();
+  Json json = {{"verdict", judged.unknown ? "undecided" : finding ? "finding" : "no_finding"}};
+  json.update(judged.facts);
+  json["difference"] = finding ? Json(*judged.difference) : Json();
+  json[place] = judged.saved ? Json(judged.saved->string()) : Json();
+  report::Answer answer(json, judged.pairs);
+  answer.text = judged.text;
+  if (finding) answer.text += on_one_line(*judged.difference) + '\n';
+  if (judged.saved) answer.text += "saved as " + on_one_line(judged.saved->string()) + judged.about_saved + '\n';
+  output.write("fuzz-replay", answer, json);
+  return again_exit_code(judged.unknown, finding);
+}
+
+std::string finding_line(const std::string& origin, std::uint64_t block, const char* item, std::size_t index,
+                         const std::string& difference, const std::filesystem::path& place) {
+  return fmt::format("finding: {}, block {}, {} {}: {}; {}\n", origin, block, item, index, on_one_line(difference),
+                     place.empty() ? "not saved" : "saved as " + on_one_line(place.string()));
 }
 
 }  // namespace noli::app

@@ -3,6 +3,8 @@
 // The options that the fuzzers of motions, scenes and proofs have in common, in the same words, and their verdicts.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
@@ -13,7 +15,10 @@
 #include "app/output.h"
 #include "app/progress.h"
 #include "audit/fuzz/fuzzing.h"
+#include "certify/json.h"
 #include "certify/stopwatch.h"
+#include "kernel/parallel.h"
+#include "report/answer.h"
 
 namespace noli::app {
 
@@ -59,22 +64,49 @@ void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& argu
 /// Of its verdict.
 ExitCode fuzz_exit_code(const audit::FuzzTotals& report);
 
-/// Of something that was judged again: "undecided", "finding", "no_finding".
-const char* again_verdict(bool unknown, bool finding);
 ExitCode again_exit_code(bool unknown, bool finding);
 
-/// Runs fuzz(options), shows how far it is as "fuzz ITEMS", and writes a result with this schema: answer_of(report,
-/// seconds) and json_of(report, seconds). Throws WriteError when not all that was found could be saved.
-template <class Options, class Fuzz, class AnswerOf, class JsonOf>
-ExitCode run_fuzzer(const char* items, const char* schema, const Output& output, Options& options, const Fuzz& fuzz,
-                    const AnswerOf& answer_of, const JsonOf& json_of) {
+/// What came of something that was judged again.
+struct JudgedAgain {
+  bool unknown = false;                        ///< interrupted, or not decided
+  std::optional<std::string> difference;       ///< what is wrong with it
+  std::optional<std::filesystem::path> saved;  ///< where it is, made smaller
+  Json facts;                                  ///< what else is known, an object
+  std::vector<std::string> pairs;              ///< those of the facts that the answer has
+  std::string text = {}, about_saved = {};     ///< above the difference; behind the name of what was saved
+};
+
+/// Writes that as a result of the schema "fuzz-replay". `place`: the member that names what was saved.
+ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char* place = "folder");
+
+/// "finding: ORIGIN, block 3, scene 7: DIFFERENCE; saved as PLACE", one line; `item` is "scene".
+std::string finding_line(const std::string& origin, std::uint64_t block, const char* item, std::size_t index,
+                         const std::string& difference, const std::filesystem::path& place);
+
+/// How the result of a fuzzer is told.
+struct FuzzResultNames {
+  const char* work;                ///< "fuzz scenes", for the progress
+  const char* schema;              ///< of the JSON
+  std::vector<std::string> pairs;  ///< members of the JSON that the answer has
+};
+
+/// Runs fuzz(options), shows how far it is, and writes the result: json_of(report), to which `timing` is added, and
+/// text_of(report). Throws WriteError when not all that was found could be saved.
+template <class Options, class Fuzz, class JsonOf, class TextOf>
+ExitCode run_fuzzer(const FuzzResultNames& names, const Output& output, Options& options, const Fuzz& fuzz,
+                    const JsonOf& json_of, const TextOf& text_of) {
   const Stopwatch watch;
-  const auto report = with_progress(items, [&](const auto& show) {
+  const auto report = with_progress(names.work, [&](const auto& show) {
     options.limits.progress = show;
     return fuzz(options);
   });
   const double seconds = watch.seconds();
-  output.write(schema, answer_of(report, seconds), json_of(report, seconds));
+  const int threads = options.limits.threads;
+  Json json = json_of(report);
+  json["timing"] = {{"seconds", seconds}, {"threads", threads > 0 ? threads : hardware_threads()}};
+  report::Answer answer(json, names.pairs);
+  answer.text = text_of(report) + fmt::format("Time: {:.1f} s.\n", seconds);
+  output.write(names.schema, answer, json);
   report.not_saved.require_nothing();
   return fuzz_exit_code(report);
 }

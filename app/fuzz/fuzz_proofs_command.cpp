@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstdio>
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -124,8 +123,7 @@ Json tally_json(const audit::CodeTally& tally) {
       {"accepted", tally.accepted}, {"refuted", tally.refuted}, {"rejected", tally.rejected}, {"failed", tally.failed}};
 }
 
-Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
-                 double seconds) {
+Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases) {
   Json json = {{"verdict", report.verdict()},
                {"seed", arguments.common.limits.seed},
                {"mutants", report.extent.items},
@@ -147,35 +145,22 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
                                {"difference", finding.difference},
                                {"folder", finding.folder.string()}});
   }
-  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
   return json;
 }
 
-report::Answer report_answer(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases,
-                             double seconds) {
-  report::Answer answer(report.verdict(), {{"mutants", report.extent.items},
-                                           {"findings", report.findings_total},
-                                           {"accepted", report.codes.accepted},
-                                           {"refuted", report.codes.refuted},
-                                           {"rejected", report.codes.rejected},
-                                           {"failed", report.codes.failed},
-                                           {"judged", report.judged},
-                                           {"seed", arguments.common.limits.seed}});
-  std::string& text = answer.text;
-  const auto out = std::back_inserter(text);
+std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases) {
+  std::string text;
   for (const auto& finding : report.findings) {
-    fmt::format_to(out, "finding: {}, block {}, mutant {}, {}: {}; {}\n", finding.name, finding.block, finding.index,
-                   finding.mutations, on_one_line(finding.difference),
-                   finding.folder.empty() ? "not saved" : "saved as " + on_one_line(finding.folder.string()));
+    text += finding_line(finding.name, finding.block, "mutant", finding.index,
+                         finding.mutations + ": " + finding.difference, finding.folder);
   }
   for (const auto& [name, tally] : report.mutations) {
-    fmt::format_to(out, "  {:26} accepted {:7} refuted {:7} rejected {:7} failed {:7}\n", name, tally.accepted,
-                   tally.refuted, tally.rejected, tally.failed);
+    text += fmt::format("  {:26} accepted {:7} refuted {:7} rejected {:7} failed {:7}\n", name, tally.accepted,
+                        tally.refuted, tally.rejected, tally.failed);
   }
-  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} proofs.\n", report.corpus_size);
-  fmt::format_to(out, "Proofs: {}. The verified checker looked at {} mutants. Not judged: {}. Time: {:.1f} s.\n", cases,
-                 report.checked_verified, report.not_judged, seconds);
-  return answer;
+  if (arguments.common.corpus) text += fmt::format("Corpus: {} proofs.\n", report.corpus_size);
+  return text + fmt::format("Proofs: {}. The verified checker looked at {} mutants. Not judged: {}.\n", cases,
+                            report.checked_verified, report.not_judged);
 }
 
 /// The proof that was given, or those that are made. Fewer if the user would not wait: then there are no mutants, and
@@ -233,13 +218,13 @@ ExitCode run(ProofsArguments& arguments) {
   options.cases = cases(arguments, scratch.path());
   if (options.cases.empty() && !interrupted()) throw std::runtime_error("no proof could be made to begin with");
   return run_fuzzer(
-      "fuzz proofs", "fuzz-proofs", output, options, audit::fuzz_proofs,
-      [&](const auto& report, double seconds) {
-        return report_answer(arguments, report, options.cases.size(), seconds);
-      },
-      [&](const auto& report, double seconds) {
-        return report_json(arguments, report, options.cases.size(), seconds);
-      });
+      {"fuzz proofs",
+       "fuzz-proofs",
+       {"mutants", "findings", "accepted=codes/accepted", "refuted=codes/refuted", "rejected=codes/rejected",
+        "failed=codes/failed", "judged", "seed"}},
+      output, options, audit::fuzz_proofs,
+      [&](const auto& report) { return report_json(arguments, report, options.cases.size()); },
+      [&](const auto& report) { return report_text(arguments, report, options.cases.size()); });
 }
 
 /// Writes it into --out; where.
@@ -269,25 +254,17 @@ ExitCode again(const ProofsArguments& arguments) {
     saved = save_minimised(arguments, proof);
   }
   const audit::ProofJudgement& judged = proof.judgement;
-  const bool stopped = judged.stopped || interrupted();
-  const char* const word = again_verdict(stopped, finding);
-  const char* const verified = judged.verified ? word_of(*judged.verified) : "not_asked";
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
-  report::Answer answer(word, {{"plain", word_of(judged.plain)}, {"verified", verified}, {"claim", claim}});
-  std::string& text = answer.text;
-  if (!judged.plain.words.empty()) text += on_one_line(judged.plain.words) + '\n';
-  if (finding) text += on_one_line(judged.difference) + '\n';
-  if (saved)
-    text += fmt::format("saved as {}, a proof of {} bytes\n", on_one_line(saved->string()), proof.files.proof.size());
-  output.write("fuzz-replay", answer,
-               {{"verdict", word},
-                {"plain", word_of(judged.plain)},
-                {"words", judged.plain.words},
-                {"verified", verified},
-                {"claim", claim},
-                {"difference", finding ? Json(judged.difference) : Json()},
-                {"folder", saved ? Json(saved->string()) : Json()}});
-  return again_exit_code(stopped, finding);
+  return tell_again(output, {.unknown = judged.stopped || interrupted(),
+                             .difference = finding ? std::optional(judged.difference) : std::nullopt,
+                             .saved = saved,
+                             .facts = {{"plain", word_of(judged.plain)},
+                                       {"words", judged.plain.words},
+                                       {"verified", judged.verified ? word_of(*judged.verified) : "not_asked"},
+                                       {"claim", claim}},
+                             .pairs = {"plain", "verified", "claim"},
+                             .text = judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + '\n',
+                             .about_saved = fmt::format(", a proof of {} bytes", proof.files.proof.size())});
 }
 
 }  // namespace

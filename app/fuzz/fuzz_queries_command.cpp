@@ -166,16 +166,16 @@ ExitCode replay(const FuzzArguments& arguments) {
                            : !differences.empty()       ? "finding"
                            : arguments.asks_a_library() ? "no_finding"
                                                         : "no_difference";
-  report::Answer answer(word, {{"queries", queries}, {"findings", differences.size()}});
+  const Json json = {{"verdict", word},
+                     {"queries", queries},
+                     {"not_asked", file.queries().size() - queries},
+                     {"findings", differences.size()},
+                     {"probe", file.queries().at(0).probe.has_value()},
+                     {"differences", differences}};
+  report::Answer answer(json, {"queries", "findings"});
   for (const std::string& difference : differences) answer.text += difference + '\n';
   answer.text += not_asked_text(file);
-  output.write("fuzz-replay", answer,
-               {{"verdict", word},
-                {"queries", queries},
-                {"not_asked", file.queries().size() - queries},
-                {"findings", differences.size()},
-                {"probe", file.queries().at(0).probe.has_value()},
-                {"differences", differences}});
+  output.write("fuzz-replay", answer, json);
   return again_exit_code(undecided, !differences.empty());
 }
 
@@ -201,8 +201,8 @@ ExitCode minimise(const FuzzArguments& arguments) {
   const std::size_t queries = file.queries().size();
   const bool undecided = interrupted();
   const char* const word = undecided ? "undecided" : findings.empty() ? "nothing_fails" : "finding";
-  report::Answer answer(word, {{"queries", queries}, {"findings", findings.size()}});
   Json json = {{"verdict", word}, {"queries", queries}, {"findings", findings.size()}, {"reports", Json::array()}};
+  report::Answer answer(json, {"queries", "findings"});
   for (const audit::Finding& finding : findings) {
     const fs::path result = audit::unused(minimised_name(arguments, finding.index + 1));
     const std::string command = again(arguments, result);
@@ -223,16 +223,15 @@ ExitCode minimise(const FuzzArguments& arguments) {
 // --- runs ------------------------------------------------------------------------------------------------------------
 
 /// Runs a fuzzer with the options that both kinds have.
-template <class Options, class Fuzz, class AnswerOf, class JsonOf>
-ExitCode run(const FuzzArguments& arguments, Options options, const Output& output, const char* schema,
-             const Fuzz& fuzz, const AnswerOf& answer_of, const JsonOf& json_of) {
+template <class Options, class Fuzz, class JsonOf, class TextOf>
+ExitCode run(const FuzzArguments& arguments, Options options, const Output& output, const FuzzResultNames& names,
+             const Fuzz& fuzz, const JsonOf& json_of, const TextOf& text_of) {
   set_common(options, arguments);
   options.max_findings = arguments.max_findings;
   options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
   return run_fuzzer(
-      "fuzz queries", schema, output, options, fuzz,
-      [&](const auto& report, double seconds) { return answer_of(options, report, seconds); },
-      [&](const auto& report, double seconds) { return json_of(options, report, seconds); });
+      names, output, options, fuzz, [&](const auto& report) { return json_of(options, report); },
+      [&](const auto& report) { return text_of(options, report); });
 }
 
 ExitCode run(FuzzArguments& arguments) {
@@ -243,14 +242,15 @@ ExitCode run(FuzzArguments& arguments) {
   const Output output(arguments.results, inputs(arguments));
   require_writable_folder(arguments.out, "--out");
   if (!arguments.asks_a_library()) {
-    return run(arguments, audit::QueryFuzzOptions(), output, "fuzz-queries", audit::fuzz_queries, audit::fuzz_answer,
-               audit::fuzz_json);
+    return run(arguments, audit::QueryFuzzOptions(), output,
+               {"fuzz queries", "fuzz-queries", {"queries", "findings", "seed"}}, audit::fuzz_queries, audit::fuzz_json,
+               audit::fuzz_text);
   }
   audit::LibraryFuzzOptions options;
   options.asked = arguments.asked;
   options.first_only = arguments.first_only;
-  return run(arguments, options, output, "fuzz-library-queries", audit::fuzz_library, audit::library_fuzz_answer,
-             audit::library_fuzz_json);
+  return run(arguments, options, output, {"fuzz queries", "fuzz-library-queries", audit::library_fuzz_pairs()},
+             audit::fuzz_library, audit::library_fuzz_json, audit::library_fuzz_text);
 }
 
 }  // namespace

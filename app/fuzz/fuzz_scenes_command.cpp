@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <iterator>
 #include <memory>
 
 #include <noli/errors.h>
@@ -59,7 +58,7 @@ audit::RunNoli this_program() {
   };
 }
 
-Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
+Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport& report) {
   Json json = {{"verdict", report.verdict()},   {"seed", arguments.common.limits.seed},
                {"scenes", report.extent.items}, {"findings", report.findings_total},
                {"verified", report.verified},   {"resumed", report.resumed}};
@@ -75,31 +74,21 @@ Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport&
                                {"difference", finding.difference},
                                {"file", finding.file.string()}});
   }
-  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
   return json;
 }
 
-report::Answer report_answer(const ScenesArguments& arguments, const audit::SceneFuzzReport& report, double seconds) {
-  report::Answer answer(report.verdict(), {{"scenes", report.extent.items},
-                                           {"findings", report.findings_total},
-                                           {"verified", report.verified},
-                                           {"resumed", report.resumed},
-                                           {"seed", arguments.common.limits.seed}});
-  std::string& text = answer.text;
-  const auto out = std::back_inserter(text);
+std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzzReport& report) {
+  std::string text;
   for (const auto& finding : report.findings) {
-    fmt::format_to(out, "finding: {}, block {}, scene {}: {}; {}\n", finding.generator, finding.block, finding.index,
-                   finding.difference,
-                   finding.file.empty() ? "not saved" : "saved as " + on_one_line(finding.file.string()));
+    text += finding_line(finding.generator, finding.block, "scene", finding.index, finding.difference, finding.file);
   }
   for (const auto& [generator, ends] : report.ends) {
-    fmt::format_to(out, "  {:17}", generator);
-    for (const auto& [end, count] : ends) fmt::format_to(out, " {} {};", end, count);
+    text += fmt::format("  {:17}", generator);
+    for (const auto& [end, count] : ends) text += fmt::format(" {} {};", end, count);
     text += '\n';
   }
-  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} scenes.\n", report.corpus_size);
-  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
-  return answer;
+  if (arguments.common.corpus) text += fmt::format("Corpus: {} scenes.\n", report.corpus_size);
+  return text;
 }
 
 ExitCode fuzz(ScenesArguments& arguments) {
@@ -113,9 +102,9 @@ ExitCode fuzz(ScenesArguments& arguments) {
   options.noli = this_program();
   options.work_folder = scratch.path();
   return run_fuzzer(
-      "fuzz scenes", "fuzz-scenes", output, options, audit::fuzz_scenes,
-      [&](const auto& report, double seconds) { return report_answer(arguments, report, seconds); },
-      [&](const auto& report, double seconds) { return report_json(arguments, report, seconds); });
+      {"fuzz scenes", "fuzz-scenes", {"scenes", "findings", "verified", "resumed", "seed"}}, output, options,
+      audit::fuzz_scenes, [&](const auto& report) { return report_json(arguments, report); },
+      [&](const auto& report) { return report_text(arguments, report); });
 }
 
 /// A saved scene again, as it is or made smaller.
@@ -149,23 +138,14 @@ ExitCode again(const ScenesArguments& arguments) {
     require_output_files({{"--out", *saved}}, {file}, true);
     write_file(*saved, scene.dump(2) + '\n');
   }
-  judgement.stopped |= interrupted();
-  const bool finding = judgement.difference.has_value();
-  const char* const word = again_verdict(judgement.stopped, finding);
-  report::Answer answer(word, {{"end", judgement.end.empty() ? "none" : judgement.end},
-                               {"verified", judgement.verified},
-                               {"resumed", judgement.resumed}});
-  std::string& text = answer.text;
-  if (judgement.difference) text += *judgement.difference + '\n';
-  if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
-  output.write("fuzz-replay", answer,
-               {{"verdict", word},
-                {"end", judgement.end},
-                {"verified", judgement.verified},
-                {"resumed", judgement.resumed},
-                {"difference", judgement.difference ? Json(*judgement.difference) : Json()},
-                {"file", saved ? Json(saved->string()) : Json()}});
-  return again_exit_code(judgement.stopped, finding);
+  return tell_again(
+      output,
+      {.unknown = judgement.stopped || interrupted(),
+       .difference = judgement.difference,
+       .saved = saved,
+       .facts = {{"end", judgement.end}, {"verified", judgement.verified}, {"resumed", judgement.resumed}},
+       .pairs = {"end", "verified", "resumed"}},
+      "file");
 }
 
 }  // namespace

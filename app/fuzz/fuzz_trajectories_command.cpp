@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <iterator>
 #include <memory>
 
 #include <noli/errors.h>
@@ -55,7 +54,7 @@ std::uint64_t undecided(const audit::TrajectoryReport& report) {
   return count;
 }
 
-Json report_json(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report, double seconds) {
+Json report_json(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report) {
   Json json = {{"verdict", report.verdict()},
                {"seed", arguments.common.limits.seed},
                {"trajectories", report.extent.items},
@@ -80,32 +79,21 @@ Json report_json(const TrajectoriesArguments& arguments, const audit::Trajectory
                                   {"without_witness", generator.without_witness},
                                   {"undecided", generator.undecided}});
   }
-  json["timing"] = {{"seconds", seconds}, {"threads", arguments.common.limits.threads}};
   return json;
 }
 
-report::Answer report_answer(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report,
-                             double seconds) {
-  report::Answer answer(report.verdict(), {{"trajectories", report.extent.items},
-                                           {"findings", report.findings_total},
-                                           {"checked", report.checked_plain},
-                                           {"seed", arguments.common.limits.seed}});
-  std::string& text = answer.text;
-  const auto out = std::back_inserter(text);
+std::string report_text(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report) {
+  std::string text;
   for (const auto& finding : report.findings) {
-    fmt::format_to(out, "finding: {}, block {}, motion {}: {}; {}\n", finding.generator, finding.block, finding.index,
-                   on_one_line(finding.difference),
-                   finding.folder.empty() ? "not saved" : "saved as " + on_one_line(finding.folder.string()));
+    text += finding_line(finding.generator, finding.block, "motion", finding.index, finding.difference, finding.folder);
   }
   for (const auto& generator : report.generators) {
-    fmt::format_to(out, "  {:12} apart {:6} contact {:6} without_witness {}\n", generator.name, generator.apart,
-                   generator.contact, generator.without_witness);
+    text += fmt::format("  {:12} apart {:6} contact {:6} without_witness {}\n", generator.name, generator.apart,
+                        generator.contact, generator.without_witness);
   }
-  if (arguments.common.corpus) fmt::format_to(out, "Corpus: {} motions.\n", report.corpus_size);
-  fmt::format_to(
-      out, "The verified checker looked at {} proofs. Not decided in their time: {}. Shapes: {}. Time: {:.1f} s.\n",
-      report.checked_verified, undecided(report), report.shapes, seconds);
-  return answer;
+  if (arguments.common.corpus) text += fmt::format("Corpus: {} motions.\n", report.corpus_size);
+  return text + fmt::format("The verified checker looked at {} proofs. Not decided in their time: {}. Shapes: {}.\n",
+                            report.checked_verified, undecided(report), report.shapes);
 }
 
 ExitCode fuzz(TrajectoriesArguments& arguments) {
@@ -121,9 +109,9 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
   options.max_findings = arguments.max_findings;
   options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
   return run_fuzzer(
-      "fuzz trajectories", "fuzz-trajectories", output, options, audit::fuzz_trajectories,
-      [&](const auto& report, double seconds) { return report_answer(arguments, report, seconds); },
-      [&](const auto& report, double seconds) { return report_json(arguments, report, seconds); });
+      {"fuzz trajectories", "fuzz-trajectories", {"trajectories", "findings", "checked=checked/plain", "seed"}}, output,
+      options, audit::fuzz_trajectories, [&](const auto& report) { return report_json(arguments, report); },
+      [&](const auto& report) { return report_text(arguments, report); });
 }
 
 /// A saved motion again, as it is or made smaller.
@@ -155,22 +143,11 @@ ExitCode again(const TrajectoriesArguments& arguments) {
     const std::vector<std::string> command = {"noli", "fuzz", "trajectories", "--replay"};
     audit::save_motion(motion, *found, command, *saved);
   }
-  const bool unknown = interrupted() || (undecided && !found);
-  const char* const word = again_verdict(unknown, found.has_value());
-  report::Answer answer(
-      word,
-      {{"frames", motion.frames.size()}, {"cells", motion.mesh.cell_count()}, {"vertices", motion.mesh.vertex_count}});
-  std::string& text = answer.text;
-  if (found) text += on_one_line(*found) + '\n';
-  if (saved) text += "saved as " + on_one_line(saved->string()) + '\n';
-  output.write("fuzz-replay", answer,
-               {{"verdict", word},
-                {"frames", motion.frames.size()},
-                {"cells", motion.mesh.cell_count()},
-                {"vertices", motion.mesh.vertex_count},
-                {"difference", found ? Json(*found) : Json()},
-                {"folder", saved ? Json(saved->string()) : Json()}});
-  return again_exit_code(unknown, found.has_value());
+  return tell_again(output, {.unknown = interrupted() || (undecided && !found),
+                             .difference = found,
+                             .saved = saved,
+                             .facts = motion_facts(motion),
+                             .pairs = {"frames", "cells", "vertices"}});
 }
 
 ExitCode run(TrajectoriesArguments& arguments) {

@@ -88,12 +88,9 @@ void append_findings(const PipelineAudit& audit, std::string& text) {
 
 }  // namespace
 
-report::Answer pipeline_answer(const PipelineOutcome& outcome) {
-  report::Answer answer(verdict(outcome), {{"audits", outcome.audits.size()},
-                                           {"contacts.vertex_face", outcome.contacts[0]},
-                                           {"contacts.edge_edge", outcome.contacts[1]},
-                                           {"findings", outcome.findings()},
-                                           {"complete", outcome.complete}});
+report::Answer pipeline_answer(const Json& json, const PipelineOutcome& outcome) {
+  report::Answer answer(json, {"audits", "contacts.vertex_face=contacts/vertex_face",
+                               "contacts.edge_edge=contacts/edge_edge", "findings", "complete"});
   std::string& text = answer.text;
   text += fmt::format("{} vertices, {} edges, {} faces. Noli finds all contacts in {:.3g} s, on one thread.\n",
                       outcome.vertices, outcome.edges, outcome.faces, outcome.noli_seconds);

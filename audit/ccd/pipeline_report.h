@@ -11,8 +11,9 @@
 
 namespace noli::audit {
 
-report::Answer pipeline_answer(const PipelineOutcome& outcome);
-
 Json pipeline_json(const PipelineOutcome& outcome);
+
+/// `json`: that of pipeline_json.
+report::Answer pipeline_answer(const Json& json, const PipelineOutcome& outcome);
 
 }  // namespace noli::audit

@@ -4,19 +4,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <iterator>
 
 #include <noli/errors.h>
 #include "audit/fuzz/queries/minimise_query.h"
-#include "kernel/parallel.h"
 
 namespace noli::audit {
 namespace {
 
 constexpr std::array<ContactKind, 4> kinds = {ContactKind::apart, ContactKind::touching, ContactKind::crossing,
                                               ContactKind::persistent};
-
-int threads(int asked) { return asked > 0 ? asked : hardware_threads(); }
 
 Json answers_json(const std::array<std::uint64_t, 4>& answers) {
   Json json = Json::object();
@@ -131,7 +127,7 @@ std::string generators_text(const LibraryFuzzOptions& options, const LibraryFuzz
 
 }  // namespace
 
-Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds) {
+Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report) {
   Json json = {{"verdict", report.verdict("no_difference")},
                {"seed", options.limits.seed},
                {"queries", report.extent.items},
@@ -146,33 +142,27 @@ Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report, d
   for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
   json["stages"] = stages_json(report.stages);
   if (options.corpus) json["corpus"] = corpus_json(report.corpus);
-  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.limits.threads)}};
   return json;
 }
 
-report::Answer fuzz_answer(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds) {
-  report::Answer answer(
-      report.verdict("no_difference"),
-      {{"queries", report.extent.items}, {"findings", report.findings_total}, {"seed", options.limits.seed}});
-  std::string& text = answer.text;
-  const auto out = std::back_inserter(text);
+std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& report) {
+  std::string text;
   for (const auto& finding : report.findings) {
-    fmt::format_to(out, "finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
-                   finding.difference, whereabouts(options, finding.file));
+    text += fmt::format("finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
+                        finding.difference, whereabouts(options, finding.file));
   }
   if (options.corpus) text += corpus_text(report.corpus);
   text += "Answers of the oracle:\n";
   for (const auto& generator : report.generators) append_generator(generator, text);
   const ProbeTally& probes = report.probes;
-  fmt::format_to(out, "Distances: apart {} within {}. Certificates: failed {} failing {} never_failing {}.\n",
-                 probes.apart, probes.within, probes.failed, probes.failing, probes.never_failing);
+  text += fmt::format("Distances: apart {} within {}. Certificates: failed {} failing {} never_failing {}.\n",
+                      probes.apart, probes.within, probes.failed, probes.failing, probes.never_failing);
   text += "Stages:";
-  for (const Stage stage : all_stages) fmt::format_to(out, " {} {}", name(stage), report.stages[stage]);
-  fmt::format_to(out, "\nTime: {:.1f} s.\n", seconds);
-  return answer;
+  for (const Stage stage : all_stages) text += fmt::format(" {} {}", name(stage), report.stages[stage]);
+  return text + '\n';
 }
 
-Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds) {
+Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
   Json json = {{"verdict", report.verdict()},          {"library", options.asked.path.string()},
                {"tolerance", options.asked.tolerance}, {"exact", options.asked.exact},
                {"knows_times", report.knows_times},    {"seed", options.limits.seed},
@@ -191,29 +181,25 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
                                   {"faults", faults_json(tally.faults)}});
   }
   if (options.corpus) json["corpus"] = corpus_json(report.corpus);
-  json["timing"] = {{"seconds", seconds}, {"threads", threads(options.limits.threads)}};
   return json;
 }
 
-report::Answer library_fuzz_answer(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds) {
-  report::Answer answer(
-      report.verdict(),
-      {{"queries", report.extent.items}, {"contacts", report.contacts}, {"findings", report.findings_total}});
-  for (const LibraryFault fault : faults) {
-    answer.add({name(fault), report.faults[static_cast<std::size_t>(fault)]});
-  }
-  answer.add({"seed", options.limits.seed});
-  std::string& text = answer.text;
-  const auto out = std::back_inserter(text);
+std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
+  std::string text;
   for (const auto& finding : report.findings) {
-    fmt::format_to(out, "{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
-                   finding.found.words, finding.generator, finding.block, finding.index, finding.alike,
-                   distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
+    text += fmt::format("{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
+                        finding.found.words, finding.generator, finding.block, finding.index, finding.alike,
+                        distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
   }
   if (options.corpus) text += corpus_text(report.corpus);
-  text += "Generators (what each attacks):\n" + generators_text(options, report);
-  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
-  return answer;
+  return text + "Generators (what each attacks):\n" + generators_text(options, report);
+}
+
+std::vector<std::string> library_fuzz_pairs() {
+  std::vector<std::string> names = {"queries", "contacts", "findings"};
+  for (const LibraryFault fault : faults) names.push_back(fmt::format("{0}=faults/{0}", name(fault)));
+  names.emplace_back("seed");
+  return names;
 }
 
 }  // namespace noli::audit

@@ -4,18 +4,21 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "audit/fuzz/queries/fuzz_library.h"
 #include "audit/fuzz/queries/fuzz_queries.h"
 #include "certify/json.h"
-#include "report/answer.h"
 
 namespace noli::audit {
 
-report::Answer fuzz_answer(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds);
-Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report, double seconds);
+/// Without `timing`.
+Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report);
+std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& report);
 
-report::Answer library_fuzz_answer(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds);
-Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report, double seconds);
+Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report);
+std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report);
+/// Members of that JSON for the line of --porcelain.
+std::vector<std::string> library_fuzz_pairs();
 
 }  // namespace noli::audit
