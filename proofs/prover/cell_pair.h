@@ -105,9 +105,7 @@ class CellPairs {
     std::optional<Gathered> gathered = std::nullopt;  ///< a and b, once they are needed
   };
 
-  /// Rounds of the search for a direction, and how often the step is halved for it: what paid on simulated cloth and
-  /// solids.
-  static constexpr int search_rounds = 10;
+  /// How often the step is halved for a direction: what paid on simulated cloth and solids.
   static constexpr int halvings = 1;
 
   static CornerMask corners_at(const Cell& c, VertexId v) {

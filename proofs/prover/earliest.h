@@ -12,9 +12,12 @@
 // What this does not do: it does not find contacts.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <noli/time_of_impact.h>
@@ -28,33 +31,79 @@ bool canonical_less(const FeatureContact& a, const FeatureContact& b);
 /// Puts the vertices into the canonical order of FeatureContact.
 FeatureContact canonical(FeaturePair pair, const std::array<VertexId, 4>& vertices, TimeEnclosure first);
 
-/// The exact first time of a contact. Precondition: the pair meets.
-TimeOfImpact exact_time(const FeatureContact& contact, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                        int dimension);
+/// A contact with its exact first time; `contact.first` are neighbouring doubles around it, or equal to it.
+struct ContactAtTime {
+  FeatureContact contact;
+  TimeOfImpact time;
+};
+
+/// Decides contacts of a step exactly. Positions and dimension as in verify_step; the positions must outlive this.
+struct ExactlyInStep {
+  std::span<const Position> x_t0, x_t1;
+  int dimension;
+
+  /// Precondition: the pair meets.
+  ContactAtTime operator()(const FeatureContact& contact) const;
+};
 
 /// Collects contacts and keeps those that may be the first. Memory is bounded, however many there are.
-class Earliest {
+/// `Exactly` decides a contact exactly: what it returns has `contact` and `time`, as ContactAtTime.
+template <class Exactly>
+class EarliestOf {
  public:
-  /// Positions and dimension as in verify_step; the positions must outlive this.
-  Earliest(std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension)
-      : x_t0_(x_t0), x_t1_(x_t1), dimension_(dimension) {}
+  using First = std::invoke_result_t<const Exactly&, const FeatureContact&>;
 
-  void add(const FeatureContact& contact);
-  void add(const Earliest& other);
+  /// No contact is later than `last`.
+  EarliestOf(const Exactly& exactly, double last) : exactly_(exactly), end_(last) {}
 
-  /// The first of all that were added, if any, with its time enclosed by neighbouring doubles.
-  std::optional<FeatureContact> first();
+  void add(const FeatureContact& contact) {
+    if (contact.first.begin > end_) return;
+    candidates_.push_back(contact);
+    if (contact.first.end < end_) {
+      end_ = contact.first.end;
+      std::erase_if(candidates_, [this](const FeatureContact& c) { return c.first.begin > end_; });
+    }
+    if (candidates_.size() > most_candidates) candidates_ = {reduce().contact};
+  }
+
+  void add(const EarliestOf& other) {
+    for (const FeatureContact& contact : other.candidates_) add(contact);
+  }
+
+  /// The first of all that were added, if any.
+  std::optional<First> first() {
+    if (candidates_.empty()) return std::nullopt;
+    return reduce();
+  }
 
  private:
   static constexpr std::size_t most_candidates = 256;
 
-  void prune();
-  void reduce();
+  /// Thousands may begin in contact: where both times are one double, they need not be computed.
+  static bool at_one_double(const TimeEnclosure& a, const TimeEnclosure& b) {
+    return a.begin == a.end && a.begin == b.begin && a.end == b.end;
+  }
 
-  std::span<const Position> x_t0_, x_t1_;
-  int dimension_;
+  /// The first candidate. Precondition: there is one.
+  First reduce() {
+    std::ranges::sort(candidates_, [](const FeatureContact& a, const FeatureContact& b) {
+      return a.first.end != b.first.end ? a.first.end < b.first.end : canonical_less(a, b);
+    });
+    First best = exactly_(candidates_.front());
+    for (const FeatureContact& other : std::span(candidates_).subspan(1)) {
+      if (other.first.begin > best.contact.first.end) continue;
+      if (at_one_double(other.first, best.contact.first) && !canonical_less(other, best.contact)) continue;
+      First next = exactly_(other);
+      const auto order = next.time <=> best.time;
+      if (order < 0 || (order == 0 && canonical_less(other, best.contact))) best = std::move(next);
+    }
+    end_ = best.contact.first.end;
+    return best;
+  }
+
+  Exactly exactly_;
   std::vector<FeatureContact> candidates_;
-  double end_ = 1;  ///< the first contact is not later
+  double end_;  ///< the first contact is not later
 };
 
 }  // namespace noli

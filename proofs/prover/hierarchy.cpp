@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "kernel/parallel.h"
 #include "proofs/prover/cells/features.h"
@@ -12,22 +11,6 @@
 namespace noli {
 
 namespace {
-
-/// phi, for one axis and one end of the step.
-struct MonotoneMap {
-  double middle = 0;
-  double scale = 1;
-
-  float operator()(double x) const { return static_cast<float>((x - middle) * scale); }
-};
-
-/// The map that takes [low, high] into [-1, 1]; both bounds are finite.
-MonotoneMap map_onto_unit(double low, double high) {
-  const double half = 0.5 * high - 0.5 * low;
-  int exponent = 0;
-  std::frexp(half, &exponent);
-  return {0.5 * low + 0.5 * high, std::ldexp(1.0, std::clamp(-exponent, -1022, 1022))};
-}
 
 /// Least and greatest coordinates, per axis.
 struct Bounds {
@@ -46,10 +29,10 @@ Bounds bounds_of(std::span<const Position> x) {
 }
 
 /// One map for each axis.
-std::array<MonotoneMap, 3> maps_for(std::span<const Position> x) {
+std::array<Phi, 3> maps_for(std::span<const Position> x) {
   const Bounds bounds = bounds_of(x);
-  std::array<MonotoneMap, 3> maps;
-  for (std::size_t k = 0; k < 3; ++k) maps[k] = map_onto_unit(bounds.low[k], bounds.high[k]);
+  std::array<Phi, 3> maps;
+  for (std::size_t k = 0; k < 3; ++k) maps[k] = Phi::onto_unit(bounds.low[k], bounds.high[k]);
   return maps;
 }
 
@@ -72,7 +55,7 @@ class Builder {
         dimension_(static_cast<std::size_t>(dimension)),
         mapped_(std::make_unique_for_overwrite<MappedVertex[]>(mesh.vertex_count)),
         entries_(std::make_unique_for_overwrite<Entry[]>(mesh.cell_count())) {
-    std::array<std::array<MonotoneMap, 3>, 2> maps;
+    std::array<std::array<Phi, 3>, 2> maps;
     parallel_for(2, threads, [&](std::size_t end) { maps[end] = maps_for(end == 0 ? x_t0 : x_t1); });
     for (std::size_t k = 0; k < dimension_; ++k) unit_[k] = 1 / maps[0][k].scale + 1 / maps[1][k].scale;
     for_each_in_pieces(mesh.vertex_count, threads, [&](std::size_t v) { mapped_[v] = map(maps, x_t0[v], x_t1[v]); });
@@ -100,8 +83,7 @@ class Builder {
   }
 
  private:
-  MappedVertex map(const std::array<std::array<MonotoneMap, 3>, 2>& maps, const Position& x_t0,
-                   const Position& x_t1) const {
+  MappedVertex map(const std::array<std::array<Phi, 3>, 2>& maps, const Position& x_t0, const Position& x_t1) const {
     MappedVertex v;
     for (std::size_t k = 0; k < dimension_; ++k) {
       v.t0[k] = maps[0][k](x_t0[k]);
@@ -139,23 +121,14 @@ class Builder {
   std::unique_ptr<Entry[]> entries_;
 };
 
-/// Groups of one level of the tree, until there are enough to share them out.
-std::vector<Group> split_top(Builder& builder, Group root, std::size_t wanted, int threads, std::vector<Group>& inner) {
-  std::vector<Group> level = {root};
-  while (level.size() < wanted && level.back().count >= 64) {
-    parallel_for(level.size(), threads, [&](std::size_t i) { builder.split(level[i]); });
-    inner.insert(inner.end(), level.begin(), level.end());
-    std::vector<Group> next;
-    for (const Group g : level) {
-      next.push_back(g.left());
-      next.push_back(g.right());
-    }
-    level = std::move(next);
-  }
-  return level;
-}
-
 }  // namespace
+
+Phi Phi::onto_unit(double low, double high) {
+  const double half = 0.5 * high - 0.5 * low;
+  int exponent = 0;
+  std::frexp(half, &exponent);
+  return {0.5 * low + 0.5 * high, std::ldexp(1.0, std::clamp(-exponent, -1022, 1022))};
+}
 
 Hierarchy::Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
                      int threads)
@@ -164,7 +137,10 @@ Hierarchy::Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span
       boxes_(std::make_unique_for_overwrite<GroupBox[]>(2 * static_cast<std::size_t>(count_) - 1)) {
   Builder builder(mesh, x_t0, x_t1, dimension, threads);
   std::vector<Group> inner;
-  const std::vector<Group> level = split_top(builder, root(), 64, threads, inner);
+  const std::vector<Group> level = top_groups(root(), [&](const std::vector<Group>& above) {
+    parallel_for(above.size(), threads, [&](std::size_t i) { builder.split(above[i]); });
+    inner.insert(inner.end(), above.begin(), above.end());
+  });
   parallel_for(level.size(), threads,
                [&](std::size_t i) { builder.finish(level[i], leaf_cells_.get(), boxes_.get()); });
   std::reverse(inner.begin(), inner.end());  // children before parents

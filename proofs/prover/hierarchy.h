@@ -22,6 +22,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <noli/mesh.h>
 
@@ -30,6 +32,16 @@
 #endif
 
 namespace noli {
+
+/// phi, for one axis and one end of the step.
+struct Phi {
+  double middle = 0, scale = 1;
+
+  /// The map that takes [low, high], about, into [-1, 1]; both bounds are finite.
+  static Phi onto_unit(double low, double high);
+
+  float operator()(double x) const { return static_cast<float>((x - middle) * scale); }
+};
 
 /// Four floats that are compared and combined lane by lane (an extension that g++ and clang++ share).
 using Lanes = float __attribute__((vector_size(16)));
@@ -95,6 +107,24 @@ struct Group {
   Group right() const { return {node + 2 * (count / 2), begin + count / 2, count - count / 2}; }
 };
 
+/// The groups of one level below a root, of which there are enough for several threads. Calls at_level(groups) with those
+/// of each level above, from the root on, before it looks at their children.
+template <class AtLevel>
+std::vector<Group> top_groups(Group root, const AtLevel& at_level) {
+  constexpr std::size_t enough = 64;
+  std::vector<Group> level = {root};
+  while (level.size() < enough && level.back().count >= 64) {
+    at_level(level);
+    std::vector<Group> next;
+    for (const Group g : level) {
+      next.push_back(g.left());
+      next.push_back(g.right());
+    }
+    level = std::move(next);
+  }
+  return level;
+}
+
 class Hierarchy {
  public:
   /// Splits each group at the median of its cells' mid-time centres along its longest axis (ties by cell number), so
@@ -104,7 +134,6 @@ class Hierarchy {
             int threads);
 
   Group root() const { return {0, 0, count_}; }
-  const GroupBox& box(Group g) const { return box_of(g.node); }
   const GroupBox& box_of(std::size_t node) const { return boxes_[node]; }
   /// The cells in the order of the leaves.
   std::span<const std::uint32_t> leaf_cells() const { return {leaf_cells_.get(), count_}; }

@@ -18,6 +18,7 @@ class Straight {
  public:
   static constexpr int dim = Dim;
   static constexpr bool straight = true;  ///< each vertex moves along one straight line, exactly
+  static constexpr std::uint32_t least_grain = 256;
   using Cell = StepCell<Dim>;
   using Gathered = MovingCell<Dim>;
   using Tally = noli::Tally;

@@ -97,6 +97,6 @@ struct TallyWith {
 };
 
 /// Of a step between two frames.
-using Tally = TallyWith<Earliest>;
+using Tally = TallyWith<EarliestOf<ExactlyInStep>>;
 
 }  // namespace noli

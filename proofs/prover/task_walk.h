@@ -57,9 +57,6 @@ struct WalkOutcome {
   bool finished = false;
 };
 
-/// A window's walk is cut into tasks about no fewer cells.
-inline constexpr std::uint32_t least_window_grain = 64;
-
 /// `Positions`, `Out`: as in proofs/prover/traversal.h.
 template <class Positions, class Out>
 class TaskWalk {
@@ -71,12 +68,12 @@ class TaskWalk {
            const typename Positions::Tally& none)
       : positions_(positions), options_(options), stop_(stop), none_(none), top_{none} {}
 
-  /// Walks the top of the trees, where there is little to do: top(traversal), false when it was not finished. What is
-  /// below becomes tasks about at most `grain` cells.
+  /// Walks the top of the trees over so many cells, where there is little to do: top(traversal), false when it was not
+  /// finished. What is below becomes tasks about at most one of 256 cells, or Positions::least_grain.
   template <class Top>
-  void cut(std::uint32_t grain, const Top& top) {
+  void cut(std::size_t cells, const Top& top) {
     Traversal<Positions, Out> traversal(positions_, options_, stop_, top_.tally, top_.out);
-    traversal.defer(grain, tasks_);
+    traversal.defer(std::max(static_cast<std::uint32_t>(cells / 256), Positions::least_grain), tasks_);
     top_.finished = !stop_.raised() && top(traversal);
     outcomes_.resize(tasks_.size());
   }

@@ -10,17 +10,13 @@ namespace noli {
 
 namespace {
 
-/// The work is cut into obligations about at most this share of the cells, but no fewer than least_grain of them.
-constexpr std::uint32_t grain_share = 256;
-constexpr std::uint32_t least_grain = 256;
-
 /// One verification of one step. `Out`: Tokens, or NoTokens.
 template <int Dim, class Out>
 class Verification {
  public:
   Verification(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                const VerifyOptions& options)
-      : options_(options), stop_(options), none_(options.max_reports, Earliest(x_t0, x_t1, Dim)) {
+      : options_(options), stop_(options), none_(options.max_reports, {ExactlyInStep{x_t0, x_t1, Dim}, 1}) {
     CellFeatures features;
     parallel_both(
         options.threads, [&] { hierarchy_.emplace(mesh, x_t0, x_t1, Dim, options.threads); },
@@ -34,11 +30,12 @@ class Verification {
     TaskWalk<Straight<Dim>, Out> walk(positions, options_, stop_, none_);
     Progress progress(options_);
     const Group root = hierarchy_->root();
-    walk.cut(std::max(root.count / grain_share, least_grain), [&](auto& top) { return top.run({root, root}); });
+    walk.cut(root.count, [&](auto& top) { return top.run({root, root}); });
     progress.begin(0, 1, walk.tasks().size());
     walk.run([&](std::size_t /*task*/) { progress.task_done(); });
     auto& sum = walk.sum();
-    VerifyResult result{sum.tally.findings(sum.finished), sum.tally.earliest.first(), nullptr};
+    VerifyResult result{sum.tally.findings(sum.finished), std::nullopt, nullptr};
+    if (const auto first = sum.tally.earliest.first()) result.first = first->contact;
     if constexpr (Out::on) {
       if (result.complete && !result.touches()) {
         result.proof = prove(walk);

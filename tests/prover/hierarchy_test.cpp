@@ -58,10 +58,11 @@ bool above(const Step& step, const std::vector<Position>& x, const Hierarchy& h,
 
 /// Goes down the tree and counts the pairs that were separated and the claims that do not hold.
 void check_pairs(const Step& step, const Hierarchy& h, Group p, Group q, int& separated, int& open, int& wrong) {
-  EXPECT_EQ(axis_separates(h.box(p), h.box(q)), separating_axes(h.box(p), h.box(q)) != 0);
-  if (axis_separates(h.box(p), h.box(q))) {
+  EXPECT_EQ(axis_separates(h.box_of(p.node), h.box_of(q.node)),
+            separating_axes(h.box_of(p.node), h.box_of(q.node)) != 0);
+  if (axis_separates(h.box_of(p.node), h.box_of(q.node))) {
     ++separated;
-    const unsigned axes = separating_axes(h.box(p), h.box(q));
+    const unsigned axes = separating_axes(h.box_of(p.node), h.box_of(q.node));
     ASSERT_NE(axes, 0u);
     const auto bit = static_cast<std::size_t>(std::countr_zero(axes));
     std::array<double, 3> n{};
@@ -111,7 +112,7 @@ TEST(Hierarchy, EqualCoordinatesAreInNoOrder) {
   step.face({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   step.face({1, 1, 0}, {2, 1, 0}, {1, 2, 0});  // touches the first one's box in x, y and z
   const Hierarchy h = build(step);
-  EXPECT_FALSE(axis_separates(h.box(h.root().left()), h.box(h.root().right())));
+  EXPECT_FALSE(axis_separates(h.box_of(h.root().left().node), h.box_of(h.root().right().node)));
 }
 
 TEST(Hierarchy, AnOrderThatTurnsAroundSeparatesNothing) {
@@ -119,7 +120,7 @@ TEST(Hierarchy, AnOrderThatTurnsAroundSeparatesNothing) {
   step.face({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   step.face({5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {-10, 0, 0});
   const Hierarchy h = build(step);
-  EXPECT_FALSE(axis_separates(h.box(h.root().left()), h.box(h.root().right())));
+  EXPECT_FALSE(axis_separates(h.box_of(h.root().left().node), h.box_of(h.root().right().node)));
 }
 
 }  // namespace

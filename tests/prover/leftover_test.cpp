@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "proofs/prover/windows/window_verifier.h"
 #include "scenes.h"
+#include "window_scenes.h"
 
 namespace noli::testing {
 namespace {

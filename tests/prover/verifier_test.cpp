@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "proofs/prover/windows/window_verifier.h"
 #include "scenes.h"
+#include "window_scenes.h"
 
 namespace noli::testing {
 namespace {

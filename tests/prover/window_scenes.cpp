@@ -7,6 +7,14 @@
 
 namespace noli::testing {
 
+WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options) {
+  std::vector<Position> begin;
+  for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
+    begin.push_back(lines.positions(static_cast<VertexId>(v)).front());
+  }
+  return WindowVerifier(mesh, begin, options).verify(lines, options);
+}
+
 VertexId LineScene::vertex(std::vector<Breakpoint> path) {
   paths.push_back(std::move(path));
   return static_cast<VertexId>(mesh.vertex_count++);

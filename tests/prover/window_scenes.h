@@ -17,6 +17,9 @@ struct Breakpoint {
   Position x;
 };
 
+/// One window only, its cells grouped by where it begins.
+WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options);
+
 /// A mesh over one window.
 struct LineScene {
   Mesh mesh;

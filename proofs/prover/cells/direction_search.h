@@ -159,6 +159,9 @@ Vec<Dim> lowest(const PartPair<Dim>& pair, const std::array<double, 8>& q, doubl
 
 }  // namespace detail
 
+/// Rounds of a search for a direction: what paid on simulated cloth and solids.
+inline constexpr int search_rounds = 10;
+
 /// A direction n for which the first part is above the second by more than bound_of(n) over the interval, starting from
 /// the guess `v`; nothing if none was found in `rounds` rounds or there seems to be none.
 template <int Dim, class Bound>

@@ -101,9 +101,8 @@ class ProofParts {
     double strays = 0;  ///< the greatest radii of both parts, added
   };
 
-  /// Rounds of the search for a direction, as in proofs/prover/cell_pair.h; from which depth on exact arithmetic is
-  /// asked; and when to give up: at that depth neighbouring doubles are farther apart than anything moves.
-  static constexpr int search_rounds = 10;
+  /// From which depth on exact arithmetic is asked, and when to give up: at that depth neighbouring doubles are farther
+  /// apart than anything moves.
   static constexpr unsigned exact_from = 6, give_up = 1000, give_up_near = 120, interval_bits = 20;
   static constexpr std::size_t most_exact = 60;
 

@@ -63,7 +63,7 @@ struct ForestOptions {
   const Exclusions* exclusions = nullptr;  ///< as in WindowOptions
 };
 
-/// Preconditions: as verify_window; `x` has a position for each vertex; at least one cell.
+/// Preconditions: as WindowVerifier; `x` has a position for each vertex; at least one cell.
 class Forest {
  public:
   Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options);

@@ -14,15 +14,29 @@
 #pragma once
 
 #include "proofs/prover/cells/direction_search.h"
+#include "proofs/prover/earliest.h"
 #include "proofs/prover/feature_pairs.h"
 #include "proofs/prover/windows/window_cell.h"
-#include "proofs/prover/windows/window_earliest.h"
 #include "proofs/prover/windows/window_features.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 
+/// Decides contacts of a window exactly. The lines must outlive this.
+struct ExactlyInWindow {
+  const WorldLines* lines;
+  int dimension;
+
+  FirstInWindow operator()(const FeatureContact& contact) const {
+    ExactContact exact = exact_contact({contact.pair, contact.vertices}, *lines, dimension, contact.first);
+    FirstInWindow first{contact, exact.kind, std::move(exact.time)};
+    first.contact.first = {first.time.lower(), first.time.upper()};
+    return first;
+  }
+};
+
 /// What one task of the verification of a window has found.
-using WindowTally = TallyWith<WindowEarliest>;
+using WindowTally = TallyWith<EarliestOf<ExactlyInWindow>>;
 
 template <int Dim>
 class Pieces {
@@ -68,8 +82,6 @@ class Pieces {
   }
 
  private:
-  static constexpr int search_rounds = 10;
-
   /// Whether a direction was found that separates the parts, with the radii of their cells.
   static bool apart(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, WindowTally& tally) {
     const PartPair<Dim> pair = pair_of(a, a_part, b, b_part, static_cast<std::size_t>(std::countr_zero(a_part)));

@@ -2,7 +2,6 @@
 #include "proofs/prover/windows/window_boxes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "kernel/parallel.h"
@@ -10,14 +9,6 @@
 namespace noli {
 
 namespace {
-
-/// Takes about [low, high] into [-1, 1].
-Phi phi_onto_unit(double low, double high) {
-  const double half = 0.5 * high - 0.5 * low;
-  int exponent = 0;
-  std::frexp(half, &exponent);
-  return {0.5 * low + 0.5 * high, std::ldexp(1.0, std::clamp(-exponent, -1022, 1022))};
-}
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -55,7 +46,7 @@ void WindowBoxes<Dim>::find_phi() {
       low = std::min(low, std::min(chord.x[k].at_t0(), chord.x[k].at_t1()));
       high = std::max(high, std::max(chord.x[k].at_t0(), chord.x[k].at_t1()));
     }
-    phi_[k] = phi_onto_unit(low, high);
+    phi_[k] = Phi::onto_unit(low, high);
   }
 }
 
@@ -157,16 +148,9 @@ void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
     const bool sheet = asked_monotone_ && tree.sheet;
     if (asked_monotone_ && tree.part && !tree.sheet && monotone_.empty()) look_at_charts();
     if (sheet && tangents_.empty()) tangents_.resize(forest_.node_count());
-    std::vector<Group> level = {tree.root}, inner;
-    while (level.size() < 64 && level.back().count >= 64) {
-      inner.insert(inner.end(), level.begin(), level.end());
-      std::vector<Group> next;
-      for (const Group g : level) {
-        next.push_back(g.left());
-        next.push_back(g.right());
-      }
-      level = std::move(next);
-    }
+    std::vector<Group> inner;
+    const std::vector<Group> level = top_groups(
+        tree.root, [&](const std::vector<Group>& above) { inner.insert(inner.end(), above.begin(), above.end()); });
     parallel_for(level.size(), threads_, [&](std::size_t i) { fit(level[i], sheet); });
     for (auto g = inner.rbegin(); g != inner.rend(); ++g) join(*g, sheet);
   }

@@ -13,15 +13,10 @@
 
 #include <vector>
 
+#include "proofs/prover/hierarchy.h"
 #include "proofs/prover/windows/window_cell.h"
 
 namespace noli {
-
-/// phi, for one axis.
-struct Phi {
-  double middle = 0, scale = 1;
-  float operator()(double x) const { return static_cast<float>((x - middle) * scale); }
-};
 
 template <int Dim>
 class WindowBoxes {

@@ -39,6 +39,10 @@ struct WindowChords {
   std::vector<NearVertex> near;      ///< by vertex; meaningless for one that is in no part
   std::size_t inside = 0;            ///< number of breakpoints inside the span
   std::size_t restless = 0;          ///< number of restless vertices
+
+  /// Whether the span is to be cut into halves: a vertex has on average more than 8 breakpoints inside, and more than
+  /// one of 16 is restless.
+  bool worth_cutting() const { return inside > 8 * of.size() && restless * 16 > of.size(); }
 };
 
 /// Linear in the number of breakpoints. What is separated with radii that have `distance` added to them is farther

@@ -4,14 +4,11 @@
 
 #include "proofs/prover/task_walk.h"
 #include "proofs/prover/windows/chords.h"
-#include "proofs/prover/windows/span_cut.h"
 #include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 
 namespace {
-
-constexpr std::uint32_t proof_grain_share = 128;
 
 using Take = std::function<void(std::string_view)>;
 
@@ -79,13 +76,13 @@ class Proof {
         distance_(distance),
         take_(take),
         stop_(options),
-        none_(0, WindowEarliest(lines, Dim)) {}
+        none_(0, {ExactlyInWindow{&lines, Dim}, lines.last_time()}) {}
 
   bool settle(const Piece& span) {
     WindowChords<Dim> chords =
         chords_over<Dim>(*span.times(lines_), lines_, forest_, options_.threads, distance_.eta / 2);
-    const bool restless = worth_cutting(chords.inside, chords.of.size(), [&] { return chords.restless; });
-    if (!restless || !span.half(0).times(lines_) || !span.half(1).times(lines_)) return write(span, chords);
+    if (!chords.worth_cutting() || !span.half(0).times(lines_) || !span.half(1).times(lines_))
+      return write(span, chords);
     Tokens halve;
     halve.halve();
     halve.give(take_);
@@ -102,10 +99,8 @@ class Proof {
     const SpanProof proof{span, distance_.eta, distance_.paths, stop_};
     const Chords<Dim> positions(lines_, forest_, chords, boxes, &proof);
     TaskWalk<Chords<Dim>, Tokens> walk(positions, options_, stop_, none_);
-    const auto cells = static_cast<std::uint32_t>(forest_.leaves().size());
     Tokens& top = walk.sum().out.tokens;
-    walk.cut(std::max(cells / proof_grain_share, least_window_grain),
-             [&](auto& below) { return RootWalk<Dim>(forest_, boxes, top, below).run(); });
+    walk.cut(forest_.leaves().size(), [&](auto& below) { return RootWalk<Dim>(forest_, boxes, top, below).run(); });
     return give_in_order(walk);
   }
 

@@ -5,14 +5,10 @@
 
 #include "proofs/prover/task_walk.h"
 #include "proofs/prover/windows/chords.h"
-#include "proofs/prover/windows/span_cut.h"
 
 namespace noli {
 
 namespace {
-
-/// As in verifier.cpp.
-constexpr std::uint32_t grain_share = 256;
 
 template <int Dim>
 using WindowOutcome = WalkOutcome<Chords<Dim>, NoTokens>;
@@ -27,7 +23,7 @@ class Verification {
         options_(options),
         stop_(options),
         progress_(options),
-        none_(options.max_reports, WindowEarliest(lines, Dim)),
+        none_(options.max_reports, {ExactlyInWindow{&lines, Dim}, lines.last_time()}),
         sum_{none_, {}, true} {}
 
   WindowResult run() {
@@ -48,8 +44,7 @@ class Verification {
   /// Whether shorter spans are worth their while.
   bool cut_time(const WindowChords<Dim>& chords) const {
     const double cut = middle(chords.span);
-    return worth_cutting(chords.inside, chords.of.size(), [&] { return chords.restless; }) && chords.span.begin < cut &&
-           cut < chords.span.end;
+    return chords.worth_cutting() && chords.span.begin < cut && cut < chords.span.end;
   }
 
   WindowOutcome<Dim> walk(const WindowChords<Dim>& chords) {
@@ -57,8 +52,7 @@ class Verification {
     const Chords<Dim> positions(lines_, forest_, chords, boxes);
     TaskWalk<Chords<Dim>, NoTokens> walk(positions, options_, stop_, none_);
     const std::vector<Obligation> open = settle_roots(boxes, walk.sum().tally);
-    const auto cells = static_cast<std::uint32_t>(forest_.leaves().size());
-    walk.cut(std::max(cells / grain_share, least_window_grain), [&](auto& top) {
+    walk.cut(forest_.leaves().size(), [&](auto& top) {
       return std::ranges::all_of(open, [&](const Obligation& obligation) { return top.run(obligation); });
     });
     progress_.begin(share(chords.span.begin), share(chords.span.end), walk.tasks().size());
@@ -128,15 +122,6 @@ class Verification {
   std::optional<WindowOutcome<Dim>> met_;  ///< of the span in which something met
 };
 
-std::vector<Position> begin_of(const WorldLines& lines) {
-  std::vector<Position> x;
-  x.reserve(lines.vertex_count());
-  for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
-    x.push_back(lines.positions(static_cast<VertexId>(v)).front());
-  }
-  return x;
-}
-
 }  // namespace
 
 WindowVerifier::WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options)
@@ -155,10 +140,6 @@ WindowResult WindowVerifier::verify(const WorldLines& lines, const WindowOptions
   WindowOptions all = options;
   all.strict = strict_;
   return dimension_ == 2 ? Verification<2>(lines, *forest_, all).run() : Verification<3>(lines, *forest_, all).run();
-}
-
-WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options) {
-  return WindowVerifier(mesh, begin_of(lines), options).verify(lines, options);
 }
 
 }  // namespace noli

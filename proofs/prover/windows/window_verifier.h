@@ -105,7 +105,4 @@ class WindowVerifier {
   bool strict_;
 };
 
-/// The same for one window only, grouped by where it begins.
-WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options);
-
 }  // namespace noli
