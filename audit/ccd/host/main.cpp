@@ -29,11 +29,6 @@
 #include "audit/ccd/host/sandbox.h"
 #include "audit/ccd/plugins/textbook.h"
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) && !defined(__SANITIZE_ADDRESS__)
-#define __SANITIZE_ADDRESS__
-#endif
-#endif
 #if defined(__SANITIZE_ADDRESS__)
 /// What the sanitizer keeps of freed memory, for all threads and for each, would look like a leak; what is not freed at
 /// the end is no fault of the host's.
