@@ -77,10 +77,6 @@ inline Vec<double, 3> twice_at_middle(const EndVectors& d) {
   return {d[0].at_t0() + d[0].at_t1(), d[1].at_t0() + d[1].at_t1(), d[2].at_t0() + d[2].at_t1()};
 }
 
-inline Vec<double, 3> cross(const Vec<double, 3>& a, const Vec<double, 3>& b) {
-  return {formula::cross_component(a, b, 0), formula::cross_component(a, b, 1), formula::cross_component(a, b, 2)};
-}
-
 inline BothEnds dot(const EndVectors& n, const EndVectors& d) { return n[0] * d[0] + n[1] * d[1] + n[2] * d[2]; }
 
 inline EndVectors constant(const Vec<double, 3>& n) { return {BothEnds(n[0]), BothEnds(n[1]), BothEnds(n[2])}; }
@@ -115,7 +111,7 @@ inline Separation separate(const VertexFace3& q) {
   const EndVectors d0 = end_difference(q, 1, 0), d1 = end_difference(q, 2, 0), d2 = end_difference(q, 3, 0);
   const Vec<double, 3> middle = twice_at_middle(d0);
   const Vec<double, 3> normal =
-      cross(formula::operator-(twice_at_middle(d1), middle), formula::operator-(twice_at_middle(d2), middle));
+      formula::cross(formula::operator-(twice_at_middle(d1), middle), formula::operator-(twice_at_middle(d2), middle));
   const EndVectors n = constant(normal);
   const BothEnds s0 = dot(n, d0), s1 = dot(n, d1), s2 = dot(n, d2);
   const BothEnds sizes = max(max(magnitude(d0), magnitude(d1)), magnitude(d2));
@@ -127,7 +123,7 @@ inline Separation separate(const VertexFace3& q) {
 /// w, w - u, w + v and w + v - u.
 inline Separation separate(const EdgeEdge3& q) {
   const EndVectors du = end_difference(q, 1, 0), dv = end_difference(q, 3, 2), dw = end_difference(q, 2, 0);
-  const Vec<double, 3> normal = cross(twice_at_middle(du), twice_at_middle(dv));
+  const Vec<double, 3> normal = formula::cross(twice_at_middle(du), twice_at_middle(dv));
   const EndVectors n = constant(normal);
   const BothEnds nu = dot(n, du), nv = dot(n, dv), nw = dot(n, dw), zero(0.0);
   const BothEnds low = (nw - max(nu, zero)) + min(nv, zero), high = (nw - min(nu, zero)) + max(nv, zero);

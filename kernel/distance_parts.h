@@ -26,6 +26,7 @@ namespace noli::distance {
 
 template <int Dim>
 using Vector = formula::Vec<Polynomial, Dim>;
+using formula::cross;
 using formula::operator-;
 
 struct Part {
@@ -45,18 +46,13 @@ struct Part {
 
 inline Polynomial constant(const Integer& x) { return Polynomial(std::vector<Integer>{x}); }
 
-inline Vector<3> cross(const Vector<3>& a, const Vector<3>& b) {
-  using formula::cross_component;
-  return {cross_component(a, b, 0), cross_component(a, b, 1), cross_component(a, b, 2)};
-}
-
 /// |a x b|^2.
 inline Polynomial cross_square(const Vector<3>& a, const Vector<3>& b) {
   const Vector<3> c = cross(a, b);
   return formula::dot(c, c);
 }
 inline Polynomial cross_square(const Vector<2>& a, const Vector<2>& b) {
-  const Polynomial c = formula::cross(a, b);
+  const Polynomial c = cross(a, b);
   return c * c;
 }
 

@@ -90,16 +90,12 @@ struct DoubleSigns {
 
 inline EndVectors swapped(const EndVectors& x) { return {x[0].swapped(), x[1].swapped(), x[2].swapped()}; }
 
-inline EndVectors cross(const EndVectors& a, const EndVectors& b) {
-  return {formula::cross_component(a, b, 0), formula::cross_component(a, b, 1), formula::cross_component(a, b, 2)};
-}
-
 inline double sum_of_ends(BothEnds x) { return x.at_t0() + x.at_t1(); }
 
 /// det(a, b, c), scaled. The formula is that of formula.h (a form's middle coefficients take one factor from each
 /// end), done for both ends at once.
 inline Cubic coplanarity(const EndVectors& a, const EndVectors& b, const EndVectors& c) {
-  const EndVectors ends = cross(a, b), mixed = cross(a, swapped(b));
+  const EndVectors ends = formula::cross(a, b), mixed = formula::cross(a, swapped(b));
   const EndVectors middle = constant({sum_of_ends(mixed[0]), sum_of_ends(mixed[1]), sum_of_ends(mixed[2])});
   const BothEnds outer = dot(c, ends), inner = dot(swapped(c), ends) + dot(c, middle);
   return bernstein::scaled_coefficients(Cubic{outer.at_t0(), inner.at_t0(), inner.at_t1(), outer.at_t1()});

@@ -61,6 +61,13 @@ constexpr auto cross_component(const Vec<T, 3>& a, const Vec<T, 3>& b, std::size
   return a[i] * b[j] - a[j] * b[i];
 }
 
+/// a x b.
+template <class T>
+constexpr auto cross(const Vec<T, 3>& a, const Vec<T, 3>& b) {
+  using Product = decltype(cross_component(a, b, 0));
+  return Vec<Product, 3>{cross_component(a, b, 0), cross_component(a, b, 1), cross_component(a, b, 2)};
+}
+
 /// a x b of two vectors in the plane.
 template <class T>
 constexpr auto cross(const Vec<T, 2>& a, const Vec<T, 2>& b) {

@@ -69,10 +69,7 @@ template <class T>
 int exact_sign(const std::array<Point3, 4>& x, const exact::ExponentRange& range) {
   const auto u = difference<T>(x[1], x[0], range), v = difference<T>(x[2], x[0], range);
   const auto w = difference<T>(x[3], x[0], range);
-  using formula::cross_component;
-  const formula::Vec<decltype(cross_component(u, v, 0)), 3> normal = {
-      cross_component(u, v, 0), cross_component(u, v, 1), cross_component(u, v, 2)};
-  return formula::dot(w, normal).sign();
+  return formula::dot(w, formula::cross(u, v)).sign();
 }
 
 template <class Points>

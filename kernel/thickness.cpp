@@ -64,13 +64,6 @@ bool separates(const Query<Pair, Dim>& q, Direction<Dim> n, double eta) {
   return least_gap<Pair, Dim>(q, n) > needed;
 }
 
-template <int Dim>
-Direction<Dim> minus(const Point<Dim>& a, const Point<Dim>& b) {
-  Direction<Dim> d;
-  for (std::size_t k = 0; k < Dim; ++k) d[k] = a[k] - b[k];
-  return d;
-}
-
 /// Directions worth trying: from one feature to the other and the common normal, at the middle of the step.
 template <FeaturePair Pair, int Dim>
 std::vector<Direction<Dim>> directions(const Query<Pair, Dim>& q) {
@@ -78,14 +71,14 @@ std::vector<Direction<Dim>> directions(const Query<Pair, Dim>& q) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (std::size_t k = 0; k < Dim; ++k) x[i][k] = 0.5 * q.x_t0[i][k] + 0.5 * q.x_t1[i][k];
   }
+  using formula::operator-;
   std::vector<Direction<Dim>> result;
   for (std::size_t k = 0; k < Dim; ++k) result.emplace_back()[k] = 1;
-  result.push_back(minus<Dim>(x.back(), x.front()));
+  result.push_back(x.back() - x.front());
   if constexpr (point_count(Pair) == 4) {
-    const auto u = Pair == FeaturePair::vertex_face ? minus<3>(x[2], x[1]) : minus<3>(x[1], x[0]);
-    const auto v = Pair == FeaturePair::vertex_face ? minus<3>(x[3], x[1]) : minus<3>(x[3], x[2]);
-    using formula::cross_component;
-    result.push_back({cross_component(u, v, 0), cross_component(u, v, 1), cross_component(u, v, 2)});
+    const auto u = Pair == FeaturePair::vertex_face ? x[2] - x[1] : x[1] - x[0];
+    const auto v = Pair == FeaturePair::vertex_face ? x[3] - x[1] : x[3] - x[2];
+    result.push_back(formula::cross(u, v));
   }
   return result;
 }
