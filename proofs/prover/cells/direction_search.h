@@ -18,6 +18,7 @@
 #include <array>
 #include <optional>
 
+#include "kernel/formula.h"
 #include "proofs/prover/cells/direction.h"
 
 namespace noli {
@@ -26,13 +27,6 @@ namespace detail {
 
 template <int Dim>
 using Vec = std::array<double, Dim>;
-
-template <std::size_t N>
-double inner(const std::array<double, N>& a, const std::array<double, N>& b) {
-  double sum = a[0] * b[0] + a[1] * b[1];
-  if constexpr (N == 3) sum += a[2] * b[2];
-  return sum;
-}
 
 template <std::size_t N>
 std::array<double, N> combine(double s, const std::array<double, N>& a, double t, const std::array<double, N>& b) {
@@ -77,7 +71,7 @@ class Simplex {
 
   Nearest on_segment(Index a, Index b) const {
     const Vec<Dim> ab = minus(w_[b], w_[a]);
-    const double along = -inner(w_[a], ab), length = inner(ab, ab);
+    const double along = -formula::dot(w_[a], ab), length = formula::dot(ab, ab);
     if (!(along > 0)) return at_point(a);
     if (!(along < length)) return at_point(b);
     return {{a, b}, 2, combine(1, w_[a], along / length, ab)};
@@ -86,13 +80,13 @@ class Simplex {
   /// Ericson, "Real-Time Collision Detection" (2005), section 5.1.5, with the origin as the query point.
   Nearest on_triangle(Index a, Index b, Index c) const {
     const Vec<Dim> ab = minus(w_[b], w_[a]), ac = minus(w_[c], w_[a]);
-    const double d1 = -inner(ab, w_[a]), d2 = -inner(ac, w_[a]);
+    const double d1 = -formula::dot(ab, w_[a]), d2 = -formula::dot(ac, w_[a]);
     if (d1 <= 0 && d2 <= 0) return at_point(a);
-    const double d3 = -inner(ab, w_[b]), d4 = -inner(ac, w_[b]);
+    const double d3 = -formula::dot(ab, w_[b]), d4 = -formula::dot(ac, w_[b]);
     if (d3 >= 0 && d4 <= d3) return at_point(b);
     const double vc = d1 * d4 - d3 * d2;
     if (vc <= 0 && d1 >= 0 && d3 <= 0) return on_segment(a, b);
-    const double d5 = -inner(ab, w_[c]), d6 = -inner(ac, w_[c]);
+    const double d5 = -formula::dot(ab, w_[c]), d6 = -formula::dot(ac, w_[c]);
     if (d6 >= 0 && d5 <= d6) return at_point(c);
     const double vb = d5 * d2 - d1 * d6;
     if (vb <= 0 && d2 >= 0 && d6 <= 0) return on_segment(a, c);
@@ -114,8 +108,8 @@ class Simplex {
   /// Whether the origin is on the other side of the face a, b, c than the point `opposite`.
   bool outside(Index a, Index b, Index c, Index opposite) const {
     const Vec<Dim> u = minus(w_[b], w_[a]), v = minus(w_[c], w_[a]);
-    const Vec<Dim> n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const double origin = -inner(n, w_[a]), inside = inner(n, minus(w_[opposite], w_[a]));
+    const Vec<Dim> n = formula::cross(u, v);
+    const double origin = -formula::dot(n, w_[a]), inside = formula::dot(n, minus(w_[opposite], w_[a]));
     return (origin > 0) != (inside > 0);
   }
 
@@ -127,7 +121,7 @@ class Simplex {
       for (const auto& o : others) {
         if (!outside(o[0], o[1], 3, o[2])) continue;
         const Nearest nearest = on_triangle(o[0], o[1], 3);
-        if (best.count == 0 || inner(nearest.v, nearest.v) < inner(best.v, best.v)) best = nearest;
+        if (best.count == 0 || formula::dot(nearest.v, nearest.v) < formula::dot(best.v, best.v)) best = nearest;
       }
       return best.count > 0 && keep(best, v);
     } else {
@@ -175,9 +169,9 @@ std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair,
     if (gap_begin > bound && gap_end > bound) return v;
     const bool begin = gap_begin < gap_end;
     const auto w = detail::lowest(pair, p.q[begin ? 0 : 1], begin ? interval.begin : interval.end);
-    const double before = detail::inner(v, v);
+    const double before = formula::dot(v, v);
     if (!simplex.add(w, v)) return std::nullopt;
-    if (round > 0 && !(detail::inner(v, v) < before)) return std::nullopt;
+    if (round > 0 && !(formula::dot(v, v) < before)) return std::nullopt;
   }
   return std::nullopt;
 }
@@ -199,7 +193,7 @@ double distance_at_most(const PartPair<Dim>& pair, double s, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const Projections p = at_ends(project(pair, v), {s, s});
     if (!simplex.add(detail::lowest(pair, p.q[0], s), v)) return least;  // inside, or flat: rounding does not tell
-    const double length = std::sqrt(detail::inner(v, v));
+    const double length = std::sqrt(formula::dot(v, v));
     if (!(length < least)) return least;
     least = length;
   }

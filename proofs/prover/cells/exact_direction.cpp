@@ -3,17 +3,11 @@
 
 #include <algorithm>
 
+#include "kernel/formula.h"
+
 namespace noli {
 
 namespace {
-
-Integer inner(const IntegerVector& a, const IntegerVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-IntegerVector minus(const IntegerVector& a, const IntegerVector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// What a direction has to separate, and how far.
 struct Question {
@@ -22,9 +16,9 @@ struct Question {
 };
 
 bool separates(const IntegerVector& n, const Question& question) {
-  const Integer least = question.least2 * inner(n, n);
+  const Integer least = question.least2 * formula::dot(n, n);
   return std::all_of(question.differences.begin(), question.differences.end(), [&](const IntegerVector& w) {
-    const Integer along = inner(n, w);
+    const Integer along = formula::dot(n, w);
     return along.sign() > 0 && (least.is_zero() || along * along > least);
   });
 }
@@ -60,18 +54,19 @@ class Search {
   explicit Search(const Question& question) : question_(question), d_(question.differences) {}
 
   std::optional<IntegerVector> operator()() {
+    using formula::operator-;
     for (const IntegerVector& w : d_) {
       if (take(w)) return found_;
     }
     for (std::size_t i = 0; i < d_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (take(across(d_[i], minus(d_[j], d_[i])))) return found_;
+        if (take(across(d_[i], d_[j] - d_[i]))) return found_;
       }
     }
     for (std::size_t i = 0; i < d_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         for (std::size_t k = 0; k < j; ++k) {
-          IntegerVector n = cross(minus(d_[j], d_[i]), minus(d_[k], d_[i]));
+          IntegerVector n = formula::cross(d_[j] - d_[i], d_[k] - d_[i]);
           if (take(n) || take({-n[0], -n[1], -n[2]})) return found_;
         }
       }
@@ -82,7 +77,7 @@ class Search {
  private:
   /// From the origin to the line through w along u, times |u|^2.
   static IntegerVector across(const IntegerVector& w, const IntegerVector& u) {
-    const Integer uu = inner(u, u), wu = inner(w, u);
+    const Integer uu = formula::dot(u, u), wu = formula::dot(w, u);
     return {w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu};
   }
 

@@ -159,7 +159,7 @@ class ProofParts {
   /// What n.(a - b) has to exceed: rounding and radii, and the least distance.
   double bound_of(const Pair& pair, const Direction<Dim>& n) const {
     const double bound = error_bound<Dim>(n, pair.points.reach);
-    return distance_ == 0 ? bound : bound + distance_ * std::sqrt(detail::inner(n, n)) * (1 + 0x1p-48);
+    return distance_ == 0 ? bound : bound + distance_ * std::sqrt(formula::dot(n, n)) * (1 + 0x1p-48);
   }
 
   bool above(const Pair& pair, const Direction<Dim>& n, const Interval& interval) const {

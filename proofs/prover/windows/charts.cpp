@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "kernel/formula.h"
 #include "kernel/static_predicates.h"
 
 namespace noli {
@@ -58,13 +59,8 @@ Rectangle joined(const Rectangle& a, const Rectangle& b) {
 
 using Vector = std::array<double, 3>;
 
-Vector difference(const Position& a, const Position& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double inner(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector unit(const Vector& a) {
-  const double per_length = 1 / std::sqrt(inner(a, a));
+  const double per_length = 1 / std::sqrt(formula::dot(a, a));
   return {a[0] * per_length, a[1] * per_length, a[2] * per_length};
 }
 
@@ -122,7 +118,8 @@ class ChartMaker {
   /// Twice the area, along the normal.
   Vector area(std::uint32_t f) const {
     const auto& [a, b, c] = mesh_.faces[f];
-    return cross(difference(x_[b], x_[a]), difference(x_[c], x_[a]));
+    using formula::operator-;
+    return formula::cross(x_[b] - x_[a], x_[c] - x_[a]);
   }
 
   std::optional<Frame> frame_of(Group g) const {
@@ -136,13 +133,13 @@ class ChartMaker {
     const Vector normal = unit(n);
     if (!std::isfinite(normal[0] + normal[1] + normal[2])) return std::nullopt;
     const bool along_x = std::abs(normal[0]) > 0.8;
-    const Vector u = unit(cross(normal, along_x ? Vector{0, 1, 0} : Vector{1, 0, 0}));
-    return Frame{u, cross(normal, u), normal, origin};
+    const Vector u = unit(formula::cross(normal, along_x ? Vector{0, 1, 0} : Vector{1, 0, 0}));
+    return Frame{u, formula::cross(normal, u), normal, origin};
   }
 
   Point2 place(VertexId v) const {
-    const Vector d = difference(x_[v], frame_.origin);
-    return {inner(frame_.u, d), inner(frame_.v, d)};
+    const Vector d = formula::operator-(x_[v], frame_.origin);
+    return {formula::dot(frame_.u, d), formula::dot(frame_.v, d)};
   }
 
   Rectangle rectangle(std::uint32_t f) const {
@@ -153,7 +150,7 @@ class ChartMaker {
   bool is_steep(std::uint32_t f) const {
     if (dimension_ == 2) return false;
     const Vector n = area(f);
-    return !(inner(n, frame_.normal) >= least_cosine * std::sqrt(inner(n, n)));
+    return !(formula::dot(n, frame_.normal) >= least_cosine * std::sqrt(formula::dot(n, n)));
   }
 
   /// Puts a face into S, if it is not. False if it is steep or not laid out counterclockwise.

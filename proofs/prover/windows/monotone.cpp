@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proofs/prover/windows/monotone.h"
 
+#include "kernel/formula.h"
+
 namespace noli {
 
 namespace {
@@ -23,8 +25,6 @@ Range range_of(const Lanes& low, const Lanes& high, int dimension) {
   return range;
 }
 
-double inner_product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double inner_of_sizes(const Vector& a, const Vector& b) {
   return std::abs(a[0] * b[0]) + std::abs(a[1] * b[1]) + std::abs(a[2] * b[2]);
 }
@@ -42,7 +42,7 @@ struct Product {
 };
 
 Product product(const Vector& p, const Range& f) {
-  return {inner_product(p, f.middle), inner_of_sizes(p, f.reach) + 0x1p-45 * inner_of_sizes(p, f.middle) + 0x1p-1000};
+  return {formula::dot(p, f.middle), inner_of_sizes(p, f.reach) + 0x1p-45 * inner_of_sizes(p, f.middle) + 0x1p-1000};
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ Product product(const Vector& p, const Range& f) {
 Functionals functionals_for(const TangentBox& box, int dimension) {
   const Vector u = range_of(box.low_u, box.high_u, dimension).middle;
   const Vector v = range_of(box.low_v, box.high_v, dimension).middle;
-  const double uu = inner_product(u, u), uv = inner_product(u, v), vv = inner_product(v, v),
+  const double uu = formula::dot(u, u), uv = formula::dot(u, v), vv = formula::dot(v, v),
                per_area = 1 / (uu * vv - uv * uv);
   return {combination(vv, u, uv, v, per_area), combination(uu, v, uv, u, per_area)};
 }
