@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 namespace noli {
@@ -14,10 +15,7 @@ namespace {
 constexpr double double_error = 0x1p-53;
 
 std::shared_ptr<const Polynomial> linear(const Integer& num, const Integer& den) {
-  std::vector<Integer> c;
-  c.push_back(-num);
-  c.push_back(den);
-  return std::make_shared<const Polynomial>(Polynomial(std::move(c)));
+  return std::make_shared<const Polynomial>(Polynomial({-num, den}));
 }
 
 Dyadic add(const Dyadic& a, const Integer& numerator, std::size_t e) { return {a.scaled(e) + numerator, e}; }
@@ -26,6 +24,15 @@ double quotient_about(const Integer& num, const Integer& den) {
   long e = 0, f = 0;
   const double a = mpz_get_d_2exp(&e, num.get()), b = mpz_get_d_2exp(&f, den.get());
   return std::ldexp(a / b, static_cast<int>(std::max(e - f, -2000L)));
+}
+
+/// Whether p and q have a root in common between low and high. Preconditions: p has at most one there; what divides both
+/// is not zero at low and high.
+bool share_root(const Polynomial& p, const Polynomial& q, const Dyadic& low, const Dyadic& high) {
+  const bool same = &p == &q;
+  if (!same && surely_coprime(p, q)) return false;
+  const Polynomial common = same ? p : gcd(p, q);
+  return common.degree() > 0 && common.sign_at(low) != common.sign_at(high);
 }
 
 /// Doubles in [0, 1] in ascending order are integers in ascending order.
@@ -173,12 +180,6 @@ bool AlgebraicNumber::approximate_sign(const Polynomial& q, int& sign) const {
   return std::abs(value) > 1.01 * error;
 }
 
-bool AlgebraicNumber::is_root_of(const Polynomial& q) const {
-  if (surely_coprime(*p_, q)) return false;
-  const Polynomial common = gcd(*p_, q);
-  return common.degree() > 0 && common.sign_at(low_) != common.sign_at(high_);
-}
-
 int AlgebraicNumber::sign_by_refinement(const Polynomial& q) {
   // |q(x) - q(low)| <= (high - low) n sum |c[i]| on the interval.
   const Integer steepness = q.coefficient_sum() * Integer(q.degree());
@@ -198,36 +199,25 @@ int AlgebraicNumber::sign_of(const Polynomial& q) {
   if (approximate_sign(q, sign)) return sign;
   if (sign_high_ == 0) return q.sign_at(low_);
   if (is_rational()) return q.sign_at_rational(-(*p_)[0], p_->leading());
-  return is_root_of(q) ? 0 : sign_by_refinement(q);
+  return share_root(*p_, q, low_, high_) ? 0 : sign_by_refinement(q);
 }
 
 namespace {
 
-/// Decides numbers whose intervals do not overlap; `unordered` otherwise.
-std::partial_ordering compare_intervals(const AlgebraicNumber& a, const AlgebraicNumber& b) {
-  if (a.high() < b.low()) return std::partial_ordering::less;
-  if (a.low() > b.high()) return std::partial_ordering::greater;
-  return std::partial_ordering::unordered;
-}
-
-/// Given that the intervals of a and b overlap and neither is dyadic: a common root in both is the number itself.
-bool share_root(const AlgebraicNumber& a, const AlgebraicNumber& b) {
-  const bool same = &a.polynomial() == &b.polynomial();
-  if (!same && surely_coprime(a.polynomial(), b.polynomial())) return false;
-  const Polynomial common = same ? a.polynomial() : gcd(a.polynomial(), b.polynomial());
-  return common.degree() > 0 &&
-         common.sign_at(std::max(a.low(), b.low())) != common.sign_at(std::min(a.high(), b.high()));
+/// Decides numbers of which one is dyadic, or whose intervals do not overlap; nothing otherwise.
+std::optional<std::strong_ordering> compare_intervals(const AlgebraicNumber& a, const AlgebraicNumber& b) {
+  if (b.is_dyadic()) return a.compare(b.low()) <=> 0;
+  if (a.is_dyadic()) return 0 <=> b.compare(a.low());
+  if (a.high() < b.low()) return std::strong_ordering::less;
+  if (a.low() > b.high()) return std::strong_ordering::greater;
+  return std::nullopt;
 }
 
 std::strong_ordering compare_by_refinement(AlgebraicNumber a, AlgebraicNumber b) {
   for (std::size_t bits = std::max(a.width_bits(), b.width_bits()) + 32;; bits *= 2) {
     a.refine(bits);
     b.refine(bits);
-    if (a.is_dyadic()) return 0 <=> b.compare(a.low());
-    if (b.is_dyadic()) return a.compare(b.low()) <=> 0;
-    const auto order = compare_intervals(a, b);
-    if (order < 0) return std::strong_ordering::less;
-    if (order > 0) return std::strong_ordering::greater;
+    if (const auto order = compare_intervals(a, b)) return *order;
   }
 }
 
@@ -238,12 +228,10 @@ std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber
   if (std::abs(gap) > (a.reach_ + b.reach_) * 1.01 + 0x1p-52) {
     return gap < 0 ? std::strong_ordering::less : std::strong_ordering::greater;
   }
-  if (b.is_dyadic()) return a.compare(b.low()) <=> 0;
-  if (a.is_dyadic()) return 0 <=> b.compare(a.low());
-  const auto order = compare_intervals(a, b);
-  if (order < 0) return std::strong_ordering::less;
-  if (order > 0) return std::strong_ordering::greater;
-  return share_root(a, b) ? std::strong_ordering::equal : compare_by_refinement(a, b);
+  if (const auto order = compare_intervals(a, b)) return *order;
+  // The intervals overlap and neither is a point: a common root in both is the number itself.
+  const bool equal = share_root(a.polynomial(), b.polynomial(), std::max(a.low_, b.low_), std::min(a.high_, b.high_));
+  return equal ? std::strong_ordering::equal : compare_by_refinement(a, b);
 }
 
 }  // namespace noli

@@ -71,7 +71,6 @@ class AlgebraicNumber {
   /// One step; raises or lowers `log_pieces`, the binary logarithm of the number of pieces that are proposed.
   void refine_quadratically(std::size_t& log_pieces);
   bool approximate_sign(const Polynomial& q, int& sign) const;
-  bool is_root_of(const Polynomial& q) const;
   int sign_by_refinement(const Polynomial& q);
 
   std::shared_ptr<const Polynomial> p_;
