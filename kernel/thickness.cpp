@@ -118,7 +118,7 @@ template <FeaturePair Pair, int Dim, class Points>
 std::vector<distance::Part> exact_parts_of(const Points& points, const Integer& eta) {
   std::array<distance::Vector<Dim>, point_count(Pair)> x;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    for (std::size_t k = 0; k < Dim; ++k) x[i][k] = from_form(std::array{points[i].at_t0[k], points[i].at_t1[k]});
+    for (std::size_t k = 0; k < Dim; ++k) x[i][k] = from_form({points[i].at_t0[k], points[i].at_t1[k]});
   }
   return distance::parts_of<Pair, Dim>(x, eta * eta);
 }

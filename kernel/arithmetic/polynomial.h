@@ -11,7 +11,6 @@
 // (kernel/arithmetic/algebraic.h).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -65,11 +64,6 @@ class Polynomial {
 
 /// c[0] s^n + c[1] s^(n-1) t + ... + c[n] t^n at s = 1 - t, as a polynomial in t.
 Polynomial from_form(std::vector<Integer> form);
-
-template <std::size_t N>
-Polynomial from_form(const std::array<Integer, N>& form) {
-  return from_form(std::vector<Integer>(form.begin(), form.end()));
-}
 
 /// True only if a and b have no common root, real or complex; false means "not known". Much cheaper than gcd: works
 /// modulo a prime. Precondition: neither is zero.

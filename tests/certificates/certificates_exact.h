@@ -87,7 +87,7 @@ bool comes_within(std::span<const MotionSegment<Dim>> chords, double begin, doub
     const Integer factor = divide_exactly(common, lengths[i]);
     for (int d = 0; d < Dim; ++d) {
       x[i][static_cast<std::size_t>(d)] =
-          from_form(std::array{factor * place(chords[i], d, begin, scale), factor * place(chords[i], d, end, scale)});
+          from_form({factor * place(chords[i], d, begin, scale), factor * place(chords[i], d, end, scale)});
     }
   }
   const Integer bound = common * exact::coordinate<Integer>(eta, scale.space);

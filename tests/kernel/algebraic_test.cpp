@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -60,9 +59,9 @@ TEST(Dyadic, Compares) {
 
 TEST(Polynomials, FormsAreHomogeneous) {
   // s^2 + 3 s t + 5 t^2 at s = 1 - t: 1 + t + 3 t^2
-  EXPECT_EQ(from_form(std::array{Integer(1), Integer(3), Integer(5)}), polynomial({1, 1, 3}));
-  EXPECT_TRUE(from_form(std::array{Integer(0), Integer(0)}).is_zero());
-  EXPECT_EQ(from_form(std::array{Integer(1), Integer(2), Integer(1)}).degree(), 0);  // (s + t)^2 = 1
+  EXPECT_EQ(from_form({Integer(1), Integer(3), Integer(5)}), polynomial({1, 1, 3}));
+  EXPECT_TRUE(from_form({Integer(0), Integer(0)}).is_zero());
+  EXPECT_EQ(from_form({Integer(1), Integer(2), Integer(1)}).degree(), 0);  // (s + t)^2 = 1
 }
 
 TEST(Polynomials, GcdOfProducts) {
