@@ -162,6 +162,15 @@ Polynomial from_form(std::vector<Integer> form) {
   return Polynomial(std::move(form));
 }
 
+int sign_changes(const std::vector<Integer>& numbers) {
+  int changes = 0, last = 0;
+  for (const Integer& c : numbers) {
+    if (c.sign() * last < 0) ++changes;
+    if (c.sign() != 0) last = c.sign();
+  }
+  return changes;
+}
+
 bool surely_coprime(const Polynomial& a, const Polynomial& b) {
   Residues x = residues(a), y = residues(b);
   if (x.back() == 0 || y.back() == 0) return false;  // then a common factor might vanish modulo the prime

@@ -22,15 +22,6 @@ struct Piece {
   std::size_t k = 0;
 };
 
-int sign_changes(const Bernstein& b) {
-  int changes = 0, last = 0;
-  for (const Integer& c : b) {
-    if (c.sign() * last < 0) ++changes;
-    if (c.sign() != 0) last = c.sign();
-  }
-  return changes;
-}
-
 /// b[i] = sum over j <= i of binomial(i, j) / binomial(n, j) c[j], times n!.
 Bernstein bernstein_of(const Polynomial& p) {
   const std::size_t n = static_cast<std::size_t>(p.degree());

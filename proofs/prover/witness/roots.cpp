@@ -25,17 +25,6 @@ std::vector<Integer> bernstein(const Polynomial& f, const Root& within) {
   return all;
 }
 
-/// How often the sign changes along the coefficients; zeros do not count. 0: no root inside of the interval; 1: one.
-int sign_changes(const std::vector<Integer>& coefficients) {
-  int changes = 0, last = 0;
-  for (const Integer& c : coefficients) {
-    if (c.is_zero()) continue;
-    changes += c.sign() * last < 0 ? 1 : 0;
-    last = c.sign();
-  }
-  return changes;
-}
-
 /// The same in as few bits as are enough, so that there is room to go on.
 Root shortened(Root root) {
   std::size_t spare = root.e;
@@ -53,7 +42,7 @@ void add_inside(const Polynomial& f, const Root& within, std::vector<Root>& root
   const auto& [l, u, e] = within;
   const auto coefficients = bernstein(f, within);
   const int changes = sign_changes(coefficients);
-  if (changes == 0) return;
+  if (changes == 0) return;  // no root inside of the interval; with one change there is one
   if (changes == 1 && !coefficients.front().is_zero() && !coefficients.back().is_zero()) return roots.push_back(within);
   if (e == most_root_bits) return;
   const Integer middle = l + u;
