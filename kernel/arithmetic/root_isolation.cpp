@@ -109,26 +109,24 @@ class Isolation {
     if (changes == 0) return true;
     if (changes == 1) return add(piece);
     auto [left, right] = halves(piece);
-    if (right.b[0].is_zero()) return found_dyadic({right.m, right.k});
-    return visit(left) && visit(right);
+    if (!right.b[0].is_zero()) return visit(left) && visit(right);
+    dyadic_root_ = {right.m, right.k};
+    return false;
   }
 
   bool add(const Piece& piece) {
-    const double root = local_root(local_polynomial(piece));
     if (p_->degree() == 1) {
       roots_.push_back(
           AlgebraicNumber::rational(p_->leading().sign() < 0 ? (*p_)[0] : -(*p_)[0], absolute(p_->leading())));
       return true;
     }
     AlgebraicNumber number(p_, {piece.m, piece.k}, {piece.m + Integer(1), piece.k});
-    if (piece.k < 1000) number.polish(std::ldexp(mpz_get_d(piece.m.get()) + root, -static_cast<int>(piece.k)));
+    if (piece.k < 1000) {
+      const double root = mpz_get_d(piece.m.get()) + local_root(local_polynomial(piece));
+      number.polish(std::ldexp(root, -static_cast<int>(piece.k)));
+    }
     roots_.push_back(std::move(number));
     return true;
-  }
-
-  bool found_dyadic(const Dyadic& root) {
-    dyadic_root_ = root.reduced();
-    return false;
   }
 
   std::shared_ptr<const Polynomial> p_;
