@@ -67,8 +67,7 @@ class Integer {
     return *this;
   }
 
-  Integer operator-() const& { return Integer(*this).negated(); }
-  Integer operator-() && { return std::move(*this).negated(); }
+  friend Integer operator-(Integer a) { return std::move(a.negate()); }
 
   friend Integer operator+(const Integer& a, const Integer& b) {
     Integer c;
@@ -97,8 +96,6 @@ class Integer {
   friend std::strong_ordering operator<=>(const Integer& a, const Integer& b) { return mpz_cmp(a.z_, b.z_) <=> 0; }
 
  private:
-  Integer negated() && { return std::move(negate()); }
-
   mpz_t z_;
 };
 
