@@ -91,16 +91,14 @@ double of_order(std::int64_t order) {
   return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order - 1);
 }
 
-/// Near the quotient; anything when that is not to be had in double.
-double about(const Exact& a, const Exact& b) { return CGAL::to_double(a) / CGAL::to_double(b); }
-
 /// The largest double that is not after the zero of a falling line, which is not before `from`.
 double zero_rounded_down(const Line<Exact>& line, double from) {
   std::int64_t low = order_of(from), high = order_of(infinity);  // of_order(low) <= zero < of_order(high)
   const auto probe = [&](std::int64_t order) {
     if (order > low && order < high) (sign(value_at(line, of_order(order))) >= 0 ? low : high) = order;
   };
-  const double guess = about(line.offset, -line.slope);
+  // Near the zero; anything where that is not to be had in double.
+  const double guess = CGAL::to_double(line.offset) / CGAL::to_double(-line.slope);
   if (std::isfinite(guess)) {
     for (const std::int64_t step : {0, 1, -1, 64, -64}) probe(order_of(guess) + step);
   }

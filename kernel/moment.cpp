@@ -27,16 +27,11 @@ struct AffineMap {
   Polynomial operator()(const Polynomial& p) const {
     const std::size_t k = std::max(from.e, length.e);
     const Integer a = from.scaled(k), b = length.scaled(k);
-    std::vector<Integer> linear;
-    linear.push_back(-a);
-    linear.push_back(Integer(1) << k);
-    const Polynomial shifted(std::move(linear));
+    const Polynomial shifted({-a, Integer(1) << k});
     Polynomial q;
     Integer power(1);
     for (int i = p.degree(); i >= 0; --i) {
-      std::vector<Integer> constant;
-      constant.push_back(p[static_cast<std::size_t>(i)] * power);
-      q = q * shifted + Polynomial(std::move(constant));
+      q = q * shifted + Polynomial({p[static_cast<std::size_t>(i)] * power});
       power *= b;
     }
     return q;

@@ -48,17 +48,12 @@ class Loop {
     try {
       task_(i);
     } catch (...) {
-      keep(i, std::current_exception());
+      const std::scoped_lock lock(mutex_);
+      if (i >= limit_.load(std::memory_order_relaxed)) return;
+      // Only indices above a failed one are skipped, so the lowest failure always runs.
+      limit_.store(i, std::memory_order_relaxed);
+      error_ = std::current_exception();
     }
-  }
-
-  void keep(std::size_t i, std::exception_ptr error) {
-    const std::scoped_lock lock(mutex_);
-    if (i >= limit_.load(std::memory_order_relaxed)) return;
-    limit_.store(
-        i,
-        std::memory_order_relaxed);  // only indices above a failed one are skipped, so the lowest failure always runs
-    error_ = std::move(error);
   }
 
   const std::size_t count_;

@@ -84,10 +84,8 @@ bool intervals_enclose() {
 
 RoundingReport run() {
   const RoundingMode nearest(FE_TONEAREST);
-  RoundingReport report;
-  report.nearest_ok = nearest_is_double() && nothing_is_contracted() && subnormals_are_kept();
-  report.directed_ok = rounds_upward() && rounds_downward() && intervals_enclose();
-  return report;
+  return {.nearest_ok = nearest_is_double() && nothing_is_contracted() && subnormals_are_kept(),
+          .directed_ok = rounds_upward() && rounds_downward() && intervals_enclose()};
 }
 
 }  // namespace
