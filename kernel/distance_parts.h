@@ -13,6 +13,7 @@
 // each other at an end.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -36,11 +37,9 @@ struct Part {
 
   template <class Time>
   bool within(const Time& time) const {
-    if (time.sign(positive) <= 0) return false;
-    for (const Polynomial& p : inside) {
-      if (time.sign(p) < 0) return false;
-    }
-    return time.sign(excess) <= 0;
+    return time.sign(positive) > 0 &&
+           std::ranges::all_of(inside, [&time](const Polynomial& p) { return time.sign(p) >= 0; }) &&
+           time.sign(excess) <= 0;
   }
 };
 

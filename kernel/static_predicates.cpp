@@ -45,10 +45,7 @@ std::array<Segment<Dim>, 3> edges(const Triangle<Dim>& t) {
 
 template <class Simplex, int Dim>
 bool meets_an_edge(const Simplex& s, const Triangle<Dim>& t) {
-  for (const auto& edge : edges<Dim>(t)) {
-    if (intersects(s, edge)) return true;
-  }
-  return false;
+  return std::ranges::any_of(edges<Dim>(t), [&s](const Segment<Dim>& edge) { return intersects(s, edge); });
 }
 
 /// A view in which the triangle keeps its area, if it has any.
@@ -162,10 +159,8 @@ bool intersects(const Segment3& s, const Triangle3& t) {
 
 bool intersects(const Triangle2& s, const Triangle2& t) {
   if (boxes_apart<2>(s, t)) return false;
-  for (const Segment2& edge : edges<2>(s)) {
-    if (intersects(edge, t)) return true;
-  }
-  return intersects(t[0], s);  // t inside s
+  return std::ranges::any_of(edges<2>(s), [&t](const Segment2& edge) { return intersects(edge, t); }) ||
+         intersects(t[0], s);  // t inside s
 }
 
 /// If they meet, an edge of one meets the other: the intersection is convex, and its extreme points are on an edge of
