@@ -110,11 +110,6 @@ inline double largest_magnitude(const EndVectors& x) {
   return std::max(m.at_t0(), m.at_t1());
 }
 
-/// Whether the error bounds hold: nothing overflows or underflows. False too for what is not a number.
-inline bool in_range(const std::array<double, 3>& m) {
-  return std::min({m[0], m[1], m[2]}) > least_size && std::max({m[0], m[1], m[2]}) < greatest_size;
-}
-
 inline std::size_t largest_component(const Vec<double, 3>& n) {
   const double x = std::abs(n[0]), y = std::abs(n[1]), z = std::abs(n[2]);
   if (x >= y) return x >= z ? 0 : 2;
@@ -171,22 +166,39 @@ struct InsideSigns {
   }
 };
 
-// --- vertex_face -----------------------------------------------------------------------------------------------------
-
-/// `separation`: of the query; its normal tells the axis along which to look. Both must outlive the filter.
-class VertexFaceFilter {
+/// What is alike for both kinds of queries. `separation`: of the query; its normal tells the axis along which to look.
+/// Both must outlive the filter.
+template <class Query>
+class FourPoints {
  public:
-  VertexFaceFilter(const VertexFace3& q, const Separation& separation)
+  FourPoints(const Query& q, const Separation& separation)
       : query_(q),
         normal_(separation.normal),
         d_(separation.differences),
         m_{largest_magnitude(d_[0]), largest_magnitude(d_[1]), largest_magnitude(d_[2])} {}
 
   std::size_t axis() const { return largest_component(normal_); }
-  formula::VertexFace<double> forms() const { return {{moving(d_[0]), moving(d_[1]), moving(d_[2])}}; }
   Cubic coplanarity() const { return filter::coplanarity(d_[0], d_[1], d_[2]); }
-  bool usable() const { return in_range({m_[0], m_[1], m_[2]}); }
+  /// Whether the error bounds hold: nothing overflows or underflows. False too for what is not a number.
+  bool usable() const {
+    return std::min({m_[0], m_[1], m_[2]}) > least_size && std::max({m_[0], m_[1], m_[2]}) < greatest_size;
+  }
   double volume() const { return m_[0] * m_[1] * m_[2]; }
+
+ protected:
+  const Query& query_;
+  const Vec<double, 3>& normal_;
+  const std::array<EndVectors, 3>& d_;
+  std::array<double, 3> m_;
+};
+
+// --- vertex_face -----------------------------------------------------------------------------------------------------
+
+class VertexFaceFilter : public FourPoints<VertexFace3> {
+ public:
+  using FourPoints::FourPoints;
+
+  formula::VertexFace<double> forms() const { return {{moving(d_[0]), moving(d_[1]), moving(d_[2])}}; }
 
   /// What the insides say, seen along the axis, on all of [low, high].
   Verdict inside(double low, double high) const {
@@ -210,42 +222,25 @@ class VertexFaceFilter {
             {inside_units * area[0], inside_units * area[1], inside_units * area[2]},
             {inside_level_units * area[0], inside_level_units * area[1], inside_level_units * area[2]}};
   }
-
- private:
-  const VertexFace3& query_;
-  const Vec<double, 3>& normal_;
-  const std::array<EndVectors, 3>& d_;
-  std::array<double, 3> m_;
 };
 
 // --- edge_edge -------------------------------------------------------------------------------------------------------
 
-class EdgeEdgeFilter {
+class EdgeEdgeFilter : public FourPoints<EdgeEdge3> {
  public:
-  EdgeEdgeFilter(const EdgeEdge3& q, const Separation& separation)
-      : query_(q),
-        normal_(separation.normal),
-        u_(separation.differences[0]),
-        v_(separation.differences[1]),
-        w_(separation.differences[2]),
-        mu_(largest_magnitude(u_)),
-        mv_(largest_magnitude(v_)),
-        mw_(largest_magnitude(w_)) {}
+  using FourPoints::FourPoints;
 
-  std::size_t axis() const { return largest_component(normal_); }
-  formula::EdgeEdge<double> forms() const { return {moving(u_), moving(v_), moving(w_)}; }
-  Cubic coplanarity() const { return filter::coplanarity(u_, v_, w_); }
-  bool usable() const { return in_range({mu_, mv_, mw_}); }
-  double volume() const { return mu_ * mv_ * mw_; }
+  formula::EdgeEdge<double> forms() const { return {moving(d_[0]), moving(d_[1]), moving(d_[2])}; }
 
   /// What the insides say, seen along the axis, on all of [low, high].
   Verdict inside(double low, double high) const {
     const double t = 0.5 * (low + high), reach = (high - t) + 2 * u;
     const PlaneView view(normal_, t);
-    const Vec<double, 2> du = view(u_), dv = view(v_), dw = view(w_);
+    const Vec<double, 2> du = view(d_[0]), dv = view(d_[1]), dw = view(d_[2]);
     const double wu = formula::cross(dw, du), wv = formula::cross(dw, dv), c = formula::cross(du, dv);
     const double bound = 25 * u + 9 * reach;
-    const double size_wu = bound * (mw_ * mu_), size_wv = bound * (mw_ * mv_), size_c = bound * (mu_ * mv_);
+    const auto [mu, mv, mw] = m_;
+    const double size_wu = bound * (mw * mu), size_wv = bound * (mw * mv), size_c = bound * (mu * mv);
     const auto collinear = [&](const std::array<std::size_t, 3>& points) {
       return view.share_a_coordinate(query_, points);
     };
@@ -258,7 +253,8 @@ class EdgeEdgeFilter {
   }
 
   DoubleSigns<4> signs() const {
-    const double v = volume() * u, wu = mw_ * mu_ * u, wv = mw_ * mv_ * u, uv = mu_ * mv_ * u;
+    const auto [mu, mv, mw] = m_;
+    const double v = volume() * u, wu = mw * mu * u, wv = mw * mv * u, uv = mu * mv * u;
     return {coplanarity_units * v,
             coplanarity_level_units * v,
             {inside_units * wu, inside_difference_units * (uv + wu), inside_units * wv,
@@ -266,12 +262,6 @@ class EdgeEdgeFilter {
             {inside_level_units * wu, inside_level_units * (uv + wu), inside_level_units * wv,
              inside_level_units * (uv + wv)}};
   }
-
- private:
-  const EdgeEdge3& query_;
-  const Vec<double, 3>& normal_;
-  const EndVectors &u_, &v_, &w_;
-  double mu_, mv_, mw_;
 };
 
 // --- Stage: bernstein ------------------------------------------------------------------------------------------------
