@@ -13,6 +13,7 @@ namespace {
 
 using bernstein::Verdict;
 using filter::Decision;
+using filter::undecided;
 
 /// Bits of a coordinate that the widths in exact_contact.h leave room for, with one and with two limbs.
 /// A difference of coordinates has B + 1 bits, a cross product's coefficient 2 B + 5, a determinant's 3 B + 9; the
@@ -20,8 +21,6 @@ using filter::Decision;
 /// root, 21 B + 59 in 21 C; with the sign.
 constexpr int one_limb_bits = 59;
 constexpr int two_limb_bits = 123;
-
-const Decision undecided{Verdict::unknown, {}};
 
 // --- The floating-point stages, by kind of query ---------------------------------------------------------------------
 

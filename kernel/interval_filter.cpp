@@ -48,8 +48,6 @@ bool in_range(const Query<Pair, Dim>& q) {
   return largest < 0x1p300;
 }
 
-const filter::Decision undecided{bernstein::Verdict::unknown, {}};
-
 /// The axis along which the cross product of two vectors looks largest at mid-time.
 std::size_t clearest_axis(const Moving<Interval, 3>& a, const Moving<Interval, 3>& b) {
   filter::Vec<double, 3> size;
@@ -63,14 +61,14 @@ std::size_t clearest_axis(const Moving<Interval, 3>& a, const Moving<Interval, 3
 }  // namespace
 
 filter::Decision decide(const VertexFace3& q) {
-  if (!in_range(q)) return undecided;
+  if (!in_range(q)) return filter::undecided;
   const Interval::Protector protector;
   const formula::VertexFace<Interval> forms{{difference(q, 1, 0), difference(q, 2, 0), difference(q, 3, 0)}};
   return filter::search(forms, clearest_axis(difference(q, 2, 1), difference(q, 3, 1)), IntervalSigns());
 }
 
 filter::Decision decide(const EdgeEdge3& q) {
-  if (!in_range(q)) return undecided;
+  if (!in_range(q)) return filter::undecided;
   const Interval::Protector protector;
   const formula::EdgeEdge<Interval> forms{difference(q, 1, 0), difference(q, 3, 2), difference(q, 2, 0)};
   return filter::search(forms, clearest_axis(forms.u, forms.v), IntervalSigns());

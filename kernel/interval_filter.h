@@ -18,7 +18,7 @@ filter::Decision decide(const EdgeEdge3& query);
 
 template <FeaturePair Pair, int Dim>
 filter::Decision decide(const Query<Pair, Dim>&) {
-  return {bernstein::Verdict::unknown, {}};
+  return filter::undecided;
 }
 
 }  // namespace noli::interval_filter

@@ -30,6 +30,8 @@ struct Decision {
   TimeEnclosure enclosure;
 };
 
+constexpr Decision undecided{Verdict::unknown, {}};
+
 using Cubic = std::array<double, 4>;
 
 struct Root {
