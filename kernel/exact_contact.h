@@ -49,13 +49,6 @@ std::array<double, N> rounded(const std::array<T, N>& form) {
   return bernstein::scaled_coefficients(result);
 }
 
-template <std::size_t N>
-double largest(const std::array<double, N>& c) {
-  double size = 0;
-  for (const double x : c) size = std::max(size, std::abs(x));
-  return size;
-}
-
 /// A quadratic form, and its coefficients rounded to double: these mostly suffice for the sign at a time that is known
 /// to 2^-45, and spare the long products.
 template <std::size_t L>
@@ -63,7 +56,7 @@ class SignedForm {
  public:
   SignedForm() = default;
   explicit SignedForm(const Form<Wide<L>, 2>& form)
-      : exact_(form), rounded_(rounded(form)), bound_(0x1p-40 * largest(rounded_)) {}
+      : exact_(form), rounded_(rounded(form)), bound_(0x1p-40 * filter::magnitude(rounded_)) {}
 
   const Form<Wide<L>, 2>& exact() const { return exact_; }
   bool is_zero() const { return exact::is_zero(exact_); }
@@ -204,7 +197,7 @@ class CodimensionOne {
   /// three levels of 3 * 2^-53.
   Decision decide_cubic(const Cubic<C>& f) {
     const auto approximation = rounded(f);
-    const double bound = 0x1p-49 * largest(approximation);
+    const double bound = 0x1p-49 * filter::magnitude(approximation);
     const filter::RoundedCubic cubic{approximation, bound, bound};
     const auto inside = [&](double low, double high, int f_before) { return inside_at_root(f, {low, high, f_before}); };
     const Decision decision = filter::RootSearch(cubic, inside).run(cubic_depth);
