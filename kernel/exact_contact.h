@@ -248,35 +248,20 @@ class CodimensionOne {
   /// it is triple, and the simple one at -f2 / f3 minus twice that.
   Decision decide_double_root(const Cubic<C>& f) {
     const Wide<C> two(2), three(3), nine(9);
-    auto t = narrowed(nine * (f[0] * f[3])) - f[1] * f[2];
-    auto s = narrowed(two * (f[2] * f[2] - narrowed(three * (f[1] * f[3]))));
-    if (s.is_zero()) return {Verdict::unknown, {}};
-    if (s.is_negative()) {
-      s = -s;
-      t = -t;
-    }
-    const RationalTime<6 * C> time{s, t};
-    if (time.sign(f) != 0 || !is_double_root(f, time)) return {Verdict::unknown, {}};
-    if (t.sign() > 0 && touches(time)) return contact_in({0, around(time.approximate()).end});
+    const auto t = narrowed(nine * (f[0] * f[3])) - f[1] * f[2];
+    const auto s = narrowed(two * (f[2] * f[2] - narrowed(three * (f[1] * f[3]))));
+    if (s.is_zero()) return filter::undecided;
+    const RationalTime<6 * C> time = rational_time(s, t);
+    const Form<Wide<4 * C>, 2> derivative{Wide<4 * C>(f[1]), two * f[2], three * f[3]};
+    if (time.sign(f) != 0 || time.sign(derivative) != 0) return filter::undecided;
+    if (time.t.sign() > 0 && touches(time)) return contact_in({0, around(time.approximate()).end});
     return decide_simple_root(f, time);
   }
 
-  template <class Time>
-  static bool is_double_root(const Cubic<C>& f, const Time& time) {
-    const Wide<C> two(2), three(3);
-    const Form<Wide<4 * C>, 2> derivative{Wide<4 * C>(f[1]), two * f[2], three * f[3]};
-    return time.sign(derivative) == 0;
-  }
-
   Decision decide_simple_root(const Cubic<C>& f, const RationalTime<6 * C>& double_root) {
-    auto s = f[3] * double_root.s;
-    auto t = -(f[2] * double_root.s) - (f[3] * double_root.t + f[3] * double_root.t);
-    if (s.is_negative()) {
-      s = -s;
-      t = -t;
-    }
-    const RationalTime<9 * C> time{s, t};
-    if (t.sign() <= 0 || !touches(time)) return {};
+    const RationalTime<9 * C> time =
+        rational_time(f[3] * double_root.s, -(f[2] * double_root.s) - (f[3] * double_root.t + f[3] * double_root.t));
+    if (time.t.sign() <= 0 || !touches(time)) return {};
     return contact_in(around(time.approximate()));
   }
 

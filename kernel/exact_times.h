@@ -60,6 +60,12 @@ struct RationalTime {
   }
 };
 
+/// The time t / (s + t) for s other than 0.
+template <std::size_t W>
+RationalTime<W> rational_time(const Wide<W>& s, const Wide<W>& t) {
+  return s.is_negative() ? RationalTime<W>{-s, -t} : RationalTime<W>{s, t};
+}
+
 /// The time with z = (-p1 + root sqrt(D)) / (2 p2), where p2 > 0, D > 0, root = +-1.
 template <std::size_t W>
 struct QuadraticTime {
@@ -112,9 +118,7 @@ Wide<2 * W> discriminant(const Form<Wide<W>, 2>& p) {
 /// returns that.
 template <std::size_t W, class Visit>
 bool any_linear_root(const Wide<W>& p0, const Wide<W>& p1, Visit&& visit) {
-  const int sign0 = p0.sign(), sign1 = p1.sign();
-  if (sign0 * sign1 >= 0) return false;
-  return visit(sign1 > 0 ? RationalTime<W>{p1, -p0} : RationalTime<W>{-p1, p0});
+  return p0.sign() * p1.sign() < 0 && visit(rational_time(p1, -p0));
 }
 
 /// The same for a form of degree 2, in ascending order. A form that is zero throughout has no roots to visit.
