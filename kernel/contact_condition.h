@@ -19,8 +19,10 @@
 // What this does not do: it finds no times.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -67,10 +69,7 @@ auto functions_of(const std::array<F, N>& forms) {
 
 template <class Zero, class Time>
 bool all_zero(const Zero& functions, const Time& time) {
-  for (const auto& f : functions) {
-    if (time.sign(f) != 0) return false;
-  }
-  return true;
+  return std::ranges::all_of(functions, [&time](const auto& f) { return time.sign(f) == 0; });
 }
 
 template <class Function, std::size_t N>
@@ -98,10 +97,7 @@ class Between {
   /// any_critical() where nothing is known of the equality.
   template <class Visit>
   bool any_function(Visit&& visit) const {
-    for (const auto& f : zero_) {
-      if (visit(f)) return true;
-    }
-    return visit(product_);
+    return std::ranges::any_of(zero_, std::ref(visit)) || visit(product_);
   }
 
   template <class Time>
@@ -209,16 +205,9 @@ class CodimensionOne {
     for (std::size_t i = 0; i < 3; ++i) {
       const View& seen = view(i);
       if (seen.degenerate.is_zero()) continue;
-      if (visit(seen.degenerate)) return true;
-      for (const auto& inside : seen.insides) {
-        if (visit(inside)) return true;
-      }
-      return false;
+      return visit(seen.degenerate) || std::ranges::any_of(seen.insides, std::ref(visit));
     }
-    for (const auto& part : parts()) {
-      if (part.any_function(visit)) return true;
-    }
-    return false;
+    return std::ranges::any_of(parts(), [&visit](const auto& part) { return part.any_function(visit); });
   }
 
   /// Precondition: the points are coplanar at this time.
@@ -226,10 +215,7 @@ class CodimensionOne {
   bool holds(const Time& time) {
     const Inside inside = inside_at(time);
     if (inside != Inside::degenerate) return inside != Inside::outside;
-    for (const auto& part : parts()) {
-      if (part.holds(time)) return true;
-    }
-    return false;
+    return std::ranges::any_of(parts(), [&time](const auto& part) { return part.holds(time); });
   }
 
   template <class Time>

@@ -36,10 +36,7 @@ using Cubic = Form<Wide<3 * C>, 3>;
 
 template <class T, std::size_t N>
 bool is_zero(const std::array<T, N>& coefficients) {
-  for (const T& c : coefficients) {
-    if (!c.is_zero()) return false;
-  }
-  return true;
+  return std::ranges::all_of(coefficients, [](const T& c) { return c.is_zero(); });
 }
 
 template <class T, std::size_t N>
