@@ -116,20 +116,16 @@ ProposedRoot proposed_root(const std::array<double, N>& c) {
   } else {
     a = {c[0], 2 * (c[1] - c[0]), (c[2] - c[1]) - (c[1] - c[0])};
   }
-  const auto evaluate = [&a](double x, double& derivative) {
+  double low = 0, high = 1;
+  double x = c.front() / (c.front() - c.back());
+  double derivative = 0;
+  for (int step = 0; step < 16; ++step) {
     double value = a[N - 1];
     derivative = 0;
     for (std::size_t i = N - 1; i-- > 0;) {
       derivative = derivative * x + value;
       value = value * x + a[i];
     }
-    return value;
-  };
-  double low = 0, high = 1;
-  double x = c.front() / (c.front() - c.back());
-  double derivative = 0;
-  for (int step = 0; step < 16; ++step) {
-    const double value = evaluate(x, derivative);
     ((value < 0) == (c.front() < 0) ? low : high) = x;
     double next = x - value / derivative;
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
