@@ -87,7 +87,7 @@ template <FeaturePair Pair, int Dim>
   counters.count(Stage::gmp);
   const auto first = first_contact(query);
   if (!first) return {};
-  return {Verdict::contact, {std::max(0.0, first->time.lower()), std::min(1.0, first->time.upper())}};
+  return {Verdict::contact, {first->time.lower(), first->time.upper()}};
 }
 
 template <FeaturePair Pair, int Dim>

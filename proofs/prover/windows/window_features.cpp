@@ -83,8 +83,7 @@ struct Lines {
     piece.end = end;
     const auto contact = first_contact(piece);
     if (!contact) return std::nullopt;
-    return enclosure_in_window({std::max(0.0, contact->time.lower()), std::min(1.0, contact->time.upper())}, begin,
-                               end);
+    return enclosure_in_window({contact->time.lower(), contact->time.upper()}, begin, end);
   }
 };
 
