@@ -53,12 +53,6 @@ auto place_at(const LinearPath<Dim>& path, double t, const Scale& scale) {
   return x;
 }
 
-/// A point over the piece, times its denominator.
-template <int Dim>
-MovingPoint<Dim> moving_point(const LinearPath<Dim>& path, double begin, double end, const Scale& scale) {
-  return {place_at(path, begin, scale), place_at(path, end, scale)};
-}
-
 inline Integer common_multiple(const Integer& a, const Integer& b) {
   Integer c;
   mpz_lcm(c.get(), a.get(), b.get());
@@ -89,7 +83,7 @@ IntegerMotion<Pair, Dim> integer_points(const MotionQuery<Pair, Dim>& query, dou
   Integer common(1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& path = query.paths[i];
-    points[i] = moving_point(path, query.begin, query.end, scale);
+    points[i] = {place_at(path, query.begin, scale), place_at(path, query.end, scale)};
     denominators[i] = scale.integer_time(path.t1) - scale.integer_time(path.t0);
     common = common_multiple(common, denominators[i]);
   }
