@@ -26,11 +26,10 @@ int hardware_threads();
 /// machine has no thread or memory left.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 
-/// Calls each(i) for each i in [0, count), consecutive ones together, which may not depend on each other: for many
-/// small items.
+/// Calls each(i) for each i in [0, count), `piece` consecutive ones together, which may not depend on each other: for
+/// many small items.
 template <class Each>
-void for_each_in_pieces(std::size_t count, int threads, const Each& each) {
-  constexpr std::size_t piece = 2048;
+void for_each_in_pieces(std::size_t count, int threads, const Each& each, std::size_t piece = 2048) {
   parallel_for((count + piece - 1) / piece, threads, [&](std::size_t p) {
     const std::size_t end = std::min(count, (p + 1) * piece);
     for (std::size_t i = p * piece; i < end; ++i) each(i);

@@ -128,14 +128,10 @@ void WindowBoxes<Dim>::fit(Group g, bool sheet) {
 
 template <int Dim>
 void WindowBoxes<Dim>::look_at_charts() {
-  constexpr std::size_t piece = 16;
   const Charts& charts = forest_.charts();
   monotone_.resize(charts.size());
-  parallel_for((charts.size() + piece - 1) / piece, threads_, [&](std::size_t p) {
-    for (std::size_t c = p * piece; c < std::min(charts.size(), (p + 1) * piece); ++c) {
-      monotone_[c] = chart_monotone(charts.faces(c)) ? 1 : 0;
-    }
-  });
+  const auto look = [&](std::size_t c) { monotone_[c] = chart_monotone(charts.faces(c)) ? 1 : 0; };
+  for_each_in_pieces(charts.size(), threads_, look, 16);
 }
 
 template <int Dim>
