@@ -111,11 +111,6 @@ PairSet pairs_within(const CellNames& a, CornerMask a_part, const CellNames& b, 
          detail::product(a_part, b_part) << detail::vertex_vertex_shift;
 }
 
-template <int Dim>
-PairSet pairs_within(const MovingCell<Dim>& a, CornerMask a_part, const MovingCell<Dim>& b, CornerMask b_part) {
-  return pairs_within<Dim>(static_cast<const CellNames&>(a), a_part, static_cast<const CellNames&>(b), b_part);
-}
-
 /// The pairs of features that belong to this pair of cells, or may: what the cells leave over, they may not be the only
 /// ones to leave over (Leftovers::counted_at).
 template <int Dim>
@@ -124,11 +119,6 @@ PairSet pairs_owned(const CellNames& a, const CellNames& b) {
                                               b.owned >> 3 & 7, b.corners == 3);
   const CellShape a_shape = shape_of(a), b_shape = shape_of(b);
   return few_vertices(a_shape, b_shape) ? pairs | detail::left_over<Dim>(a_shape, b_shape) : pairs;
-}
-
-template <int Dim>
-PairSet pairs_owned(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
-  return pairs_owned<Dim>(static_cast<const CellNames&>(a), static_cast<const CellNames&>(b));
 }
 
 /// One feature of a cell, by its corners; `size` of them count.

@@ -70,13 +70,6 @@ struct alignas(64) MovingCell : CellNames {
   /// In 3D: the normal of a face at mid-time, as rounding has it (a guess, never relied on); else zero.
   std::array<double, Dim> normal;
 
-  /// A corner.
-  std::array<BothEnds, Dim> ends(std::size_t corner) const {
-    std::array<BothEnds, Dim> at;
-    for (std::size_t k = 0; k < Dim; ++k) at[k] = BothEnds(x[0][k][corner], x[1][k][corner]);
-    return at;
-  }
-
   Point<Dim> position(int end, int corner) const {
     const auto& at = x[static_cast<std::size_t>(end)];
     const auto i = static_cast<std::size_t>(corner);
