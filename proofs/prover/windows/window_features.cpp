@@ -107,7 +107,10 @@ auto with_lines(const FeatureNames& features, const WorldLines& lines, int dimen
 
 TimeEnclosure enclosure_in_window(TimeEnclosure s, double begin, double end) {
   const double length = end - begin, slack = 0x1p-50 * std::max(std::abs(begin), std::abs(end)) + 0x1p-1021;
-  const auto at = [&](double x, double away) { return std::clamp(begin + x * length + away, begin, end); };
+  const auto at = [&](double x, double away) {
+    if (x == 0 || x == 1) return x == 0 ? begin : end;
+    return std::clamp(begin + x * length + away, begin, end);
+  };
   if (!std::isfinite(2 * length)) return {begin, end};
   return {s.begin == 0   ? begin
           : s.begin == 1 ? end
