@@ -3,34 +3,9 @@
 
 #include <algorithm>
 
+#include "proofs/prover/feature_pairs.h"
+
 namespace noli {
-
-namespace {
-
-template <FeaturePair Pair, int Dim>
-TimeOfImpact time_of(const FeatureContact& contact, const ExactlyInStep& step) {
-  Query<Pair, Dim> query;
-  for (std::size_t i = 0; i < query.size; ++i) {
-    std::copy_n(step.x_t0[contact.vertices[i]].begin(), Dim, query.x_t0[i].begin());
-    std::copy_n(step.x_t1[contact.vertices[i]].begin(), Dim, query.x_t1[i].begin());
-  }
-  return first_contact(query).value().time;
-}
-
-TimeOfImpact time_of(const FeatureContact& contact, const ExactlyInStep& step) {
-  switch (contact.pair) {
-    case FeaturePair::vertex_face: return time_of<FeaturePair::vertex_face, 3>(contact, step);
-    case FeaturePair::edge_edge: return time_of<FeaturePair::edge_edge, 3>(contact, step);
-    case FeaturePair::vertex_edge:
-      return step.dimension == 2 ? time_of<FeaturePair::vertex_edge, 2>(contact, step)
-                                 : time_of<FeaturePair::vertex_edge, 3>(contact, step);
-    case FeaturePair::vertex_vertex: break;
-  }
-  return step.dimension == 2 ? time_of<FeaturePair::vertex_vertex, 2>(contact, step)
-                             : time_of<FeaturePair::vertex_vertex, 3>(contact, step);
-}
-
-}  // namespace
 
 bool canonical_less(const FeatureContact& a, const FeatureContact& b) {
   return a.pair != b.pair ? a.pair < b.pair : a.vertices < b.vertices;
@@ -52,7 +27,15 @@ FeatureContact canonical(FeaturePair pair, const std::array<VertexId, 4>& vertic
 }
 
 ContactAtTime ExactlyInStep::operator()(const FeatureContact& contact) const {
-  ContactAtTime exact{contact, time_of(contact, *this)};
+  const auto time_of = [&]<FeaturePair Pair, int Dim>() {
+    Query<Pair, Dim> query;
+    for (std::size_t i = 0; i < query.size; ++i) {
+      std::copy_n(x_t0[contact.vertices[i]].begin(), Dim, query.x_t0[i].begin());
+      std::copy_n(x_t1[contact.vertices[i]].begin(), Dim, query.x_t1[i].begin());
+    }
+    return first_contact(query).value().time;
+  };
+  ContactAtTime exact{contact, with_pair(contact.pair, dimension, time_of)};
   exact.contact.first = {exact.time.lower(), exact.time.upper()};
   return exact;
 }

@@ -187,6 +187,22 @@ bool counted_here(PairSet set, const MovingCell<Dim>& a, const MovingCell<Dim>& 
   return leftovers.counted_at(vertex_edge_pair(v[0], {v[1], v[2]}), a.cell, b.cell);
 }
 
+/// Calls ask<Pair, Dim>() for a pair of features in so many dimensions.
+template <class Ask>
+auto with_pair(FeaturePair pair, int dimension, const Ask& ask) {
+  using enum FeaturePair;
+  switch (pair) {
+    case vertex_face: return ask.template operator()<vertex_face, 3>();
+    case edge_edge: return ask.template operator()<edge_edge, 3>();
+    case vertex_edge:
+      if (dimension == 2) return ask.template operator()<vertex_edge, 2>();
+      return ask.template operator()<vertex_edge, 3>();
+    case vertex_vertex: break;
+  }
+  if (dimension == 2) return ask.template operator()<vertex_vertex, 2>();
+  return ask.template operator()<vertex_vertex, 3>();
+}
+
 /// The kernel's query for a pair of features.
 template <FeaturePair Pair, int Dim>
 Query<Pair, Dim> query_of(const FeatureQuestion<Dim>& question) {

@@ -14,26 +14,12 @@
 #pragma once
 
 #include "proofs/prover/cells/direction_search.h"
-#include "proofs/prover/earliest.h"
 #include "proofs/prover/feature_pairs.h"
+#include "proofs/prover/tally.h"
 #include "proofs/prover/windows/window_cell.h"
 #include "proofs/prover/windows/window_features.h"
-#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
-
-/// Decides contacts of a window exactly. The lines must outlive this.
-struct ExactlyInWindow {
-  const WorldLines* lines;
-  int dimension;
-
-  FirstInWindow operator()(const FeatureContact& contact) const {
-    ExactContact exact = exact_contact({contact.pair, contact.vertices}, *lines, dimension, contact.first);
-    FirstInWindow first{contact, exact.kind, std::move(exact.time)};
-    first.contact.first = {first.time.lower(), first.time.upper()};
-    return first;
-  }
-};
 
 /// What one task of the verification of a window has found.
 using WindowTally = TallyWith<EarliestOf<ExactlyInWindow>>;
@@ -151,7 +137,7 @@ class Pieces {
       return s ? std::optional(enclosure_in_window(*s, piece.begin, piece.end)) : std::nullopt;
     }
     tally.stages.count(Stage::gmp);
-    return meet_in_piece({question.pair, question.vertices()}, lines_, Dim, piece.begin, piece.end);
+    return meet_in_piece(question.pair, question.vertices(), lines_, Dim, piece.begin, piece.end);
   }
 
   const WorldLines& lines_;

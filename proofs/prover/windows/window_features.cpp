@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernel/motion.h"
+#include "proofs/prover/feature_pairs.h"
 #include "proofs/prover/windows/chord.h"
 
 namespace noli {
@@ -20,6 +21,12 @@ LinearPath<Dim> path_of(const WorldLine& line, std::size_t segment) {
   std::copy_n(line.x[segment + 1].begin(), Dim, path.x_t1.begin());
   return path;
 }
+
+/// The first time at which two features meet, and how.
+struct TimeAndKind {
+  Moment time;
+  ContactKind kind;
+};
 
 /// A pair of features and the lines of its vertices.
 template <FeaturePair Pair, int Dim>
@@ -53,17 +60,17 @@ struct Lines {
     return {{lines.first_time(), lines.last_time()}, begin, end, s};
   }
 
-  ExactContact at_border(double t) const {
-    const Moment time = moment(lines.first_time(), lines.last_time(), TimeOfImpact());
+  TimeAndKind at_border(double t) const {
     if (t == lines.last_time()) {
       return {moment(lines.first_time(), t, TimeOfImpact::from_double(1)), ContactKind::touching};
     }
     const auto after = piece_after(t);
-    if (t == lines.first_time()) return {time, first_contact(after).value().kind};
+    if (t == lines.first_time())
+      return {moment(t, lines.last_time(), TimeOfImpact()), first_contact(after).value().kind};
     return {moment(t, after.end, TimeOfImpact()), kind_at_border(piece_before(t), after)};
   }
 
-  ExactContact contact_from(double t) const {
+  TimeAndKind contact_from(double t) const {
     while (t < lines.last_time()) {
       const auto piece = piece_after(t);
       const auto contact = first_contact(piece);
@@ -87,22 +94,6 @@ struct Lines {
   }
 };
 
-/// Calls ask(Lines<Pair, Dim>).
-template <class Ask>
-auto with_lines(const FeatureNames& features, const WorldLines& lines, int dimension, const Ask& ask) {
-  using enum FeaturePair;
-  switch (features.pair) {
-    case vertex_face: return ask(Lines<vertex_face, 3>{features.vertices, lines});
-    case edge_edge: return ask(Lines<edge_edge, 3>{features.vertices, lines});
-    case vertex_edge:
-      if (dimension == 2) return ask(Lines<vertex_edge, 2>{features.vertices, lines});
-      return ask(Lines<vertex_edge, 3>{features.vertices, lines});
-    case vertex_vertex: break;
-  }
-  if (dimension == 2) return ask(Lines<vertex_vertex, 2>{features.vertices, lines});
-  return ask(Lines<vertex_vertex, 3>{features.vertices, lines});
-}
-
 }  // namespace
 
 TimeEnclosure enclosure_in_window(TimeEnclosure s, double begin, double end) {
@@ -112,21 +103,23 @@ TimeEnclosure enclosure_in_window(TimeEnclosure s, double begin, double end) {
     return std::clamp(begin + x * length + away, begin, end);
   };
   if (!std::isfinite(2 * length)) return {begin, end};
-  return {s.begin == 0   ? begin
-          : s.begin == 1 ? end
-                         : at(s.begin, -slack),
-          s.end == 0   ? begin
-          : s.end == 1 ? end
-                       : at(s.end, slack)};
+  return {at(s.begin, -slack), at(s.end, slack)};
 }
 
-std::optional<TimeEnclosure> meet_in_piece(const FeatureNames& features, const WorldLines& lines, int dimension,
-                                           double begin, double end) {
-  return with_lines(features, lines, dimension, [&](const auto& pair) { return pair.meet_between(begin, end); });
+std::optional<TimeEnclosure> meet_in_piece(FeaturePair pair, const std::array<VertexId, 4>& vertices,
+                                           const WorldLines& lines, int dimension, double begin, double end) {
+  return with_pair(pair, dimension, [&]<FeaturePair Pair, int Dim>() {
+    return Lines<Pair, Dim>{vertices, lines}.meet_between(begin, end);
+  });
 }
 
-ExactContact exact_contact(const FeatureNames& features, const WorldLines& lines, int dimension, TimeEnclosure first) {
-  return with_lines(features, lines, dimension, [&](const auto& pair) { return pair.contact_from(first.begin); });
+FirstInWindow ExactlyInWindow::operator()(const FeatureContact& contact) const {
+  TimeAndKind exact = with_pair(contact.pair, dimension, [&]<FeaturePair Pair, int Dim>() {
+    return Lines<Pair, Dim>{contact.vertices, *lines}.contact_from(contact.first.begin);
+  });
+  FirstInWindow first{contact, exact.kind, std::move(exact.time)};
+  first.contact.first = {first.time.lower(), first.time.upper()};
+  return first;
 }
 
 }  // namespace noli

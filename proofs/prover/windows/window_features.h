@@ -12,32 +12,26 @@
 
 #include <noli/query.h>
 #include <noli/time_of_impact.h>
-#include "kernel/moment.h"
-#include "proofs/prover/verifier.h"
+#include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/world_lines.h"
 
 namespace noli {
 
-/// A pair of features by its vertices, as in FeatureContact.
-struct FeatureNames {
-  FeaturePair pair;
-  std::array<VertexId, 4> vertices;
-};
-
 /// The time t = begin + s (end - begin) for s in an enclosure, enclosed.
 TimeEnclosure enclosure_in_window(TimeEnclosure s, double begin, double end);
 
-/// Whether, and when, the features first meet in the piece [begin, end], in the unit of the lines.
-std::optional<TimeEnclosure> meet_in_piece(const FeatureNames& features, const WorldLines& lines, int dimension,
-                                           double begin, double end);
+/// Whether, and when, two features first meet in the piece [begin, end], in the unit of the lines. `vertices`: as in
+/// FeatureContact.
+std::optional<TimeEnclosure> meet_in_piece(FeaturePair pair, const std::array<VertexId, 4>& vertices,
+                                           const WorldLines& lines, int dimension, double begin, double end);
 
-/// The first time at which two features meet, and how.
-struct ExactContact {
-  Moment time;
-  ContactKind kind;
+/// Decides contacts of a window exactly. The lines must outlive this.
+struct ExactlyInWindow {
+  const WorldLines* lines;
+  int dimension;
+
+  /// Precondition: the features first meet within contact.first.
+  FirstInWindow operator()(const FeatureContact& contact) const;
 };
-
-/// Precondition: the features first meet within `first`.
-ExactContact exact_contact(const FeatureNames& features, const WorldLines& lines, int dimension, TimeEnclosure first);
 
 }  // namespace noli
