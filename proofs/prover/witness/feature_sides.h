@@ -45,10 +45,9 @@ inline std::vector<VertexId> chosen(std::span<const VertexId> all, unsigned mask
 
 /// Of what kind they are; nothing if they are none that is looked at: p has no more vertices than q.
 inline std::optional<FeaturePair> pair_of(const FeatureSides& s) {
-  if (s.p.size() == 1 && s.q.size() == 3) return FeaturePair::vertex_face;
-  if (s.p.size() == 2 && s.q.size() == 2) return FeaturePair::edge_edge;
-  if (s.p.size() == 1 && s.q.size() == 2) return FeaturePair::vertex_edge;
-  if (s.p.size() == 1 && s.q.size() == 1) return FeaturePair::vertex_vertex;
+  for (const FeaturePair pair : all_feature_pairs) {
+    if (s.p.size() == first_size(pair) && s.q.size() == second_size(pair)) return pair;
+  }
   return std::nullopt;
 }
 

@@ -60,14 +60,8 @@ using Sides = FeatureSides;
 
 /// The two features of a contact.
 Sides sides_of(const FeatureContact& contact) {
-  const auto& v = contact.vertices;
-  switch (contact.pair) {
-    case FeaturePair::vertex_face: return {{v[0]}, {v[1], v[2], v[3]}};
-    case FeaturePair::edge_edge: return {{v[0], v[1]}, {v[2], v[3]}};
-    case FeaturePair::vertex_edge: return {{v[0]}, {v[1], v[2]}};
-    case FeaturePair::vertex_vertex: return {{v[0]}, {v[1]}};
-  }
-  return {};
+  const auto p = contact.vertices.begin(), q = p + first_size(contact.pair);
+  return {{p, q}, {q, q + second_size(contact.pair)}};
 }
 
 /// 1: f is positive at the root of g, and none of its Bernstein coefficients is negative on the enclosure that is left
