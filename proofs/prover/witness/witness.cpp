@@ -100,7 +100,7 @@ class Search {
   std::optional<std::string> of_features(const FeatureContact& contact) {
     const Sides sides = sides_of(contact);
     const auto of_p = cells_with(sides.p), of_q = cells_with(sides.q);
-    if (!choose_cells(of_p, of_q)) return std::nullopt;
+    if (!any_cells(of_p, of_q, [](auto, auto) { return true; })) return std::nullopt;
     const Integer begin = motion_.fraction(contact.first.begin, false), end = motion_.fraction(contact.first.end, true);
     if (!during(sides, begin, end) && !during(sides, part_of_step(0), part_of_step(1))) at_some_time(of_p, of_q);
     return std::move(payload_);
@@ -149,12 +149,14 @@ class Search {
 
   bool compared(std::uint32_t i, std::uint32_t j) const { return (i != j || step_.strict) && step_.compares(i, j); }
 
-  bool choose_cells(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q) {
+  /// Takes one pair of cells that are compared after another, until take(i, j), and says whether it did.
+  template <class Take>
+  bool any_cells(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q, const Take& take) {
     for (const std::uint32_t i : of_p) {
       for (const std::uint32_t j : of_q) {
         if (!compared(i, j)) continue;
         cells_ = {i, j};
-        return true;
+        if (take(i, j)) return true;
       }
     }
     return false;
@@ -357,18 +359,14 @@ class Search {
   }
 
   /// Cells that have the features, at rest at some times of the step.
-  bool at_some_time(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q) {
-    for (int k = 0; k <= 16; ++k) {
+  void at_some_time(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q) {
+    bool found = false;
+    for (int k = 0; k <= 16 && !found; ++k) {
       const Integer at = part_of_step(k / 16.0);
-      for (const std::uint32_t i : of_p) {
-        for (const std::uint32_t j : of_q) {
-          if (i == j || !compared(i, j)) continue;
-          cells_ = {i, j};
-          if (at_rest({vertices_of(step_.mesh, i), vertices_of(step_.mesh, j)}, at)) return true;
-        }
-      }
+      found = any_cells(of_p, of_q, [&](std::uint32_t i, std::uint32_t j) {
+        return i != j && at_rest({vertices_of(step_.mesh, i), vertices_of(step_.mesh, j)}, at);
+      });
     }
-    return false;
   }
 
   /// Whether two sides meet at a time: some of their vertices have just one way to do so.
