@@ -121,15 +121,6 @@ void assign_edges(const Mesh& mesh, CellFeatures& features) {
   assign_all<2>(mesh.vertex_count, visit, features);
 }
 
-/// The corners of a cell in ascending order; a loose edge or point repeats its last one.
-std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count) {
-  if (v[1] < v[0]) std::swap(v[0], v[1]);
-  if (count < 3) return {v[0], v[1], v[1]};
-  if (v[2] < v[1]) std::swap(v[1], v[2]);
-  if (v[1] < v[0]) std::swap(v[0], v[1]);
-  return v;
-}
-
 /// Marks the listed ones among the cells [first, last), all of one kind.
 void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFeatures& features) {
   if (first == last) return;
@@ -143,6 +134,14 @@ void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFea
 }
 
 }  // namespace
+
+std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count) {
+  if (v[1] < v[0]) std::swap(v[0], v[1]);
+  if (count < 3) return {v[0], v[1], v[1]};
+  if (v[2] < v[1]) std::swap(v[1], v[2]);
+  if (v[1] < v[0]) std::swap(v[0], v[1]);
+  return v;
+}
 
 CellFeatures find_owners(const Mesh& mesh, bool list_cells) {
   const std::size_t faces = mesh.faces.size(), edges = mesh.edges.size();

@@ -47,6 +47,9 @@ inline std::array<VertexId, 3> corners(const Mesh& mesh, std::uint32_t cell) {
   return {v, v, v};
 }
 
+/// The corners of a cell in ascending order; a loose edge or point repeats its last one.
+std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count);
+
 /// Finds the owners; which cells are listed only if that is asked for (for a strict verification; else none is).
 /// A vertex or edge that a cell has twice counts once, at its first place. Time and memory linear in the mesh (if no
 /// vertex has more than a few cells).

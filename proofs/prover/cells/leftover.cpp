@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "proofs/prover/cells/features.h"
+
 namespace noli {
 
 namespace {
@@ -87,11 +89,7 @@ std::optional<Leftovers::CellPair> Leftovers::place_of(const SmallPair& pair) co
 }
 
 Leftovers::Key Leftovers::key_of(const CellShape& shape) {
-  VertexId x = shape.vertices[0], y = shape.vertices[1], z = shape.vertices[2];
-  if (y < x) std::swap(x, y);
-  if (shape.corners < 3) return {shape.corners, x, y, y};
-  if (z < y) std::swap(y, z);
-  if (y < x) std::swap(x, y);
+  const auto [x, y, z] = ascending(shape.vertices, shape.corners);
   return {shape.corners, x, y, z};
 }
 
