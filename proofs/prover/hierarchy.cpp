@@ -12,27 +12,17 @@ namespace noli {
 
 namespace {
 
-/// Least and greatest coordinates, per axis.
-struct Bounds {
-  Position low, high;
-};
-
-Bounds bounds_of(std::span<const Position> x) {
-  Bounds bounds = {x[0], x[0]};
-  for (const Position& p : x) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      bounds.low[k] = std::min(bounds.low[k], p[k]);
-      bounds.high[k] = std::max(bounds.high[k], p[k]);
-    }
-  }
-  return bounds;
-}
-
 /// One map for each axis.
 std::array<Phi, 3> maps_for(std::span<const Position> x) {
-  const Bounds bounds = bounds_of(x);
+  Position low = x[0], high = x[0];
+  for (const Position& p : x) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
   std::array<Phi, 3> maps;
-  for (std::size_t k = 0; k < 3; ++k) maps[k] = Phi::onto_unit(bounds.low[k], bounds.high[k]);
+  for (std::size_t k = 0; k < 3; ++k) maps[k] = Phi::onto_unit(low[k], high[k]);
   return maps;
 }
 
