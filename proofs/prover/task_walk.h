@@ -78,7 +78,7 @@ class TaskWalk {
     outcomes_.resize(tasks_.size());
   }
 
-  /// Settles the tasks; calls done(task) behind each, from any thread.
+  /// Settles the tasks; calls done(task) behind each, from any thread. Then adds all up.
   template <class Done>
   void run(const Done& done) {
     parallel_for(tasks_.size(), options_.threads, [&](std::size_t i) {
@@ -86,7 +86,10 @@ class TaskWalk {
       run_task(i);
       done(i);
     });
-    add_up();
+    for (std::size_t i = 0; i < outcomes_.size() && i <= first_found_; ++i) {
+      top_.tally += outcomes_[i]->tally;
+      top_.finished = top_.finished && outcomes_[i]->finished;
+    }
   }
 
   /// The tally is that of all; the tokens are those of the top, behind which each task has its place.
@@ -106,13 +109,6 @@ class TaskWalk {
   void lower_first_found(std::size_t i) {
     std::size_t before = first_found_;
     while (i < before && !first_found_.compare_exchange_weak(before, i)) {
-    }
-  }
-
-  void add_up() {
-    for (std::size_t i = 0; i < outcomes_.size() && i <= first_found_; ++i) {
-      top_.tally += outcomes_[i]->tally;
-      top_.finished = top_.finished && outcomes_[i]->finished;
     }
   }
 
