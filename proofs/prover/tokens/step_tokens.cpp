@@ -5,41 +5,24 @@
 
 namespace noli {
 
-namespace {
-
-/// The vertices of both parts, numbered anew.
-class FewVertices {
- public:
-  template <int Dim>
-  ProofCell add(const StepCell<Dim>& cell, CornerMask part) {
+template <int Dim>
+std::optional<Tokens> prove_apart(const OpenParts<Dim>& parts, const StopSignal& stop) {
+  std::vector<Position> x_t0, x_t1;  // of the vertices of both parts, numbered anew
+  const auto add = [&](const StepCell<Dim>& cell, CornerMask part) {
     ProofCell result;
     for (std::size_t i = 0; i < cell.corners; ++i) {
       if ((part >> i & 1) == 0) continue;
-      Position x_t0{}, x_t1{};
+      result.add(static_cast<VertexId>(x_t0.size()));
+      Position &at_t0 = x_t0.emplace_back(), &at_t1 = x_t1.emplace_back();
       for (std::size_t k = 0; k < Dim; ++k) {
-        x_t0[k] = cell.x(i)[k].at_t0();
-        x_t1[k] = cell.x(i)[k].at_t1();
+        at_t0[k] = cell.x(i)[k].at_t0();
+        at_t1[k] = cell.x(i)[k].at_t1();
       }
-      result.vertices[result.corners++] = static_cast<VertexId>(x_t0_.size());
-      x_t0_.push_back(x_t0);
-      x_t1_.push_back(x_t1);
     }
     return result;
-  }
-
-  WorldLines lines() const { return WorldLines::from_frames(x_t0_, x_t1_); }
-
- private:
-  std::vector<Position> x_t0_, x_t1_;
-};
-
-}  // namespace
-
-template <int Dim>
-std::optional<Tokens> prove_apart(const OpenParts<Dim>& parts, const StopSignal& stop) {
-  FewVertices vertices;
-  const ProofCell a = vertices.add(*parts.a, parts.a_part), b = vertices.add(*parts.b, parts.b_part);
-  const WorldLines lines = vertices.lines();
+  };
+  const ProofCell a = add(*parts.a, parts.a_part), b = add(*parts.b, parts.b_part);
+  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
   ProofParts<Dim> prover(lines, {Integer(0), 0}, 0, nullptr, stop);
   Tokens tokens;
   try {
