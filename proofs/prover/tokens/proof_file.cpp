@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "kernel/arithmetic/scaled_integers.h"
 #include "proofs/prover/cells/features.h"
 #include "trajectory/blocks/bytes.h"
 
@@ -77,24 +76,21 @@ Sha256Digest breakpoints_hash(const WorldLines& lines, int dimension, double shi
   return hash.digest();
 }
 
-/// The units of a step's numbers.
-struct StepUnits {
-  exact::ExponentRange space, time;
-
-  StepUnits(const WorldLines& lines, int dimension, double shift, double eta) {
-    space.add(eta);
-    for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
-      for (const double t : lines.times(static_cast<VertexId>(v))) time.add(t + shift);
-      for (const Position& x : lines.positions(static_cast<VertexId>(v))) {
-        for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) space.add(x[k]);
-      }
-    }
-  }
-};
-
 std::int32_t unit(const exact::ExponentRange& range) { return range.high < range.low ? 0 : range.low; }
 
 }  // namespace
+
+motion::Scale units_of(const WorldLines& lines, int dimension, double shift, double eta) {
+  motion::Scale units;
+  units.space.add(eta);
+  for (VertexId v = 0; v < lines.vertex_count(); ++v) {
+    for (const double t : lines.times(v)) units.time.add(t + shift);
+    for (const Position& x : lines.positions(v)) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) units.space.add(x[k]);
+    }
+  }
+  return units;
+}
 
 ProofFile::ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header)
     : blocks_(std::move(sink), content), dimension_(header.dimension), eta_(header.eta) {
@@ -113,7 +109,7 @@ void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& li
 
 void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
                            const Sha256Digest& hash) {
-  const StepUnits units(lines, dimension_, shift, eta_);
+  const motion::Scale units = units_of(lines, dimension_, shift, eta_);
   std::string bytes;
   put(bytes, number);
   put(bytes, lines.first_time() + shift);

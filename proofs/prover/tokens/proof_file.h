@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "kernel/motion_points.h"
 #include "proofs/prover/cells/labels.h"
 #include "proofs/prover/tokens/tokens.h"
 #include "trajectory/blocks/block_file.h"
@@ -36,6 +37,9 @@ struct ProofHeader {
 
 /// Of the cells with their labels, as the claim has it.
 Sha256Digest cells_hash(const ProofHeader& header);
+
+/// The units of a step's numbers, of which one is eta. `shift`: added to all times of the lines.
+motion::Scale units_of(const WorldLines& lines, int dimension, double shift, double eta);
 
 class ProofFile {
  public:

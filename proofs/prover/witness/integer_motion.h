@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kernel/motion_points.h"
+#include "proofs/prover/tokens/proof_file.h"
 #include "proofs/prover/witness/dependency.h"
 #include "trajectory/world_lines.h"
 
@@ -27,15 +28,10 @@ class IntegerMotion {
 
   /// `shift`: added to all times, exactly; `eta`: a length that is to be an integer too.
   IntegerMotion(const WorldLines& lines, double shift, int dimension, double eta)
-      : lines_(lines), shift_(shift), dimension_(static_cast<std::size_t>(dimension)) {
-    for (VertexId v = 0; v < lines.vertex_count(); ++v) {
-      for (const double t : lines.times(v)) scale_.time.add(t + shift);
-      for (const Position& p : lines.positions(v)) {
-        for (std::size_t k = 0; k < dimension_; ++k) scale_.space.add(p[k]);
-      }
-    }
-    scale_.space.add(eta);
-  }
+      : lines_(lines),
+        shift_(shift),
+        dimension_(static_cast<std::size_t>(dimension)),
+        scale_(units_of(lines, dimension, shift, eta)) {}
 
   std::size_t dimension() const { return dimension_; }
   const WorldLines& lines() const { return lines_; }
