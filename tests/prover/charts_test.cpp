@@ -13,7 +13,7 @@ namespace noli::testing {
 namespace {
 
 Forest forest_of(const Surface& surface, int dimension = 3) {
-  ForestOptions options;
+  WindowOptions options;
   options.dimension = dimension;
   return {surface.mesh, surface.x, options};
 }

@@ -139,7 +139,7 @@ std::vector<std::uint32_t> rest_of(const Mesh& mesh, const Sheets& parts) {
 
 }  // namespace
 
-Forest::Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options)
+Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options)
     : exclusions_(options.exclusions != nullptr ? *options.exclusions : Exclusions{}),
       leftovers_(mesh.cell_count(),
                  [this](std::size_t i) {

@@ -27,6 +27,7 @@
 #include "proofs/prover/cells/moving_cell.h"
 #include "proofs/prover/windows/charts.h"
 #include "proofs/prover/windows/monotone.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 
@@ -56,17 +57,11 @@ struct Tree {
   std::vector<VertexId> vertices;  ///< those of its cells, ascending
 };
 
-struct ForestOptions {
-  int dimension = 3;
-  bool strict = false;                     ///< as in VerifyOptions
-  std::span<const std::uint8_t> scripted;  ///< as in WindowOptions
-  const Exclusions* exclusions = nullptr;  ///< as in WindowOptions
-};
-
-/// Preconditions: as WindowVerifier; `x` has a position for each vertex; at least one cell.
+/// Preconditions: as WindowVerifier, which also says what counts of the options; `x` has a position for each vertex; at
+/// least one cell.
 class Forest {
  public:
-  Forest(const Mesh& mesh, std::span<const Position> x, const ForestOptions& options);
+  Forest(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options);
 
   /// Sheets first.
   const std::vector<Tree>& trees() const { return trees_; }

@@ -127,8 +127,7 @@ class Verification {
 WindowVerifier::WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options)
     : dimension_(options.dimension), strict_(options.strict) {
   if (mesh.cell_count() == 0) return;
-  forest_ =
-      std::make_unique<const Forest>(mesh, x, ForestOptions{dimension_, strict_, options.scripted, options.exclusions});
+  forest_ = std::make_unique<const Forest>(mesh, x, options);
 }
 
 WindowVerifier::~WindowVerifier() = default;
