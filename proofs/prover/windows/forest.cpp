@@ -167,7 +167,7 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOption
       const std::uint32_t cell = entries[i].cell;
       leaves_.push_back({names_of(mesh, features, cell), labels[cell]});
     }
-    add_tree(sheet, part, begin, entries.size());
+    add_tree(sheet, part, begin);
   };
   for (const auto& faces : parts.faces) grow(faces, true, true);
   for (const Leaf& leaf : leaves_) {
@@ -209,15 +209,14 @@ void Forest::make_charts(const Mesh& mesh, std::span<const Position> x, int dime
   charts_.emplace(mesh, x, dimension, cells, roots);
 }
 
-void Forest::add_tree(bool sheet, bool part, std::size_t begin, std::size_t end) {
-  Tree tree;
-  tree.sheet = sheet;
-  tree.part = part;
-  tree.root = {static_cast<std::uint32_t>(labels_.size()), static_cast<std::uint32_t>(begin),
-               static_cast<std::uint32_t>(end - begin)};
-  labels_.resize(labels_.size() + 2 * (end - begin) - 1);
+void Forest::add_tree(bool sheet, bool part, std::size_t begin) {
+  const std::size_t count = leaves_.size() - begin;
+  const Group root = {static_cast<std::uint32_t>(labels_.size()), static_cast<std::uint32_t>(begin),
+                      static_cast<std::uint32_t>(count)};
+  Tree tree{root, sheet, part, {}};
+  labels_.resize(labels_.size() + 2 * count - 1);
   if (sheet) extents_.resize(labels_.size());
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t i = begin; i < leaves_.size(); ++i) {
     tree.vertices.insert(tree.vertices.end(), leaves_[i].vertices.begin(), leaves_[i].vertices.end());
   }
   std::sort(tree.vertices.begin(), tree.vertices.end());

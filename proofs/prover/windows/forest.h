@@ -95,7 +95,7 @@ class Forest {
  private:
   static constexpr std::uint32_t no_label = ~std::uint32_t{0};
 
-  void add_tree(bool sheet, bool part, std::size_t begin, std::size_t end);
+  void add_tree(bool sheet, bool part, std::size_t begin);
   void finish(Group g, std::span<const Point2> layout, bool sheet);
   void make_charts(const Mesh& mesh, std::span<const Position> x, int dimension);
 
