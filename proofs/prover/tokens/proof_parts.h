@@ -168,32 +168,6 @@ class ProofParts {
     return gap_above(p.q[0]) > bound && gap_above(p.q[1]) > bound;
   }
 
-  template <class ChordOf>
-  static Pair pair_over(const Part& a, const Part& b, const ChordOf& chord) {
-    Pair pair;
-    double margin_a = 0, margin_b = 0;
-    const auto origin = chord(a.cell.vertices[static_cast<std::size_t>(std::countr_zero(a.mask))]).x_t0;
-    const auto origin_t1 = chord(a.cell.vertices[static_cast<std::size_t>(std::countr_zero(a.mask))]).x_t1;
-    const auto put = [&](const Part& part, std::size_t lane, double& margin) {
-      const auto& lanes = detail::lanes_of(part.mask);
-      for (std::size_t l = 0; l < 4; ++l) {
-        const auto& c = chord(part.cell.vertices[lanes[l]]);
-        for (std::size_t k = 0; k < Dim; ++k) {
-          pair.points.d[0][k][lane + l] = c.x_t0[k] - origin[k];
-          pair.points.d[1][k][lane + l] = c.x_t1[k] - origin_t1[k];
-          margin = std::max(margin, c.radius[k]);
-        }
-      }
-    };
-    put(a, 0, margin_a);
-    put(b, 4, margin_b);
-    pair.strays = margin_a + margin_b;
-    pair.exact = pair.strays == 0;
-    pair.points.reach = detail::reach_of<Dim>(pair.points.d);
-    if (!pair.exact) pair.points.reach = raised(pair.points.reach, margin_a + margin_b);
-    return pair;
-  }
-
   std::optional<Direction<Dim>> find(const Pair& pair, const Interval& interval) const {
     return find_direction<Dim>(pair.points, between_middles(pair.points), interval, search_rounds,
                                [&](const Direction<Dim>& n) { return bound_of(pair, n); });
@@ -241,21 +215,38 @@ class ProofParts {
   std::optional<Pair> pair_in(const Part& a, const Part& b, const Piece& piece) const {
     const auto times = piece.times(lines_);
     if (!times) return std::nullopt;
-    std::array<Chord<Dim>, 6> chords;
-    std::array<VertexId, 6> ids;
-    std::size_t n = 0;
-    for (const Part* part : {&a, &b}) {
-      for (std::size_t i = 0; i < part->cell.corners; ++i) {
-        if (!part->has(i)) continue;
-        ids[n] = part->cell.vertices[i];
-        chords[n] = chord_of<Dim>(WorldLine(lines_, ids[n]), times->begin, times->end);
-        ++n;
+    const CornerChords of_a = chords_over(a, *times), of_b = chords_over(b, *times);
+    const Chord<Dim>& origin = of_a[static_cast<std::size_t>(std::countr_zero(a.mask))];
+    Pair pair;
+    const auto put = [&](CornerMask mask, const CornerChords& chords, std::size_t lane) {
+      double margin = 0;
+      const auto& lanes = detail::lanes_of(mask);
+      for (std::size_t l = 0; l < 4; ++l) {
+        const Chord<Dim>& c = chords[lanes[l]];
+        for (std::size_t k = 0; k < Dim; ++k) {
+          pair.points.d[0][k][lane + l] = c.x_t0[k] - origin.x_t0[k];
+          pair.points.d[1][k][lane + l] = c.x_t1[k] - origin.x_t1[k];
+          margin = std::max(margin, c.radius[k]);
+        }
       }
+      return margin;
+    };
+    pair.strays = put(a.mask, of_a, 0) + put(b.mask, of_b, 4);
+    pair.exact = pair.strays == 0;
+    pair.points.reach = detail::reach_of<Dim>(pair.points.d);
+    if (!pair.exact) pair.points.reach = raised(pair.points.reach, pair.strays);
+    return pair;
+  }
+
+  /// By corner; meaningless for one that is not in the part.
+  using CornerChords = std::array<Chord<Dim>, 3>;
+
+  CornerChords chords_over(const Part& part, Span times) const {
+    CornerChords chords;
+    for (std::size_t i = 0; i < part.cell.corners; ++i) {
+      if (part.has(i)) chords[i] = chord_of<Dim>(WorldLine(lines_, part.cell.vertices[i]), times.begin, times.end);
     }
-    return pair_over(a, b, [&](VertexId v) -> const Chord<Dim>& {
-      return chords[static_cast<std::size_t>(std::find(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(n), v) -
-                                             ids.begin())];
-    });
+    return chords;
   }
 
   /// As few bits as separate by the same test.
