@@ -77,7 +77,7 @@ class ProofParts {
   /// Writes the tokens for parts of two cells that have no vertex in common; not all of them if it was stopped. Throws
   /// TooNear, NoProof.
   void settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b, Tokens& tokens) {
-    known_ = false;
+    last_ = std::nullopt;
     first_cell_ = i;
     second_cell_ = j;
     distance_ = eta_;
@@ -116,11 +116,7 @@ class ProofParts {
 
   /// Whether a direction is found for the whole span.
   bool closed_at_once(const Pair& pair, Tokens& tokens) {
-    if (known_ && above(pair, last_, {})) {
-      write(pair, last_, {}, tokens);
-      return true;
-    }
-    const auto n = find(pair, {});
+    const auto n = last_ && above(pair, *last_, {}) ? last_ : find(pair, {});
     if (n) write(pair, *n, {}, tokens);
     return n.has_value();
   }
@@ -251,7 +247,6 @@ class ProofParts {
 
   /// As few bits as separate by the same test.
   void write(const Pair& pair, const Direction<Dim>& n, const Interval& interval, Tokens& tokens) {
-    known_ = true;
     last_ = n;
     put_direction(
         n, [&](const Direction<Dim>& m) { return above(pair, m, interval); }, tokens);
@@ -385,8 +380,7 @@ class ProofParts {
   bool stopped_ = false;
   double distance_ = 0;  ///< eta_, or 0 where parts need only be disjoint
   std::uint32_t first_cell_ = 0, second_cell_ = 0;
-  bool known_ = false;  ///< last_ separated two parts of the same cells
-  Direction<Dim> last_{};
+  std::optional<Direction<Dim>> last_;  ///< has separated two parts of the same cells
 };
 
 }  // namespace noli
