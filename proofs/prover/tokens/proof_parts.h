@@ -265,12 +265,12 @@ class ProofParts {
     std::span<const Position> positions;
   };
 
-  /// Times of the step as whole numbers of one unit, 2^(low - e).
+  /// Times of the step as whole numbers of one unit, 2^(range.low - e).
   struct Unit {
-    int low;
+    exact::ExponentRange range;
     unsigned e;
 
-    Integer operator()(double t) const { return scaled_integer(t, low) << e; }
+    Integer operator()(double t) const { return exact::coordinate<Integer>(t, range) << e; }
   };
 
   /// At both ends of the piece and at each breakpoint of the parts between. Nothing if they are too many.
@@ -300,7 +300,7 @@ class ProofParts {
     if (distance_ > 0) space.add(distance_);
     time.add(lines_.first_time());
     time.add(lines_.last_time());
-    const Unit unit{time.low, piece.e};
+    const Unit unit{time, piece.e};
     std::vector<Integer> times = {time_of(piece.k, unit), time_of(piece.k + Integer(1), unit)};
     for (const Stretch& v : vertices) {
       for (std::size_t s = 1; s + 1 < v.times.size(); ++s) times.push_back(unit(v.times[s]));
@@ -309,7 +309,7 @@ class ProofParts {
     std::vector<Integer> denominators;
     for (const Integer& c : times) {
       std::vector<std::pair<IntegerVector, Integer>> at;  // numerators, denominator > 0
-      for (const Stretch& v : vertices) at.push_back(position(v, c, space.low, unit));
+      for (const Stretch& v : vertices) at.push_back(position(v, c, space, unit));
       for (std::size_t i = 0; i < of_a; ++i) {
         for (std::size_t j = of_a; j < vertices.size(); ++j) {
           IntegerVector w;
@@ -321,7 +321,7 @@ class ProofParts {
     }
     make_common(result, denominators);
     if (distance_ > 0) {
-      const Integer least = scaled_integer(distance_, space.low) * denominators[0];
+      const Integer least = exact::coordinate<Integer>(distance_, space) * denominators[0];
       result.least2 = least * least;
     }
     return result;
@@ -329,8 +329,8 @@ class ProofParts {
 
   /// The time k / 2^e of the way through the step, in the unit, whose e is the same.
   Integer time_of(const Integer& k, const Unit& unit) const {
-    const Integer first = scaled_integer(lines_.first_time(), unit.low),
-                  last = scaled_integer(lines_.last_time(), unit.low);
+    const Integer first = exact::coordinate<Integer>(lines_.first_time(), unit.range);
+    const Integer last = exact::coordinate<Integer>(lines_.last_time(), unit.range);
     return (first << unit.e) + (last - first) * k;
   }
 
@@ -340,7 +340,7 @@ class ProofParts {
     const auto order = [&](double time, const Integer& k) {
       exact::ExponentRange range;
       for (const double of : {time, lines_.first_time(), lines_.last_time()}) range.add(of);
-      const Unit unit{range.low, piece.e};
+      const Unit unit{range, piece.e};
       return mpz_cmp(unit(time).get(), time_of(k, unit).get());
     };
     const Integer begin = piece.k, end = piece.k + Integer(1);
@@ -361,14 +361,17 @@ class ProofParts {
     denominators[0] = common;
   }
 
-  static std::pair<IntegerVector, Integer> position(const Stretch& v, const Integer& c, int low, const Unit& unit) {
+  static std::pair<IntegerVector, Integer> position(const Stretch& v, const Integer& c,
+                                                    const exact::ExponentRange& space, const Unit& unit) {
     std::size_t s = 0;
     while (s + 2 < v.times.size() && unit(v.times[s + 1]) <= c) ++s;
     const Integer before = c - unit(v.times[s]), after = unit(v.times[s + 1]) - c;
     IntegerVector numerators;
-    for (std::size_t k = 0; k < Dim; ++k)
-      numerators[k] =
-          scaled_integer(v.positions[s][k], low) * after + scaled_integer(v.positions[s + 1][k], low) * before;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      const Integer from = exact::coordinate<Integer>(v.positions[s][k], space);
+      const Integer to = exact::coordinate<Integer>(v.positions[s + 1][k], space);
+      numerators[k] = from * after + to * before;
+    }
     return {std::move(numerators), before + after};
   }
 

@@ -38,13 +38,6 @@ template <std::size_t Dim>
   tokens.axis(k, n[k] > 0);
 }
 
-/// x / 2^low.
-inline Integer scaled_integer(double x, int low) {
-  if (x == 0) return Integer(0);
-  const exact::OddBinary parts(x);
-  return Integer(parts.mantissa) << static_cast<std::size_t>(parts.exponent - low);
-}
-
 /// Writes a direction that passes a test, with as few bits as pass it too.
 template <std::size_t Dim, class Passes>
 void put_direction(const std::array<double, Dim>& n, const Passes& passes, Tokens& tokens) {
@@ -60,7 +53,7 @@ void put_direction(const std::array<double, Dim>& n, const Passes& passes, Token
   exact::ExponentRange range;
   for (const double part : m) range.add(part);
   std::array<Integer, 3> integers;
-  for (std::size_t k = 0; k < Dim; ++k) integers[k] = scaled_integer(m[k], range.low);
+  for (std::size_t k = 0; k < Dim; ++k) integers[k] = exact::coordinate<Integer>(m[k], range);
   tokens.direction(integers);
 }
 
