@@ -7,11 +7,6 @@
 namespace noli {
 namespace {
 
-int sign_after_begin(const Polynomial& p) {
-  AlgebraicNumber begin;
-  return condition::JustAfter{begin}.sign(p);
-}
-
 /// The k-th derivative counts with the sign of (-1)^k.
 int sign_before_end(const Polynomial& p) {
   const Dyadic end = Dyadic::from_integer(1);
@@ -41,7 +36,7 @@ ContactKind kind_at_border(const MotionQuery<Pair, Dim>& before, const MotionQue
   if (!condition_after.transversal(condition::At{begin})) return ContactKind::touching;
   const Polynomial *f = condition_before.equality(), *g = condition_after.equality();
   if (f == nullptr || g == nullptr) return ContactKind::touching;
-  return sign_before_end(*f) * sign_after_begin(*g) < 0 ? ContactKind::crossing : ContactKind::touching;
+  return sign_before_end(*f) * condition::JustAfter{begin}.sign(*g) < 0 ? ContactKind::crossing : ContactKind::touching;
 }
 
 #define NOLI_MOTION(Pair, Dim)                                                                    \
