@@ -127,12 +127,8 @@ class Verification {
 WindowVerifier::WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options)
     : dimension_(options.dimension), strict_(options.strict) {
   if (mesh.cell_count() == 0) return;
-  forest_ = std::make_unique<const Forest>(mesh, x, options);
+  forest_ = std::make_shared<const Forest>(mesh, x, options);
 }
-
-WindowVerifier::~WindowVerifier() = default;
-WindowVerifier::WindowVerifier(WindowVerifier&&) noexcept = default;
-WindowVerifier& WindowVerifier::operator=(WindowVerifier&&) noexcept = default;
 
 WindowResult WindowVerifier::verify(const WorldLines& lines, const WindowOptions& options) const {
   if (forest_ == nullptr) return {};

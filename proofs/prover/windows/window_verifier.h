@@ -77,9 +77,6 @@ class WindowVerifier {
   /// mesh.vertex_count vertices, every index of the mesh is below that, there are fewer than 2^31 cells, `scripted` is
   /// empty or has an entry for each vertex. O(n log n).
   WindowVerifier(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options);
-  ~WindowVerifier();
-  WindowVerifier(WindowVerifier&&) noexcept;
-  WindowVerifier& operator=(WindowVerifier&&) noexcept;
 
   /// Precondition: the lines have as many vertices as the mesh. In two dimensions the third coordinate is not looked
   /// at.
@@ -100,7 +97,7 @@ class WindowVerifier {
              const std::function<void(std::string_view)>& take) const;
 
  private:
-  std::unique_ptr<const Forest> forest_;  ///< nullptr if there are no cells
+  std::shared_ptr<const Forest> forest_;  ///< nullptr if there are no cells
   int dimension_;
   bool strict_;
 };
