@@ -49,53 +49,40 @@ std::optional<IntegerVector> shortened(const IntegerVector& n, const Question& q
   return std::nullopt;
 }
 
-class Search {
- public:
-  explicit Search(const Question& question) : question_(question), d_(question.differences) {}
-
-  std::optional<IntegerVector> operator()() {
-    using formula::operator-;
-    for (const IntegerVector& w : d_) {
-      if (take(w)) return found_;
-    }
-    for (std::size_t i = 0; i < d_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (take(across(d_[i], d_[j] - d_[i]))) return found_;
-      }
-    }
-    for (std::size_t i = 0; i < d_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        for (std::size_t k = 0; k < j; ++k) {
-          IntegerVector n = formula::cross(d_[j] - d_[i], d_[k] - d_[i]);
-          if (take(n) || take({-n[0], -n[1], -n[2]})) return found_;
-        }
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  /// From the origin to the line through w along u, times |u|^2.
-  static IntegerVector across(const IntegerVector& w, const IntegerVector& u) {
-    const Integer uu = formula::dot(u, u), wu = formula::dot(w, u);
-    return {w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu};
-  }
-
-  bool take(const IntegerVector& n) {
-    if (!separates(n, question_)) return false;
-    found_ = shortened(n, question_);
-    return found_.has_value();
-  }
-
-  Question question_;
-  const std::vector<IntegerVector>& d_;
-  std::optional<IntegerVector> found_;
-};
+/// From the origin to the line through w along u, times |u|^2.
+IntegerVector across(const IntegerVector& w, const IntegerVector& u) {
+  const Integer uu = formula::dot(u, u), wu = formula::dot(w, u);
+  return {w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu};
+}
 
 }  // namespace
 
 std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences, const Integer& least2) {
-  return Search({differences, least2})();
+  using formula::operator-;
+  const auto& d = differences;
+  const Question question{d, least2};
+  std::optional<IntegerVector> found;
+  const auto take = [&](const IntegerVector& n) {
+    if (separates(n, question)) found = shortened(n, question);
+    return found.has_value();
+  };
+  for (const IntegerVector& w : d) {
+    if (take(w)) return found;
+  }
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (take(across(d[i], d[j] - d[i]))) return found;
+    }
+  }
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) {
+        const IntegerVector n = formula::cross(d[j] - d[i], d[k] - d[i]);
+        if (take(n) || take({-n[0], -n[1], -n[2]})) return found;
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace noli
