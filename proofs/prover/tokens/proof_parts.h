@@ -67,24 +67,23 @@ struct Piece {
   }
 };
 
+/// Settles what is left of one pair of cells.
 template <int Dim>
 class ProofParts {
  public:
   /// `eta`, `paths`: the least distance, and who may be nearer than that (nobody needs it where it is 0).
-  ProofParts(const WorldLines& lines, const Piece& span, double eta, const MeshPaths* paths, const StopSignal& stop)
-      : lines_(lines), span_(span), eta_(eta), paths_(paths), stop_(stop) {}
+  ProofParts(const WorldLines& lines, const Piece& span, double eta, const MeshPaths* paths, const StopSignal& stop,
+             Tokens& tokens)
+      : lines_(lines), span_(span), distance_(eta), paths_(paths), stop_(stop), tokens_(tokens) {}
 
-  /// Writes the tokens for parts of two cells that have no vertex in common; not all of them if it was stopped. Throws
-  /// TooNear, NoProof.
-  void settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b, Tokens& tokens) {
-    last_ = std::nullopt;
+  /// Writes the tokens for parts of two cells that have no vertex in common; false, and not all of them, if it was
+  /// stopped. Throws TooNear, NoProof.
+  bool settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b) {
     first_cell_ = i;
     second_cell_ = j;
-    distance_ = eta_;
-    separate({a, all_corners(a.corners)}, {b, all_corners(b.corners)}, tokens);
+    separate({a, all_corners(a.corners)}, {b, all_corners(b.corners)});
+    return !stopped_;
   }
-
-  bool stopped() const { return stopped_; }
 
  private:
   struct Part {
@@ -106,40 +105,40 @@ class ProofParts {
   static constexpr unsigned exact_from = 6, give_up = 1000, give_up_near = 120, interval_bits = 20;
   static constexpr std::size_t most_exact = 60;
 
-  void separate(Part a, Part b, Tokens& tokens) {
-    if (a.mask == 0 || b.mask == 0) return tokens.empty();
+  void separate(Part a, Part b) {
+    if (a.mask == 0 || b.mask == 0) return tokens_.empty();
     const Pair pair = *pair_in(a, b, span_);
-    if (closed_at_once(pair, tokens)) return;
-    if (distance_ > 0) return go_around(a, b, pair, tokens);
-    halve(a, b, pair, span_, tokens);
+    if (closed_at_once(pair)) return;
+    if (distance_ > 0) return go_around(a, b, pair);
+    halve(a, b, pair, span_);
   }
 
   /// Whether a direction is found for the whole span.
-  bool closed_at_once(const Pair& pair, Tokens& tokens) {
+  bool closed_at_once(const Pair& pair) {
     const auto n = last_ && above(pair, *last_, {}) ? last_ : find(pair, {});
-    if (n) write(pair, *n, {}, tokens);
+    if (n) write(pair, *n, {});
     return n.has_value();
   }
 
   /// Two parts that are not seen to be far enough apart: where a path joins two of their vertices, what has both need
   /// only be disjoint.
-  void go_around(const Part& a, const Part& b, const Pair& pair, Tokens& tokens) {
+  void go_around(const Part& a, const Part& b, const Pair& pair) {
     for (std::size_t i = 0; i < a.cell.corners; ++i) {
       for (std::size_t j = 0; j < b.cell.corners; ++j) {
         if (!a.has(i) || !b.has(j)) continue;
         const auto path = paths_->find(a.cell.vertices[i], b.cell.vertices[j]);
         if (!path) continue;
-        tokens.ring(a.cell.vertices[i], *path);
-        separate(a.without(i), b, tokens);
-        separate(a, b.without(j), tokens);
+        tokens_.ring(a.cell.vertices[i], *path);
+        separate(a.without(i), b);
+        separate(a, b.without(j));
         const double distance = std::exchange(distance_, 0);
-        separate(a, b, tokens);
+        separate(a, b);
         distance_ = distance;
         return;
       }
     }
     refuse_near(pair, span_, 8);
-    halve(a, b, pair, span_, tokens);
+    halve(a, b, pair, span_);
   }
 
   /// Parts that are certainly nearer than the least distance at one of a few times of the piece, whose chords they
@@ -176,35 +175,35 @@ class ProofParts {
     throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(at.get()), -static_cast<int>(piece.e))};
   }
 
-  void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece, Tokens& tokens) {
+  void halve(const Part& a, const Part& b, const Pair& pair, const Piece& piece) {
     if (piece.e == (distance_ == 0 ? give_up : give_up_near)) give_up_at(piece);
     stopped_ = stopped_ || stop_.raised();  // two cells with many breakpoints can take minutes
-    tokens.halve();
-    for (long which = 0; which < 2 && !stopped_; ++which) over_piece(a, b, pair, piece.half(which), tokens);
+    tokens_.halve();
+    for (long which = 0; which < 2 && !stopped_; ++which) over_piece(a, b, pair, piece.half(which));
   }
 
-  void over_piece(const Part& a, const Part& b, const Pair& whole, const Piece& piece, Tokens& tokens) {
+  void over_piece(const Part& a, const Part& b, const Pair& whole, const Piece& piece) {
     if (whole.exact && piece.e <= span_.e + interval_bits) {
       const unsigned deeper = piece.e - span_.e;
       const double width = std::ldexp(1.0, -static_cast<int>(deeper));
       const double begin = width * mpz_get_d((piece.k - (span_.k << deeper)).get());
       const Interval interval{begin, begin + width};
-      if (const auto n = find(whole, interval)) return write(whole, *n, interval, tokens);
+      if (const auto n = find(whole, interval)) return write(whole, *n, interval);
       if (distance_ > 0 && distance_at_most(whole.points, begin, search_rounds) < distance_ * (1 - 0x1p-30)) {
         throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()), -static_cast<int>(piece.e))};
       }
     } else if (!whole.exact) {
       if (const auto pair = pair_in(a, b, piece)) {
-        if (const auto n = find(*pair, {})) return write(*pair, *n, {}, tokens);
+        if (const auto n = find(*pair, {})) return write(*pair, *n, {});
         if (distance_ > 0) refuse_near(*pair, piece, 1);
       }
     }
     if (piece.e >= exact_from) {
       if (const auto differences = differences_in(a, b, piece)) {
-        if (const auto n = exact_direction(differences->w, differences->least2)) return tokens.direction(*n);
+        if (const auto n = exact_direction(differences->w, differences->least2)) return tokens_.direction(*n);
       }
     }
-    halve(a, b, whole, piece, tokens);
+    halve(a, b, whole, piece);
   }
 
   /// With chords over the piece.
@@ -246,10 +245,10 @@ class ProofParts {
   }
 
   /// As few bits as separate by the same test.
-  void write(const Pair& pair, const Direction<Dim>& n, const Interval& interval, Tokens& tokens) {
+  void write(const Pair& pair, const Direction<Dim>& n, const Interval& interval) {
     last_ = n;
     put_direction(
-        n, [&](const Direction<Dim>& m) { return above(pair, m, interval); }, tokens);
+        n, [&](const Direction<Dim>& m) { return above(pair, m, interval); }, tokens_);
   }
 
   /// D and least2 of proofs/prover/cells/exact_direction.h.
@@ -377,11 +376,11 @@ class ProofParts {
 
   const WorldLines& lines_;
   Piece span_;
-  double eta_;
+  double distance_;  ///< the least distance, or 0 where parts need only be disjoint
   const MeshPaths* paths_;
   const StopSignal& stop_;
+  Tokens& tokens_;
   bool stopped_ = false;
-  double distance_ = 0;  ///< eta_, or 0 where parts need only be disjoint
   std::uint32_t first_cell_ = 0, second_cell_ = 0;
   std::optional<Direction<Dim>> last_;  ///< has separated two parts of the same cells
 };

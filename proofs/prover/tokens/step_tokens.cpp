@@ -23,15 +23,13 @@ std::optional<Tokens> prove_apart(const OpenParts<Dim>& parts, const StopSignal&
   };
   const ProofCell a = add(*parts.a, parts.a_part), b = add(*parts.b, parts.b_part);
   const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  ProofParts<Dim> prover(lines, {Integer(0), 0}, 0, nullptr, stop);
   Tokens tokens;
   try {
-    prover.settle(0, a, 1, b, tokens);
+    const bool whole = ProofParts<Dim>(lines, {Integer(0), 0}, 0, nullptr, stop, tokens).settle(0, a, 1, b);
+    return whole ? std::optional(std::move(tokens)) : std::nullopt;
   } catch (const NoProof&) {
     return std::nullopt;
   }
-  if (prover.stopped()) return std::nullopt;
-  return tokens;
 }
 
 template std::optional<Tokens> prove_apart(const OpenParts<2>&, const StopSignal&);

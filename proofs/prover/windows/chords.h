@@ -62,9 +62,8 @@ class Chords {
 
   /// Writes the tokens for parts without a common vertex, or some of them: false if it was stopped.
   bool prove_apart(const Gathered& a, CornerMask a_part, const Gathered& b, CornerMask b_part, Tokens& tokens) const {
-    ProofParts<Dim> parts(lines_, proof_->span, proof_->eta, proof_->paths, proof_->stop);
-    parts.settle(a.cell, vertices_of(a, a_part), b.cell, vertices_of(b, b_part), tokens);
-    return !parts.stopped();
+    ProofParts<Dim> parts(lines_, proof_->span, proof_->eta, proof_->paths, proof_->stop, tokens);
+    return parts.settle(a.cell, vertices_of(a, a_part), b.cell, vertices_of(b, b_part));
   }
 
   /// Where the first piece begins in which no direction separates two parts, if there is one.
