@@ -30,10 +30,8 @@ Scale scale_of(const MotionQuery<Pair, Dim>& query) {
   for (const auto& path : query.paths) {
     scale.time.add(path.t0);
     scale.time.add(path.t1);
-    for (std::size_t k = 0; k < Dim; ++k) {
-      scale.space.add(path.x_t0[k]);
-      scale.space.add(path.x_t1[k]);
-    }
+    scale.space.add(path.x_t0);
+    scale.space.add(path.x_t1);
   }
   return scale;
 }

@@ -42,15 +42,6 @@ int filtered(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
   return std::abs(det) > error_3d * size + underflow ? sign_of(det) : 0;
 }
 
-template <std::size_t Dim, std::size_t N>
-exact::ExponentRange range_of(const std::array<std::array<double, Dim>, N>& points) {
-  exact::ExponentRange range;
-  for (const auto& p : points) {
-    for (const double x : p) range.add(x);
-  }
-  return range;
-}
-
 template <class T, std::size_t Dim>
 formula::Vec<T, Dim> difference(const std::array<double, Dim>& b, const std::array<double, Dim>& a,
                                 const exact::ExponentRange& range) {
@@ -74,9 +65,10 @@ int exact_sign(const std::array<Point3, 4>& x, const exact::ExponentRange& range
 
 template <class Points>
 int exact_orientation(const Points& x) {
-  const exact::ExponentRange range = range_of(x);
-  if (range.bits() <= 58)
-    return exact_sign<Wide<1>>(x, range);  // a sign bit, a bit for each of three differences, two for sums
+  exact::ExponentRange range;
+  for (const auto& p : x) range.add(p);
+  // A sign bit, a bit for each of three differences, two for sums.
+  if (range.bits() <= 58) return exact_sign<Wide<1>>(x, range);
   if (range.bits() <= 122) return exact_sign<Wide<2>>(x, range);
   return exact_sign<Integer>(x, range);
 }

@@ -55,6 +55,10 @@ struct ExponentRange {
     low = std::min(low, parts.exponent);
     high = std::max(high, parts.top());
   }
+  template <std::size_t N>
+  void add(const std::array<double, N>& x) {
+    for (const double c : x) add(c);
+  }
   /// Bits of the largest integer, once all are multiplied by 2^-low.
   int bits() const { return high > low ? high - low : 0; }
 };
@@ -63,9 +67,7 @@ template <FeaturePair Pair, int Dim>
 ExponentRange exponent_range(const Query<Pair, Dim>& q) {
   ExponentRange range;
   for (const auto* points : {&q.x_t0, &q.x_t1}) {
-    for (const auto& point : *points) {
-      for (const double x : point) range.add(x);
-    }
+    for (const auto& point : *points) range.add(point);
   }
   return range;
 }

@@ -51,7 +51,7 @@ void put_direction(const std::array<double, Dim>& n, const Passes& passes, Token
     m = n;
   }
   exact::ExponentRange range;
-  for (const double part : m) range.add(part);
+  range.add(m);
   std::array<Integer, 3> integers;
   for (std::size_t k = 0; k < Dim; ++k) integers[k] = exact::coordinate<Integer>(m[k], range);
   tokens.direction(integers);
