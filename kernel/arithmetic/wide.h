@@ -61,16 +61,7 @@ class Wide {
     return is_negative() ? -value : value;
   }
 
-  constexpr Wide operator-() const {
-    Wide result;
-    std::uint64_t carry = 1;
-    for (std::size_t i = 0; i < N; ++i) {
-      const std::uint64_t flipped = ~limbs_[i];
-      result.limbs_[i] = flipped + carry;
-      carry = result.limbs_[i] < flipped ? 1 : 0;
-    }
-    return result;
-  }
+  constexpr Wide operator-() const { return Wide() - *this; }
 
   friend constexpr Wide operator+(const Wide& a, const Wide& b) {
     Wide result;
