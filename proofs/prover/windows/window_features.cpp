@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "kernel/motion.h"
 #include "proofs/prover/feature_pairs.h"
