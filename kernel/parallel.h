@@ -4,8 +4,8 @@
 // (NOLI_PARALLEL=STD, for ThreadSanitizer, which oneTBB is not instrumented for). Both give the same results because
 // tasks may only write what belongs to their own index.
 //
-// What this does not do: no reductions (write to slot i, add up afterwards in order), no priorities, no cancellation
-// but by an exception.
+// What this does not do: no reductions but in order (merged_over; else write to slot i and add up afterwards), no
+// priorities, no cancellation but by an exception.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace noli {
 
@@ -34,6 +35,21 @@ void for_each_in_pieces(std::size_t count, int threads, const Each& each, std::s
     const std::size_t end = std::min(count, (p + 1) * piece);
     for (std::size_t i = p * piece; i < end; ++i) each(i);
   });
+}
+
+/// Merges of(i) for each i in [0, count) with merged(a, b), in order whatever the threads, starting from `none`, which
+/// changes nothing; `piece` consecutive ones together.
+template <class T, class Of>
+T merged_over(std::size_t count, int threads, const T& none, const Of& of, std::size_t piece = 1024) {
+  std::vector<T> parts((count + piece - 1) / piece, none);
+  parallel_for(parts.size(), threads, [&](std::size_t p) {
+    T sum = none;
+    for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) sum = merged(sum, of(i));
+    parts[p] = sum;
+  });
+  T sum = none;
+  for (const T& part : parts) sum = merged(sum, part);
+  return sum;
 }
 
 /// Calls both, at the same time unless `threads` is 1, and returns when both have returned; exceptions as in

@@ -14,21 +14,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 GroupBox empty_box() { return {lanes(infinity), lanes(infinity), lanes(-infinity), lanes(-infinity)}; }
 
-/// Bounds of [0, count), made piece by piece in parallel and merged in order.
-template <class Bounds, class Of>
-Bounds merged_over(std::size_t count, int threads, const Bounds& none, const Of& of) {
-  constexpr std::size_t piece = 1024;
-  std::vector<Bounds> parts((count + piece - 1) / piece, none);
-  parallel_for(parts.size(), threads, [&](std::size_t p) {
-    Bounds sum = none;
-    for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) sum = merged(sum, of(i));
-    parts[p] = sum;
-  });
-  Bounds sum = none;
-  for (const Bounds& part : parts) sum = merged(sum, part);
-  return sum;
-}
-
 }  // namespace
 
 template <int Dim>
