@@ -29,70 +29,46 @@ NearVertex near_vertex(const VertexChord<Dim>& chord, const Position& origin) {
   return usable ? near : NearVertex{Lanes{}, Lanes{}, lanes(0x1p100F)};
 }
 
-/// Counters of one piece of the vertices.
+/// Counters of some vertices.
 struct Counts {
   std::size_t inside = 0, restless = 0;
 };
 
-/// Fills in the vertices one by one.
-template <int Dim>
-class Filler {
- public:
-  Filler(WindowChords<Dim>& chords, const WorldLines& lines, const Forest& forest, double distance)
-      : chords_(chords), lines_(lines), forest_(forest), distance_(distance) {
-    for (const Tree& tree : forest.trees()) origins_.push_back(lines.positions(tree.vertices[0]).front());
-  }
+Counts merged(const Counts& a, const Counts& b) { return {a.inside + b.inside, a.restless + b.restless}; }
 
-  void fill(VertexId v, Counts& counts) {
-    const WorldLine line(lines_, v);
-    const Chord<Dim> chord = chord_of<Dim>(line, chords_.span.begin, chords_.span.end);
-    VertexChord<Dim>& stored = chords_.of[v];
-    float most = 0;
-    for (std::size_t k = 0; k < Dim; ++k) {
-      stored.x[k] = BothEnds(chord.x_t0[k], chord.x_t1[k]);
-      stored.radius[k] = rounded_up(chord.radius[k]);
-      most = std::max(most, stored.radius[k]);
-      if (distance_ > 0) stored.radius[k] = rounded_up(chord.radius[k] + farther(chord.x_t0[k], chord.x_t1[k]));
-    }
-    const std::uint32_t part = forest_.part_of(v);
-    if (part != Forest::no_part) chords_.near[v] = near_vertex(stored, origins_[part]);
-    counts.inside += chord.inside;
-    counts.restless += most * 12 > forest_.size(v) ? 1 : 0;
-  }
-
- private:
-  /// The distance, with room for the rounding of the bounds that have it added.
-  double farther(double x_t0, double x_t1) const {
-    return distance_ + 0x1p-50 * (std::abs(x_t0) + std::abs(x_t1) + distance_);
-  }
-
-  WindowChords<Dim>& chords_;
-  const WorldLines& lines_;
-  const Forest& forest_;
-  double distance_;
-  std::vector<Position> origins_;
-};
+/// The distance, with room for the rounding of the bounds that have it added.
+double farther(double distance, double x_t0, double x_t1) {
+  return distance + 0x1p-50 * (std::abs(x_t0) + std::abs(x_t1) + distance);
+}
 
 }  // namespace
 
 template <int Dim>
 WindowChords<Dim> chords_over(Span span, const WorldLines& lines, const Forest& forest, int threads, double distance) {
-  constexpr std::size_t piece = 512;
-  const std::size_t vertices = lines.vertex_count(), pieces = (vertices + piece - 1) / piece;
+  const std::size_t vertices = lines.vertex_count();
   WindowChords<Dim> chords{span, std::vector<VertexChord<Dim>>(vertices), std::vector<NearVertex>(vertices)};
-  Filler<Dim> filler(chords, lines, forest, distance);
-  std::vector<Counts> counts(pieces);
-  parallel_for(pieces, threads, [&](std::size_t i) {
-    Counts sum;
-    for (std::size_t v = i * piece; v < std::min(vertices, (i + 1) * piece); ++v) {
-      filler.fill(static_cast<VertexId>(v), sum);
+  std::vector<Position> origins;  // by tree
+  for (const Tree& tree : forest.trees()) origins.push_back(lines.positions(tree.vertices[0]).front());
+  const auto fill = [&](std::size_t i) -> Counts {
+    const auto v = static_cast<VertexId>(i);
+    const Chord<Dim> chord = chord_of<Dim>(WorldLine(lines, v), span.begin, span.end);
+    VertexChord<Dim>& stored = chords.of[v];
+    float most = 0;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      stored.x[k] = BothEnds(chord.x_t0[k], chord.x_t1[k]);
+      stored.radius[k] = rounded_up(chord.radius[k]);
+      most = std::max(most, stored.radius[k]);
+      if (distance > 0) {
+        stored.radius[k] = rounded_up(chord.radius[k] + farther(distance, chord.x_t0[k], chord.x_t1[k]));
+      }
     }
-    counts[i] = sum;
-  });
-  for (const Counts& c : counts) {
-    chords.inside += c.inside;
-    chords.restless += c.restless;
-  }
+    const std::uint32_t part = forest.part_of(v);
+    if (part != Forest::no_part) chords.near[v] = near_vertex(stored, origins[part]);
+    return {chord.inside, most * 12 > forest.size(v) ? 1U : 0U};
+  };
+  const Counts all = merged_over(vertices, threads, Counts{}, fill, 512);
+  chords.inside = all.inside;
+  chords.restless = all.restless;
   return chords;
 }
 
