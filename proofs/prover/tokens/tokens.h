@@ -128,7 +128,7 @@ class Tokens {
   char* limit_ = nullptr;  ///< its end
 };
 
-/// Takes tokens and does nothing.
+/// What the walk calls in place of Tokens where none are wanted; does nothing.
 struct NoTokens {
   static constexpr bool on = false;
 
@@ -136,13 +136,9 @@ struct NoTokens {
   void right() {}
   void parts() {}
   void excluded() {}
-  void one() {}
-  void both() {}
   void empty() {}
   void halve() {}
   void drop(std::size_t /*k*/) {}
-  void axis(std::uint8_t /*code*/) {}
-  void direction(const std::array<int, 3>& /*n*/) {}
   static constexpr std::size_t place() { return 0; }
   void truncate(std::size_t /*place*/) {}
 };
