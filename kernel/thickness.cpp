@@ -86,9 +86,7 @@ std::vector<Direction<Dim>> directions(const Query<Pair, Dim>& q) {
 template <FeaturePair Pair, int Dim>
 bool surely_farther(const Query<Pair, Dim>& q, double eta) {
   if (!rounding_self_test().nearest_ok) return false;
-  const auto candidates = directions(q);
-  return std::any_of(candidates.begin(), candidates.end(),
-                     [&](const auto& n) { return separates<Pair, Dim>(q, n, eta); });
+  return std::ranges::any_of(directions(q), [&](const auto& n) { return separates<Pair, Dim>(q, n, eta); });
 }
 
 // --- exact
@@ -99,7 +97,7 @@ struct At {
 };
 
 bool within(const std::vector<distance::Part>& parts, const AlgebraicNumber& t) {
-  return std::any_of(parts.begin(), parts.end(), [&t](const auto& part) { return part.within(At{t}); });
+  return std::ranges::any_of(parts, [&t](const auto& part) { return part.within(At{t}); });
 }
 
 std::vector<AlgebraicNumber> candidate_times(const std::vector<distance::Part>& parts) {

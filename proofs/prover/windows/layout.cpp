@@ -126,8 +126,7 @@ class Flattener {
 
   /// Turns the faces as they are laid out counterclockwise. False if one is degenerate.
   bool orient() {
-    const auto finite = [](const Point2& r) { return std::isfinite(r[0] + r[1]); };
-    if (!std::all_of(r_.begin(), r_.end(), finite)) return false;
+    if (!std::ranges::all_of(r_, [](const Point2& r) { return std::isfinite(r[0] + r[1]); })) return false;
     for (LocalFace& f : faces_) {
       const int side = orientation(r_[f[0]], r_[f[1]], r_[f[2]]);
       if (side == 0) return false;

@@ -98,9 +98,7 @@ std::vector<std::uint32_t> border_of(std::span<const LocalFace> faces, std::size
 }
 
 bool is_sheet(std::span<const LocalFace> faces, std::span<const Point2> layout) {
-  const bool finite =
-      std::all_of(layout.begin(), layout.end(), [](const Point2& p) { return std::isfinite(p[0] + p[1]); });
-  if (!finite) return false;
+  if (!std::ranges::all_of(layout, [](const Point2& p) { return std::isfinite(p[0] + p[1]); })) return false;
   const std::vector<std::uint32_t> border = border_of(faces, layout.size());
   return border.size() >= 3 && turns_left_once(border, layout) &&
          std::all_of(faces.begin(), faces.end(),
