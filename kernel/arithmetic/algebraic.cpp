@@ -26,8 +26,8 @@ double quotient_about(const Integer& num, const Integer& den) {
   return std::ldexp(a / b, static_cast<int>(std::max(e - f, -2000L)));
 }
 
-/// Whether p and q have a root in common between low and high. Preconditions: p has at most one there; what divides both
-/// is not zero at low and high.
+/// Whether p and q have a root in common between low and high. Preconditions: p has at most one there; what divides
+/// both is not zero at low and high.
 bool share_root(const Polynomial& p, const Polynomial& q, const Dyadic& low, const Dyadic& high) {
   const bool same = &p == &q;
   if (!same && surely_coprime(p, q)) return false;
