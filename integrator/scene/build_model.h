@@ -68,7 +68,4 @@ struct BuiltScene {
 template <int Dim>
 BuiltScene<Dim> build_model(const Scene& scene);
 
-extern template BuiltScene<2> build_model<2>(const Scene&);
-extern template BuiltScene<3> build_model<3>(const Scene&);
-
 }  // namespace noli::integrator

@@ -24,7 +24,4 @@ struct Pinch {
 template <int Dim>
 std::vector<Pinch> find_pinches(const BuiltScene<Dim>& scene, double duration);
 
-extern template std::vector<Pinch> find_pinches(const BuiltScene<2>&, double);
-extern template std::vector<Pinch> find_pinches(const BuiltScene<3>&, double);
-
 }  // namespace noli::integrator

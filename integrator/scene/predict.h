@@ -11,7 +11,4 @@ namespace noli::integrator {
 template <int Dim>
 void predict(const Scene& scene, Model<double, Dim> model, Explanation& explanation);
 
-extern template void predict(const Scene&, Model<double, 2>, Explanation&);
-extern template void predict(const Scene&, Model<double, 3>, Explanation&);
-
 }  // namespace noli::integrator
