@@ -20,10 +20,9 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <numbers>
+#include <optional>
 #include <utility>
-#include <vector>
 
 namespace noli::integrator {
 
@@ -91,23 +90,12 @@ inline bool resonant(const Oscillation& slow, const Oscillation& fast) {
   return std::abs(monodromy_trace(slow, fast, slow_steps, fast_steps)) > 2;
 }
 
-struct Resonance {
-  std::size_t slow = 0, fast = 0;  ///< places in the list
-  Meeting meeting;
-};
-
-/// The pairs of different steps that are resonant, in the order of the list. Oscillations at or beyond their own limit
-/// (step * omega >= 2) are left out: that is another complaint.
-inline std::vector<Resonance> resonances(const std::vector<Oscillation>& groups) {
-  std::vector<Resonance> result;
-  for (std::size_t s = 0; s < groups.size(); ++s) {
-    for (std::size_t f = 0; f < groups.size(); ++f) {
-      const Oscillation &slow = groups[s], &fast = groups[f];
-      if (!(slow.step > fast.step) || fast.step * fast.omega >= 2 || slow.step * slow.omega >= 2) continue;
-      if (resonant(slow, fast)) result.push_back({s, f, meeting(slow, fast)});
-    }
-  }
-  return result;
+/// How slow kicks meet the fast oscillation, if the two together are unstable. Nothing if the first step is not the
+/// longer one, or for oscillations at or beyond their own limit (step * omega >= 2): that is another complaint.
+inline std::optional<Meeting> resonance(const Oscillation& slow, const Oscillation& fast) {
+  if (!(slow.step > fast.step) || fast.step * fast.omega >= 2 || slow.step * slow.omega >= 2) return std::nullopt;
+  if (!resonant(slow, fast)) return std::nullopt;
+  return meeting(slow, fast);
 }
 
 }  // namespace noli::integrator

@@ -65,20 +65,6 @@ void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtV
 template <int Dim>
 using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>;
 
-/// Where the slow forces meet an oscillation of the fast ones in resonance.
-template <int Dim>
-std::vector<Meeting> resonant_meetings(const Pull<Dim>& slow, const ForceStep& fast, const Axes<Dim>& axes) {
-  std::vector<Meeting> found;
-  for (int k = 0; k < Dim; ++k) {
-    const Eigen::Matrix<double, Dim, 1> axis = axes.eigenvectors().col(k);
-    const double along = axis.dot(slow.squared_frequencies * axis), squared = axes.eigenvalues()[k];
-    if (!(along > 1e-12 * squared) || !(squared > 0)) continue;  // the slow forces do not act along this axis
-    const std::vector<Oscillation> pair{{slow.force_step.second, std::sqrt(along)}, {fast.second, std::sqrt(squared)}};
-    for (const Resonance& resonance : resonances(pair)) found.push_back(resonance.meeting);
-  }
-  return found;
-}
-
 /// Warnings by pairs of steps. With steps of their own nearly every pair of steps is another: then by kinds.
 class Warnings {
  public:
@@ -106,6 +92,19 @@ class Warnings {
   std::map<const ResonanceWarning*, VertexId> last_vertex_;  ///< at which it was seen
 };
 
+/// Warns where the slow forces meet an oscillation of the fast ones in resonance.
+template <int Dim>
+void warn_of_resonances(const Pull<Dim>& slow, const ForceStep& fast, const Axes<Dim>& axes, VertexId vertex,
+                        Warnings& warnings) {
+  for (int k = 0; k < Dim; ++k) {
+    const Eigen::Matrix<double, Dim, 1> axis = axes.eigenvectors().col(k);
+    const double along = axis.dot(slow.squared_frequencies * axis), squared = axes.eigenvalues()[k];
+    if (!(along > 1e-12 * squared) || !(squared > 0)) continue;  // the slow forces do not act along this axis
+    const auto met = resonance({slow.force_step.second, std::sqrt(along)}, {fast.second, std::sqrt(squared)});
+    if (met) warnings.add(slow.force_step, fast, vertex, *met);
+  }
+}
+
 template <int Dim>
 std::vector<ResonanceWarning> find_resonances(const AtVertices<Dim>& at, Clocks clocks) {
   Warnings warnings(clocks);
@@ -115,8 +114,7 @@ std::vector<ResonanceWarning> find_resonances(const AtVertices<Dim>& at, Clocks 
       const Axes<Dim> axes(fast.squared_frequencies);
       for (const Pull<Dim>& slow : at.pulls[v]) {
         if (slow.force_step.second <= fast.force_step.second) continue;
-        for (const Meeting& m : resonant_meetings(slow, fast.force_step, axes))
-          warnings.add(slow.force_step, fast.force_step, v, m);
+        warn_of_resonances(slow, fast.force_step, axes, v, warnings);
       }
     }
   }
