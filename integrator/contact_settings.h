@@ -78,8 +78,8 @@ struct ContactSettings {
   std::vector<std::uint16_t> material_of;
 
   std::uint8_t class_of(VertexId v) const { return classes.empty() ? 0 : classes[v]; }
-  std::size_t place(std::uint16_t g, std::uint16_t h, std::uint8_t a, std::uint8_t b) const {
-    return ((static_cast<std::size_t>(g) * group_count + h) * class_count + a) * class_count + b;
+  std::size_t place(std::size_t g, std::size_t h, std::size_t a, std::size_t b) const {
+    return ((g * group_count + h) * class_count + a) * class_count + b;
   }
   /// Of two features. The vertices of one are of one group; its class is the greatest of theirs.
   std::uint16_t material(std::span<const VertexId> first, std::span<const VertexId> second) const {
@@ -98,18 +98,13 @@ struct ContactSettings {
 /// Of groups and classes, [g * class_count + a]: the largest eta(1) of pairs of a feature of group g and of class a or
 /// above, which are the features that a vertex of class a may be part of.
 inline std::vector<double> greatest_thicknesses(const ContactSettings& s) {
-  std::vector<double> greatest(static_cast<std::size_t>(s.group_count) * s.class_count, 0);
-  const std::size_t others = static_cast<std::size_t>(s.group_count) * s.class_count;
-  for (std::uint16_t g = 0; g < s.group_count; ++g) {
-    for (std::size_t a = s.class_count; a-- > 0;) {
-      double& widest = greatest[g * s.class_count + a];
-      if (a + 1U < s.class_count) widest = greatest[g * s.class_count + a + 1];
-      for (std::size_t other = 0; other < others; ++other) {
-        const auto h = static_cast<std::uint16_t>(other / s.class_count);
-        const std::uint16_t m = s.material_of[s.place(g, h, static_cast<std::uint8_t>(a),
-                                                      static_cast<std::uint8_t>(other % s.class_count))];
-        if (m != ContactSettings::excluded) widest = std::max(widest, s.materials[m].thickness);
-      }
+  const std::size_t classes = s.class_count, all = s.group_count * classes;
+  std::vector<double> greatest(all, 0);
+  for (std::size_t i = all; i-- > 0;) {
+    if ((i + 1) % classes != 0) greatest[i] = greatest[i + 1];
+    for (std::size_t j = 0; j < all; ++j) {
+      const std::uint16_t m = s.material_of[s.place(i / classes, j / classes, i % classes, j % classes)];
+      if (m != ContactSettings::excluded) greatest[i] = std::max(greatest[i], s.materials[m].thickness);
     }
   }
   return greatest;

@@ -195,11 +195,11 @@ class PairContact {
     return pair_ != nullptr && pair_->values.*which ? pair_->values.*which : scene_.contact->values.*which;
   }
 
-  Field contact() const { return Field(scene_.document, scene_.path.string())["contact"]; }
   /// Where a value is said, for the pair or for all.
   Field at(std::string_view name) const {
-    if (pair_ != nullptr && contact()["pairs"][index_].has(name)) return contact()["pairs"][index_][name];
-    return contact()[name];
+    const Field contact = field_of(scene_)["contact"];
+    if (pair_ != nullptr && contact["pairs"][index_].has(name)) return contact["pairs"][index_][name];
+    return contact[name];
   }
 
   double thickness() const {
@@ -229,8 +229,8 @@ class PairContact {
 
   double step(const ContactMaterial& m) const {
     const double limit = std::sqrt(part_.least_mass / (2 * m.stiffness));
-    const double stability = own_stability().value_or(default_stability);
-    const double step = own_step().value_or(std::min(stability * limit, scene_.window));
+    const double stability = said_of_step().stability.value_or(default_stability);
+    const double step = said_of_step().step.value_or(std::min(stability * limit, scene_.window));
     if (!(step * 0x1p50 > scene_.duration)) {
       at("stiffness")
           .fail(fmt::format("expected a step of contact that can be counted over the duration, found {} [s]: too "
@@ -247,10 +247,9 @@ class PairContact {
   }
 
   /// A step or a stability that is said of the pair stands for both of all.
-  bool has_own_step() const { return pair_ != nullptr && (pair_->values.step || pair_->values.stability); }
-  std::optional<double> own_step() const { return (has_own_step() ? pair_->values : scene_.contact->values).step; }
-  std::optional<double> own_stability() const {
-    return (has_own_step() ? pair_->values : scene_.contact->values).stability;
+  const ContactValues& said_of_step() const {
+    const bool own = pair_ != nullptr && (pair_->values.step || pair_->values.stability);
+    return own ? pair_->values : scene_.contact->values;
   }
 
   const Scene& scene_;
@@ -272,14 +271,23 @@ class Materials {
   }
 
   void add(const BodyPair& pair, const Parts& first, const Parts& second) {
-    for_each_way(pair, first, second, [&](const std::array<std::size_t, 2>& classes, const Free& part) {
-      add(pair, classes, part, first, second);
+    for_each_way(pair, first, second, [&](std::size_t a, std::size_t b, const Free& part) {
+      const PairContact contact(scene_, pair, part, speed_);
+      const std::uint16_t id = find(contact.material());
+      BuiltContact& use = built_.contact[id];
+      use.least_mass = std::min(use.least_mass, part.least_mass);
+      use.bound = std::min(use.bound, contact.bound());
+      use.pairs.push_back({pair, {first.bound_of(a), second.bound_of(b)}});
+      const auto [g, h] = pair;
+      for (const std::size_t place : {settings().place(g, h, a, b), settings().place(h, g, b, a)}) {
+        settings().material_of[place] = id;
+      }
     });
   }
 
   /// Notes what the pair asks of a thickness that is said: it may be said of many.
   void bound(const BodyPair& pair, const Parts& first, const Parts& second) {
-    for_each_way(pair, first, second, [&](const std::array<std::size_t, 2>& /*classes*/, const Free& part) {
+    for_each_way(pair, first, second, [&](std::size_t, std::size_t, const Free& part) {
       const PairContact contact(scene_, pair, part, speed_);
       const std::optional<std::size_t> place = contact.said_thickness();
       if (!place) return;
@@ -308,42 +316,22 @@ class Materials {
     BodyPair bodies;
   };
 
-  /// Calls each(classes, what of them counts) for all ways in which two bodies meet.
+  /// Calls each(a, b, what counts) for all ways in which two bodies meet: class a of one and class b of the other.
   template <class Each>
   void for_each_way(const BodyPair& pair, const Parts& first, const Parts& second, const Each& each) const {
     const std::vector<BodyPair>& excluded = scene_.contact->excluded;
     if (!(first.all | second.all).any()) return;
     if (std::find(excluded.begin(), excluded.end(), pair) != excluded.end()) return;
     for (std::size_t a = 0; a < first.of_class.size(); ++a) {
-      const std::size_t begin = pair[0] == pair[1] ? a : 0;
-      for (std::size_t b = begin; b < second.of_class.size(); ++b) {
-        const std::array<std::size_t, 2> classes{a, b};
-        each(classes, together(first.of_class[a], second.of_class[b], classes));
+      for (std::size_t b = pair[0] == pair[1] ? a : 0; b < second.of_class.size(); ++b) {
+        const Free &p = first.of_class[a], &q = second.of_class[b];
+        Free part = p | q;
+        // Of two classes, not both the first, the lighter one is what is stopped.
+        if (a > 0 && p.any()) part.greatest_mass = std::min(part.greatest_mass, p.greatest_mass);
+        if (b > 0 && q.any()) part.greatest_mass = std::min(part.greatest_mass, q.greatest_mass);
+        each(a, b, part);
       }
     }
-  }
-
-  void add(const BodyPair& pair, const std::array<std::size_t, 2>& classes, const Free& part, const Parts& first,
-           const Parts& second) {
-    const PairContact contact(scene_, pair, part, speed_);
-    const std::uint16_t id = find(contact.material());
-    BuiltContact& use = built_.contact[id];
-    use.least_mass = std::min(use.least_mass, part.least_mass);
-    use.bound = std::min(use.bound, contact.bound());
-    use.pairs.push_back({pair, {first.bound_of(classes[0]), second.bound_of(classes[1])}});
-    const auto g = static_cast<std::uint16_t>(pair[0]), h = static_cast<std::uint16_t>(pair[1]);
-    const auto a = static_cast<std::uint8_t>(classes[0]), b = static_cast<std::uint8_t>(classes[1]);
-    for (const std::size_t place : {settings().place(g, h, a, b), settings().place(h, g, b, a)}) {
-      settings().material_of[place] = id;
-    }
-  }
-
-  /// Of two classes, not both the first, the lighter one is what is stopped.
-  static Free together(const Free& a, const Free& b, const std::array<std::size_t, 2>& classes) {
-    Free part = a | b;
-    if (classes[0] > 0 && a.any()) part.greatest_mass = std::min(part.greatest_mass, a.greatest_mass);
-    if (classes[1] > 0 && b.any()) part.greatest_mass = std::min(part.greatest_mass, b.greatest_mass);
-    return part;
   }
 
   ContactSettings& settings() { return *built_.model.contact; }
@@ -358,21 +346,13 @@ class Materials {
     return static_cast<std::uint16_t>(list.size() - 1);
   }
 
-  Field contact_field() const { return Field(scene_.document, scene_.path.string())["contact"]; }
+  Field contact_field() const { return field_of(scene_)["contact"]; }
 
   const Scene& scene_;
   BuiltScene<Dim>& built_;
   double speed_;
   std::map<std::size_t, Bound> bounds_;  ///< by where a thickness is said
 };
-
-std::vector<std::uint16_t> groups_of(const std::vector<BuiltBody>& bodies) {
-  std::vector<std::uint16_t> groups;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    groups.insert(groups.end(), bodies[b].vertices, static_cast<std::uint16_t>(b));
-  }
-  return groups;
-}
 
 void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
   for (const Parts& p : parts) {
@@ -382,33 +362,29 @@ void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
   for (const Parts& p : parts) settings.classes.insert(settings.classes.end(), p.classes.begin(), p.classes.end());
 }
 
-/// What certificates keep clear for rounding (certificates/near_pair.h, margin_of, 64 times) is less than any layer.
+/// Lengths of contact have enough digits and range. What certificates keep clear for rounding (certificates/near_pair.h,
+/// margin_of, 64 times) is less than any layer. Closest points are found with products of four lengths
+/// (certificates/closest.h), which have to stay within the range of double, with some room for what moves away and for
+/// layers that are thinner than the first.
 template <int Dim>
-void require_digits(const Scene& scene, const Model<double, Dim>& model) {
-  constexpr double part = 0x1p-38;
+void require_numbers(const Scene& scene, const Model<double, Dim>& model) {
+  constexpr double part = 0x1p-38, least = 1e-70, greatest = 1e70;
   double farthest = 0, thinnest = infinity;
   for (const auto& x : model.x) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
   for (const ContactMaterial& m : model.contact->materials) thinnest = std::min(thinnest, m.thickness);
-  if (part * farthest < thinnest) return;
-  Field(scene.document, scene.path.string())["contact"]["thickness"].fail(
-      fmt::format("expected more than {:.3g} where coordinates are as large as {:.3g}, found {:.3g}: what is nearer "
-                  "cannot be told from their rounding",
-                  part * farthest, farthest, thinnest));
-}
-
-/// Closest points are found with products of four lengths (certificates/closest.h), which have to stay within the range
-/// of double, with some room for what moves away and for layers that are thinner than the first.
-template <int Dim>
-void require_range(const Scene& scene, const Model<double, Dim>& model) {
-  constexpr double least = 1e-70, greatest = 1e70;
-  double farthest = 0, thinnest = infinity;
-  for (const auto& x : model.x) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
-  for (const ContactMaterial& m : model.contact->materials) thinnest = std::min(thinnest, m.thickness);
-  if (thinnest >= least && farthest <= greatest) return;
-  Field(scene.document, scene.path.string())["contact"]["thickness"].fail(
-      fmt::format("expected at least {:g} [m], and coordinates of at most {:g}, found {:.3g} and {:.3g}: contact needs "
-                  "the fourth powers of lengths, which leave the range of numbers",
-                  least, greatest, thinnest, farthest));
+  const Field at = field_of(scene)["contact"]["thickness"];
+  if (!(part * farthest < thinnest)) {
+    at.fail(
+        fmt::format("expected more than {:.3g} where coordinates are as large as {:.3g}, found {:.3g}: what is "
+                    "nearer cannot be told from their rounding",
+                    part * farthest, farthest, thinnest));
+  }
+  if (!(thinnest >= least && farthest <= greatest)) {
+    at.fail(
+        fmt::format("expected at least {:g} [m], and coordinates of at most {:g}, found {:.3g} and {:.3g}: contact "
+                    "needs the fourth powers of lengths, which leave the range of numbers",
+                    least, greatest, thinnest, farthest));
+  }
 }
 
 }  // namespace
@@ -418,16 +394,18 @@ void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const 
                  BuiltScene<Dim>& built) {
   if (!scene.contact) return;
   if (bodies.size() > most_bodies) {
-    Field(scene.document, scene.path.string())["bodies"].fail(
+    field_of(scene)["bodies"].fail(
         fmt::format("expected at most {} bodies in a scene with contact, found {}", most_bodies, bodies.size()));
   }
-  built.model.contact.emplace();
-  built.model.contact->schedule = scene.contact->layers;
-  built.model.contact->most_layers = scene.contact->most_layers;
-  built.model.contact->groups = groups_of(built.bodies);
+  ContactSettings& settings = built.model.contact.emplace();
+  settings.schedule = scene.contact->layers;
+  settings.most_layers = scene.contact->most_layers;
   std::vector<Parts> parts;
-  for (std::size_t b = 0; b < bodies.size(); ++b) parts.push_back(parts_of(bodies[b], built.bodies[b], inverse_mass));
-  add_classes(parts, *built.model.contact);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    settings.groups.insert(settings.groups.end(), built.bodies[b].vertices, static_cast<std::uint16_t>(b));
+    parts.push_back(parts_of(bodies[b], built.bodies[b], inverse_mass));
+  }
+  add_classes(parts, settings);
   Materials<Dim> materials(scene, built);
   const auto for_each_pair = [&](auto&& each) {
     for (std::size_t a = 0; a < bodies.size(); ++a) {
@@ -437,8 +415,7 @@ void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const 
   for_each_pair([&](const auto&... pair) { materials.bound(pair...); });
   materials.require_bounds();
   for_each_pair([&](const auto&... pair) { materials.add(pair...); });
-  require_digits(scene, built.model);
-  require_range(scene, built.model);
+  require_numbers(scene, built.model);
 }
 
 template void add_contact(const Scene&, const std::vector<BodyMesh>&, const std::vector<double>&, BuiltScene<2>&);

@@ -9,7 +9,7 @@
 
 #include "integrator/scene/pinch.h"
 #include "integrator/scene/predict.h"
-#include "integrator/scene/shapes/field.h"
+#include "integrator/scene/shapes/body_mesh.h"
 #include "trajectory/cells.h"
 
 namespace noli::integrator {
@@ -221,7 +221,7 @@ class Derived {
 
 template <int Dim>
 void add_derived_defaults(const Scene& scene, const Model<double, Dim>& model, Explanation& explanation) {
-  const Field root(scene.document, scene.path.string());
+  const Field root = field_of(scene);
   Derived derived(explanation.defaults);
   if (model.gravity) derived.add(root, "gravity_step", model.gravity->step);
   derived.add(root, "contact", "none");

@@ -201,10 +201,6 @@ struct Part {
 
 }  // namespace
 
-Field field_of_body(const Scene& scene, std::size_t body) {
-  return Field(scene.document, scene.path.string())["bodies"][body];
-}
-
 double stiffness_factor(const Body& body, const Position& x) {
   double factor = 1;
   for (const Patch& patch : body.patches) factor *= contains(patch.box, x) ? patch.stiffness_factor : 1;

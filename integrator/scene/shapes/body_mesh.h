@@ -35,8 +35,10 @@ Position centre(const std::vector<Position>& x, const std::array<VertexId, N>& c
   return sum;
 }
 
+/// The whole document of a scene.
+inline Field field_of(const Scene& scene) { return {scene.document, scene.path.string()}; }
 /// The field of a body.
-Field field_of_body(const Scene& scene, std::size_t body);
+inline Field field_of_body(const Scene& scene, std::size_t body) { return field_of(scene)["bodies"][body]; }
 
 /// Vertices by their numbers in the body, ascending, each once. Boxes choose among the start positions. `at` is the
 /// selection's field. Throws InputError: a vertex or a set that is not there, a box without vertices.
