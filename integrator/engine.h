@@ -31,13 +31,6 @@ struct Division {
 };
 
 namespace detail {
-template <class Lists>
-struct DivisionsOf;
-template <class... F>
-struct DivisionsOf<std::tuple<const ForceList<F>&...>> {
-  using type = std::tuple<Division<F>...>;
-};
-
 /// Looks for what is not finite after each force.
 struct Watch : NoRecording {};
 }  // namespace detail
@@ -48,7 +41,7 @@ template <class S, int Dim, class Touching>
 class Engine {
  public:
   using ContactType = std::conditional_t<std::is_void_v<Touching>, Contact<Dim>, Touching>;
-  using Divisions = typename detail::DivisionsOf<decltype(std::declval<const Forces<S, Dim>&>().lists())>::type;
+  using Divisions = OfEachForce<Division, S, Dim>;
 
   explicit Engine(Model<S, Dim> model)
       : window_length_(model.window_length), clocks_(model.clocks), gravity_(model.gravity), timeline_(model.scripts) {
@@ -116,7 +109,7 @@ class Engine {
     return result;
   }
 
-  /// Calls f(h, t) of everything that fires at a multiple of its step; t is the last time it fired, or 0.
+  /// Calls each(division) for all divisions, in the order of kinds.
   template <class Each>
   void for_each_division(Each&& each) const {
     std::apply([&](const auto&... division) { (each(division), ...); }, divisions_);
@@ -168,28 +161,20 @@ class Engine {
     masses_ = model.mass;
     particles_.resize(model.x.size());
     here_.resize(model.x.size());
+    const std::vector<std::uint8_t> held = held_vertices(model);
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       particles_[i] = {model.x[i], 0, model.v[i], S(1) / model.mass[i]};
-    }
-    for (const VertexId i : model.pinned) {
+      if (!held[i]) continue;
       particles_[i].inverse_mass = S(0);
       particles_[i].v.setZero();
-    }
-    for (const auto& script : model.scripts) {
-      particles_[script.vertex].inverse_mass = S(0);
-      particles_[script.vertex].v.setZero();
     }
   }
 
   void take_forces(Model<S, Dim>& model) {
     auto lists = model.forces.lists();
-    take_lists(lists, std::make_index_sequence<kinds>{});
+    [&]<std::size_t... I>(std::index_sequence<I...>) { (take_list(std::get<I>(divisions_), std::get<I>(lists)), ...); }
+    (std::make_index_sequence<kinds>{});
     make_own_clocks();
-  }
-
-  template <class Lists, std::size_t... I>
-  void take_lists(Lists& lists, std::index_sequence<I...>) {
-    (take_list(std::get<I>(divisions_), std::get<I>(lists)), ...);
   }
 
   template <class F>

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <noli/mesh.h>
@@ -76,6 +77,19 @@ struct Forces<S, 2> {
   auto lists() const { return std::tie(edge_springs, turnings); }
 };
 
+namespace detail {
+template <template <class> class Of, class Lists>
+struct OfLists;
+template <template <class> class Of, class... F>
+struct OfLists<Of, std::tuple<const ForceList<F>&...>> {
+  using type = std::tuple<Of<F>...>;
+};
+}  // namespace detail
+
+/// A tuple of one Of<F> for each list of forces F, in the order of lists().
+template <template <class> class Of, class S, int Dim>
+using OfEachForce = typename detail::OfLists<Of, decltype(std::declval<const Forces<S, Dim>&>().lists())>::type;
+
 enum class Clocks : std::uint8_t { grouped, own };
 
 template <class S, int Dim>
@@ -92,5 +106,14 @@ struct Model {
   Clocks clocks = Clocks::grouped;
   std::optional<ContactSettings> contact;  ///< nothing: things that meet end the run
 };
+
+/// By vertex: 1 if it is pinned or scripted, so that no force moves it.
+template <class S, int Dim>
+std::vector<std::uint8_t> held_vertices(const Model<S, Dim>& model) {
+  std::vector<std::uint8_t> held(model.x.size(), 0);
+  for (const VertexId v : model.pinned) held[v] = 1;
+  for (const auto& script : model.scripts) held[script.vertex] = 1;
+  return held;
+}
 
 }  // namespace noli::integrator

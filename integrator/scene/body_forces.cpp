@@ -42,34 +42,35 @@ struct Work {
     return ids;
   }
   template <std::size_t N>
-  Origin origin(const std::array<VertexId, N>& cell) const {
-    return {static_cast<std::uint32_t>(index), centre(mesh.start, cell)};
+  double factor(const std::array<VertexId, N>& cell) const {
+    return patch_factor(body, centre(mesh.start, cell), &Patch::stiffness_factor);
   }
-  template <class Cells>
-  double factor(const Cells& cell) const {
-    return stiffness_factor(body, centre(mesh.start, cell));
+  double length(const std::array<VertexId, 2>& edge) const {
+    const auto x = rest(edge);
+    return std::sqrt((x[1] - x[0]).squaredNorm());
   }
-  /// Makes a force; what it refuses is the mesh's fault.
-  template <class Make>
-  auto made(const char* what, std::size_t number, Make&& make) const {
+
+  /// `cell`: where the force is.
+  template <class F, std::size_t N>
+  void add(const F& force, const std::array<VertexId, N>& cell) {
+    std::get<Sourced<F>>(forces).add(force, {static_cast<std::uint32_t>(index), centre(mesh.start, cell)});
+  }
+  /// A force of the shape at rest; what it refuses is the mesh's fault, in a cell with this name and number.
+  template <class F, class Stiffness, std::size_t N>
+  void add_from_rest(const std::array<VertexId, F::size>& ids, const Stiffness& stiffness, double damping,
+                     const std::array<VertexId, N>& cell, const char* name, std::size_t number) {
     try {
-      return make();
+      add(F::from_rest(in_scene(ids), rest(ids), stiffness, damping), cell);
     } catch (const std::invalid_argument& error) {
-      field["mesh"].fail(fmt::format("expected cells with a size; at {} {}: {}", what, number, error.what()));
+      field["mesh"].fail(fmt::format("expected cells with a size; at {} {}: {}", name, number, error.what()));
     }
   }
 };
 
 template <int Dim>
 void add_spring(Work<Dim>& work, const std::array<VertexId, 2>& edge, double constant) {
-  const auto x = work.rest(edge);
-  const double length = std::sqrt((x[1] - x[0]).squaredNorm());
-  EdgeSpring<double, Dim> spring;
-  spring.vertices = work.in_scene(edge);
-  spring.constant = constant;
-  spring.rest_length = length;
-  spring.damping = work.body.material.damping;
-  work.forces.edge_springs.add(spring, work.origin(edge));
+  const double damping = work.body.material.damping;
+  work.add(EdgeSpring<double, Dim>{work.in_scene(edge), constant, work.length(edge), damping}, edge);
 }
 
 /// Springs of loose edges.
@@ -80,8 +81,7 @@ void stretch_curves(Work<Dim>& work) {
     end_if_stopped();
     double constant = 0;
     if (const ElasticMaterial* m = work.elastic()) {
-      const auto x = work.rest(edges[e]);
-      const double length = std::sqrt((x[1] - x[0]).squaredNorm());
+      const double length = work.length(edges[e]);
       if (!(length > 0)) work.field["mesh"].fail(fmt::format("expected edges with a length; edge {} has none", e));
       constant = m->young * m->thickness * m->width / length;
     } else {
@@ -95,22 +95,17 @@ void stretch_curves(Work<Dim>& work) {
 void bend_curves(Work<2>& work) {
   const Joints found = joints(work.mesh.shape.mesh);
   work.built.crowded += found.branchings;
-  double rigidity = 0;
-  if (const ElasticMaterial* m = work.elastic()) {
-    rigidity = m->bending * m->young * m->thickness * m->thickness * m->thickness * m->width / 12;
-  } else {
-    rigidity = work.springs()->bending_stiffness;
-  }
+  const ElasticMaterial* m = work.elastic();
+  const double rigidity = m != nullptr
+                              ? m->bending * m->young * m->thickness * m->thickness * m->thickness * m->width / 12
+                              : work.springs()->bending_stiffness;
   if (!(rigidity > 0)) return;
   const auto& edges = work.mesh.shape.mesh.edges;
   for (const Joint& joint : found.joints) {
     end_if_stopped();
     const double factor = in_series(work.factor(edges[joint.edges[0]]), work.factor(edges[joint.edges[1]]));
-    const auto make = [&] {
-      return Turning<double>::from_rest(work.in_scene(joint.vertices), work.rest(joint.vertices), factor * rigidity,
-                                        work.body.material.bending_damping);
-    };
-    work.forces.turnings.add(work.made("vertex", joint.vertices[1], make), work.origin(std::array{joint.vertices[1]}));
+    work.add_from_rest<Turning<double>>(joint.vertices, factor * rigidity, work.body.material.bending_damping,
+                                        std::array{joint.vertices[1]}, "vertex", joint.vertices[1]);
   }
 }
 
@@ -126,12 +121,8 @@ void stretch_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
   const auto& faces = work.mesh.shape.mesh.faces;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     end_if_stopped();
-    const auto make = [&] {
-      const SheetMaterial<double> sheet{m.young * work.factor(faces[f]), m.poisson, m.thickness};
-      return Membrane<double>::from_rest(work.in_scene(faces[f]), work.rest(faces[f]), sheet,
-                                         work.body.material.damping);
-    };
-    work.forces.membranes.add(work.made("face", f, make), work.origin(faces[f]));
+    const SheetMaterial<double> sheet{m.young * work.factor(faces[f]), m.poisson, m.thickness};
+    work.add_from_rest<Membrane<double>>(faces[f], sheet, work.body.material.damping, faces[f], "face", f);
   }
 }
 
@@ -139,12 +130,9 @@ void stretch_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
 bool bends(const FaceEdge& edge) { return edge.count == 2 && edge.opposite[0] != edge.opposite[1]; }
 
 void bend_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
-  double rigidity = 0;
-  if (const ElasticMaterial* m = work.elastic()) {
-    rigidity = m->bending * flexural_rigidity(m->young, m->poisson, m->thickness);
-  } else {
-    rigidity = work.springs()->bending_stiffness;
-  }
+  const ElasticMaterial* m = work.elastic();
+  const double rigidity = m != nullptr ? m->bending * flexural_rigidity(m->young, m->poisson, m->thickness)
+                                       : work.springs()->bending_stiffness;
   if (!(rigidity > 0)) return;
   const auto& faces = work.mesh.shape.mesh.faces;
   for (const FaceEdge& edge : edges) {
@@ -152,11 +140,8 @@ void bend_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
     if (!bends(edge)) continue;
     const double factor = in_series(work.factor(faces[edge.faces[0]]), work.factor(faces[edge.faces[1]]));
     const std::array ids{edge.ends[0], edge.ends[1], edge.opposite[0], edge.opposite[1]};
-    const auto make = [&] {
-      return Hinge<double>::from_rest(work.in_scene(ids), work.rest(ids), factor * rigidity,
-                                      work.body.material.bending_damping);
-    };
-    work.forces.hinges.add(work.made("face", edge.faces[0], make), work.origin(edge.ends));
+    work.add_from_rest<Hinge<double>>(ids, factor * rigidity, work.body.material.bending_damping, edge.ends, "face",
+                                      edge.faces[0]);
   }
 }
 

@@ -28,22 +28,7 @@ struct Sourced {
 };
 
 template <int Dim>
-struct SourcedForces;
-
-template <>
-struct SourcedForces<3> {
-  Sourced<EdgeSpring<double, 3>> edge_springs;
-  Sourced<Membrane<double>> membranes;
-  Sourced<Hinge<double>> hinges;
-  auto lists() { return std::tie(edge_springs, membranes, hinges); }
-};
-
-template <>
-struct SourcedForces<2> {
-  Sourced<EdgeSpring<double, 2>> edge_springs;
-  Sourced<Turning<double>> turnings;
-  auto lists() { return std::tie(edge_springs, turnings); }
-};
+using SourcedForces = OfEachForce<Sourced, double, Dim>;
 
 /// Appends the forces of a body whose first vertex is built.first; counts in `built` where there is no bending. Throws
 /// InputError for cells without size.

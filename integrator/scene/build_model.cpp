@@ -14,7 +14,6 @@
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/place.h"
 #include "integrator/stable_step.h"
-#include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
 
 namespace noli::integrator {
@@ -75,10 +74,9 @@ void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, Built
 
 template <int Dim>
 std::vector<double> inverse_masses(const Model<double, Dim>& model) {
+  const std::vector<std::uint8_t> held = held_vertices(model);
   std::vector<double> inverse;
-  for (const double m : model.mass) inverse.push_back(1 / m);
-  for (const VertexId i : model.pinned) inverse[i] = 0;
-  for (const auto& script : model.scripts) inverse[script.vertex] = 0;
+  for (std::size_t i = 0; i < held.size(); ++i) inverse.push_back(held[i] ? 0 : 1 / model.mass[i]);
   return inverse;
 }
 
@@ -118,7 +116,7 @@ bool bends(ForceKind kind) { return kind == ForceKind::hinge || kind == ForceKin
 
 /// Leaves out what moves nothing, and gives the rest their steps.
 template <class F, int Dim>
-ForceList<F> with_steps(const Scene& scene, Sourced<F>&& sourced, const std::vector<Vec<double, Dim>>& x,
+ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std::vector<Vec<double, Dim>>& x,
                         const std::vector<double>& inverse_mass, std::vector<BuiltBody>& built) {
   ForceList<F> list;
   std::vector<Origin> origins;
@@ -148,13 +146,10 @@ ForceList<F> with_steps(const Scene& scene, Sourced<F>&& sourced, const std::vec
 template <int Dim>
 double longest_step(const Forces<double, Dim>& forces) {
   double longest = 0;
-  std::apply(
-      [&longest](const auto&... lists) {
-        for (const std::vector<double>* steps : {&lists.steps...}) {
-          for (const double h : *steps) longest = std::max(longest, h);
-        }
-      },
-      forces.lists());
+  const auto look = [&longest](const auto& list) {
+    for (const double h : list.steps) longest = std::max(longest, h);
+  };
+  std::apply([&look](const auto&... lists) { (look(lists), ...); }, forces.lists());
   return longest;
 }
 
@@ -187,18 +182,11 @@ std::vector<std::vector<Position>> load_frames(const Scene& scene, const ScriptF
                                                const Field& files) {
   std::vector<std::vector<Position>> loaded;
   for (std::size_t k = 0; k < frames.files.size(); ++k) {
-    try {
-      loaded.push_back(read_frame(scene.path.parent_path() / frames.files[k]).positions);
-    } catch (const InputError& error) {
-      files[k].fail(fmt::format("expected a mesh that loads: {}", error.what()));
+    const std::vector<Position>& x = loaded.emplace_back(load_frame(scene, frames.files[k], files[k]).positions);
+    if (x.size() != vertices) {
+      files[k].fail(fmt::format("expected as many vertices as the body has, {}, found {}", vertices, x.size()));
     }
-    if (loaded.back().size() != vertices) {
-      files[k].fail(
-          fmt::format("expected as many vertices as the body has, {}, found {}", vertices, loaded.back().size()));
-    }
-    const bool flat =
-        std::all_of(loaded.back().begin(), loaded.back().end(), [](const Position& x) { return x[2] == 0; });
-    if (scene.dimension == 2 && !flat) files[k].fail("expected z = 0 at every vertex, as the scene has dimension 2");
+    require_plane(scene, x, files[k]);
   }
   return loaded;
 }
@@ -214,34 +202,28 @@ std::vector<double> frame_times(const ScriptFrames& frames, const Field& at) {
   return times;
 }
 
-/// Gives the chosen vertices of one body the paths of one script.
+/// Gives the chosen vertices of one body the paths of one script. `first`: of the body, in the scene.
 template <int Dim>
-struct Follow {
-  const Scene& scene;
-  const Field& at;
-  const BodyMesh& body;
-  VertexId first;  ///< of the body, in the scene
-  const std::vector<VertexId>& chosen;
-  Model<double, Dim>& model;
-
-  void operator()(const ScriptPath& path) const {
+void follow(const Scene& scene, std::size_t index, const BodyMesh& body, VertexId first,
+            const std::vector<VertexId>& chosen, Model<double, Dim>& model) {
+  const auto add = [&](const std::vector<double>& times, const auto& position) {
     for (const VertexId i : chosen) {
-      Script<double, Dim> script{first + i, path.times, {}};
-      for (const Position& move : path.moves) script.positions.push_back(model.x[first + i] + cut<Dim>(to_vec(move)));
-      model.scripts.push_back(std::move(script));
+      Script<double, Dim>& script = model.scripts.emplace_back(Script<double, Dim>{first + i, times, {}});
+      for (std::size_t k = 0; k < times.size(); ++k) script.positions.push_back(position(i, k));
     }
+  };
+  const auto& motion = scene.scripts[index].motion;
+  if (const auto* path = std::get_if<ScriptPath>(&motion)) {
+    add(path->times, [&](VertexId i, std::size_t k) -> Vec<double, Dim> {
+      return model.x[first + i] + cut<Dim>(to_vec(path->moves[k]));
+    });
+  } else {
+    const auto& frames = std::get<ScriptFrames>(motion);
+    const Field at = field_of(scene)["scripts"][index]["frames"];
+    const auto loaded = load_frames(scene, frames, body.shape.mesh.vertex_count, at["files"]);
+    add(frame_times(frames, at), [&](VertexId i, std::size_t k) { return cut<Dim>(to_vec(loaded[k][i])); });
   }
-
-  void operator()(const ScriptFrames& frames) const {
-    const auto loaded = load_frames(scene, frames, body.shape.mesh.vertex_count, at["frames"]["files"]);
-    const std::vector<double> times = frame_times(frames, at["frames"]);
-    for (const VertexId i : chosen) {
-      Script<double, Dim> script{first + i, times, {}};
-      for (const auto& positions : loaded) script.positions.push_back(cut<Dim>(to_vec(positions[i])));
-      model.scripts.push_back(std::move(script));
-    }
-  }
-};
+}
 
 /// Scripts of a scene, and the start positions and velocities that they change: a scripted vertex begins where its path
 /// does, and its start velocity is zero here, as its path knows better. Fills in built[i].scripted. Throws InputError:
@@ -250,13 +232,12 @@ struct Follow {
 template <int Dim>
 void add_scripts(const Scene& scene, const std::vector<BodyMesh>& bodies, std::vector<BuiltBody>& built,
                  Model<double, Dim>& model) {
-  const Field scripts = Field(scene.document, scene.path.string())["scripts"];
   std::vector<bool> taken(model.x.size());
   for (std::size_t k = 0; k < scene.scripts.size(); ++k) {
     const ScriptedVertices& script = scene.scripts[k];
     const BodyMesh& body = bodies[script.body];
     const VertexId first = built[script.body].first;
-    const Field at = scripts[k], vertices = at["vertices"];
+    const Field vertices = field_of(scene)["scripts"][k]["vertices"];
     const std::vector<VertexId> chosen = select(script.vertices, body.shape, body.start, vertices);
     if (chosen.empty()) vertices.fail("expected at least one vertex");
     for (const VertexId i : chosen) {
@@ -267,7 +248,7 @@ void add_scripts(const Scene& scene, const std::vector<BodyMesh>& bodies, std::v
       taken[first + i] = true;
     }
     built[script.body].scripted += chosen.size();
-    std::visit(Follow<Dim>{scene, at, body, first, chosen, model}, script.motion);
+    follow(scene, k, body, first, chosen, model);
   }
   for (const Script<double, Dim>& script : model.scripts) {
     model.x[script.vertex] = script.positions.front();
@@ -296,12 +277,11 @@ BuiltScene<Dim> build_model(const Scene& scene) {
   }
   add_scripts(scene, meshes, result.bodies, model);
   const std::vector<double> inverse_mass = inverse_masses(model);
-  auto from = sourced.lists();
-  auto to = model.forces.lists();
+  auto lists = model.forces.lists();
   [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((std::get<I>(to) = with_steps(scene, std::move(std::get<I>(from)), model.x, inverse_mass, result.bodies)), ...);
+    ((std::get<I>(lists) = with_steps(scene, std::get<I>(sourced), model.x, inverse_mass, result.bodies)), ...);
   }
-  (std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
+  (std::make_index_sequence<std::tuple_size_v<decltype(lists)>>());
   add_gravity(scene, model);
   add_contact(scene, meshes, inverse_mass, result);
   limit_gravity_step(scene, model);

@@ -150,18 +150,10 @@ void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation&
   }
 }
 
-template <int Dim>
-std::vector<std::uint8_t> held_vertices(const Model<double, Dim>& model) {
-  std::vector<std::uint8_t> held(model.x.size(), 0);
-  for (const VertexId i : model.pinned) held[i] = 1;
-  for (const auto& script : model.scripts) held[script.vertex] = 1;
-  return held;
-}
-
 /// Bodies that have cells which only the scene moves, as verification knows them.
 template <int Dim>
 std::vector<std::string> bodies_with_held_cells(const BuiltScene<Dim>& built) {
-  std::vector<VertexId> cells = held_cells(built.model.mesh, held_vertices<Dim>(built.model));
+  std::vector<VertexId> cells = held_cells(built.model.mesh, held_vertices(built.model));
   std::sort(cells.begin(), cells.end());
   std::vector<std::string> names;
   for (const BuiltBody& body : built.bodies) {

@@ -25,20 +25,12 @@ struct Pull {
   Eigen::Matrix<double, Dim, Dim> squared_frequencies;  ///< of the vertex, its neighbours held still
 };
 
-/// What the forces do to each vertex that can move.
+/// What the forces do to each vertex.
 template <int Dim>
 struct AtVertices {
   std::vector<std::vector<Pull<Dim>>> pulls;  ///< different steps each
-  std::vector<bool> free;
+  std::vector<std::uint8_t> held;             ///< by vertex: it cannot move
 };
-
-template <int Dim>
-AtVertices<Dim> free_vertices(const Model<double, Dim>& model) {
-  AtVertices<Dim> at{std::vector<std::vector<Pull<Dim>>>(model.x.size()), std::vector<bool>(model.x.size(), true)};
-  for (const VertexId i : model.pinned) at.free[i] = false;
-  for (const auto& script : model.scripts) at.free[script.vertex] = false;
-  return at;
-}
 
 template <class F, int Dim>
 void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtVertices<Dim>& at) {
@@ -49,7 +41,7 @@ void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtV
   const auto stiffness = force.stiffness();
   for (std::size_t i = 0; i < F::size; ++i) {
     const VertexId v = force.vertices[i];
-    if (!at.free[v]) continue;
+    if (at.held[v]) continue;
     const ForceStep force_step{F::kind, step};
     auto& pulls = at.pulls[v];
     auto pull =
@@ -154,7 +146,7 @@ double rate(const std::vector<Pull<Dim>>& pulls, const Model<double, Dim>& model
 template <int Dim>
 double breakpoint_rate(const Scene& scene, const Model<double, Dim>& model, const AtVertices<Dim>& at) {
   double sum = 0;
-  for (std::size_t v = 0; v < at.pulls.size(); ++v) sum += at.free[v] ? rate(at.pulls[v], model) : 1 / scene.window;
+  for (std::size_t v = 0; v < at.pulls.size(); ++v) sum += at.held[v] ? 1 / scene.window : rate(at.pulls[v], model);
   for (const auto& script : model.scripts) sum += static_cast<double>(script.times.size()) / scene.duration;
   return sum;
 }
@@ -173,13 +165,13 @@ double byte_rate(const Scene& scene, std::size_t vertices, double breakpoints) {
 
 template <int Dim>
 void predict(const Scene& scene, Model<double, Dim> model, Explanation& explanation) {
-  AtVertices<Dim> at = free_vertices(model);
+  AtVertices<Dim> at{std::vector<std::vector<Pull<Dim>>>(model.x.size()), held_vertices(model)};
   const auto add = [&]<class F>(ForceList<F>& list) {
     if (model.clocks == Clocks::grouped) make_groups(list, scene.window);
     add_groups(F::kind, list.steps, model.clocks, explanation);
     for (std::size_t i = 0; i < list.forces.size(); ++i) add_pulls(list.forces[i], list.steps[i], model, at);
   };
-  const auto falling = static_cast<std::size_t>(std::count(at.free.begin(), at.free.end(), true));
+  const auto falling = static_cast<std::size_t>(std::count(at.held.begin(), at.held.end(), 0));
   if (model.gravity) {
     add_groups(ForceKind::gravity, std::vector<double>(falling, model.gravity->step), model.clocks, explanation);
   }

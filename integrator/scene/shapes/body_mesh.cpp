@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include <noli/errors.h>
 #include "integrator/scene/json_text.h"
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/generators.h"
 #include "integrator/scene/shapes/place.h"
-#include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
 
 namespace noli::integrator {
@@ -20,19 +21,12 @@ namespace {
 
 /// A file's mesh. In the plane it has edges only, and z = 0.
 Shape load(const Scene& scene, const MeshFile& file, const Field& at) {
-  Frame frame;
-  try {
-    frame = read_frame(scene.path.parent_path() / file.path);
-  } catch (const InputError& error) {
-    at.fail(fmt::format("expected a mesh that loads: {}", error.what()));
-  }
+  Frame frame = load_frame(scene, file.path, at);
   if (frame.mesh.vertex_count == 0) at.fail("expected a mesh with vertices");
-  if (scene.dimension == 2) {
-    if (!frame.mesh.faces.empty()) at.fail("expected a mesh of edges without faces, as the scene has dimension 2");
-    for (const Position& x : frame.positions) {
-      if (x[2] != 0) at.fail("expected z = 0 at every vertex, as the scene has dimension 2");
-    }
+  if (scene.dimension == 2 && !frame.mesh.faces.empty()) {
+    at.fail("expected a mesh of edges without faces, as the scene has dimension 2");
   }
+  require_plane(scene, frame.positions, at);
   return {std::move(frame.mesh), std::move(frame.positions), {}};
 }
 
@@ -126,26 +120,20 @@ Densities densities(const SpringMaterial& m) {
           m.mass_per == MassPer::vertex ? m.mass : 0};
 }
 
-double density_factor(const Body& body, const Position& x) {
-  double factor = 1;
-  for (const Patch& patch : body.patches) factor *= contains(patch.box, x) ? patch.density_factor : 1;
-  return factor;
-}
-
 std::vector<double> lumped_masses(const Body& body, const BodyMesh& made) {
   const Densities density = std::visit([](const auto& m) { return densities(m); }, body.material.kind);
+  const auto factor = [&body](const Position& x) { return patch_factor(body, x, &Patch::density_factor); };
   const Mesh& mesh = made.shape.mesh;
   std::vector<double> mass(mesh.vertex_count);
-  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = density.vertex * density_factor(body, made.start[i]);
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = density.vertex * factor(made.start[i]);
   for (const auto& face : mesh.faces) {
     end_if_stopped();
-    const double part = density.area * density_factor(body, centre(made.start, face)) * face_area(made.rest, face) / 3;
+    const double part = density.area * factor(centre(made.start, face)) * face_area(made.rest, face) / 3;
     for (const VertexId i : face) mass[i] += part;
   }
   for (const auto& edge : mesh.edges) {
     end_if_stopped();
-    const double part =
-        density.length * density_factor(body, centre(made.start, edge)) * edge_length(made.rest, edge) / 2;
+    const double part = density.length * factor(centre(made.start, edge)) * edge_length(made.rest, edge) / 2;
     for (const VertexId i : edge) mass[i] += part;
   }
   return mass;
@@ -194,16 +182,29 @@ struct Part {
 
   std::vector<VertexId> all() const {
     std::vector<VertexId> ids(shape.mesh.vertex_count);
-    for (VertexId i = 0; i < ids.size(); ++i) ids[i] = i;
+    std::iota(ids.begin(), ids.end(), VertexId{0});
     return ids;
   }
 };
 
 }  // namespace
 
-double stiffness_factor(const Body& body, const Position& x) {
+Frame load_frame(const Scene& scene, const std::string& file, const Field& at) {
+  try {
+    return read_frame(scene.path.parent_path() / file);
+  } catch (const InputError& error) {
+    at.fail(fmt::format("expected a mesh that loads: {}", error.what()));
+  }
+}
+
+void require_plane(const Scene& scene, const std::vector<Position>& x, const Field& at) {
+  const bool flat = std::all_of(x.begin(), x.end(), [](const Position& p) { return p[2] == 0; });
+  if (scene.dimension == 2 && !flat) at.fail("expected z = 0 at every vertex, as the scene has dimension 2");
+}
+
+double patch_factor(const Body& body, const Position& x, double Patch::*which) {
   double factor = 1;
-  for (const Patch& patch : body.patches) factor *= contains(patch.box, x) ? patch.stiffness_factor : 1;
+  for (const Patch& patch : body.patches) factor *= contains(patch.box, x) ? patch.*which : 1;
   return factor;
 }
 
@@ -214,9 +215,7 @@ BodyMesh make_body(const Scene& scene, std::size_t index) {
   made.shape = shape_of(scene, body, at["mesh"]);
   require_different(made.shape.mesh.faces, "face", at["mesh"]);
   require_different(made.shape.mesh.edges, "edge", at["mesh"]);
-  Placed placed = place(made.shape, body.deform, body.transform);
-  made.rest = std::move(placed.rest);
-  made.start = std::move(placed.start);
+  std::tie(made.rest, made.start) = place(made.shape, body.deform, body.transform);
   require_few_copies(body.array, made.shape.mesh.vertex_count, at["array"]["counts"]);
   repeat(made, body.array);
   for (std::size_t i = 0; i < made.start.size(); ++i) {

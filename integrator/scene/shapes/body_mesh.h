@@ -6,6 +6,7 @@
 #include "integrator/scene/scene.h"
 #include "integrator/scene/shapes/field.h"
 #include "integrator/scene/shapes/shape.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli::integrator {
 
@@ -21,8 +22,14 @@ struct BodyMesh {
 /// cell with a vertex twice, faces or third coordinates in the plane, vertices without mass, a pin that is not there.
 BodyMesh make_body(const Scene& scene, std::size_t index);
 
-/// Product of the factors of the patches that a point is in.
-double stiffness_factor(const Body& body, const Position& x);
+/// The frame in a file that the scene names at this field. Throws InputError: a file that does not load.
+Frame load_frame(const Scene& scene, const std::string& file, const Field& at);
+
+/// In the plane, throws InputError unless z = 0 at every vertex.
+void require_plane(const Scene& scene, const std::vector<Position>& x, const Field& at);
+
+/// Product of the factors, of this sort, of the patches that a point is in.
+double patch_factor(const Body& body, const Position& x, double Patch::*which);
 
 /// Middle of a cell at the start.
 template <std::size_t N>

@@ -66,19 +66,19 @@ double even(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-
 
 }  // namespace
 
-Placed place(const Shape& shape, const Deform& deform, const Transform& transform) {
-  Placed placed;
+std::pair<std::vector<Position>, std::vector<Position>> place(const Shape& shape, const Deform& deform,
+                                                              const Transform& transform) {
+  std::vector<Position> rest, start;
   const Matrix rotation = std::visit([](const auto& r) { return matrix(r); }, transform.rotate);
   const bool rotated = !std::holds_alternative<std::monostate>(transform.rotate);
   for (const Position& p : shape.positions) {
     end_if_stopped();
-    const Position rest{transform.scale * p[0], transform.scale * p[1], transform.scale * p[2]};
-    const Position bent = deformed(rest, deform), turned = rotated ? apply(rotation, bent) : bent;
-    placed.rest.push_back(rest);
-    placed.start.push_back(
+    rest.push_back({transform.scale * p[0], transform.scale * p[1], transform.scale * p[2]});
+    const Position bent = deformed(rest.back(), deform), turned = rotated ? apply(rotation, bent) : bent;
+    start.push_back(
         {turned[0] + transform.translate[0], turned[1] + transform.translate[1], turned[2] + transform.translate[2]});
   }
-  return placed;
+  return {std::move(rest), std::move(start)};
 }
 
 void perturb(std::vector<Position>& positions, double amplitude, std::uint64_t seed, std::size_t body, int dimension) {

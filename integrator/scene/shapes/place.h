@@ -7,6 +7,7 @@
 //   x    position at the start: X deformed, rotated, moved; then perturbed
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "integrator/scene/scene.h"
@@ -14,12 +15,9 @@
 
 namespace noli::integrator {
 
-struct Placed {
-  std::vector<Position> rest, start;
-};
-
-/// Start positions are not perturbed yet.
-Placed place(const Shape& shape, const Deform& deform, const Transform& transform);
+/// X and x of each vertex; x is not perturbed yet.
+std::pair<std::vector<Position>, std::vector<Position>> place(const Shape& shape, const Deform& deform,
+                                                              const Transform& transform);
 
 /// Adds to each coordinate (two in the plane) an amount drawn evenly from [-amplitude, amplitude). What is drawn
 /// depends on the seed, the body's number, the vertex, and the coordinate.
