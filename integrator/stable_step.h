@@ -51,7 +51,7 @@ std::array<S, F::size> squared_frequencies(const F& force, const std::vector<Vec
 }
 
 /// A step for each force of a list [s]; infinite for forces that move nothing. x, inverse_mass: one for each vertex, 0
-/// for what is pinned or scripted.
+/// for what is pinned or scripted. `factor`: of safety; 1 gives the limits above which a scene is refused.
 template <class F, class S, int Dim>
 std::vector<double> stable_steps(const ForceList<F>& list, const std::vector<Vec<S, Dim>>& x,
                                  const std::vector<S>& inverse_mass, double factor = 0.5) {
@@ -69,13 +69,6 @@ std::vector<double> stable_steps(const ForceList<F>& list, const std::vector<Vec
     steps.push_back(factor * 2 / std::sqrt(static_cast<double>(S(2) * greatest)));
   }
   return steps;
-}
-
-/// The step of each force above which a scene is refused: without the factor of safety.
-template <class F, class S, int Dim>
-std::vector<double> stability_limits(const ForceList<F>& list, const std::vector<Vec<S, Dim>>& x,
-                                     const std::vector<S>& inverse_mass) {
-  return stable_steps(list, x, inverse_mass, 1);
 }
 
 }  // namespace noli::integrator

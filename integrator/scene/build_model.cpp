@@ -131,7 +131,7 @@ ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std
       origins.push_back(sourced.origins[i]);
     }
   }
-  const std::vector<double> limits = stability_limits(list, x, inverse_mass);
+  const std::vector<double> limits = stable_steps(list, x, inverse_mass, 1);
   const auto which = bends(F::kind) ? &GivenSteps::bend : &GivenSteps::stretch;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     end_if_stopped();

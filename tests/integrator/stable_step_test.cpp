@@ -74,7 +74,7 @@ struct System {
   }
 
   double estimated_limit() const {
-    const auto limits = integrator::stability_limits(list, x, inverse_mass);
+    const auto limits = integrator::stable_steps(list, x, inverse_mass, 1);
     return *std::min_element(limits.begin(), limits.end());
   }
 
@@ -230,7 +230,7 @@ TEST(StableStepTest, PinnedVerticesDoNotCount) {
   system.list.add({{0, 1}, 8, 1, 0}, 1);
   system.list.add({{1, 2}, 8, 1, 0}, 1);
   system.list.add({{2, 3}, 0, 1, 0}, 1);
-  const auto limits = integrator::stability_limits(system.list, system.x, system.inverse_mass);
+  const auto limits = integrator::stable_steps(system.list, system.x, system.inverse_mass, 1);
   EXPECT_EQ(limits[0], std::numeric_limits<double>::infinity());  // moves nothing
   EXPECT_DOUBLE_EQ(limits[1], 2 / std::sqrt(2 * 8 * 0.5));
   EXPECT_DOUBLE_EQ(limits[2], limits[1]);  // by its neighbour at vertex 2
@@ -244,7 +244,7 @@ TEST(StableStepTest, StiffPartsHaveStepsOfTheirOwn) {
     system.inverse_mass.push_back(1);
   }
   for (VertexId i = 0; i + 1 < 10; ++i) system.list.add({{i, i + 1}, i == 4 ? 1e4 : 1, 1, 0}, 1);
-  const auto limits = integrator::stability_limits(system.list, system.x, system.inverse_mass);
+  const auto limits = integrator::stable_steps(system.list, system.x, system.inverse_mass, 1);
   for (std::size_t e = 0; e < limits.size(); ++e) {
     const bool touches = e >= 3 && e <= 5;
     EXPECT_NEAR(limits[e], touches ? 0.01 : std::sqrt(0.5), touches ? 1e-5 : 1e-15) << e;
