@@ -74,8 +74,7 @@ class Cells {
     for (const auto& cell : features_.cells()) {
       end_if_stopped();
       centres.push_back(x[cell.vertices[0]]);
-      fixed.push_back(std::all_of(cell.vertices.begin(), cell.vertices.begin() + cell.size,
-                                  [this](VertexId v) { return host_.immovable(v); }));
+      fixed.push_back(std::ranges::all_of(cell.all(), [this](VertexId v) { return host_.immovable(v); }));
     }
     hierarchy_ = Hierarchy<Dim>(centres, fixed);
     measure(x);
@@ -163,9 +162,7 @@ class Cells {
     for (const auto& cell : features_.cells()) {
       end_if_stopped();
       double widest = 0;
-      for (std::uint8_t k = 0; k < cell.size; ++k) {
-        widest = std::max(widest, host_.greatest_thickness(cell.vertices[k]));
-      }
+      for (const VertexId v : cell.all()) widest = std::max(widest, host_.greatest_thickness(v));
       halves_.push_back(0.5 * widest);
     }
   }
@@ -240,9 +237,8 @@ class Cells {
 
   MovingBox<Dim> box_of(std::uint32_t cell) const {
     MovingBox<Dim> box = MovingBox<Dim>::empty();
-    const auto& c = features_.cells()[cell];
-    for (std::uint8_t k = 0; k < c.size; ++k) {
-      const Plan<Dim>& tube = tubes_[c.vertices[k]];
+    for (const VertexId v : features_.cells()[cell].all()) {
+      const Plan<Dim>& tube = tubes_[v];
       const Vector<Dim> room = Vector<Dim>::Constant(tube.radius + halves_[cell] + 4 * margin_);
       const Vector<Dim> begin = tube.line.at(slice_begin_), end = tube.line.at(slice_end_);
       box.add({{begin - room, end - room}, {begin + room, end + room}});
@@ -307,17 +303,11 @@ class Cells {
   /// The same for all pairs of two cells that have no vertex in common, by the direction between their centres.
   /// Silent otherwise.
   bool cells_settled(std::uint32_t a, std::uint32_t b, double t) const {
-    const auto& p = features_.cells()[a];
-    const auto& q = features_.cells()[b];
-    for (std::size_t k = 0; k < p.size; ++k) {
-      for (std::size_t j = 0; j < q.size; ++j) {
-        if (p.vertices[k] == q.vertices[j]) return false;
-      }
-    }
-    const std::span<const VertexId> of_p(p.vertices.data(), p.size), of_q(q.vertices.data(), q.size);
-    Vector<Dim> n = centre(of_p, t) - centre(of_q, t);
+    const auto p = features_.cells()[a].all(), q = features_.cells()[b].all();
+    if (std::ranges::find_first_of(p, q) != p.end()) return false;
+    Vector<Dim> n = centre(p, t) - centre(q, t);
     const double length = std::sqrt(n.squaredNorm());
-    return length > 0 && keeps_apart(of_p, of_q, n / length, halves_[a] + halves_[b] + 8 * margin_, t);
+    return length > 0 && keeps_apart(p, q, n / length, halves_[a] + halves_[b] + 8 * margin_, t);
   }
 
   Vector<Dim> centre(std::span<const VertexId> vertices, double t) const {
@@ -388,11 +378,7 @@ class Cells {
     const double ahead = std::min(t + host_.look_step(i), slice_end_);
     if (must_leave_tube(i, now, ahead)) leave_tube(i, now);
     Plan<Dim>& guard = guards_[i];
-    if (nears_.of(i).empty()) {
-      guard = tubes_[i];
-    } else {
-      guard = plan_within(i, now);
-    }
+    guard = nears_.of(i).empty() ? tubes_[i] : plan_within(i, now);
     due_[i] = guard.holds(now, ahead) ? never : guard.until;
     if (due_[i] != never) events_.push({due_[i], i});
   }

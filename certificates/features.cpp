@@ -48,13 +48,13 @@ void Features::find_owners(std::size_t vertex_count) {
 void Features::list_cells(std::size_t vertex_count) {
   cells_of_.assign(vertex_count + 1, 0);
   for (const Cell& cell : cells_) {
-    for (std::uint8_t k = 0; k < cell.size; ++k) ++cells_of_[cell.vertices[k] + 1];
+    for (const VertexId v : cell.all()) ++cells_of_[v + 1];
   }
   for (std::size_t v = 0; v < vertex_count; ++v) cells_of_[v + 1] += cells_of_[v];
   cell_list_.resize(cells_of_.back());
   std::vector<std::size_t> next(cells_of_.begin(), cells_of_.end() - 1);
   for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-    for (std::uint8_t k = 0; k < cells_[c].size; ++k) cell_list_[next[cells_[c].vertices[k]]++] = c;
+    for (const VertexId v : cells_[c].all()) cell_list_[next[v]++] = c;
   }
 }
 

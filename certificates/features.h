@@ -33,6 +33,8 @@ class Features {
     std::uint8_t owned_vertices = 0;  ///< bit k: owns vertices[k]
     std::uint8_t owned_edges = 0;     ///< bit k: owns the edge from vertices[k] to vertices[(k + 1) % size]
     std::array<std::uint32_t, 3> edges{};
+
+    std::span<const VertexId> all() const { return {vertices.data(), size}; }  ///< its vertices
   };
 
   /// Throws std::invalid_argument for 2^31 features or more.
@@ -40,7 +42,6 @@ class Features {
 
   const std::vector<Cell>& cells() const { return cells_; }
   const std::vector<std::array<VertexId, 2>>& edges() const { return edges_; }
-  std::size_t vertex_count() const { return cells_of_.empty() ? 0 : cells_of_.size() - 1; }
 
   /// Cells of a vertex, ascending.
   std::span<const std::uint32_t> cells_of(VertexId v) const {
