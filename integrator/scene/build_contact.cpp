@@ -319,9 +319,7 @@ class Materials {
   /// Calls each(a, b, what counts) for all ways in which two bodies meet: class a of one and class b of the other.
   template <class Each>
   void for_each_way(const BodyPair& pair, const Parts& first, const Parts& second, const Each& each) const {
-    const std::vector<BodyPair>& excluded = scene_.contact->excluded;
-    if (!(first.all | second.all).any()) return;
-    if (std::find(excluded.begin(), excluded.end(), pair) != excluded.end()) return;
+    if (!(first.all | second.all).any() || scene_.contact->excludes(pair)) return;
     for (std::size_t a = 0; a < first.of_class.size(); ++a) {
       for (std::size_t b = pair[0] == pair[1] ? a : 0; b < second.of_class.size(); ++b) {
         const Free &p = first.of_class[a], &q = second.of_class[b];

@@ -149,14 +149,10 @@ BodyPair read_pair(const Field& f, const std::vector<Body>& bodies) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-bool excludes(const SceneContact& contact, const BodyPair& pair) {
-  return std::find(contact.excluded.begin(), contact.excluded.end(), pair) != contact.excluded.end();
-}
-
 ContactPair read_contact_pair(const Field& f, const Scene& scene, const SceneContact& contact) {
   const Field bodies = f["bodies"];
   const ContactPair pair{read_pair(bodies, scene.bodies), read_values(f, scene.allow_unstable)};
-  if (excludes(contact, pair.bodies)) bodies.fail("expected bodies that \"exclude\" does not name");
+  if (contact.excludes(pair.bodies)) bodies.fail("expected bodies that \"exclude\" does not name");
   for (const ContactPair& other : contact.pairs) {
     if (other.bodies == pair.bodies)
       bodies.fail("expected bodies that no other pair has, found " + brief(bodies.json()));

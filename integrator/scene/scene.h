@@ -6,6 +6,7 @@
 // What this does not do: it has no meshes yet (integrator/scene/build_model.h makes them).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -228,6 +229,8 @@ struct SceneContact {
   std::uint32_t most_layers = 1000;
   std::vector<ContactPair> pairs;  ///< each pair at most once
   std::vector<BodyPair> excluded;  ///< none of `pairs`
+
+  bool excludes(const BodyPair& pair) const { return std::ranges::find(excluded, pair) != excluded.end(); }
 };
 
 enum class Record : std::uint8_t { full, frames };

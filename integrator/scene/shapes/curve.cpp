@@ -67,12 +67,9 @@ Shape make_shape(const Chain& chain) {
   Shape shape;
   const CurveKind kind{chain.smooth, chain.closed};
   for (const Vec3& x : along_curve(chain.points, chain.segments, kind)) shape.add(to_position(x));
-  if (chain.closed) {
-    for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, (i + 1) % chain.segments});
-    return shape;
-  }
-  for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, i + 1});
-  shape.sets = {{"first", {0}}, {"last", {chain.segments}}};
+  const auto n = static_cast<VertexId>(shape.mesh.vertex_count);
+  for (VertexId i = 0; i < chain.segments; ++i) shape.mesh.edges.push_back({i, (i + 1) % n});
+  if (!chain.closed) shape.sets = {{"first", {0}}, {"last", {chain.segments}}};
   return shape;
 }
 

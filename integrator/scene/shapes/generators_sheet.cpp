@@ -23,12 +23,11 @@ void add_lattice_faces(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, Di
   }
 }
 
-/// Vertices of which this holds.
-template <class Holds>
-std::vector<VertexId> vertices_where(const Shape& shape, const Holds& holds) {
+/// Vertices with this coordinate.
+std::vector<VertexId> vertices_at(const Shape& shape, std::size_t axis, double coordinate) {
   std::vector<VertexId> ids;
   for (VertexId i = 0; i < shape.positions.size(); ++i) {
-    if (holds(shape.positions[i])) ids.push_back(i);
+    if (shape.positions[i][axis] == coordinate) ids.push_back(i);
   }
   return ids;
 }
@@ -199,10 +198,10 @@ Shape make_shape(const Grid& grid) {
   }
   const double x = grid.size[0] / 2, y = grid.size[1] / 2;
   const VertexId top = ny * (nx + 1);
-  shape.sets = {{"left", vertices_where(shape, [x](const Position& p) { return p[0] == -x; })},
-                {"right", vertices_where(shape, [x](const Position& p) { return p[0] == x; })},
-                {"bottom", vertices_where(shape, [y](const Position& p) { return p[1] == -y; })},
-                {"top", vertices_where(shape, [y](const Position& p) { return p[1] == y; })},
+  shape.sets = {{"left", vertices_at(shape, 0, -x)},
+                {"right", vertices_at(shape, 0, x)},
+                {"bottom", vertices_at(shape, 1, -y)},
+                {"top", vertices_at(shape, 1, y)},
                 {"left_bottom", {0}},
                 {"right_bottom", {nx}},
                 {"left_top", {top}},

@@ -112,6 +112,17 @@ class BoxLattice {
   std::map<std::array<std::uint32_t, 3>, VertexId> ids_;
 };
 
+/// The cells between rings of vertices, each with the next; vertex(k, j) is vertex j of ring k.
+template <class Vertex>
+void add_tube_faces(Mesh& mesh, std::uint32_t segments, std::uint32_t sides, const Vertex& vertex) {
+  for (std::uint32_t k = 0; k < segments; ++k) {
+    end_if_stopped();
+    for (std::uint32_t j = 0; j < sides; ++j) {
+      add_cell(mesh, {vertex(k, j), vertex(k + 1, j), vertex(k + 1, j + 1), vertex(k, j + 1)}, (k + j) % 2 == 1);
+    }
+  }
+}
+
 }  // namespace
 
 Shape make_shape(const Rod& rod) {
@@ -126,18 +137,11 @@ Shape make_shape(const Rod& rod) {
   }
   const VertexId first = shape.add({-rod.length / 2, 0, 0}), last = shape.add({rod.length / 2, 0, 0});
   const auto vertex = [sides](std::uint32_t k, std::uint32_t j) { return k * sides + j % sides; };
-  for (std::uint32_t k = 0; k < n; ++k) {
-    end_if_stopped();
-    for (std::uint32_t j = 0; j < sides; ++j) {
-      add_cell(shape.mesh, {vertex(k, j), vertex(k + 1, j), vertex(k + 1, j + 1), vertex(k, j + 1)}, (k + j) % 2 == 1);
-    }
-  }
+  add_tube_faces(shape.mesh, n, sides, vertex);
   turn_over(shape.mesh, shape.mesh.faces.size());
   for (std::uint32_t j = 0; j < sides; ++j) {
     shape.mesh.faces.push_back({first, vertex(0, j + 1), vertex(0, j)});
     shape.mesh.faces.push_back({last, vertex(n, j), vertex(n, j + 1)});
-  }
-  for (std::uint32_t j = 0; j < sides; ++j) {
     shape.sets["first"].push_back(vertex(0, j));
     shape.sets["last"].push_back(vertex(n, j));
   }
@@ -166,12 +170,7 @@ Shape make_shape(const Torus& torus) {
     }
   }
   const auto vertex = [n, sides](std::uint32_t k, std::uint32_t j) { return (k % n) * sides + j % sides; };
-  for (std::uint32_t k = 0; k < n; ++k) {
-    end_if_stopped();
-    for (std::uint32_t j = 0; j < sides; ++j) {
-      add_cell(shape.mesh, {vertex(k, j), vertex(k + 1, j), vertex(k + 1, j + 1), vertex(k, j + 1)}, (k + j) % 2 == 1);
-    }
-  }
+  add_tube_faces(shape.mesh, n, sides, vertex);
   return shape;
 }
 
