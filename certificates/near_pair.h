@@ -20,8 +20,8 @@
 #include <span>
 #include <stdexcept>
 
+#include <noli/run.h>
 #include "certificates/closest.h"
-#include "certificates/counts.h"
 
 namespace noli::certificates {
 

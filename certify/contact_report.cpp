@@ -40,7 +40,7 @@ Json counts_json(const ContactCounts& counts) {
   return json;
 }
 
-Json certificates_json(const certificates::CertificateCounts& counts) {
+Json certificates_json(const CertificateCounts& counts) {
   return {{"slices", counts.slices},
           {"tubes", counts.tubes},
           {"plans", counts.plans},

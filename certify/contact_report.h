@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "certificates/counts.h"
+#include <noli/run.h>
 #include "certify/json.h"
 #include "integrator/contact_settings.h"
 #include "proofs/prover/verifier.h"
@@ -22,7 +22,7 @@ Json contact_json(const FeatureContact& contact);
 Json contact_json(const integrator::ContactSettings& settings);
 
 /// All zero in scenes without contact.
-Json certificates_json(const certificates::CertificateCounts& counts);
+Json certificates_json(const CertificateCounts& counts);
 
 /// {"vertex_face": n, ...}
 Json counts_json(const ContactCounts& counts);

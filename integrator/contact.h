@@ -173,9 +173,9 @@ class Contact {
     for (const auto& of_material : layers_) {
       for (const Layer& layer : std::span(of_material).first(count_of_acting(of_material))) {
         for (const certificates::Stencil& pair : layer.pairs.in_order()) {
-          const auto c = closest_now<double, Dim>(particles_, pair);
-          const double g = c.distance() - layer.thickness;
-          if (g < 0) each(pair, c, g, layer.stiffness, layer.clock.step);
+          const auto c = closest_of<double, Dim>(pair, [this](VertexId v) { return particles_[v].x; });
+          const double g = c.distance() - layer.terms.thickness;
+          if (g < 0) each(pair, c, g, layer.terms.stiffness, layer.clock.step);
         }
       }
     }
@@ -193,14 +193,10 @@ class Contact {
     }
   }
   /// Precondition: it is active for a pair, or was.
-  LayerTerms terms_of(std::uint16_t material, std::uint32_t l) const {
-    const Layer& layer = layers_[material][l - 1];
-    const ContactMaterial& m = settings_.materials[material];
-    return {layer.thickness, layer.stiffness, m.restitution, m.friction};
-  }
+  const LayerTerms& terms_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].terms; }
   double step_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].clock.step; }
 
-  const certificates::CertificateCounts& counts() const { return certificates_.counts(); }
+  const CertificateCounts& counts() const { return certificates_.counts(); }
 
   // --- For the certificates ------------------------------------------------------------------------------------------
 
@@ -258,7 +254,7 @@ class Contact {
 
   struct Layer {
     Clock clock;
-    double thickness, stiffness;
+    LayerTerms terms;
     PairList pairs;  ///< for which it is active
   };
 
@@ -280,10 +276,9 @@ class Contact {
 
   Layer make_layer(std::uint16_t material, std::uint32_t l) const {
     const ContactMaterial& m = settings_.materials[material];
-    return {{layer_step(m, settings_.schedule, l), 1},
-            layer_thickness(m, settings_.schedule, l),
-            layer_stiffness(m, settings_.schedule, l),
-            {}};
+    const LayerSchedule& s = settings_.schedule;
+    const LayerTerms terms{layer_thickness(m, s, l), layer_stiffness(m, s, l), m.restitution, m.friction};
+    return {{layer_step(m, s, l), 1}, terms, {}};
   }
 
   template <class Recorder>
@@ -318,9 +313,9 @@ class Contact {
   /// Fires a layer that must not act. Throws ContactLimit if it would.
   void watch(std::uint16_t material, std::uint32_t l, double t) {
     const auto watched = layers_[material][l - 1].pairs.in_order();
-    const double eta = layers_[material][l - 1].thickness;
+    const double eta = terms_of(material, l).thickness;
     for (const certificates::Stencil& pair : watched) {
-      const double d = closest_at<double, Dim>(particles_, pair, t).distance();
+      const double d = closest_of<double, Dim>(pair, [&](VertexId v) { return particles_[v].at(t); }).distance();
       if (!(d >= eta)) throw ContactLimit(pair, t);
       if (d > eta) drop_if_clear(pair, material, l, d, t);
     }

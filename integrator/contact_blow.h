@@ -138,21 +138,11 @@ Blow<S, Dim> strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates
   return blow;
 }
 
-/// The closest points of a pair whose vertices have all been brought up to date.
-template <class S, int Dim>
-certificates::Closest<Dim, S> closest_now(std::span<const Particle<S, Dim>> particles,
-                                          const certificates::Stencil& pair) {
+/// The closest points of a pair whose vertices are at position(vertex).
+template <class S, int Dim, class PositionOf>
+certificates::Closest<Dim, S> closest_of(const certificates::Stencil& pair, const PositionOf& position) {
   std::array<Vec<S, Dim>, 4> x;
-  for (std::size_t i = 0; i < pair.size(); ++i) x[i] = particles[pair.vertices[i]].x;
-  return certificates::closest<Dim, S>(pair.kind, std::span<const Vec<S, Dim>>(x.data(), pair.size()));
-}
-
-/// The closest points of a pair at time t, its vertices being where their last events left them.
-template <class S, int Dim>
-certificates::Closest<Dim, S> closest_at(std::span<const Particle<S, Dim>> particles, const certificates::Stencil& pair,
-                                         double t) {
-  std::array<Vec<S, Dim>, 4> x;
-  for (std::size_t i = 0; i < pair.size(); ++i) x[i] = particles[pair.vertices[i]].at(t);
+  for (std::size_t i = 0; i < pair.size(); ++i) x[i] = position(pair.vertices[i]);
   return certificates::closest<Dim, S>(pair.kind, std::span<const Vec<S, Dim>>(x.data(), pair.size()));
 }
 

@@ -188,15 +188,15 @@ class Engine {
   void make_own_clocks() {
     if (clocks_ != Clocks::own) return;
     std::array<Shelf, kinds> shelves;
-    std::array<std::size_t, kinds> counts{};
     std::vector<double> steps;
-    std::size_t kind = 0;
+    std::vector<std::uint32_t> kind_of;
+    std::uint32_t kind = 0;
     for_each_division([&](const auto& d) {
       shelves[kind] = Shelf(d.list.forces, steps.size());
-      counts[kind++] = d.list.forces.size();
       steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end());
+      kind_of.resize(steps.size(), kind++);
     });
-    own_ = OwnClocks<kinds>(shelves, counts, steps, particles_.size(), time());
+    own_ = OwnClocks<kinds>(shelves, Calendar(steps, kind_of, time()), particles_.size());
   }
 
   void make_contact(const Model<S, Dim>& model) {
@@ -476,8 +476,7 @@ class Engine {
   template <class Recorder, class F>
   void watch(const Now<Recorder>& now, const F& force) const {
     for (const VertexId v : force.vertices) {
-      const Particle<S, Dim>& p = particles_[v];
-      if (p.x.allFinite() && p.v.allFinite()) continue;
+      if (particles_[v].finite()) continue;
       throw NotFinite{now.t, F::kind, {force.vertices.begin(), force.vertices.end()}, v};
     }
   }

@@ -23,7 +23,6 @@ namespace noli::integrator {
 
 using noli::force_kinds;
 using noli::ForceKind;
-using noli::name;
 
 /// An elastic force on N = F::size vertices with M = F::measures measures. F::Scalar is its number type, F::dimension
 /// that of space.

@@ -54,6 +54,8 @@ struct alignas(particle_alignment<S, Dim>) Particle {
   /// Where it is at a time that is not before its clock, if no event comes between. Reading changes nothing: what
   /// rounding does to a run does not depend on who looks.
   Vec<S, Dim> at(double time) const { return x + (S(time) - S(t)) * v; }
+
+  bool finite() const { return x.allFinite() && v.allFinite(); }
 };
 
 /// Damps the velocities v of a force's vertices at the positions x for an event of step h [s]. Returns the work on the

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "integrator/clocks.h"
@@ -231,14 +232,9 @@ class OwnClocks {
 
   OwnClocks() = default;
 
-  /// `counts`: how many forces a shelf has; `steps`: of all forces, by number.
-  OwnClocks(const std::array<Shelf, Kinds>& shelves, const std::array<std::size_t, Kinds>& counts,
-            const std::vector<double>& steps, std::size_t vertex_count, double now)
-      : shelves_(shelves), claims_(vertex_count) {
-    std::vector<std::uint32_t> kinds;
-    for (std::uint32_t kind = 0; kind < Kinds; ++kind) kinds.insert(kinds.end(), counts[kind], kind);
-    calendar_ = Calendar(steps, kinds, now);
-  }
+  /// `calendar`: of all forces, by number; it says which shelf each is on.
+  OwnClocks(const std::array<Shelf, Kinds>& shelves, Calendar calendar, std::size_t vertex_count)
+      : calendar_(std::move(calendar)), shelves_(shelves), claims_(vertex_count) {}
 
   bool empty() const { return calendar_.empty(); }
   /// Of the next force. Precondition: not empty.

@@ -12,7 +12,6 @@
 
 namespace noli::integrator {
 
-using noli::name;
 using noli::Phase;
 
 /// Written by one thread, read by any.

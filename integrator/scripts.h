@@ -26,8 +26,6 @@ struct Turn {
 template <class S, int Dim>
 class Timeline {
  public:
-  Timeline() = default;
-
   explicit Timeline(const std::vector<Script<S, Dim>>& scripts) {
     for (const Script<S, Dim>& script : scripts) {
       for (std::size_t j = 0; j < script.times.size(); ++j) turns_.push_back(turn(script, j));

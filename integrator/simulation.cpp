@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrator/simulation.h"
 
+#include <algorithm>
+
 #include "integrator/energy.h"
 #include "integrator/engine.h"
 
 namespace noli::integrator {
-namespace {
-
-constexpr auto never = [] { return false; };
-
-}  // namespace
 
 template <class S, int Dim>
 Simulation<S, Dim>::Simulation(Model<S, Dim> model) : engine_(std::make_unique<Engine<S, Dim>>(std::move(model))) {}
@@ -37,11 +34,6 @@ std::uint64_t Simulation<S, Dim>::windows() const {
 }
 
 template <class S, int Dim>
-void Simulation<S, Dim>::run_window(Recording<S, Dim>& recording, Books<S, Dim>& books) {
-  engine_->run_window(recording, books, never);
-}
-
-template <class S, int Dim>
 bool Simulation<S, Dim>::run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop) {
   return engine_->run_window(recording, books, stop);
 }
@@ -49,7 +41,7 @@ bool Simulation<S, Dim>::run_window(Recording<S, Dim>& recording, Books<S, Dim>&
 template <class S, int Dim>
 void Simulation<S, Dim>::run_window(Books<S, Dim>& books) {
   NoRecording nothing;
-  engine_->run_window(nothing, books, never);
+  engine_->run_window(nothing, books, never_stop);
 }
 
 template <class S, int Dim>
@@ -85,8 +77,8 @@ std::vector<StepGroup> Simulation<S, Dim>::groups() const {
 }
 
 template <class S, int Dim>
-certificates::CertificateCounts Simulation<S, Dim>::certificates() const {
-  return engine_->contact() != nullptr ? engine_->contact()->counts() : certificates::CertificateCounts{};
+CertificateCounts Simulation<S, Dim>::certificates() const {
+  return engine_->contact() != nullptr ? engine_->contact()->counts() : CertificateCounts{};
 }
 
 template <class S, int Dim>
@@ -110,10 +102,7 @@ void Simulation<S, Dim>::show(Activity& activity) {
 
 template <class S, int Dim>
 bool Simulation<S, Dim>::finite() const {
-  for (const auto& p : engine_->particles()) {
-    if (!p.x.allFinite() || !p.v.allFinite()) return false;
-  }
-  return true;
+  return std::ranges::all_of(engine_->particles(), &Particle<S, Dim>::finite);
 }
 
 template <class S, int Dim>
@@ -127,8 +116,7 @@ std::optional<NotFinite> Simulation<S, Dim>::find_not_finite(const Stop& stop) {
   }
   // No force left it: a particle has run out of the numbers while nothing acted on it.
   for (std::size_t i = 0; i < engine_->particles().size(); ++i) {
-    const auto& p = engine_->particles()[i];
-    if (!p.x.allFinite() || !p.v.allFinite()) {
+    if (!engine_->particles()[i].finite()) {
       return NotFinite{engine_->time(), std::nullopt, {}, static_cast<VertexId>(i)};
     }
   }

@@ -23,7 +23,7 @@
 #include <optional>
 #include <vector>
 
-#include "certificates/counts.h"
+#include <noli/run.h>
 #include "certificates/stencil.h"
 #include "integrator/books.h"
 #include "integrator/contact_extremes.h"
@@ -65,10 +65,9 @@ struct StepGroup {
   std::uint64_t forces;
 };
 
-using noli::NotFinite;
-
 /// Whether to stop.
 using Stop = std::function<bool()>;
+inline bool never_stop() { return false; }
 
 /// integrator/engine.h. `Touching`: what knows of contact; void: integrator/contact.h
 template <class S, int Dim, class Touching = void>
@@ -90,11 +89,9 @@ class Simulation {
   std::uint64_t windows() const;  ///< done
 
   /// Runs the next window. Records each vertex at both its ends and at each change of velocity between; books work and
-  /// impulses.
-  void run_window(Recording<S, Dim>& recording, Books<S, Dim>& books);
-  /// The same, asking after every some ten thousand events whether to stop. False when it was told to: then this is
+  /// impulses. Asks after every some ten thousand events whether to stop. False when it was told to: then this is
   /// somewhere within the window, and of no more use.
-  bool run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop);
+  bool run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop = never_stop);
   /// The same without a recording: the same numbers.
   void run_window(Books<S, Dim>& books);
 
@@ -107,7 +104,7 @@ class Simulation {
   std::uint64_t events() const;
   std::vector<StepGroup> groups() const;
   /// What certificates have cost since time 0 of this object; nothing without contact.
-  certificates::CertificateCounts certificates() const;
+  CertificateCounts certificates() const;
   /// How near layers of contact that acted in the last window have seen things; nothing without contact.
   ContactExtremes extremes() const;
 
@@ -126,8 +123,5 @@ class Simulation {
  private:
   std::unique_ptr<Engine<S, Dim>> engine_;
 };
-
-extern template class Simulation<double, 2>;
-extern template class Simulation<double, 3>;
 
 }  // namespace noli::integrator

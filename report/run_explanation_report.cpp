@@ -142,7 +142,7 @@ std::string energy_text(const RunExplanation& e) {
 
 std::string certificates_text(const RunExplanation& e) {
   if (!e.log.has_contact) return "";
-  const certificates::CertificateCounts& c = e.log.certificates;
+  const CertificateCounts& c = e.log.certificates;
   const auto in_a_second = [&](std::uint64_t n) { return rate(static_cast<double>(n), e.time); };
   return fmt::format(
       "Certificates, a second of simulated time: {:.4g} slices, {:.4g} tubes left, {:.4g} plans, {:.4g} repairs, "

@@ -76,7 +76,7 @@ class ReplayedContact {
   template <class Each>
   void for_each_acting(Each&& each) const {
     for (const ActivePair& active : log_->active()) {
-      const auto c = integrator::closest_now<S, Dim>(particles_, active.pair);
+      const auto c = integrator::closest_of<S, Dim>(active.pair, [this](VertexId v) { return particles_[v].x; });
       const S g = c.distance() - S(active.terms.thickness);
       if (g < S(0)) each(active.pair, c, g, active.terms.stiffness, active.step);
     }

@@ -113,7 +113,7 @@ class Reader {
       facts_.phases[i] += number<double>(member(timing, "phases"), phase.c_str());
     }
     const Json& counts = member(timing, "certificates");
-    certificates::CertificateCounts more;
+    CertificateCounts more;
     more.slices = number<std::uint64_t>(counts, "slices");
     more.tubes = number<std::uint64_t>(counts, "tubes");
     more.plans = number<std::uint64_t>(counts, "plans");

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/counts.h"
+#include <noli/run.h>
 #include "certify/body_names.h"
 #include "certify/json.h"
 #include "certify/runs/run_series_reader.h"
@@ -41,7 +41,7 @@ struct LogFacts {
   std::optional<Sha256Digest> manifest, series;  ///< of manifest.json; of series.h5, if the last part wrote it
   PhaseSeconds phases{};
   double verifying_seconds = 0;
-  certificates::CertificateCounts certificates;
+  CertificateCounts certificates;
 
   /// How the run ended, as far as is known: nothing when its last part goes on still, or was killed.
   std::string end() const { return going_on ? "" : last_end; }

@@ -57,7 +57,6 @@ struct Hinge {
   /// triangle of the rest shape from zero, or it is not finite.
   static Hinge from_rest(const std::array<VertexId, size>& vertices, const X& rest, const S& rigidity,
                          const S& damping = S(0)) {
-    using std::sqrt;
     const Vec<S, 3> e = rest[1] - rest[0];
     const S area = (twice_area(e, rest[2] - rest[0]) + twice_area(e, rest[3] - rest[0])) / S(2);
     const Fold fold = fold_of(rest);

@@ -14,7 +14,7 @@ namespace noli::integrator {
 namespace {
 
 /// Repairs, plans and tubes.
-std::uint64_t work_of(const certificates::CertificateCounts& c) { return c.repairs + c.plans + c.tubes; }
+std::uint64_t work_of(const CertificateCounts& c) { return c.repairs + c.plans + c.tubes; }
 
 /// Events by the time at which they are.
 class InstantSet {

@@ -36,7 +36,7 @@ TEST_P(ProgressOf, CertificatesPerActivationAreBounded) {
   const auto path = std::filesystem::path(NOLI_SOURCE_DIR) / "scenes" / (std::string(GetParam().scene) + ".json");
   Simulation<double, 2> simulation(build_model<2>(read_scene(path, Form::brief)).model);
   const auto books = test::run(simulation, static_cast<std::uint64_t>(GetParam().windows));
-  const certificates::CertificateCounts c = simulation.certificates();
+  const CertificateCounts c = simulation.certificates();
   const auto per_activation = [&](std::uint64_t count) {
     return static_cast<double>(count) / static_cast<double>(c.activations);
   };

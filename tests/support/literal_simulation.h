@@ -32,7 +32,7 @@ class LiteralSimulation {
     }
     return result;
   }
-  const certificates::CertificateCounts& certificates() const { return engine_.contact()->counts(); }
+  const CertificateCounts& certificates() const { return engine_.contact()->counts(); }
 
  private:
   integrator::Engine<double, Dim, integrator::Contact<Dim, certificates::EveryPair>> engine_;
