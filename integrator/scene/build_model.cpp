@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <noli/errors.h>
 #include "integrator/groups.h"
 #include "integrator/scene/body_forces.h"
 #include "integrator/scene/build_contact.h"
 #include "integrator/scene/shapes/body_mesh.h"
+#include "integrator/scene/shapes/connectivity.h"
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/place.h"
 #include "integrator/stable_step.h"
@@ -34,26 +34,12 @@ Vec3 centre_of_mass(const std::vector<Position>& x, const std::vector<double>& m
   return sum / total;
 }
 
-template <std::size_t N>
-void append(std::vector<std::array<VertexId, N>>& cells, const std::vector<std::array<VertexId, N>>& more,
-            VertexId first) {
-  for (std::array<VertexId, N> cell : more) {
-    end_if_stopped();
-    for (VertexId& i : cell) i += first;
-    cells.push_back(cell);
-  }
-}
-
 /// Cells, positions, velocities, masses and pins of one body.
 template <int Dim>
 void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, BuiltBody& built,
               Model<double, Dim>& model) {
   const Body& body = scene.bodies[index];
-  const Mesh& mesh = made.shape.mesh;
-  append(model.mesh.faces, mesh.faces, built.first);
-  append(model.mesh.edges, mesh.edges, built.first);
-  for (const VertexId i : mesh.points) model.mesh.points.push_back(built.first + i);
-  model.mesh.vertex_count += mesh.vertex_count;
+  append(model.mesh, made.shape.mesh);
   std::vector<Position> x = made.start;
   perturb(x, body.perturb, scene.seed, index, scene.dimension);
   const Vec3 centre = centre_of_mass(x, made.mass), spin = to_vec(body.spin);
@@ -70,14 +56,6 @@ void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, Built
     model.v[built.first + i].setZero();
   }
   built.pinned = made.pinned.size();
-}
-
-template <int Dim>
-std::vector<double> inverse_masses(const Model<double, Dim>& model) {
-  const std::vector<std::uint8_t> held = held_vertices(model);
-  std::vector<double> inverse;
-  for (std::size_t i = 0; i < held.size(); ++i) inverse.push_back(held[i] ? 0 : 1 / model.mass[i]);
-  return inverse;
 }
 
 /// A step that the scene gives, and where.
@@ -276,7 +254,9 @@ BuiltScene<Dim> build_model(const Scene& scene) {
     add_forces(scene, i, meshes.back(), built, sourced);
   }
   add_scripts(scene, meshes, result.bodies, model);
-  const std::vector<double> inverse_mass = inverse_masses(model);
+  const std::vector<std::uint8_t> held = held_vertices(model);
+  std::vector<double> inverse_mass;
+  for (std::size_t i = 0; i < held.size(); ++i) inverse_mass.push_back(held[i] ? 0 : 1 / model.mass[i]);
   auto lists = model.forces.lists();
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     ((std::get<I>(lists) = with_steps(scene, std::get<I>(sourced), model.x, inverse_mass, result.bodies)), ...);

@@ -40,6 +40,8 @@ struct BuiltBody {
   std::size_t open_edges = 0;                      ///< edges of one face: nothing to bend
   std::size_t crowded = 0;  ///< edges of more than two faces, or of two with the same vertices, and vertices of more
                             ///< than two loose edges: nothing bends there
+
+  bool has(VertexId v) const { return v >= first && v - first < vertices; }
 };
 
 /// Two bodies, or of each the vertices whose cells are of one class (integrator/scene/build_contact.h).

@@ -116,10 +116,10 @@ void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
   for (std::size_t i = 0; i < built.contact.size(); ++i) {
     const BuiltContact& use = built.contact[i];
     const ContactMaterial& m = built.model.contact->materials[i];
-    PredictedContact predicted{{}, m, m.step / std::sqrt(use.least_mass / (2 * m.stiffness)), use.bound};
+    const double stability = m.step / std::sqrt(use.least_mass / (2 * m.stiffness));
+    PredictedContact& predicted = e.contact.emplace_back(PredictedContact{{}, m, stability, use.bound});
     for (const BuiltPair& pair : use.pairs)
       predicted.pairs.push_back({part_name(built, pair, 0), part_name(built, pair, 1)});
-    e.contact.push_back(std::move(predicted));
   }
 }
 
@@ -158,7 +158,7 @@ std::vector<std::string> bodies_with_held_cells(const BuiltScene<Dim>& built) {
   std::vector<std::string> names;
   for (const BuiltBody& body : built.bodies) {
     const auto least = std::lower_bound(cells.begin(), cells.end(), body.first);
-    if (least != cells.end() && *least - body.first < body.vertices) names.push_back(body.name);
+    if (least != cells.end() && body.has(*least)) names.push_back(body.name);
   }
   return names;
 }
@@ -244,11 +244,7 @@ Explanation explain(const Scene& scene) {
   explanation.title = scene.title.empty() ? scene.path.stem().string() : scene.title;
   explanation.dimension = scene.dimension;
   explanation.defaults = scene.defaults;
-  if (scene.dimension == 3) {
-    explain<3>(scene, explanation);
-  } else {
-    explain<2>(scene, explanation);
-  }
+  scene.dimension == 2 ? explain<2>(scene, explanation) : explain<3>(scene, explanation);
   return explanation;
 }
 

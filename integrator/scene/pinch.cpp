@@ -31,7 +31,7 @@ template <std::size_t N>
 Simplices<N> of_body(const Simplices<N>& cells, const BuiltBody& body) {
   Simplices<N> result;
   for (const auto& cell : cells) {
-    if (cell[0] >= body.first && cell[0] - body.first < body.vertices) result.push_back(cell);
+    if (body.has(cell[0])) result.push_back(cell);
   }
   return result;
 }
@@ -48,8 +48,7 @@ Tool make_tool(const BuiltScene<Dim>& scene, std::size_t index) {
   tool.edges = of_body(scene.model.mesh.edges, body);
   for (const FaceEdge& edge : face_edges(faces)) tool.edges.push_back(edge.ends);
   for (const auto& script : scene.model.scripts) {
-    if (script.vertex < body.first || script.vertex - body.first >= body.vertices) continue;
-    tool.times.insert(script.times.begin(), script.times.end());
+    if (body.has(script.vertex)) tool.times.insert(script.times.begin(), script.times.end());
   }
   return tool;
 }
@@ -115,11 +114,7 @@ class Search {
  public:
   Search(const Motion<Dim>& motion, const Tool& a, const Tool& b, double duration)
       : motion_(motion), a_(a), b_(b), times_{0, duration} {
-    for (const std::set<double>* times : {&a.times, &b.times}) {
-      for (const double t : *times) {
-        if (t < duration) times_.insert(t);
-      }
-    }
+    for (const Tool* tool : {&a, &b}) times_.insert(tool->times.begin(), tool->times.lower_bound(duration));
   }
 
   std::optional<double> first_meeting() {

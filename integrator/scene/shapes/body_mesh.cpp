@@ -11,6 +11,7 @@
 
 #include <noli/errors.h>
 #include "integrator/scene/json_text.h"
+#include "integrator/scene/shapes/connectivity.h"
 #include "integrator/scene/shapes/curve.h"
 #include "integrator/scene/shapes/generators.h"
 #include "integrator/scene/shapes/place.h"
@@ -45,20 +46,6 @@ Shape shape_of(const Scene& scene, const Body& body, const Field& mesh) {
   }
 }
 
-template <std::size_t N>
-void repeat(std::vector<std::array<VertexId, N>>& cells, std::size_t copies, std::size_t vertices) {
-  const std::size_t n = cells.size();
-  for (std::size_t k = n; k < n * copies; ++k) {
-    cells.push_back(cells[k - n]);
-    for (VertexId& i : cells.back()) i += static_cast<VertexId>(vertices);
-  }
-}
-
-void repeat(std::vector<VertexId>& ids, std::size_t copies, std::size_t vertices) {
-  const std::size_t n = ids.size();
-  for (std::size_t k = n; k < n * copies; ++k) ids.push_back(ids[k - n] + static_cast<VertexId>(vertices));
-}
-
 void require_few_copies(const Array& array, std::size_t vertices, const Field& at) {
   const double all = 1.0 * array.counts[0] * array.counts[1] * array.counts[2] * static_cast<double>(vertices);
   if (!(all <= most_vertices)) at.fail(fmt::format("expected at most {} vertices, found {}", most_vertices, all));
@@ -67,13 +54,13 @@ void require_few_copies(const Array& array, std::size_t vertices, const Field& a
 /// Copies in rows: of the mesh, its shape at rest, its sets; those at the start moved.
 void repeat(BodyMesh& made, const Array& array) {
   const std::size_t n = made.shape.mesh.vertex_count, copies = array.copies();
-  Mesh& mesh = made.shape.mesh;
-  repeat(mesh.faces, copies, n);
-  repeat(mesh.edges, copies, n);
-  repeat(mesh.points, copies, n);
-  for (auto& [name, ids] : made.shape.sets) repeat(ids, copies, n);
-  mesh.vertex_count = n * copies;
+  if (copies == 1) return;
+  const Shape one = made.shape;
   for (std::size_t copy = 1; copy < copies; ++copy) {
+    append(made.shape.mesh, one.mesh);
+    for (auto& [name, ids] : made.shape.sets) {
+      for (const VertexId i : one.sets.at(name)) ids.push_back(static_cast<VertexId>(copy * n) + i);
+    }
     const std::array<std::size_t, 3> at{copy % array.counts[0], copy / array.counts[0] % array.counts[1],
                                         copy / array.counts[0] / array.counts[1]};
     for (std::size_t i = 0; i < n; ++i) {

@@ -3,7 +3,8 @@
 #include "trajectory/stop.h"
 
 #include <algorithm>
-#include <tuple>
+#include <compare>
+#include <utility>
 
 namespace noli::integrator {
 namespace {
@@ -13,7 +14,7 @@ struct Side {
   VertexId low, high;
   std::uint32_t order;
 
-  auto key() const { return std::tie(low, high, order); }
+  auto operator<=>(const Side&) const = default;
 };
 
 std::vector<Side> sorted_sides(const Mesh& mesh) {
@@ -27,7 +28,7 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     end_if_stopped();
-    return a.key() < b.key();
+    return a < b;
   });
   return sides;
 }
@@ -81,6 +82,21 @@ Joints joints(const Mesh& mesh) {
     }
   }
   return result;
+}
+
+void append(Mesh& mesh, const Mesh& more) {
+  const auto first = static_cast<VertexId>(mesh.vertex_count);
+  const auto append_cells = [first](auto& cells, const auto& added) {
+    for (auto cell : added) {
+      end_if_stopped();
+      for (VertexId& i : cell) i += first;
+      cells.push_back(cell);
+    }
+  };
+  append_cells(mesh.faces, more.faces);
+  append_cells(mesh.edges, more.edges);
+  for (const VertexId i : more.points) mesh.points.push_back(first + i);
+  mesh.vertex_count += more.vertex_count;
 }
 
 }  // namespace noli::integrator

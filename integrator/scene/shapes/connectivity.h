@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the forces of a mesh are: edges of faces, pairs of faces at an edge, pairs of loose edges at a vertex.
+// Where the forces of a mesh are: edges of faces, pairs of faces at an edge, pairs of loose edges at a vertex. And
+// meshes put together.
 #pragma once
 
 #include <array>
@@ -34,5 +35,8 @@ struct Joints {
 
 /// Precondition: no edge has a vertex twice.
 Joints joints(const Mesh& mesh);
+
+/// Adds the vertices and cells of another mesh, whose vertices come after those that are there.
+void append(Mesh& mesh, const Mesh& more);
 
 }  // namespace noli::integrator
