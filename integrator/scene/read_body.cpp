@@ -144,18 +144,12 @@ ScriptPath read_path(const Field& f) {
   return path;
 }
 
-ScriptFrames read_frames(const Field& f) {
-  return {f["files"].json().get<std::vector<std::string>>(), f["rate"].number(), f["from"].number()};
-}
-
 // --- Meshes ----------------------------------------------------------------------------------------------------------
 
 void require_few(const Field& mesh, double vertices) {
   if (!(vertices <= most_vertices))
     mesh.fail(fmt::format("expected at most {} vertices, found {}", most_vertices, vertices));
 }
-
-LoosePoints read_points(const Field& f) { return {f["at"].vectors()}; }
 
 Chain read_chain(const Field& f) {
   Chain chain{f["points"].vectors(), f["segments"].count(), f["smooth"].flag(), f["closed"].flag()};
@@ -164,8 +158,6 @@ Chain read_chain(const Field& f) {
   }
   return chain;
 }
-
-Ring read_ring(const Field& f) { return {f["radius"].number(), f["segments"].count()}; }
 
 /// About eight triangles of the least size for each square of the fine edge within the radius.
 void require_few_fine(const Field& f, const Grid& grid) {
@@ -198,15 +190,11 @@ Ribbon read_ribbon(const Field& f) {
   return ribbon;
 }
 
-Disc read_disc(const Field& f) { return {f["radius"].number(), f["rings"].count()}; }
-
 Rod read_rod(const Field& f) {
   Rod rod{f["length"].number(), f["radius"].number(), f["segments"].count(), f["sides"].count()};
   require_few(f, (rod.segments + 1.0) * rod.sides);
   return rod;
 }
-
-Sphere read_sphere(const Field& f) { return {f["radius"].number(), f["subdivisions"].count()}; }
 
 SurfaceOfBox read_box_surface(const Field& f) {
   SurfaceOfBox box{f["size"].numbers<3>(), f["cells"].counts<3>()};
@@ -225,12 +213,42 @@ Torus read_torus(const Field& f) {
   return torus;
 }
 
-Pyramid read_pyramid(const Field& f) { return {f["radius"].number(), f["height"].number(), f["sides"].count()}; }
-
 /// Sheets are for space; curves, and what files have, for both.
 void require_dimension(const Field& mesh, std::string_view kind) {
   if (mesh.dimension() == 3 || kind == "points" || kind == "chain" || kind == "ring" || kind == "file") return;
   mesh[kind].fail("expected \"points\", \"chain\", \"ring\" or \"file\" in a scene of dimension 2");
+}
+
+MeshSource read_mesh_source(const Field& mesh) {
+  const std::string kind = mesh.json().begin().key();
+  const Field f = mesh[kind];
+  require_dimension(mesh, kind);
+  if (kind == "file") return MeshFile{f.text()};
+  if (kind == "points") return LoosePoints{f["at"].vectors()};
+  if (kind == "chain") return read_chain(f);
+  if (kind == "ring") return Ring{f["radius"].number(), f["segments"].count()};
+  if (kind == "grid") return read_grid(f);
+  if (kind == "ribbon") return read_ribbon(f);
+  if (kind == "disc") return Disc{f["radius"].number(), f["rings"].count()};
+  if (kind == "rod") return read_rod(f);
+  if (kind == "sphere") return Sphere{f["radius"].number(), f["subdivisions"].count()};
+  if (kind == "box") return read_box_surface(f);
+  if (kind == "torus") return read_torus(f);
+  return Pyramid{f["radius"].number(), f["height"].number(), f["sides"].count()};
+}
+
+Selection read_selection(const Field& selection) {
+  Selection parts;
+  for (const Field& part : selection.items()) {
+    if (part.json().is_object()) {
+      parts.emplace_back(read_box(part["box"]));
+    } else if (part.json().is_string()) {
+      parts.emplace_back(part.text());
+    } else {
+      parts.emplace_back(part.count<VertexId>());
+    }
+  }
+  return parts;
 }
 
 }  // namespace
@@ -250,20 +268,6 @@ std::size_t find_body(const Field& name, const std::vector<Body>& bodies) {
   }
   name.fail(fmt::format("no body has the name {}; the nearest is {}", brief(name.json()),
                         Json(nearest(name.text(), names)).dump()));
-}
-
-Selection read_selection(const Field& selection) {
-  Selection parts;
-  for (const Field& part : selection.items()) {
-    if (part.json().is_object()) {
-      parts.emplace_back(read_box(part["box"]));
-    } else if (part.json().is_string()) {
-      parts.emplace_back(part.text());
-    } else {
-      parts.emplace_back(part.count<VertexId>());
-    }
-  }
-  return parts;
 }
 
 Body read_body(const Field& f, std::size_t index) {
@@ -293,27 +297,11 @@ ScriptedVertices read_script(const Field& f, const std::vector<Body>& bodies) {
   if (f.has("path")) {
     script.motion = read_path(f["path"]);
   } else {
-    script.motion = read_frames(f["frames"]);
+    const Field frames = f["frames"];
+    script.motion = ScriptFrames{frames["files"].json().get<std::vector<std::string>>(), frames["rate"].number(),
+                                 frames["from"].number()};
   }
   return script;
-}
-
-MeshSource read_mesh_source(const Field& mesh) {
-  const std::string kind = mesh.json().begin().key();
-  const Field f = mesh[kind];
-  require_dimension(mesh, kind);
-  if (kind == "file") return MeshFile{f.text()};
-  if (kind == "points") return read_points(f);
-  if (kind == "chain") return read_chain(f);
-  if (kind == "ring") return read_ring(f);
-  if (kind == "grid") return read_grid(f);
-  if (kind == "ribbon") return read_ribbon(f);
-  if (kind == "disc") return read_disc(f);
-  if (kind == "rod") return read_rod(f);
-  if (kind == "sphere") return read_sphere(f);
-  if (kind == "box") return read_box_surface(f);
-  if (kind == "torus") return read_torus(f);
-  return read_pyramid(f);
 }
 
 }  // namespace noli::integrator

@@ -8,8 +8,6 @@
 
 namespace noli::integrator {
 
-MeshSource read_mesh_source(const Field& mesh);
-Selection read_selection(const Field& selection);
 /// `index`: place in the list of bodies, for the default name.
 Body read_body(const Field& f, std::size_t index);
 /// The number of the body that a field names.
