@@ -88,16 +88,14 @@ Parts classify(const BodyMesh& body) {
   return parts;
 }
 
-/// What does not move meets others as one.
-Parts in_one_class(const BodyMesh& body) { return {std::vector<std::uint8_t>(body.mass.size(), 0), {{}}, {}, 0}; }
-
 /// What a cell with a free vertex says, is said of the classes of all its vertices: features of these are parts of it.
 /// A feature of a class may have vertices of all before it.
 Parts parts_of(const BodyMesh& body, const BuiltBody& built, const std::vector<double>& inverse_mass) {
   const auto is_free = [&](VertexId i) { return inverse_mass[built.first + i] != 0; };
   bool any_free = false;
   for (VertexId i = 0; i < body.mass.size(); ++i) any_free |= is_free(i);
-  Parts parts = any_free ? classify(body) : in_one_class(body);
+  // What does not move meets others as one.
+  Parts parts = any_free ? classify(body) : Parts{std::vector<std::uint8_t>(body.mass.size(), 0), {{}}, {}, 0};
   const auto add = [&](VertexId of, const Free& part) {
     Free& all = parts.of_class[parts.classes[of]];
     all = all | part;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <noli/errors.h>
 #include "integrator/scene/explain.h"
 
 namespace noli::integrator {

@@ -88,7 +88,7 @@ class Bisection {
       halve(other);
       other = across(base, f);
     }
-    const VertexId middle = add_middle(base);
+    const VertexId middle = shape_.add(to_position(0.5 * (at(base[0]) + at(base[1]))));
     split(f, middle);
     if (other != none) split(other, middle);
   }
@@ -135,11 +135,6 @@ class Bisection {
       if (other != f) return other;
     }
     return none;
-  }
-
-  VertexId add_middle(const Edge& edge) {
-    const Vec3 middle = 0.5 * (at(edge[0]) + at(edge[1]));
-    return shape_.add(to_position(middle));
   }
 
   /// The first half stays in the face's place.
