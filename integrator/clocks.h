@@ -3,7 +3,6 @@
 // When a force fires: at the times k h, k = 1, 2, 3, ..., each the rounded product, never a sum of steps.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 namespace noli::integrator {

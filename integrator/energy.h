@@ -52,17 +52,15 @@ class Ledger {
       VertexVectors<S, Dim, F::size> x;
       for (std::size_t i = 0; i < F::size; ++i) x[i] = engine_.particles()[force.vertices[i]].x;
       potential += force.energy(x);
-      if (strikes(h)) take_back(force, force.gradient(x), S(0.5) * S(h));
+      if (!strikes(h)) continue;
+      const VertexVectors<S, Dim, F::size> gradient = force.gradient(x);
+      const S half_step = S(0.5) * S(h);
+      for (std::size_t i = 0; i < F::size; ++i) {
+        const VertexId v = force.vertices[i];
+        v_mean_[v] += (half_step * engine_.particles()[v].inverse_mass) * gradient[i];
+      }
     }
     state_.potential[static_cast<std::size_t>(F::kind)] = potential;
-  }
-
-  template <class F>
-  void take_back(const F& force, const VertexVectors<S, Dim, F::size>& gradient, const S& half_step) {
-    for (std::size_t i = 0; i < F::size; ++i) {
-      const VertexId v = force.vertices[i];
-      v_mean_[v] += (half_step * engine_.particles()[v].inverse_mass) * gradient[i];
-    }
   }
 
   void add_gravity() {

@@ -24,6 +24,13 @@
 
 namespace noli::integrator {
 
+/// One group of forces that fire together; with clocks of their own, one for each kind and step.
+struct StepGroup {
+  ForceKind kind;
+  double step;
+  std::uint64_t forces;
+};
+
 template <class F>
 struct Division {
   ForceList<F> list;
@@ -48,7 +55,7 @@ class Engine {
     check(model);
     make_particles(model);
     take_forces(model);
-    if (gravity_) slots_.insert(slots_.begin(), {ForceKind::gravity, {{gravity_->step, 1}, 0, particles_.size(), {}}});
+    if (gravity_) slots_.insert(slots_.begin(), {ForceKind::gravity, {gravity_->step, 1}, 0, particles_.size(), {}});
     make_contact(model);
   }
 
@@ -61,9 +68,18 @@ class Engine {
       particles_[i].v = snapshot.v[i];
       particles_[i].t = t;
     }
-    for (Slot& slot : slots_) slot.group.clock.next = first_after(t, slot.group.clock.step);
+    for (Group& slot : slots_) slot.clock.next = first_after(t, slot.clock.step);
     timeline_.skip_to(t);
     make_own_clocks();
+  }
+
+  Snapshot<S, Dim> snapshot() const {
+    Snapshot<S, Dim> result{windows_, {}, {}};
+    for (const Particle<S, Dim>& p : particles_) {
+      result.x.push_back(p.x);
+      result.v.push_back(p.v);
+    }
+    return result;
   }
 
   double time() const { return static_cast<double>(windows_) * window_length_; }
@@ -102,8 +118,8 @@ class Engine {
   /// Groups and, with clocks of their own, forces that have the same step.
   std::vector<StepGroup> groups() const {
     std::vector<StepGroup> result;
-    for (const Slot& slot : slots_) {
-      result.push_back({slot.kind, slot.group.clock.step, slot.group.end - slot.group.begin});
+    for (const Group& slot : slots_) {
+      result.push_back({slot.kind, slot.clock.step, slot.end - slot.begin});
     }
     if (clocks_ == Clocks::own) for_each_division([&](const auto& division) { add_steps(division, result); });
     return result;
@@ -116,11 +132,6 @@ class Engine {
   }
 
  private:
-  struct Slot {
-    ForceKind kind;
-    Group group;
-  };
-
   static constexpr std::uint64_t events_between_questions = 1 << 14;  ///< a millisecond, about
   static constexpr int most_rows = 256;
   static constexpr std::size_t kinds = std::tuple_size_v<Divisions>;
@@ -182,7 +193,8 @@ class Engine {
     division.list = std::move(list);
     for (const F& force : division.list.forces) division.damped |= force.damping != S(0);
     if (clocks_ == Clocks::own) return;
-    for (const Group& group : make_groups(division.list, window_length_)) slots_.push_back({F::kind, group});
+    const std::vector<Group> groups = make_groups(division.list, window_length_);
+    slots_.insert(slots_.end(), groups.begin(), groups.end());
   }
 
   void make_own_clocks() {
@@ -265,8 +277,8 @@ class Engine {
   /// scripts come first, then certificates, forces and layers of contact.
   template <class Recorder>
   bool run_next(double end, Recorder& record, Books<S, Dim>& books) {
-    Slot* slot = next_slot();
-    const double slot_time = slot != nullptr ? slot->group.clock.time() : std::numeric_limits<double>::infinity();
+    Group* slot = next_slot();
+    const double slot_time = slot != nullptr ? slot->clock.time() : std::numeric_limits<double>::infinity();
     const double turn_time = timeline_.next_time();
     const double own_time = own_.empty() ? std::numeric_limits<double>::infinity() : own_.next_time();
     const double force_time = std::min(slot_time, own_time);
@@ -280,7 +292,7 @@ class Engine {
       return true;
     }
     if (slot_time > end) return false;
-    ++slot->group.clock.next;
+    ++slot->clock.next;
     fire_slot(Now<Recorder>{particles_, record, slot_time}, *slot, books);
     return true;
   }
@@ -317,11 +329,11 @@ class Engine {
   }
 
   /// The slot that fires next; of several, the first.
-  Slot* next_slot() {
-    Slot* best = nullptr;
+  Group* next_slot() {
+    Group* best = nullptr;
     double time = std::numeric_limits<double>::infinity();
-    for (Slot& slot : slots_) {
-      const double t = slot.group.clock.time();
+    for (Group& slot : slots_) {
+      const double t = slot.clock.time();
       if (t < time) {
         time = t;
         best = &slot;
@@ -339,12 +351,12 @@ class Engine {
   }
 
   template <class Recorder>
-  void fire_slot(const Now<Recorder>& now, const Slot& slot, Books<S, Dim>& books) {
-    const S h(slot.group.clock.step);
+  void fire_slot(const Now<Recorder>& now, const Group& slot, Books<S, Dim>& books) {
+    const S h(slot.clock.step);
     if (slot.kind == ForceKind::gravity) return fall(now, h, books);
     const auto fire_if = [&](const auto& division) {
       using F = typename std::remove_cvref_t<decltype(division.list.forces)>::value_type;
-      if (F::kind == slot.kind) fire_group(now, division, slot.group, h, books);
+      if (F::kind == slot.kind) fire_group(now, division, slot, h, books);
     };
     for_each_division(fire_if);
   }
@@ -489,7 +501,7 @@ class Engine {
   std::vector<Particle<S, Dim>> particles_;
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;
-  std::vector<Slot> slots_;
+  std::vector<Group> slots_;
   OwnClocks<kinds> own_;
   std::unique_ptr<ContactType> contact_;  ///< of the particles above; nothing in scenes without contact
   std::uint64_t windows_ = 0;

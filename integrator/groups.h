@@ -26,6 +26,7 @@ namespace noli::integrator {
 constexpr int most_groups = 10;
 
 struct Group {
+  ForceKind kind;
   Clock clock;
   std::size_t begin = 0, end = 0;  ///< forces of the kind's list, in the group's order
   std::vector<VertexId> vertices;  ///< theirs, each once, ascending
@@ -36,13 +37,6 @@ inline int step_exponent(double h, double window_length) {
   int p = std::max(0, std::ilogb(window_length) - std::ilogb(h) - 1);
   while (std::ldexp(window_length, -p) > h) ++p;
   return p;
-}
-
-/// Ascending, each once.
-inline void sort_out(std::vector<VertexId>& vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  vertices.shrink_to_fit();
 }
 
 /// Puts a list into the order of its groups and returns these; the list's steps become those of the groups. With
@@ -63,13 +57,18 @@ std::vector<Group> make_groups(ForceList<F>& list, double window_length) {
   for (const std::size_t i : order) {
     const double step = std::ldexp(window_length, -p[i]);
     if (groups.empty() || groups.back().clock.step != step) {
-      groups.push_back({{step, 1}, sorted.forces.size(), sorted.forces.size(), {}});
+      groups.push_back({F::kind, {step, 1}, sorted.forces.size(), sorted.forces.size(), {}});
     }
     sorted.add(list.forces[i], step);
     ++groups.back().end;
     for (const VertexId v : list.forces[i].vertices) groups.back().vertices.push_back(v);
   }
-  for (Group& group : groups) sort_out(group.vertices);
+  for (Group& group : groups) {
+    std::vector<VertexId>& vertices = group.vertices;
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    vertices.shrink_to_fit();
+  }
   list = std::move(sorted);
   return groups;
 }

@@ -46,12 +46,7 @@ void Simulation<S, Dim>::run_window(Books<S, Dim>& books) {
 
 template <class S, int Dim>
 Snapshot<S, Dim> Simulation<S, Dim>::snapshot() const {
-  Snapshot<S, Dim> result{engine_->windows(), {}, {}};
-  for (const auto& p : engine_->particles()) {
-    result.x.push_back(p.x);
-    result.v.push_back(p.v);
-  }
-  return result;
+  return engine_->snapshot();
 }
 
 template <class S, int Dim>
@@ -72,22 +67,8 @@ std::uint64_t Simulation<S, Dim>::events() const {
 }
 
 template <class S, int Dim>
-std::vector<StepGroup> Simulation<S, Dim>::groups() const {
-  return engine_->groups();
-}
-
-template <class S, int Dim>
 CertificateCounts Simulation<S, Dim>::certificates() const {
   return engine_->contact() != nullptr ? engine_->contact()->counts() : CertificateCounts{};
-}
-
-template <class S, int Dim>
-std::map<certificates::PairKey, std::uint32_t> Simulation<S, Dim>::active_layers() const {
-  std::map<certificates::PairKey, std::uint32_t> layers;
-  if (engine_->contact() == nullptr) return layers;
-  engine_->contact()->for_each_active(
-      [&](const certificates::Stencil& pair, std::uint16_t, std::uint32_t) { ++layers[pair.key]; });
-  return layers;
 }
 
 template <class S, int Dim>

@@ -18,13 +18,11 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include <noli/run.h>
-#include "certificates/stencil.h"
 #include "integrator/books.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/model.h"
@@ -56,13 +54,6 @@ struct State {
     for (const S& p : potential) sum += p;
     return sum;
   }
-};
-
-/// One group of forces that fire together; with clocks of their own, one for each kind and step.
-struct StepGroup {
-  ForceKind kind;
-  double step;
-  std::uint64_t forces;
 };
 
 /// Whether to stop.
@@ -102,7 +93,6 @@ class Simulation {
   std::vector<Vec<S, Dim>> mean_velocities() const;
   /// Forces fired since time 0 of this object, start kicks included.
   std::uint64_t events() const;
-  std::vector<StepGroup> groups() const;
   /// What certificates have cost since time 0 of this object; nothing without contact.
   CertificateCounts certificates() const;
   /// How near layers of contact that acted in the last window have seen things; nothing without contact.
@@ -110,8 +100,6 @@ class Simulation {
 
   /// From now on, what it does is shown there, for as long as this object is used.
   void show(Activity& activity);
-  /// Of each pair that has any, by key: how many layers are active; nothing without contact.
-  std::map<certificates::PairKey, std::uint32_t> active_layers() const;
 
   /// Whether all positions and velocities are finite numbers.
   bool finite() const;

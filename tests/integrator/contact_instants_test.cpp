@@ -10,9 +10,9 @@
 #include <string>
 
 #include "contact_instants.h"
+#include "integrator/engine.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
-#include "integrator/simulation.h"
 
 namespace noli::integrator {
 namespace {
@@ -44,11 +44,15 @@ InstantCounts look(Scene scene, int most, bool blind) {
   scene.window = scene.duration / instants * 0.9271;
   const auto built = build_model<Dim>(scene);
   Instants<Dim> eye(built.model);
-  Simulation<double, Dim> simulation(built.model);
-  for (int k = 0; k < most && simulation.time() < scene.duration; ++k) {
+  Engine<double, Dim> engine(built.model);
+  NoRecording nothing;
+  for (int k = 0; k < most && engine.time() < scene.duration; ++k) {
     Books<double, Dim> books;
-    simulation.run_window(books);
-    eye.look(simulation.snapshot().x, blind ? typename Instants<Dim>::Layers{} : simulation.active_layers());
+    engine.run_window(nothing, books, never_stop);
+    typename Instants<Dim>::Layers layers;
+    const auto add = [&](const certificates::Stencil& pair, std::uint16_t, std::uint32_t) { ++layers[pair.key]; };
+    if (!blind && engine.contact() != nullptr) engine.contact()->for_each_active(add);
+    eye.look(engine.snapshot().x, layers);
   }
   return eye.counts();
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "integrator/engine.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "integrator/simulation.h"
@@ -107,7 +108,7 @@ Model<double, 2> uneven_chain() {
 
 TEST(Physics, EnergyHasNoTrendOverAThousandPeriods) {
   Simulation<double, 2> simulation(uneven_chain());
-  ASSERT_GE(simulation.groups().size(), 3u);
+  ASSERT_GE((Engine<double, 2>(uneven_chain()).groups().size()), 3u);
   Books<double, 2> books;
   const auto energy = [&] {
     const auto s = simulation.state();
