@@ -170,22 +170,20 @@ class Contact {
   /// Calls each(pair, closest points, g, r(l), h(l)) for all active layers that act where things are now.
   template <class Each>
   void for_each_acting(Each&& each) const {
-    for (const auto& of_material : layers_) {
-      for (const Layer& layer : std::span(of_material).first(count_of_acting(of_material))) {
-        for (const certificates::Stencil& pair : layer.pairs.in_order()) {
-          const auto c = closest_of<double, Dim>(pair, [this](VertexId v) { return particles_[v].x; });
-          const double g = c.distance() - layer.terms.thickness;
-          if (g < 0) each(pair, c, g, layer.terms.stiffness, layer.clock.step);
-        }
-      }
-    }
+    for_each_active([&](const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l) {
+      const Layer& layer = layers_[material][l - 1];
+      const auto c = closest_of<double, Dim>(pair, [this](VertexId v) { return particles_[v].x; });
+      const double g = c.distance() - layer.terms.thickness;
+      if (g < 0) each(pair, c, g, layer.terms.stiffness, layer.clock.step);
+    });
   }
 
   /// Calls each(pair, material, l) for all active layers that may act.
   template <class Each>
   void for_each_active(Each&& each) const {
     for (std::size_t m = 0; m < layers_.size(); ++m) {
-      for (std::size_t l = 1; l <= count_of_acting(layers_[m]); ++l) {
+      const std::size_t count = std::min<std::size_t>(layers_[m].size(), settings_.most_layers);
+      for (std::size_t l = 1; l <= count; ++l) {
         for (const certificates::Stencil& pair : layers_[m][l - 1].pairs.in_order()) {
           each(pair, static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l));
         }
@@ -262,10 +260,6 @@ class Contact {
                      double t) {
     const PhaseScope certifying(*activity_, Phase::certificate);
     certificates_.drop_if_clear(pair, material, l, distance, t);
-  }
-
-  std::size_t count_of_acting(const std::vector<Layer>& layers) const {
-    return std::min<std::size_t>(layers.size(), settings_.most_layers);
   }
 
   static std::vector<Vec<double, Dim>> positions(const Particles& particles) {

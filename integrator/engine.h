@@ -87,7 +87,6 @@ class Engine {
   std::uint64_t events() const { return events_; }
   const std::vector<Particle<S, Dim>>& particles() const { return particles_; }
   const std::vector<S>& masses() const { return masses_; }
-  const Divisions& divisions() const { return divisions_; }
   const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
   const ContactType* contact() const { return contact_.get(); }
   ContactType* contact() { return contact_.get(); }
@@ -385,11 +384,9 @@ class Engine {
     const PhaseScope firing(*activity_, Phase::force);
     events_ += group.end - group.begin;
     now.record.reserve(group.vertices.size());
-    if (division.damped) {
-      fire_group_as<true>(now, division, group, h, books.of(F::kind));
-    } else {
-      fire_group_as<false>(now, division, group, h, books.of(F::kind));
-    }
+    Account<S, Dim>& account = books.of(F::kind);
+    division.damped ? fire_group_as<true>(now, division, group, h, account)
+                    : fire_group_as<false>(now, division, group, h, account);
     look(now, group.vertices);
   }
 
@@ -415,11 +412,8 @@ class Engine {
     events_ += firing.size();
     record.reserve(F::size * firing.size());
     const SingleBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record};
-    if (division.damped) {
-      fire_single_as<true>(blows, books.of(F::kind));
-    } else {
-      fire_single_as<false>(blows, books.of(F::kind));
-    }
+    Account<S, Dim>& account = books.of(F::kind);
+    division.damped ? fire_single_as<true>(blows, account) : fire_single_as<false>(blows, account);
     if (!contact_ || !contact_->started()) return;
     for (const DueForce& due : firing) {
       look(Now<Recorder>{particles_, record, due.t}, division.list.forces[due.force].vertices);

@@ -28,7 +28,12 @@ class Timeline {
  public:
   explicit Timeline(const std::vector<Script<S, Dim>>& scripts) {
     for (const Script<S, Dim>& script : scripts) {
-      for (std::size_t j = 0; j < script.times.size(); ++j) turns_.push_back(turn(script, j));
+      for (std::size_t j = 0; j < script.times.size(); ++j) {
+        const bool last = j + 1 == script.times.size();
+        Vec<S, Dim> v = Vec<S, Dim>::Zero();
+        if (!last) v = (script.positions[j + 1] - script.positions[j]) / (S(script.times[j + 1]) - S(script.times[j]));
+        turns_.push_back({script.times[j], script.vertex, script.positions[j], v});
+      }
     }
     std::sort(turns_.begin(), turns_.end(),
               [](const auto& a, const auto& b) { return a.time != b.time ? a.time < b.time : a.vertex < b.vertex; });
@@ -46,13 +51,6 @@ class Timeline {
   const Turn<S, Dim>& take() { return turns_[next_++]; }
 
  private:
-  static Turn<S, Dim> turn(const Script<S, Dim>& script, std::size_t j) {
-    const bool last = j + 1 == script.times.size();
-    Vec<S, Dim> v = Vec<S, Dim>::Zero();
-    if (!last) v = (script.positions[j + 1] - script.positions[j]) / (S(script.times[j + 1]) - S(script.times[j]));
-    return {script.times[j], script.vertex, script.positions[j], v};
-  }
-
   std::vector<Turn<S, Dim>> turns_;
   std::size_t next_ = 0;
 };

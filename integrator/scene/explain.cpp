@@ -150,9 +150,9 @@ void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation&
   }
 }
 
-/// Bodies that have cells which only the scene moves, as verification knows them.
+/// Of bodies that have cells which only the scene moves, as verification knows them.
 template <int Dim>
-std::vector<std::string> bodies_with_held_cells(const BuiltScene<Dim>& built) {
+void warn_of_what_is_not_compared(const BuiltScene<Dim>& built, Explanation& e) {
   std::vector<VertexId> cells = held_cells(built.model.mesh, held_vertices(built.model));
   std::sort(cells.begin(), cells.end());
   std::vector<std::string> names;
@@ -160,12 +160,6 @@ std::vector<std::string> bodies_with_held_cells(const BuiltScene<Dim>& built) {
     const auto least = std::lower_bound(cells.begin(), cells.end(), body.first);
     if (least != cells.end() && body.has(*least)) names.push_back(body.name);
   }
-  return names;
-}
-
-template <int Dim>
-void warn_of_what_is_not_compared(const BuiltScene<Dim>& built, Explanation& e) {
-  const std::vector<std::string> names = bodies_with_held_cells(built);
   if (names.size() < 2) return;
   e.warnings.push_back(
       fmt::format("cells of {} and {} whose vertices are all scripted or pinned are not compared with each other: they "

@@ -132,9 +132,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& words) {
-  return *std::min_element(words.begin(), words.end(), [word](const std::string& a, const std::string& b) {
-    return edit_distance(word, a) < edit_distance(word, b);
-  });
+  return *std::ranges::min_element(words, {}, [word](const std::string& w) { return edit_distance(word, w); });
 }
 
 }  // namespace noli::integrator

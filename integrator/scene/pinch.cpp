@@ -133,29 +133,6 @@ class Search {
     return points;
   }
 
-  template <std::size_t N, std::size_t M>
-  bool any_intersect(const Simplices<N>& as, const Simplices<M>& bs) const {
-    for (const auto& a : as) {
-      end_if_stopped();
-      const auto at_a = at(a, 0);
-      for (const auto& b : bs) {
-        end_if_stopped();
-        const auto at_b = at(b, 0);
-        if (Around<Dim>(at_a).meets(Around<Dim>(at_b)) && intersects(at_a, at_b)) return true;
-      }
-    }
-    return false;
-  }
-
-  bool meet_at_start() const {
-    if constexpr (Dim == 2) {
-      return any_intersect(a_.edges, b_.edges);
-    } else {
-      return any_intersect(a_.faces, b_.faces) || any_intersect(a_.edges, b_.faces) ||
-             any_intersect(b_.edges, a_.faces);
-    }
-  }
-
   template <std::size_t N>
   struct Moving {
     std::array<Point<Dim>, N> begin, end;
@@ -174,6 +151,27 @@ class Search {
       result.push_back({x, y, Around<Dim>(both)});
     }
     return result;
+  }
+
+  template <std::size_t N, std::size_t M>
+  static bool any_intersect(const std::vector<Moving<N>>& as, const std::vector<Moving<M>>& bs) {
+    for (const Moving<N>& a : as) {
+      for (const Moving<M>& b : bs) {
+        end_if_stopped();
+        if (a.around.meets(b.around) && intersects(a.begin, b.begin)) return true;
+      }
+    }
+    return false;
+  }
+
+  bool meet_at_start() const {
+    const auto edges_a = moving(a_.edges, 0, 0), edges_b = moving(b_.edges, 0, 0);
+    if constexpr (Dim == 2) {
+      return any_intersect(edges_a, edges_b);
+    } else {
+      const auto faces_a = moving(a_.faces, 0, 0), faces_b = moving(b_.faces, 0, 0);
+      return any_intersect(faces_a, faces_b) || any_intersect(edges_a, faces_b) || any_intersect(edges_b, faces_a);
+    }
   }
 
   /// Keeps the earliest contact of features of two kinds, in parts of the step.

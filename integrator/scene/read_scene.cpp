@@ -14,23 +14,16 @@ namespace {
 
 using Pointer = Json::json_pointer;
 
-/// Whether a text is a JSON pointer to something smaller than the document.
-bool is_pointer(const std::string& text) {
+/// Whether a text is a JSON pointer to a field of an object, there or new, or to an item of an array that is there.
+bool is_place(const Json& document, const std::string& text) {
   try {
-    return !Pointer(text).empty();
-  } catch (const Json::parse_error&) {
-    return false;
-  }
-}
-
-/// Whether a pointer names a field of an object, there or new, or an item of an array that is there.
-bool is_place(const Json& document, const Pointer& target) {
-  try {
+    const Pointer target(text);
+    if (target.empty()) return false;
     if (document.contains(target)) return true;
     const Pointer parent = target.parent_pointer();
     return document.contains(parent) && document.at(parent).is_object();
-  } catch (const Json::out_of_range&) {
-    return false;  // an index beyond all numbers
+  } catch (const Json::exception&) {
+    return false;  // no pointer, or an index beyond all numbers
   }
 }
 
@@ -39,7 +32,7 @@ void apply_short(Json& document, const std::string& file) {
   const Json overrides = document.is_object() ? document.value("short", Json()) : Json();
   if (!overrides.is_object()) return;  // the schema will say so
   for (const auto& item : overrides.items()) {
-    if (!is_pointer(item.key()) || !is_place(document, Pointer(item.key()))) {
+    if (!is_place(document, item.key())) {
       throw InputError(file, (Pointer("/short") / item.key()).to_string(),
                        "expected a JSON pointer to a place in this file, such as \"/duration\" or \"/bodies/0/mesh\"");
     }

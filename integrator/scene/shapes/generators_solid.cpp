@@ -20,7 +20,8 @@ void turn_over(Mesh& mesh, std::size_t count) {
 
 Position on_unit_sphere(const Vec3& x) { return to_position(x / std::sqrt(x.squaredNorm())); }
 
-/// The icosahedron with vertices (0, +-1, +-phi) and their rotations of coordinates, phi the golden ratio.
+/// The icosahedron with vertices (0, +-1, +-phi) and their rotations of coordinates, phi the golden ratio. Its faces are
+/// the triples of vertices that are all neighbours, looking outward.
 Shape icosahedron() {
   const double phi = (1 + std::sqrt(5.0)) / 2;
   Shape shape;
@@ -29,11 +30,6 @@ Shape icosahedron() {
       for (const Vec3& x : {Vec3(0, a, b), Vec3(a, b, 0), Vec3(b, 0, a)}) shape.add(on_unit_sphere(x));
     }
   }
-  return shape;
-}
-
-/// The faces of the icosahedron: triples of vertices that are all neighbours, looking outward.
-void add_icosahedron_faces(Shape& shape) {
   const auto x = [&shape](VertexId i) { return to_vec(shape.positions[i]); };
   const auto neighbours = [&](VertexId i, VertexId j) { return (x(i) - x(j)).squaredNorm() < 2; };
   for (VertexId a = 0; a < 12; ++a) {
@@ -45,6 +41,7 @@ void add_icosahedron_faces(Shape& shape) {
       }
     }
   }
+  return shape;
 }
 
 /// Each face in four, new vertices moved onto the sphere.
@@ -98,14 +95,10 @@ class BoxLattice {
   VertexId vertex(const std::array<std::uint32_t, 3>& at) {
     end_if_stopped();
     const auto [found, is_new] = ids_.try_emplace(at, 0);
-    if (is_new) found->second = shape.add(position(at));
-    return found->second;
-  }
-
-  Position position(const std::array<std::uint32_t, 3>& at) const {
+    if (!is_new) return found->second;
     Position x{};
     for (std::size_t axis = 0; axis < 3; ++axis) x[axis] = centred(at[axis], box_.cells[axis], box_.size[axis]);
-    return x;
+    return found->second = shape.add(x);
   }
 
   const SurfaceOfBox& box_;
@@ -152,7 +145,6 @@ Shape make_shape(const Rod& rod) {
 
 Shape make_shape(const Sphere& sphere) {
   Shape shape = icosahedron();
-  add_icosahedron_faces(shape);
   for (std::uint32_t level = 0; level < sphere.subdivisions; ++level) subdivide(shape);
   for (Position& x : shape.positions) x = {sphere.radius * x[0], sphere.radius * x[1], sphere.radius * x[2]};
   return shape;
