@@ -93,20 +93,13 @@ ElasticMaterial read_elastic(const Field& f) {
 }
 
 SpringMaterial read_springs(const Field& f) {
-  SpringMaterial springs{f["edge_stiffness"].number(), f["bending_stiffness"].number(), MassPer::area, 0};
-  int masses = 0;
-  const auto mass = [&](const char* name, MassPer per) {
-    if (!f.has(name)) return;
-    ++masses;
-    springs.mass_per = per;
-    springs.mass = f[name].number();
-  };
-  mass("mass_per_area", MassPer::area);
-  mass("mass_per_length", MassPer::length);
-  mass("mass_per_vertex", MassPer::vertex);
-  if (masses != 1)
+  if (f.has("mass_per_area") + f.has("mass_per_length") + f.has("mass_per_vertex") != 1) {
     f.fail("expected exactly one of the fields \"mass_per_area\", \"mass_per_length\", \"mass_per_vertex\"");
-  return springs;
+  }
+  const auto mass = [&f](const char* name) { return f.number_if(name).value_or(0); };
+  return {f["edge_stiffness"].number(),
+          f["bending_stiffness"].number(),
+          {mass("mass_per_area"), mass("mass_per_length"), mass("mass_per_vertex")}};
 }
 
 Material read_material(const Field& f) {

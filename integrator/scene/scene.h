@@ -140,12 +140,14 @@ struct ElasticMaterial {
   friend bool operator==(const ElasticMaterial&, const ElasticMaterial&) = default;
 };
 
-enum class MassPer : std::uint8_t { area, length, vertex };
+/// Mass of a sheet's area [kg/m^2], of a curve's length [kg/m], of a vertex by itself [kg].
+struct Densities {
+  double area = 0, length = 0, vertex = 0;
+};
 
 struct SpringMaterial {
   double edge_stiffness = 0, bending_stiffness = 0;
-  MassPer mass_per = MassPer::area;
-  double mass = 0;  ///< [kg] per m^2, m or vertex
+  Densities densities;  ///< one of them
 };
 
 struct Material {

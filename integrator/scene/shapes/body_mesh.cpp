@@ -94,18 +94,10 @@ double face_area(const std::vector<Position>& x, const std::array<VertexId, 3>& 
   return length(cross(a, b)) / 2;
 }
 
-/// Mass of a sheet's area, of a curve's length, of a vertex by itself.
-struct Densities {
-  double area = 0, length = 0, vertex = 0;
-};
-
 Densities densities(const ElasticMaterial& m) {
   return {m.density * m.thickness, m.density * m.thickness * m.width, 0};
 }
-Densities densities(const SpringMaterial& m) {
-  return {m.mass_per == MassPer::area ? m.mass : 0, m.mass_per == MassPer::length ? m.mass : 0,
-          m.mass_per == MassPer::vertex ? m.mass : 0};
-}
+Densities densities(const SpringMaterial& m) { return m.densities; }
 
 std::vector<double> lumped_masses(const Body& body, const BodyMesh& made) {
   const Densities density = std::visit([](const auto& m) { return densities(m); }, body.material.kind);
