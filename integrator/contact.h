@@ -74,8 +74,7 @@ class PairList {
 
   /// Of several changes of one pair the last one holds.
   void settle() const {
-    std::stable_sort(changes_.begin(), changes_.end(),
-                     [](const Change& a, const Change& b) { return a.pair.key < b.pair.key; });
+    std::ranges::stable_sort(changes_, {}, [](const Change& change) { return change.pair.key; });
     merged_.clear();
     merged_.reserve(size_);
     auto old = pairs_.begin();

@@ -24,17 +24,13 @@ class Ledger {
  public:
   explicit Ledger(const Engine<S, Dim, Touching>& engine) : engine_(engine) {
     for (const auto& p : engine.particles()) v_mean_.push_back(p.v);
-  }
-
-  State<S, Dim> state() {
     engine_.for_each_division([&](const auto& division) { add_division(division); });
     if (engine_.gravity()) add_gravity();
     if (engine_.contact() != nullptr) add_contact();
     for (std::size_t i = 0; i < v_mean_.size(); ++i) add_particle(i);
-    return state_;
   }
 
-  /// After state().
+  const State<S, Dim>& state() const { return state_; }
   const std::vector<Vec<S, Dim>>& mean_velocities() const { return v_mean_; }
 
  private:

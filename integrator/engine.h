@@ -120,7 +120,15 @@ class Engine {
     for (const Group& slot : slots_) {
       result.push_back({slot.kind, slot.clock.step, slot.end - slot.begin});
     }
-    if (clocks_ == Clocks::own) for_each_division([&](const auto& division) { add_steps(division, result); });
+    if (clocks_ != Clocks::own) return result;
+    for_each_division([&result]<class F>(const Division<F>& division) {
+      std::vector<double> steps = division.list.steps;
+      std::sort(steps.begin(), steps.end(), std::greater<>());
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (i == 0 || steps[i] != steps[i - 1]) result.push_back({F::kind, steps[i], 0});
+        ++result.back().forces;
+      }
+    });
     return result;
   }
 
@@ -232,16 +240,6 @@ class Engine {
       if (particles_[i].inverse_mass == S(0)) steps[i] = std::numeric_limits<double>::infinity();
     }
     return steps;
-  }
-
-  template <class F>
-  static void add_steps(const Division<F>& division, std::vector<StepGroup>& result) {
-    std::vector<double> steps = division.list.steps;
-    std::sort(steps.begin(), steps.end(), std::greater<>());
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      if (i == 0 || steps[i] != steps[i - 1]) result.push_back({F::kind, steps[i], 0});
-      ++result.back().forces;
-    }
   }
 
   // --- The loop ------------------------------------------------------------------------------------------------------

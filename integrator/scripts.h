@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "integrator/model.h"
@@ -35,8 +36,7 @@ class Timeline {
         turns_.push_back({script.times[j], script.vertex, script.positions[j], v});
       }
     }
-    std::sort(turns_.begin(), turns_.end(),
-              [](const auto& a, const auto& b) { return a.time != b.time ? a.time < b.time : a.vertex < b.vertex; });
+    std::ranges::sort(turns_, {}, [](const Turn<S, Dim>& turn) { return std::pair(turn.time, turn.vertex); });
   }
 
   /// Forgets the turns that are not after t.

@@ -56,9 +56,7 @@ State<S, Dim> Simulation<S, Dim>::state() const {
 
 template <class S, int Dim>
 std::vector<Vec<S, Dim>> Simulation<S, Dim>::mean_velocities() const {
-  Ledger<S, Dim> ledger(*engine_);
-  ledger.state();
-  return ledger.mean_velocities();
+  return Ledger<S, Dim>(*engine_).mean_velocities();
 }
 
 template <class S, int Dim>

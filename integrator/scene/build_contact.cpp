@@ -159,7 +159,7 @@ class PairContact {
   PairContact(const Scene& scene, const BodyPair& bodies, const Free& part, double speed)
       : scene_(scene), part_(part), speed_(speed) {
     const std::vector<ContactPair>& pairs = scene.contact->pairs;
-    const auto found = std::find_if(pairs.begin(), pairs.end(), [&](auto& p) { return p.bodies == bodies; });
+    const auto found = std::ranges::find(pairs, bodies, &ContactPair::bodies);
     if (found == pairs.end()) return;
     pair_ = &*found;
     index_ = static_cast<std::size_t>(found - pairs.begin());

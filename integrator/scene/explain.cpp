@@ -134,8 +134,7 @@ void warn(const Scene& scene, Explanation& e) {
   if (scene.contact && e.contact.empty()) {
     e.warnings.emplace_back("there are no layers of contact: nothing can move, or all that can is excluded");
   }
-  const bool clips =
-      std::any_of(e.groups.begin(), e.groups.end(), [&](const auto& g) { return g.longest >= scene.window; });
+  const bool clips = std::ranges::any_of(e.groups, [&](const auto& g) { return g.longest >= scene.window; });
   if (clips) e.warnings.emplace_back("some steps are as long as the window and could be longer with a longer one");
 }
 

@@ -44,8 +44,7 @@ void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtV
     if (at.held[v]) continue;
     const ForceStep force_step{F::kind, step};
     auto& pulls = at.pulls[v];
-    auto pull =
-        std::find_if(pulls.begin(), pulls.end(), [&force_step](const auto& p) { return p.force_step == force_step; });
+    auto pull = std::ranges::find(pulls, force_step, &Pull<Dim>::force_step);
     if (pull == pulls.end()) pull = pulls.insert(pulls.end(), {force_step, Eigen::Matrix<double, Dim, Dim>::Zero()});
     for (std::size_t j = 0; j < F::measures; ++j) {
       pull->squared_frequencies += (stiffness[j] / model.mass[v]) * gradients[j][i] * gradients[j][i].transpose();
