@@ -58,6 +58,7 @@ struct Books {
   std::array<Account<S, Dim>, force_kinds> accounts;
 
   Account<S, Dim>& of(ForceKind kind) { return accounts[static_cast<std::size_t>(kind)]; }
+  const Account<S, Dim>& of(ForceKind kind) const { return accounts[static_cast<std::size_t>(kind)]; }
 
   S work() const {
     S sum{};
