@@ -77,18 +77,13 @@ struct Forces<S, 2> {
   auto lists() const { return std::tie(edge_springs, turnings); }
 };
 
-namespace detail {
-template <template <class> class Of, class Lists>
-struct OfLists;
+/// For its type alone.
 template <template <class> class Of, class... F>
-struct OfLists<Of, std::tuple<const ForceList<F>&...>> {
-  using type = std::tuple<Of<F>...>;
-};
-}  // namespace detail
+std::tuple<Of<F>...> of_each(const std::tuple<const ForceList<F>&...>& lists);
 
 /// A tuple of one Of<F> for each list of forces F, in the order of lists().
 template <template <class> class Of, class S, int Dim>
-using OfEachForce = typename detail::OfLists<Of, decltype(std::declval<const Forces<S, Dim>&>().lists())>::type;
+using OfEachForce = decltype(of_each<Of>(std::declval<const Forces<S, Dim>&>().lists()));
 
 enum class Clocks : std::uint8_t { grouped, own };
 
