@@ -26,21 +26,25 @@ constexpr double most_vertices = 2e7;  ///< of a generated mesh: what fits into 
 
 struct MeshFile {
   std::string path;  ///< as the scene has it
+  friend bool operator==(const MeshFile&, const MeshFile&) = default;
 };
 
 struct LoosePoints {
   std::vector<Position> at;
+  friend bool operator==(const LoosePoints&, const LoosePoints&) = default;
 };
 
 struct Chain {
   std::vector<Position> points;
   std::uint32_t segments = 1;
   bool smooth = false, closed = false;
+  friend bool operator==(const Chain&, const Chain&) = default;
 };
 
 struct Ring {
   double radius = 1;
   std::uint32_t segments = 3;
+  friend bool operator==(const Ring&, const Ring&) = default;
 };
 
 enum class Diagonals : std::uint8_t { alternating, parallel };
@@ -65,36 +69,43 @@ struct Ribbon {
   double width = 1;
   std::uint32_t segments = 1, across = 1;
   Position side{0, 0, 1};
+  friend bool operator==(const Ribbon&, const Ribbon&) = default;
 };
 
 struct Disc {
   double radius = 1;
   std::uint32_t rings = 1;
+  friend bool operator==(const Disc&, const Disc&) = default;
 };
 
 struct Rod {
   double length = 1, radius = 1;
   std::uint32_t segments = 1, sides = 3;
+  friend bool operator==(const Rod&, const Rod&) = default;
 };
 
 struct Sphere {
   double radius = 1;
   std::uint32_t subdivisions = 0;
+  friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
 struct SurfaceOfBox {
   std::array<double, 3> size{1, 1, 1};
   std::array<std::uint32_t, 3> cells{1, 1, 1};
+  friend bool operator==(const SurfaceOfBox&, const SurfaceOfBox&) = default;
 };
 
 struct Torus {
   double radius = 2, tube_radius = 1;
   std::uint32_t segments = 3, sides = 3;
+  friend bool operator==(const Torus&, const Torus&) = default;
 };
 
 struct Pyramid {
   double radius = 1, height = 1;
   std::uint32_t sides = 3;
+  friend bool operator==(const Pyramid&, const Pyramid&) = default;
 };
 
 using MeshSource =
@@ -131,6 +142,7 @@ struct Array {
   std::array<std::uint32_t, 3> counts{1, 1, 1};
   Position spacing{};
   std::size_t copies() const { return std::size_t{counts[0]} * counts[1] * counts[2]; }
+  friend bool operator==(const Array&, const Array&) = default;
 };
 
 struct ElasticMaterial {
@@ -143,26 +155,31 @@ struct ElasticMaterial {
 /// Mass of a sheet's area [kg/m^2], of a curve's length [kg/m], of a vertex by itself [kg].
 struct Densities {
   double area = 0, length = 0, vertex = 0;
+  friend bool operator==(const Densities&, const Densities&) = default;
 };
 
 struct SpringMaterial {
   double edge_stiffness = 0, bending_stiffness = 0;
   Densities densities;  ///< one of them
+  friend bool operator==(const SpringMaterial&, const SpringMaterial&) = default;
 };
 
 struct Material {
   std::variant<ElasticMaterial, SpringMaterial> kind;
   double damping = 0, bending_damping = 0;  ///< [s]
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// Closed.
 struct Box {
   Position low{}, high{};
+  friend bool operator==(const Box&, const Box&) = default;
 };
 
 /// Steps that the scene itself gives [s].
 struct GivenSteps {
   std::optional<double> stretch, bend;
+  friend bool operator==(const GivenSteps&, const GivenSteps&) = default;
 };
 
 /// Factors and steps for the cells whose centre is in the box; the last patch that gives a step is the one that counts.
@@ -170,6 +187,7 @@ struct Patch {
   Box box;
   double stiffness_factor = 1, density_factor = 1;
   GivenSteps steps;
+  friend bool operator==(const Patch&, const Patch&) = default;
 };
 
 /// Vertices of a body: each part a number, the name of a set, or a box.
@@ -189,22 +207,26 @@ struct Body {
   bool stretch = true, bend = true;
   GivenSteps steps;
   Selection pin;
+  friend bool operator==(const Body&, const Body&) = default;
 };
 
 struct ScriptPath {
   std::vector<double> times;
   std::vector<Position> moves;
+  friend bool operator==(const ScriptPath&, const ScriptPath&) = default;
 };
 
 struct ScriptFrames {
   std::vector<std::string> files;
   double rate = 1, from = 0;
+  friend bool operator==(const ScriptFrames&, const ScriptFrames&) = default;
 };
 
 struct ScriptedVertices {
   std::size_t body = 0;
   Selection vertices;
   std::variant<ScriptPath, ScriptFrames> motion;
+  friend bool operator==(const ScriptedVertices&, const ScriptedVertices&) = default;
 };
 
 constexpr double default_stability = 0.05;  ///< of contact: step / sqrt(mass / (2 stiffness))
@@ -215,6 +237,7 @@ struct ContactValues {
   std::optional<double> thickness, stiffness, step, stability;
   std::optional<double> restitution;  ///< of energy, however it was said
   std::optional<double> friction;
+  friend bool operator==(const ContactValues&, const ContactValues&) = default;
 };
 
 /// Two bodies, by their numbers, the lesser first.
@@ -223,6 +246,7 @@ using BodyPair = std::array<std::size_t, 2>;
 struct ContactPair {
   BodyPair bodies{};
   ContactValues values;
+  friend bool operator==(const ContactPair&, const ContactPair&) = default;
 };
 
 struct SceneContact {
@@ -233,6 +257,7 @@ struct SceneContact {
   std::vector<BodyPair> excluded;  ///< none of `pairs`
 
   bool excludes(const BodyPair& pair) const { return std::ranges::find(excluded, pair) != excluded.end(); }
+  friend bool operator==(const SceneContact&, const SceneContact&) = default;
 };
 
 enum class Record : std::uint8_t { full, frames };
