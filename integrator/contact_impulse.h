@@ -9,7 +9,7 @@
 //             they part, so e is the part of the energy that comes back
 //   friction  impulse of magnitude j = min(mu J_n, what stops the slip) against the slip of the closest points along
 //             the features. The slip is that of the points' parameters, which rigid motions do not change; so neither
-//             impulse changes momentum or angular momentum (see friction_direction)
+//             impulse changes momentum or angular momentum (see slip())
 //
 // S is double; in audits also multiprecision numbers.
 //

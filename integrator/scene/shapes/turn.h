@@ -5,7 +5,7 @@
 // Method: the angle is brought into [0, pi/4] exactly, by integers or by multiples of 45 degrees; there the Taylor
 // series to x^17 and x^18, whose rest is below 1e-16, by Horner's rule; then the symmetries of the octants. So points
 // at equal angles on either side of an axis or a diagonal have coordinates that are equal bit for bit, up to sign and
-// order. order. Errors are below 1e-15.
+// order. Errors are below 1e-15.
 //
 // What this does not do: round correctly.
 #pragma once
