@@ -358,10 +358,10 @@ void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
   for (const Parts& p : parts) settings.classes.insert(settings.classes.end(), p.classes.begin(), p.classes.end());
 }
 
-/// Lengths of contact have enough digits and range. What certificates keep clear for rounding (certificates/near_pair.h,
-/// margin_of, 64 times) is less than any layer. Closest points are found with products of four lengths
-/// (certificates/closest.h), which have to stay within the range of double, with some room for what moves away and for
-/// layers that are thinner than the first.
+/// Lengths of contact have enough digits and range. What certificates keep clear for rounding
+/// (certificates/near_pair.h, margin_of, 64 times) is less than any layer. Closest points are found with products of
+/// four lengths (certificates/closest.h), which have to stay within the range of double, with some room for what moves
+/// away and for layers that are thinner than the first.
 template <int Dim>
 void require_numbers(const Scene& scene, const Model<double, Dim>& model) {
   constexpr double part = 0x1p-38, least = 1e-70, greatest = 1e70;

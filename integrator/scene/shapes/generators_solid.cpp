@@ -20,8 +20,8 @@ void turn_over(Mesh& mesh, std::size_t count) {
 
 Position on_unit_sphere(const Vec3& x) { return to_position(x / std::sqrt(x.squaredNorm())); }
 
-/// The icosahedron with vertices (0, +-1, +-phi) and their rotations of coordinates, phi the golden ratio. Its faces are
-/// the triples of vertices that are all neighbours, looking outward.
+/// The icosahedron with vertices (0, +-1, +-phi) and their rotations of coordinates, phi the golden ratio. Its faces
+/// are the triples of vertices that are all neighbours, looking outward.
 Shape icosahedron() {
   const double phi = (1 + std::sqrt(5.0)) / 2;
   Shape shape;
