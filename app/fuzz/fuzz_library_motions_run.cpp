@@ -84,7 +84,7 @@ Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMo
                {"exact", library.exact},
                {"knows_times", report.knows_times},
                {"seed", arguments.common.limits.seed},
-               {"trajectories", report.extent.items},
+               {"trajectories", report.items},
                {"not_asked", report.not_asked},
                {"contacts", report.contacts},
                {"candidates", report.candidates},

@@ -80,9 +80,9 @@ void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& argu
 }
 
 ExitCode fuzz_exit_code(const audit::FuzzTotals& report) {
-  if (report.extent.interrupted) return ExitCode::undecided;
+  if (report.interrupted) return ExitCode::undecided;
   if (report.findings_total > 0) return ExitCode::refuted;
-  return report.extent.items == 0 ? ExitCode::undecided : ExitCode::holds;
+  return report.items == 0 ? ExitCode::undecided : ExitCode::holds;
 }
 
 ExitCode again_exit_code(bool unknown, bool finding) {

@@ -126,7 +126,7 @@ Json tally_json(const audit::CodeTally& tally) {
 Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases) {
   Json json = {{"verdict", report.verdict()},
                {"seed", arguments.common.limits.seed},
-               {"mutants", report.extent.items},
+               {"mutants", report.items},
                {"findings", report.findings_total},
                {"proofs", cases},
                {"checked_verified", report.checked_verified},

@@ -59,9 +59,9 @@ audit::RunNoli this_program() {
 }
 
 Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport& report) {
-  Json json = {{"verdict", report.verdict()},   {"seed", arguments.common.limits.seed},
-               {"scenes", report.extent.items}, {"findings", report.findings_total},
-               {"verified", report.verified},   {"resumed", report.resumed}};
+  Json json = {{"verdict", report.verdict()}, {"seed", arguments.common.limits.seed},
+               {"scenes", report.items},      {"findings", report.findings_total},
+               {"verified", report.verified}, {"resumed", report.resumed}};
   json["ends"] = Json::object();
   for (const auto& [generator, ends] : report.ends) {
     for (const auto& [end, count] : ends) json["ends"][generator][end] = count;

@@ -57,7 +57,7 @@ std::uint64_t undecided(const audit::TrajectoryReport& report) {
 Json report_json(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report) {
   Json json = {{"verdict", report.verdict()},
                {"seed", arguments.common.limits.seed},
-               {"trajectories", report.extent.items},
+               {"trajectories", report.items},
                {"findings", report.findings_total},
                {"undecided", undecided(report)},
                {"checked", {{"plain", report.checked_plain}, {"verified", report.checked_verified}}},

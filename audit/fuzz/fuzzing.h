@@ -5,6 +5,8 @@
 //
 // Notation
 //   item     something that was made, or saved before, with what the judge says of it
+//   block    a few items, made and judged by one thread; block b depends on the seed and b alone, so that a run gives
+//            the same items whatever the number of threads
 //   shape    what a judgement is like, in words
 //   subject  who derives from Fuzzing: it makes, judges, counts, shrinks and saves items. It has
 //              items_per_block                  a constant
@@ -20,21 +22,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include <noli/errors.h>
 #include "audit/fuzz/finding_name.h"
-#include "audit/fuzz/fuzz_blocks.h"
-#include "audit/fuzz/not_saved.h"
 #include "audit/fuzz/random.h"
 #include "audit/fuzz/shape_corpus.h"
+#include "kernel/parallel.h"
 
 namespace noli::audit {
+
+/// When a fuzzer stops. At least one of count, time_limit and stop has to be given.
+struct FuzzLimits {
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> count;                       ///< after so many items
+  std::optional<std::chrono::duration<double>> time_limit;  ///< after that time, at the end of a few blocks
+  int threads = 0;                                          ///< <= 0: all there are
+  const std::atomic<bool>* stop = nullptr;                  ///< polled after every few blocks
+  /// Called from the caller's thread now and then, with the share of the run that is done.
+  std::function<void(double)> progress;
+};
 
 /// Options that all fuzzers share.
 struct FuzzSettings {
@@ -44,18 +63,44 @@ struct FuzzSettings {
   std::optional<std::filesystem::path> corpus;  ///< folder that is there: judged first, added to
 };
 
+/// A finding that cannot be saved (a full disk) is told all the same: what went wrong is kept, and thrown when all that
+/// was found has been written.
+class NotSaved {
+ public:
+  /// Calls `save`, which may throw std::system_error. False if it did; the first of these is kept.
+  template <class Save>
+  bool attempt(const Save& save) {
+    try {
+      save();
+      return true;
+    } catch (const std::system_error& error) {
+      if (!why_) why_ = error.what();
+      return false;
+    }
+  }
+
+  /// Throws WriteError if something was not saved.
+  void require_nothing() const {
+    if (why_) throw WriteError("not all that was found is saved: " + *why_);
+  }
+
+ private:
+  std::optional<std::string> why_;
+};
+
 /// Results that all fuzzers share.
 struct FuzzTotals {
-  FuzzExtent extent;
+  std::uint64_t items = 0;
+  bool interrupted = false;  ///< by the stop flag
   NotSaved not_saved;
   std::uint64_t findings_total = 0;
   std::size_t corpus_size = 0;  ///< items in the corpus, of before and new
 
   /// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", or what holds.
   const char* verdict(const char* holds = "no_finding") const {
-    if (extent.interrupted) return "undecided";
+    if (interrupted) return "undecided";
     if (findings_total > 0) return "finding";
-    return extent.items == 0 ? "undecided" : holds;
+    return items == 0 ? "undecided" : holds;
   }
 };
 
@@ -68,20 +113,11 @@ class Fuzzing {
     if (options.corpus) corpus_.emplace(*options.corpus);
   }
 
-  /// Once. Throws what the subject throws.
+  /// Once. Throws std::invalid_argument when no limit is given, and what the subject throws.
   Report run() {
     if (corpus_) self().run_corpus();
-    if (!self().enough()) {
-      report_.extent = fuzz_blocks(
-          options_.limits, Subject::items_per_block,
-          [this](std::uint64_t block, std::uint64_t count) { return self().make_block(block, count); },
-          [this](auto block) {
-            self().take_block(std::move(block));
-            ++block_;
-            return !self().enough();
-          });
-    }
-    report_.extent.items = self().items();  // an interruption leaves blocks that are not whole
+    if (!self().enough()) run_blocks();
+    report_.items = self().items();
     if (corpus_) self().count_corpus();
     return std::move(report_);
   }
@@ -154,6 +190,37 @@ class Fuzzing {
   Report report_;
 
  private:
+  /// Several threads make blocks, which are taken over in their order, until a limit is reached or it is enough.
+  void run_blocks() {
+    const FuzzLimits& limits = options_.limits;
+    if (!limits.count && !limits.time_limit && !limits.stop) {
+      throw std::invalid_argument("a fuzzer with neither count, nor time limit, nor stop flag");
+    }
+    constexpr std::uint64_t per_block = Subject::items_per_block;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto threads = static_cast<std::uint64_t>(limits.threads > 0 ? limits.threads : hardware_threads());
+    for (std::uint64_t made = 0;;) {
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const double by_time = limits.time_limit ? seconds / limits.time_limit->count() : 0;
+      const double by_count = limits.count ? static_cast<double>(made) / static_cast<double>(*limits.count) : 0;
+      if (limits.progress) limits.progress(std::min(1.0, std::max(by_time, by_count)));
+      report_.interrupted = stopped();
+      if (report_.interrupted || by_time >= 1 || by_count >= 1) return;
+      const std::uint64_t left = limits.count ? *limits.count - made : std::uint64_t{1} << 60;
+      std::vector<decltype(self().make_block(block_, left))> blocks(
+          std::min(2 * threads, (left + per_block - 1) / per_block));
+      parallel_for(blocks.size(), static_cast<int>(threads), [&](std::size_t i) {
+        blocks[i] = self().make_block(block_ + i, std::min(per_block, left - i * per_block));
+      });
+      made += std::min<std::uint64_t>(left, blocks.size() * per_block);
+      for (auto& block : blocks) {
+        self().take_block(std::move(block));
+        ++block_;
+        if (self().enough()) return;
+      }
+    }
+  }
+
   Subject& self() { return static_cast<Subject&>(*this); }
   const Subject& self() const { return static_cast<const Subject&>(*this); }
 };

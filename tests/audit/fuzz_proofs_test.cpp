@@ -115,7 +115,7 @@ class FuzzProofs : public testing::Test {
 TEST_F(FuzzProofs, FindsNothingWhereNothingIsWrong) {
   const ProofFuzzReport report = fuzz_proofs(options);
   EXPECT_EQ(report.findings_total, 0u) << report.findings[0].difference;
-  EXPECT_EQ(report.extent.items, 2000u);
+  EXPECT_EQ(report.items, 2000u);
   EXPECT_GT(report.codes.rejected, 1900u);
   EXPECT_GE(report.checked_verified, 40u);
   EXPECT_FALSE(std::filesystem::exists(options.out));
@@ -176,7 +176,7 @@ TEST_F(FuzzProofs, KeepsAMutantThatIsNoFindingThoughOneOfItsShapeIs) {
   std::filesystem::create_directory(*options.corpus);
   const ProofFuzzReport report = fuzz_proofs(options);
   ASSERT_GT(report.findings_total, 0u);
-  ASSERT_LT(report.findings_total, report.extent.items);
+  ASSERT_LT(report.findings_total, report.items);
   ASSERT_EQ(report.corpus_size, 1u);
   const auto kept = std::filesystem::directory_iterator(*options.corpus)->path();
   EXPECT_EQ(read_proof_files(kept).proof.size() % 2, 1u) << "what was kept is what was no finding";
@@ -236,7 +236,7 @@ TEST_F(FuzzProofs, CountsNoAnswerAsRejected) {
   EXPECT_GT(report.codes.failed, 0u);
   EXPECT_EQ(report.codes.failed, report.findings_total);
   EXPECT_EQ(report.codes.failed + report.codes.rejected, 200u);
-  EXPECT_EQ(report.extent.items, 200u);
+  EXPECT_EQ(report.items, 200u);
   std::uint64_t failed = 0;
   for (const auto& [name, tally] : report.mutations) failed += tally.failed;
   EXPECT_GE(failed, report.codes.failed) << "a mutant may be of several mutations";

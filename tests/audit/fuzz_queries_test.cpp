@@ -59,18 +59,17 @@ class FuzzQueries : public testing::Test {
 
 TEST_F(FuzzQueries, FindsNothingWhereNothingIsWrong) {
   const QueryFuzzReport report = fuzz_queries(options);
-  EXPECT_EQ(report.extent.items, *options.limits.count);
+  EXPECT_EQ(report.items, *options.limits.count);
   EXPECT_EQ(report.findings_total, 0U);
-  EXPECT_FALSE(report.extent.interrupted);
+  EXPECT_FALSE(report.interrupted);
   EXPECT_FALSE(std::filesystem::exists(options.out)) << "nothing to save, and yet a folder";
-  EXPECT_EQ(report.stages[Stage::gmp], report.extent.items);
+  EXPECT_EQ(report.stages[Stage::gmp], report.items);
   const ProbeTally& probes = report.probes;
   const std::uint64_t distances = probes.apart + probes.within;
-  EXPECT_GE(distances, report.extent.items / queries_per_distance);
-  EXPECT_EQ(probes.failed + probes.failing + probes.never_failing, report.extent.items);
+  EXPECT_GE(distances, report.items / queries_per_distance);
+  EXPECT_EQ(probes.failed + probes.failing + probes.never_failing, report.items);
   for (const auto count : {probes.apart, probes.within}) EXPECT_GT(count, distances / 20);
-  for (const auto count : {probes.failed, probes.failing, probes.never_failing})
-    EXPECT_GT(count, report.extent.items / 20);
+  for (const auto count : {probes.failed, probes.failing, probes.never_failing}) EXPECT_GT(count, report.items / 20);
 }
 
 TEST_F(FuzzQueries, FindsShrinksAndSavesAPlantedBug) {
@@ -228,7 +227,7 @@ TEST_F(FuzzQueries, GivesTheSameReportForAnyNumberOfThreads) {
   for (const int threads : {2, 5}) {
     options.limits.threads = threads;
     const QueryFuzzReport many = fuzz_queries(options);
-    EXPECT_EQ(many.extent.items, one.extent.items);
+    EXPECT_EQ(many.items, one.items);
     EXPECT_EQ(many.answers, one.answers);
     EXPECT_EQ(many.stages, one.stages);
     EXPECT_EQ(many.probes, one.probes);
@@ -256,7 +255,7 @@ TEST_F(FuzzQueries, AsksTheCorpusFirst) {
   options.max_findings = 1;
   const QueryFuzzReport second = fuzz_queries(options);
   EXPECT_EQ(second.corpus.replayed, first.corpus.kept);
-  EXPECT_EQ(second.extent.items, first.corpus.kept + 1);
+  EXPECT_EQ(second.items, first.corpus.kept + 1);
   ASSERT_EQ(second.findings.size(), 1U);
   EXPECT_EQ(second.findings[0].generator.substr(0, 7), "corpus/");
   EXPECT_EQ(kind_from_file_name(second.findings[0].file), file_kind(second.findings[0].query.pair));
@@ -295,17 +294,17 @@ TEST_F(FuzzQueries, StopsWhenTold) {
   int calls = 0;
   options.limits.progress = [&](double) { stop = ++calls == 3; };
   const QueryFuzzReport report = fuzz_queries(options);
-  EXPECT_TRUE(report.extent.interrupted);
+  EXPECT_TRUE(report.interrupted);
   EXPECT_EQ(calls, 3);
-  EXPECT_GT(report.extent.items, 0U);
+  EXPECT_GT(report.items, 0U);
 }
 
 TEST_F(FuzzQueries, StopsWhenTimeIsUp) {
   options.limits.count.reset();
   options.limits.time_limit = std::chrono::milliseconds(1);
   const QueryFuzzReport report = fuzz_queries(options);
-  EXPECT_GT(report.extent.items, 0U);
-  EXPECT_FALSE(report.extent.interrupted);
+  EXPECT_GT(report.items, 0U);
+  EXPECT_FALSE(report.interrupted);
 }
 
 TEST_F(FuzzQueries, WantsToKnowWhenToStop) {

@@ -65,7 +65,7 @@ class FuzzTrajectories : public testing::Test {
 
 TEST_F(FuzzTrajectories, FindsNothingWhereNothingIsWrong) {
   const TrajectoryReport report = fuzz_trajectories(options);
-  EXPECT_EQ(report.extent.items, 48u);
+  EXPECT_EQ(report.items, 48u);
   EXPECT_EQ(report.findings_total, 0u) << report.findings[0].difference;
   EXPECT_EQ(report.shapes, 2u);
   EXPECT_FALSE(std::filesystem::exists(options.out)) << "nothing to save, and yet a folder";
@@ -187,7 +187,7 @@ TEST_F(FuzzTrajectories, AMissingWitnessIsAFinding) {
   }
   EXPECT_GT(contact, 0u);
   EXPECT_EQ(without_witness, contact);
-  EXPECT_EQ(report.findings_total, report.extent.items) << "what is apart has no proof either";
+  EXPECT_EQ(report.findings_total, report.items) << "what is apart has no proof either";
 }
 
 TEST_F(FuzzTrajectories, MakesMotionsOfTheFamiliesThatAreNamed) {

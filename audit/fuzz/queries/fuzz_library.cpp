@@ -159,7 +159,7 @@ class LibraryFuzzing : public Fuzzing<LibraryFuzzing, LibraryFuzzOptions, Librar
     situation_.with_corpus = corpus_.has_value();
     report_ = Fuzzing::run();
     shrink_findings();
-    report_.extent.interrupted |= stopped();  // while they were shrunk
+    report_.interrupted |= stopped();  // while they were shrunk
     return std::move(report_);
   }
 

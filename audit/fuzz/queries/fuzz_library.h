@@ -6,7 +6,7 @@
 // that is saved it is the oracle's too.
 //
 // Notation
-//   block    as in audit/fuzz/fuzz_blocks.h; block b is of generator b mod (number of those generators)
+//   block    as in audit/fuzz/fuzzing.h; block b is of generator b mod (number of those generators)
 //   finding  a query on which the library has a fault that counts (audit/ccd/library_answers.h)
 // Of the findings the simplest of each fault, kind of contact and generator is shrunk against the library and saved, at
 // most `max_findings` of them; all are counted. What is shrunk keeps its fault and its kind of contact. Findings that

@@ -6,7 +6,7 @@
 // --replay` asks again.
 //
 // Notation
-//   block    queries of one generator (audit/fuzz/fuzz_blocks.h). Block b is of generator b mod (number of generators).
+//   block    queries of one generator (audit/fuzz/fuzzing.h). Block b is of generator b mod (number of generators).
 //            What else each of them is asked comes from another stream of the same seed and block
 //   answer   apart, touching, crossing or persistent: the oracle's
 //   finding  a query on which the subject's answer is wrong: it is in contact or not, the kind, the least time rounded

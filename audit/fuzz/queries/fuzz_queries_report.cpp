@@ -130,7 +130,7 @@ std::string generators_text(const LibraryFuzzOptions& options, const LibraryFuzz
 Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report) {
   Json json = {{"verdict", report.verdict("no_difference")},
                {"seed", options.limits.seed},
-               {"queries", report.extent.items},
+               {"queries", report.items},
                {"findings", report.findings_total},
                {"answers", answers_json(report.answers)}};
   json["probes"] = probes_json(report.probes);
@@ -163,11 +163,16 @@ std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& re
 }
 
 Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
-  Json json = {{"verdict", report.verdict()},          {"library", options.asked.path.string()},
-               {"tolerance", options.asked.tolerance}, {"exact", options.asked.exact},
-               {"knows_times", report.knows_times},    {"seed", options.limits.seed},
-               {"queries", report.extent.items},       {"contacts", report.contacts},
-               {"findings", report.findings_total},    {"faults", faults_json(report.faults)}};
+  Json json = {{"verdict", report.verdict()},
+               {"library", options.asked.path.string()},
+               {"tolerance", options.asked.tolerance},
+               {"exact", options.asked.exact},
+               {"knows_times", report.knows_times},
+               {"seed", options.limits.seed},
+               {"queries", report.items},
+               {"contacts", report.contacts},
+               {"findings", report.findings_total},
+               {"faults", faults_json(report.faults)}};
   json["reports"] = Json::array();
   for (const auto& finding : report.findings) {
     json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));

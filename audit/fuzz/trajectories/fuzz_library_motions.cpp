@@ -64,7 +64,7 @@ class LibraryMotionFuzzing
     report_.knows_times = knows_times(options_.asked);
     report_ = Fuzzing::run();
     shrink_findings();
-    report_.extent.interrupted |= stopped();  // while they were shrunk
+    report_.interrupted |= stopped();  // while they were shrunk
     return std::move(report_);
   }
 
