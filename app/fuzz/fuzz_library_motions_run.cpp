@@ -173,9 +173,7 @@ Json motion_facts(const audit::FrameMotion& motion) {
 
 ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
   settle(arguments);
-  settle_limits(arguments.common);
-  const Output output(arguments.common.results, {arguments.theirs.asked.path});
-  require_writable_folder(arguments.common.out, "--out");
+  const Output output = begin_fuzzing(arguments.common, {arguments.theirs.asked.path});
   audit::LibraryMotionOptions options;
   set_common(options, arguments.common);
   options.asked = arguments.theirs.asked;
@@ -192,8 +190,6 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
 ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   settle(arguments);
   const fs::path folder = arguments.again.saved();
-  if (!fs::is_directory(folder))
-    throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
   std::vector<fs::path> inputs = saved_files(folder);
   inputs.push_back(arguments.theirs.asked.path);
   const Output output(arguments.common.results, inputs);

@@ -61,32 +61,21 @@ std::vector<std::filesystem::path> saved_files(const std::filesystem::path& fold
   return files;
 }
 
-void settle_limits(FuzzArgumentsInCommon& arguments) {
+Output begin_fuzzing(FuzzArgumentsInCommon& arguments, const std::vector<std::filesystem::path>& inputs) {
   if (arguments.duration || !arguments.limits.count) {
     arguments.limits.time_limit = parse_duration(arguments.duration.value_or("60s"), "--for");
   }
   arguments.limits.stop = &interrupted();
-}
-
-std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& arguments) {
-  if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
-  return arguments.corpus;
+  Output output(arguments.results, inputs);
+  require_writable_folder(arguments.out, "--out");
+  return output;
 }
 
 void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments) {
   settings.limits = arguments.limits;
   settings.out = arguments.out;
-  settings.corpus = corpus_folder(arguments);
-}
-
-ExitCode fuzz_exit_code(const audit::FuzzTotals& report) {
-  if (report.interrupted) return ExitCode::undecided;
-  if (report.findings_total > 0) return ExitCode::refuted;
-  return report.items == 0 ? ExitCode::undecided : ExitCode::holds;
-}
-
-ExitCode again_exit_code(bool unknown, bool finding) {
-  return unknown ? ExitCode::undecided : finding ? ExitCode::refuted : ExitCode::holds;
+  settings.corpus = arguments.corpus;
+  if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
 }
 
 ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char* place) {
@@ -100,7 +89,7 @@ ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char*
   if (finding) answer.text += on_one_line(*judged.difference) + '\n';
   if (judged.saved) answer.text += "saved as " + on_one_line(judged.saved->string()) + judged.about_saved + '\n';
   output.write("fuzz-replay", answer, json);
-  return again_exit_code(judged.unknown, finding);
+  return fuzz_exit_code(judged.unknown, finding);
 }
 
 std::string finding_line(const std::string& origin, std::uint64_t block, const char* item, std::size_t index,

@@ -52,19 +52,17 @@ std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, c
 /// The files in a saved folder, which --json may not overwrite; none if it is not there.
 std::vector<std::filesystem::path> saved_files(const std::filesystem::path& folder);
 
-/// Makes limits of what was given: a minute if nothing was. Throws UsageError.
-void settle_limits(FuzzArgumentsInCommon& arguments);
+/// Before a run: makes limits of what was given, a minute if nothing was, and looks whether results and findings can be
+/// written. Throws UsageError.
+Output begin_fuzzing(FuzzArgumentsInCommon& arguments, const std::vector<std::filesystem::path>& inputs);
 
-/// The folder of --corpus, made if it is not there. Throws UsageError.
-std::optional<std::filesystem::path> corpus_folder(const FuzzArgumentsInCommon& arguments);
-
-/// Copies the limits, --out and --corpus. Throws UsageError.
+/// Copies the limits, --out and --corpus, whose folder is made if it is not there. Throws UsageError.
 void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments);
 
-/// Of its verdict.
-ExitCode fuzz_exit_code(const audit::FuzzTotals& report);
-
-ExitCode again_exit_code(bool unknown, bool finding);
+/// Of a run, or of something that was judged again.
+inline ExitCode fuzz_exit_code(bool undecided, bool finding) {
+  return undecided ? ExitCode::undecided : finding ? ExitCode::refuted : ExitCode::holds;
+}
 
 /// What came of something that was judged again.
 struct JudgedAgain {
@@ -108,7 +106,7 @@ ExitCode run_fuzzer(const FuzzResultNames& names, const Output& output, Options&
   answer.text = text_of(report) + fmt::format("Time: {:.1f} s.\n", seconds);
   output.write(names.schema, answer, json);
   report.not_saved.require_nothing();
-  return fuzz_exit_code(report);
+  return fuzz_exit_code(report.undecided(), report.findings_total > 0);
 }
 
 }  // namespace noli::app

@@ -205,10 +205,8 @@ class CheckersBeside {
 };
 
 ExitCode run(ProofsArguments& arguments) {
-  settle_limits(arguments.common);
   if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
-  const Output output(arguments.common.results, arguments.files);
-  require_writable_folder(arguments.common.out, "--out");
+  const Output output = begin_fuzzing(arguments.common, arguments.files);
   const ScratchFolder scratch(ScratchFolder::Place::memory);
   CheckersBeside checkers(scratch.path());
   audit::ProofFuzzOptions options;

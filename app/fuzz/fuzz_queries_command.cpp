@@ -52,9 +52,8 @@ constexpr const char* queries_footer =
     "  noli fuzz queries --library ./mine.so --minimise queries-edge-edge.csv\n"
     "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv";
 
-struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon {
+struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon, AgainArguments {
   std::size_t max_findings = audit::FuzzSettings().max_findings;
-  std::optional<std::string> replay, minimise;
   bool out_given = false;
 };
 
@@ -68,9 +67,7 @@ std::string again(const FuzzArguments& arguments, const fs::path& file) {
 std::vector<fs::path> inputs(const FuzzArguments& arguments) {
   std::vector<fs::path> files;
   if (arguments.asks_a_library()) files.push_back(arguments.asked.path);
-  for (const auto& file : {arguments.replay, arguments.minimise}) {
-    if (file) files.emplace_back(*file);
-  }
+  if (arguments.given()) files.emplace_back(arguments.saved());
   return files;
 }
 
@@ -176,7 +173,7 @@ ExitCode replay(const FuzzArguments& arguments) {
   for (const std::string& difference : differences) answer.text += difference + '\n';
   answer.text += not_asked_text(file);
   output.write("fuzz-replay", answer, json);
-  return again_exit_code(undecided, !differences.empty());
+  return fuzz_exit_code(undecided, !differences.empty());
 }
 
 /// "queries-edge-edge.csv" gives "queries-edge-edge-query3-minimised.csv", beside it or in the folder of --out.
@@ -217,7 +214,7 @@ ExitCode minimise(const FuzzArguments& arguments) {
                                {"command", command}});
   }
   output.write("fuzz-replay", answer, json);
-  return again_exit_code(undecided, !findings.empty());
+  return fuzz_exit_code(undecided, !findings.empty());
 }
 
 // --- runs ------------------------------------------------------------------------------------------------------------
@@ -238,9 +235,7 @@ ExitCode run(FuzzArguments& arguments) {
   settle_library(arguments);
   if (arguments.replay) return replay(arguments);
   if (arguments.minimise) return minimise(arguments);
-  settle_limits(arguments);
-  const Output output(arguments.results, inputs(arguments));
-  require_writable_folder(arguments.out, "--out");
+  const Output output = begin_fuzzing(arguments, inputs(arguments));
   if (!arguments.asks_a_library()) {
     return run(arguments, audit::QueryFuzzOptions(), output,
                {"fuzz queries", "fuzz-queries", {"queries", "findings", "seed"}}, audit::fuzz_queries, audit::fuzz_json,

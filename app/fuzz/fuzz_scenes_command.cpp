@@ -93,9 +93,7 @@ std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzz
 
 ExitCode fuzz(ScenesArguments& arguments) {
   if (arguments.wrong_place) throw UsageError("--wrong-place goes with --replay or --minimise");
-  settle_limits(arguments.common);
-  const Output output(arguments.common.results, {});
-  require_writable_folder(arguments.common.out, "--out");
+  const Output output = begin_fuzzing(arguments.common, {});
   const ScratchFolder scratch(ScratchFolder::Place::memory);
   audit::SceneFuzzOptions options;
   set_common(options, arguments.common);

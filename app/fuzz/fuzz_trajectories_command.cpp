@@ -97,9 +97,7 @@ std::string report_text(const TrajectoriesArguments& arguments, const audit::Tra
 }
 
 ExitCode fuzz(TrajectoriesArguments& arguments) {
-  settle_limits(arguments.common);
-  const Output output(arguments.common.results, {});
-  require_writable_folder(arguments.common.out, "--out");
+  const Output output = begin_fuzzing(arguments.common, {});
   audit::VerifyProgram subject(arguments.verified_every, interrupted());
   if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
   audit::TrajectoryOptions options;
@@ -117,8 +115,6 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
 /// A saved motion again, as it is or made smaller.
 ExitCode again(const TrajectoriesArguments& arguments) {
   const fs::path folder = arguments.again.saved();
-  if (!fs::is_directory(folder))
-    throw InputError(folder.string(), "", "expected a folder with frame-0.ply or frame-0.obj");
   const Output output(arguments.common.results, saved_files(folder));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);

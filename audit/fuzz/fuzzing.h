@@ -96,11 +96,11 @@ struct FuzzTotals {
   std::uint64_t findings_total = 0;
   std::size_t corpus_size = 0;  ///< items in the corpus, of before and new
 
-  /// "undecided" (interrupted, whatever was found so far, or nothing was done), "finding", or what holds.
+  /// Interrupted, whatever was found so far, or nothing was done.
+  bool undecided() const { return interrupted || (findings_total == 0 && items == 0); }
+  /// "undecided", "finding", or what holds.
   const char* verdict(const char* holds = "no_finding") const {
-    if (interrupted) return "undecided";
-    if (findings_total > 0) return "finding";
-    return items == 0 ? "undecided" : holds;
+    return undecided() ? "undecided" : findings_total > 0 ? "finding" : holds;
   }
 };
 
