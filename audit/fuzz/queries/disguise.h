@@ -16,14 +16,11 @@ struct Generated {
   std::optional<ContactKind> truth;
 };
 
-/// Applies a random unimodular shear with entries up to 2, a permutation and reflection of the axes, and a renaming of
-/// the points (the other edge first, the corners of the face in another order). Coordinates grow by less than 2^6.
-void disguise(WholeQuery& query, Random& random);
-
 /// Exponents of the powers of two with which the axes are multiplied.
 using AxisExponents = std::array<int, 3>;
 
-/// Disguised, and each axis multiplied by a power of two. Preconditions: what comes out is exactly a double;
+/// Sheared and turned (whole_query.h), its points renamed (the other edge first, the corners of the face in another
+/// order), and each axis multiplied by a power of two. Preconditions: what comes out is exactly a double;
 /// coordinates below 2^53 even after disguise. Throws std::logic_error when a whole number is too large.
 Generated finish(Made made, Random& random, const AxisExponents& exponents);
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "audit/fuzz/queries/whole_query.h"
 
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
 namespace noli::audit {
 
 Whole operator+(const Whole& a, const Whole& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
@@ -58,6 +63,28 @@ void carry(WholeQuery& query, const Whole& by_t0, const Whole& by_t1) {
 void carry_anywhere(WholeQuery& query, Random& random, int axes, std::int64_t size) {
   const Whole by_t0 = random_whole(random, axes, size);
   carry(query, by_t0, random_whole(random, axes, size));
+}
+
+void shear_and_turn(std::span<Whole* const> points, int dimension, Random& random) {
+  const auto axes = static_cast<std::uint64_t>(dimension);
+  for (int i = 0; i < 2; ++i) {
+    const std::uint64_t to = random.below(axes), from = (to + 1 + random.below(axes - 1)) % axes;
+    const std::int64_t by = random.between(-2, 2);
+    for (Whole* const x : points) (*x)[to] += by * (*x)[from];
+  }
+  for (std::uint64_t axis = 0; axis < axes; ++axis) {
+    const std::uint64_t other = axis + random.below(axes - axis);
+    const std::int64_t sign = random.one_in(2) ? 1 : -1;
+    for (Whole* const x : points) {
+      std::swap((*x)[axis], (*x)[other]);
+      (*x)[axis] *= sign;
+    }
+  }
+}
+
+double as_double(std::int64_t x, int exponent) {
+  if (std::abs(x) > (std::int64_t{1} << 53)) throw std::logic_error("a generated coordinate is no double");
+  return std::ldexp(static_cast<double>(x), exponent);
 }
 
 }  // namespace noli::audit

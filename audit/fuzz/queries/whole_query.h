@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "audit/fuzz/random.h"
 #include "certify/queries/any_query.h"
@@ -55,5 +56,12 @@ void carry(WholeQuery& query, const Whole& by_t0, const Whole& by_t1);
 /// The same by two vectors drawn one after the other: as arguments of one call they would be drawn in an order that
 /// each compiler chooses.
 void carry_anywhere(WholeQuery& query, Random& random, int axes, std::int64_t size);
+
+/// Applies to all points a random unimodular shear with entries up to 2, and a permutation and reflection of the axes.
+/// Coordinates grow by less than 2^6.
+void shear_and_turn(std::span<Whole* const> points, int dimension, Random& random);
+
+/// x times a power of two. Throws std::logic_error when x is too large for a double.
+double as_double(std::int64_t x, int exponent);
 
 }  // namespace noli::audit

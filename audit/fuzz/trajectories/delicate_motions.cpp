@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -40,13 +39,6 @@ double nudged(double x, Random& random) {
 struct Corners {
   Feature p, q;  ///< the two cells
 };
-
-std::vector<VertexId> random_order(std::size_t size, Random& random) {
-  std::vector<VertexId> order(size);
-  std::iota(order.begin(), order.end(), 0);
-  for (std::size_t i = 0; i < size; ++i) std::swap(order[i], order[i + random.below(size - i)]);
-  return order;
-}
 
 /// Axes exchanged and reflected, vertices renamed: what is exact for all doubles.
 GeneratedMotion dressed(int dimension, const Corners& cells, const std::vector<Frame>& frames, Random& random) {

@@ -2,9 +2,7 @@
 #include "audit/fuzz/trajectories/whole_motion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 #include "trajectory/cells.h"
@@ -16,34 +14,6 @@ namespace {
 template <class Function>
 void for_each_place(WholeMotion& motion, const Function& function) {
   for (auto& frame : motion.frames) std::ranges::for_each(frame, function);
-}
-
-void shear(WholeMotion& motion, Random& random) {
-  const auto axes = static_cast<std::uint64_t>(motion.dimension);
-  for (int i = 0; i < 2; ++i) {
-    const std::uint64_t to = random.below(axes), from = (to + 1 + random.below(axes - 1)) % axes;
-    const std::int64_t by = random.between(-2, 2);
-    for_each_place(motion, [&](Whole& x) { x[to] += by * x[from]; });
-  }
-}
-
-void turn(WholeMotion& motion, Random& random) {
-  const auto axes = static_cast<std::uint64_t>(motion.dimension);
-  for (std::uint64_t axis = 0; axis < axes; ++axis) {
-    const std::uint64_t other = axis + random.below(axes - axis);
-    const std::int64_t sign = random.one_in(2) ? 1 : -1;
-    for_each_place(motion, [&](Whole& x) {
-      std::swap(x[axis], x[other]);
-      x[axis] *= sign;
-    });
-  }
-}
-
-std::vector<VertexId> random_order(std::size_t size, Random& random) {
-  std::vector<VertexId> order(size);
-  std::iota(order.begin(), order.end(), 0);
-  for (std::size_t i = 0; i < size; ++i) std::swap(order[i], order[i + random.below(size - i)]);
-  return order;
 }
 
 void rename(WholeMotion& motion, PlantedTruth& planted, Random& random) {
@@ -91,11 +61,6 @@ Scale random_scale(Numbers numbers, int dimension, Random& random) {
   return scale;
 }
 
-double coordinate(std::int64_t x, int exponent) {
-  if (std::abs(x) > (std::int64_t{1} << 53)) throw std::logic_error("a generated coordinate is no double");
-  return std::ldexp(static_cast<double>(x), exponent);
-}
-
 Mesh mesh_of(const WholeMotion& motion) {
   Mesh mesh;
   mesh.vertex_count = motion.vertices();
@@ -105,6 +70,13 @@ Mesh mesh_of(const WholeMotion& motion) {
 }
 
 }  // namespace
+
+std::vector<VertexId> random_order(std::size_t size, Random& random) {
+  std::vector<VertexId> order(size);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = 0; i < size; ++i) std::swap(order[i], order[i + random.below(size - i)]);
+  return order;
+}
 
 void add_crowd(WholeMotion& motion, Random& random, std::size_t count) {
   const auto height = static_cast<std::size_t>(motion.dimension - 1), corners = height + 1;
@@ -124,8 +96,9 @@ void add_crowd(WholeMotion& motion, Random& random, std::size_t count) {
 }
 
 GeneratedMotion finish(WholeMotion motion, PlantedTruth planted, Numbers numbers, Random& random) {
-  shear(motion, random);
-  turn(motion, random);
+  std::vector<Whole*> places;
+  for_each_place(motion, [&](Whole& x) { places.push_back(&x); });
+  shear_and_turn(places, motion.dimension, random);
   rename(motion, planted, random);
   const Scale scale = random_scale(numbers, motion.dimension, random);
   GeneratedMotion made;
@@ -136,7 +109,7 @@ GeneratedMotion finish(WholeMotion motion, PlantedTruth planted, Numbers numbers
     for (const Whole& x : frame) {
       Position& place = positions.emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        place[axis] = coordinate(x[axis] + scale.offset[axis], scale.exponent[axis]);
+        place[axis] = as_double(x[axis] + scale.offset[axis], scale.exponent[axis]);
       }
     }
   }

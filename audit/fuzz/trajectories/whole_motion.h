@@ -47,6 +47,9 @@ enum class Numbers : std::uint8_t {
   offset,  ///< from 2^52 on: a unit is the last bit
 };
 
+/// 0, ..., size - 1 in any order, each as likely.
+std::vector<VertexId> random_order(std::size_t size, Random& random);
+
 /// Adds triangles (edges, in 2D) that rest above all there is, each at a height of its own, so that they meet nothing.
 void add_crowd(WholeMotion& motion, Random& random, std::size_t count);
 
