@@ -12,7 +12,6 @@
 #include "app/output.h"
 #include "app/process.h"
 #include "audit/fuzz/trajectories/fuzz_library_motions.h"
-#include "audit/fuzz/trajectories/save_motion.h"
 #include "certify/json.h"
 #include "certify/process/run_program.h"
 #include "certify/result_file.h"
@@ -44,8 +43,6 @@ void settle(LibraryMotionArguments& arguments) {
   host.repeat_seconds = 0.01;  // for one step of a small mesh: thousands of calls
   host.search_limit = 1;       // the same
 }
-
-// --- a run -----------------------------------------------------------------------------------------------------------
 
 template <class Write>
 void for_each_fault(const audit::MotionFaultCounts& counts, const Write& write) {
@@ -139,31 +136,6 @@ std::vector<std::string> pairs() {
   return names;
 }
 
-// --- a saved motion --------------------------------------------------------------------------------------------------
-
-/// What is wrong with a motion, and the smaller one, if that was asked for.
-struct Again {
-  audit::FrameMotion motion;
-  std::optional<audit::MotionFaultFound> found;
-  std::optional<fs::path> saved;
-};
-
-Again look_again(const LibraryMotionArguments& arguments) {
-  const audit::LibraryUnderTest& library = arguments.theirs.asked;
-  const fs::path folder = arguments.again.saved();
-  Again result{audit::read_frames(folder), {}, {}};
-  audit::require_ccd_library(library.path, library.host);
-  const bool knows_times = audit::knows_times(library);
-  result.found = audit::ask_motion(library, result.motion, {}, {knows_times, true}).found;
-  if (!result.found || !arguments.again.minimise) return result;
-  audit::ShrunkMotion shrunk = audit::shrink_for_library(library, result.motion, *result.found, knows_times, 5000);
-  result.motion = std::move(shrunk.motion);
-  result.found = std::move(shrunk.found);
-  result.saved = minimised_folder(arguments.common, folder);
-  audit::save_motion(result.motion, result.found->words, replay_command(arguments.theirs), *result.saved);
-  return result;
-}
-
 }  // namespace
 
 Json motion_facts(const audit::FrameMotion& motion) {
@@ -190,20 +162,31 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
 ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   settle(arguments);
   const fs::path folder = arguments.again.saved();
+  const audit::LibraryUnderTest& library = arguments.theirs.asked;
   std::vector<fs::path> inputs = saved_files(folder);
-  inputs.push_back(arguments.theirs.asked.path);
+  inputs.push_back(library.path);
   const Output output(arguments.common.results, inputs);
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
-  const Again result = look_again(arguments);
-  Json facts = {{"library", arguments.theirs.asked.path.string()}};
-  facts.update(motion_facts(result.motion));
-  return tell_again(output,
-                    {.unknown = interrupted(),
-                     .difference = result.found ? std::optional(result.found->words) : std::nullopt,
-                     .saved = result.saved,
-                     .facts = facts,
-                     .pairs = {"frames", "cells", "vertices"},
-                     .about_saved = result.saved ? "\n  again: " + again(arguments.theirs, *result.saved) : ""});
+  audit::FrameMotion motion = audit::read_frames(folder);
+  audit::require_ccd_library(library.path, library.host);
+  const bool knows_times = audit::knows_times(library);
+  auto found = audit::ask_motion(library, motion, {}, {knows_times, true}).found;
+  std::optional<fs::path> saved;
+  if (found && arguments.again.minimise) {
+    audit::ShrunkMotion shrunk = audit::shrink_for_library(library, motion, *found, knows_times, 5000);
+    motion = std::move(shrunk.motion);
+    found = std::move(shrunk.found);
+    saved = minimised_folder(arguments.common, folder);
+    audit::save_motion(motion, found->words, replay_command(arguments.theirs), *saved);
+  }
+  Json facts = {{"library", library.path.string()}};
+  facts.update(motion_facts(motion));
+  return tell_again(output, {.unknown = interrupted(),
+                             .difference = found ? std::optional(found->words) : std::nullopt,
+                             .saved = saved,
+                             .facts = facts,
+                             .pairs = {"frames", "cells", "vertices"},
+                             .about_saved = saved ? "\n  again: " + again(arguments.theirs, *saved) : ""});
 }
 
 }  // namespace noli::app

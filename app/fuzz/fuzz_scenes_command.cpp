@@ -13,7 +13,6 @@
 #include "audit/fuzz/scenes/fuzz_scenes.h"
 #include "certify/json.h"
 #include "certify/process/run_program.h"
-#include "certify/process/scratch_folder.h"
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
 #include "trajectory/text.h"
@@ -94,11 +93,9 @@ std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzz
 ExitCode fuzz(ScenesArguments& arguments) {
   if (arguments.wrong_place) throw UsageError("--wrong-place goes with --replay or --minimise");
   const Output output = begin_fuzzing(arguments.common, {});
-  const ScratchFolder scratch(ScratchFolder::Place::memory);
   audit::SceneFuzzOptions options;
   set_common(options, arguments.common);
   options.noli = this_program();
-  options.work_folder = scratch.path();
   return run_fuzzer(
       {"fuzz scenes", "fuzz-scenes", {"scenes", "findings", "verified", "resumed", "seed"}}, output, options,
       audit::fuzz_scenes, [&](const auto& report) { return report_json(arguments, report); },
@@ -113,15 +110,9 @@ ExitCode again(const ScenesArguments& arguments) {
   if (arguments.wrong_place && !arguments.wrong_place->starts_with('/'))
     throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
   audit::SceneJson scene = audit::read_saved_scene(file);
-  const ScratchFolder scratch(ScratchFolder::Place::memory);
   const audit::RunNoli noli = this_program();
-  int number = 0;
   const auto judge = [&](const audit::SceneJson& candidate) {
-    const fs::path folder = scratch.path() / std::to_string(number++);
-    fs::create_directory(folder);
-    audit::SceneJudgement judged = audit::judge_scene({candidate, arguments.wrong_place}, noli, folder);
-    fs::remove_all(folder);  // it is in memory, perhaps
-    return judged;
+    return audit::judge_scene({candidate, arguments.wrong_place}, noli);
   };
   audit::SceneJudgement judgement = judge(scene);
   std::optional<fs::path> saved;

@@ -13,7 +13,6 @@
 #include "app/process.h"
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
-#include "audit/fuzz/trajectories/save_motion.h"
 #include "audit/fuzz/trajectories/verify_program.h"
 #include "certify/json.h"
 #include "certify/result_file.h"

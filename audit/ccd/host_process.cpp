@@ -103,7 +103,7 @@ Ending HostProcess::wait() {
   for (;;) {
     keep_the_end();
     if (child_.has_ended()) return ending();
-    if (stopped()) return ended_by_us(Ending::Kind::stopped, "stopped");
+    if (options_.over()) return ended_by_us(Ending::Kind::stopped, "stopped");
     if (hangs())
       return ended_by_us(Ending::Kind::hung, fmt::format("no answer within its limit of {:g} s", seconds(limit())));
     if (child_.resident_bytes() > options_.most_memory) {
@@ -112,11 +112,6 @@ Ending HostProcess::wait() {
     child_.look(pause);
     pause = std::min<nanoseconds>(2 * pause, std::chrono::milliseconds(5));
   }
-}
-
-bool HostProcess::stopped() const {
-  if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) return true;
-  return options_.deadline && Clock::now() >= *options_.deadline;
 }
 
 std::string HostProcess::said(ProgramEnd& end) {

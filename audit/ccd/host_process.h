@@ -31,6 +31,9 @@ struct HostOptions {
   int search_limit = 600;                     ///< a search for candidates may take so many times as long as a query
   const std::atomic<bool>* stop = nullptr;
   Deadline deadline;
+
+  bool stopped() const { return stop != nullptr && stop->load(std::memory_order_relaxed); }
+  bool over() const { return stopped() || (deadline && std::chrono::steady_clock::now() >= *deadline); }
 };
 
 /// Memory that two processes share, all zero at first. Throws std::system_error when the machine has none left.
@@ -75,7 +78,6 @@ class HostProcess {
   Ending wait();
 
  private:
-  bool stopped() const;
   bool hangs();
   void begin_call();
   std::chrono::nanoseconds limit() const;

@@ -4,24 +4,32 @@
 // a finding, and show something else or nothing.
 #pragma once
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
+
+#include "certify/process/run_program.h"
+#include "trajectory/write_file.h"
 
 namespace noli::audit {
 
-/// Lets `write` put files into a folder beside this one, which takes its name when all are there. What was saved under
-/// that name before goes then; if something throws, it stays, and nothing is left of the new one.
+/// Lets `write` put files into a folder beside this one, which takes its name when all are there, with a README: what is
+/// wrong, and the command that shows it again. What was saved under that name before goes then; if something throws, it
+/// stays, and nothing is left of the new one.
 template <class Write>
-void save_whole(const std::filesystem::path& folder, const Write& write) {
+void save_whole(const std::filesystem::path& folder, const std::string& what, const std::vector<std::string>& command,
+                const Write& write) {
   namespace fs = std::filesystem;
   const std::string name = "." + folder.filename().string() + "." + std::to_string(::getpid());
   const fs::path part = folder.parent_path() / name;
   try {
     fs::create_directories(part);
     write(part);
+    write_file(part / "README", fmt::format("{}\nShown again by\n  {}\n", what, shell_words(command)));
     fs::remove_all(folder);
     fs::rename(part, folder);
   } catch (...) {

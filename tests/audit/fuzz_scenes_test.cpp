@@ -44,10 +44,8 @@ class FuzzScenes : public testing::Test {
     options.limits.seed = 1;
     options.limits.count = 22;
     options.limits.threads = 1;
-    options.work_folder = folder / "work_folder";
     options.out = folder / "out";
     options.max_findings = 1;
-    std::filesystem::create_directory(options.work_folder);
   }
 
   /// Of valid scenes.
@@ -103,11 +101,7 @@ TEST_F(FuzzScenes, APlaceIsNotNamedByALongerNumber) {
       return ended(3, "", "noli: " + arguments[1] + ": " + place + ": expected something else");
     };
   };
-  const auto judged = [&](const char* place) {
-    std::filesystem::remove_all(options.work_folder);
-    std::filesystem::create_directory(options.work_folder);
-    return judge_scene(wrong, refusing(place), options.work_folder).difference;
-  };
+  const auto judged = [&](const char* place) { return judge_scene(wrong, refusing(place)).difference; };
   EXPECT_FALSE(judged("/bodies/1"));
   EXPECT_FALSE(judged("/bodies/1/mesh"));
   EXPECT_TRUE(judged("/bodies/10"));
@@ -126,8 +120,7 @@ TEST_F(FuzzScenes, ASavedSceneHasNotAnyDepth) {
 TEST_F(FuzzScenes, AMessageHasToNameThePlace) {
   GeneratedScene wrong{{{"noli_scene", 1}}, "/bodies/0/mesh"};
   const auto judged = [&](const std::string& message) {
-    return judge_scene(
-        wrong, [&](const std::vector<std::string>&) { return ended(3, "", message); }, folder.path());
+    return judge_scene(wrong, [&](const std::vector<std::string>&) { return ended(3, "", message); });
   };
   EXPECT_EQ(judged("noli: scene.json: /bodies/0/mesh: expected another").difference, std::nullopt);
   EXPECT_TRUE(judged("noli: scene.json: something is wrong").difference.value().starts_with("message: "));

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "audit/fuzz/proofs/fuzz_proofs.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 #include <utility>
 
 #include "audit/fuzz/proofs/minimise_mutant.h"
 #include "audit/fuzz/save_whole.h"
-#include "trajectory/write_file.h"
 
 namespace noli::audit {
 
@@ -113,11 +110,8 @@ class ProofFuzzing : public Fuzzing<ProofFuzzing, ProofFuzzOptions, ProofFuzzRep
 
 void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
                   const fs::path& folder) {
-  save_whole(folder, [&](const fs::path& to) {
-    write_proof_files(files, to);
-    write_file(to / "README", fmt::format("{}\n{}\nShown again by\n  {}\n", what, difference,
-                                          shell_words({"noli", "fuzz", "proofs", "--replay", folder})));
-  });
+  save_whole(folder, what + '\n' + difference, {"noli", "fuzz", "proofs", "--replay", folder},
+             [&](const fs::path& to) { write_proof_files(files, to); });
 }
 
 ProofFuzzReport fuzz_proofs(const ProofFuzzOptions& options) { return ProofFuzzing(options).run(); }

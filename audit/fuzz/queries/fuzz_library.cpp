@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <span>
 #include <utility>
 
 #include <noli/contact.h>
 #include "audit/fuzz/finding_name.h"
+#include "audit/fuzz/fuzzing_library.h"
 #include "audit/fuzz/queries/judge.h"
 #include "audit/fuzz/queries/minimise_query.h"
 #include "audit/fuzz/queries/query_generators.h"
@@ -35,98 +34,17 @@ struct Asked {
   std::uint64_t asked = 0, contacts = 0;
   FaultCounts faults{};
   std::vector<LibraryFinding> findings;
-  std::map<std::string, std::size_t> reached;  ///< signatures, and the first query that has each
-  std::vector<AnyQuery> queries;               ///< kept for the corpus only
-  std::vector<bool> contact;                   ///< the same
+  Reached reached;  ///< where there is a corpus
 };
-
-struct Situation {
-  LibraryUnderTest asked;  ///< to be asked until the time of the run is over
-  bool knows_times = false;
-  bool with_corpus = false;
-};
-
-std::optional<Stage> deciding_stage(const AnyQuery& query) {
-  StageCounters counters;
-  visit(query, [&](const auto& typed) { contact(typed, &counters); });
-  for (const Stage stage : all_stages) {
-    if (counters[stage] > 0) return stage;
-  }
-  return std::nullopt;
-}
 
 std::string whole_signature(const AnyQuery& query, const LibraryAnswer& answer,
                             const std::optional<ExactContact>& exact) {
+  StageCounters stages;
+  visit(query, [&](const auto& typed) { contact(typed, &stages); });
   const std::optional<double> time = exact ? std::optional(exact->time) : std::nullopt;
-  return signature(query, deciding_stage(query), exact ? exact->kind : ContactKind::apart, time.value_or(0)) + "-" +
+  return signature(query, deciding_stage(stages), exact ? exact->kind : ContactKind::apart, time.value_or(0)) + "-" +
          signature_of_answer(answer, time);
 }
-
-/// `blank`: generator and block of the findings.
-Asked ask_all(const Situation& situation, std::vector<AnyQuery> queries, const LibraryFinding& blank) {
-  Asked result;
-  const bool with_corpus = situation.with_corpus;
-  const std::vector<LibraryAnswer> answers = ask(situation.asked, queries.at(0).pair, queries);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (answers[i].given.state == AnswerState::not_asked) continue;
-    const std::optional<ExactContact> exact = exact_contact(queries[i]);
-    ++result.asked;
-    result.contacts += exact ? 1 : 0;
-    if (with_corpus) result.reached.try_emplace(whole_signature(queries[i], answers[i], exact), i);
-    if (with_corpus) result.contact.resize(i + 1), result.contact[i] = exact.has_value();
-    const auto fault = fault_of(answers[i], exact, situation.knows_times);
-    if (!fault) continue;
-    ++result.faults[static_cast<std::size_t>(fault->fault)];
-    if (!counts(fault->fault, situation.asked.exact)) continue;
-    LibraryFinding finding = blank;
-    finding.found = *fault;
-    finding.index = i;
-    finding.query = finding.shrunk = queries[i];
-    result.findings.push_back(std::move(finding));
-  }
-  if (with_corpus) result.queries = std::move(queries);
-  return result;
-}
-
-/// The library's answers while a query is shrunk. What hangs is waited for but a part of the limit, and not often, or
-/// it would take all day.
-class Shrinking {
- public:
-  Shrinking(const LibraryUnderTest& library, const FaultFound& found, bool knows_times)
-      : library_(library), found_(found), knows_times_(knows_times) {
-    library_.host.most_hangs = 1;
-    library_.host.query_limit = std::min(library_.host.query_limit, std::max(library_.host.query_limit / 50, least));
-    library_.host.deadline.reset();
-  }
-
-  std::optional<std::size_t> first_failure(std::span<const AnyQuery> queries) {
-    constexpr int most_costly = 400;
-    const std::atomic<bool>* const stop = library_.host.stop;
-    if (costly_ >= most_costly || (stop != nullptr && stop->load())) return std::nullopt;
-    const std::vector<LibraryAnswer> answers = ask(library_, queries[0].pair, queries);
-    for (const LibraryAnswer& answer : answers) {
-      const AnswerState state = answer.given.state;
-      costly_ += state == AnswerState::hung || state == AnswerState::too_much_memory ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (fails(queries[i], answers[i])) return i;
-    }
-    return std::nullopt;
-  }
-
- private:
-  bool fails(const AnyQuery& query, const LibraryAnswer& answer) const {
-    const auto fault = fault_of(answer, exact_contact(query), knows_times_);
-    return fault && fault->is_like(found_);
-  }
-
-  static constexpr std::chrono::nanoseconds least = std::chrono::milliseconds(20);
-
-  LibraryUnderTest library_;
-  FaultFound found_;
-  bool knows_times_;
-  int costly_ = 0;
-};
 
 /// The kernel is what a finding is judged by, so the oracle looks at what is told to the world.
 void require_that_the_oracle_agrees(const AnyQuery& query) {
@@ -138,43 +56,26 @@ void require_that_the_oracle_agrees(const AnyQuery& query) {
   throw std::logic_error("kernel and oracle disagree on a query that a library was found wrong on");
 }
 
-class LibraryFuzzing : public Fuzzing<LibraryFuzzing, LibraryFuzzOptions, LibraryFuzzReport, Asked, QueryCorpus> {
+class LibraryFuzzing
+    : public FuzzingLibrary<LibraryFuzzing, LibraryFuzzOptions, LibraryFuzzReport, Asked, QueryCorpus> {
  public:
   static constexpr std::uint64_t items_per_block = queries_per_block;
 
-  explicit LibraryFuzzing(const LibraryFuzzOptions& options) : Fuzzing(options), generators_(library_generators()) {
+  explicit LibraryFuzzing(const LibraryFuzzOptions& options)
+      : FuzzingLibrary(options), generators_(library_generators()) {
     for (const QueryGenerator& generator : generators_) {
-      report_.generators.push_back({generator.name(), std::string(generator.attacks), generator.type.pair, 0, 0, {}});
+      report_.generators.push_back({generator.name(), std::string(generator.attacks), 0, 0, {}});
     }
   }
 
-  LibraryFuzzReport run() {
-    require_ccd_library(options_.asked.path, options_.asked.host);
-    situation_.asked = options_.asked;
-    if (const auto& limit = options_.limits.time_limit) {
-      using Clock = std::chrono::steady_clock;
-      situation_.asked.host.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*limit);
-    }
-    situation_.knows_times = report_.knows_times = knows_times(options_.asked);
-    situation_.with_corpus = corpus_.has_value();
-    report_ = Fuzzing::run();
-    shrink_findings();
-    report_.interrupted |= stopped();  // while they were shrunk
-    return std::move(report_);
-  }
-
-  bool enough() const { return options_.first_only && report_.findings_total > 0; }
-  std::uint64_t items() const { return asked_; }
+  std::uint64_t items() const { return asked_queries_; }
 
   Asked make_block(std::uint64_t block, std::uint64_t count) const {
     const QueryGenerator& generator = generators_[block % generators_.size()];
     Random random(options_.limits.seed, block);
     std::vector<AnyQuery> queries;
     for (std::size_t i = 0; i < count; ++i) queries.push_back(generator(random).query);
-    LibraryFinding blank;
-    blank.generator = generator.name();
-    blank.block = block;
-    return ask_all(situation_, std::move(queries), blank);
+    return ask_all(queries, generator.name(), block);
   }
 
   void take_block(Asked asked) { take(std::move(asked), &report_.generators[block_ % generators_.size()]); }
@@ -187,39 +88,75 @@ class LibraryFuzzing : public Fuzzing<LibraryFuzzing, LibraryFuzzOptions, Librar
     }
     std::vector<Asked> results(queries.size());
     parallel_for(queries.size(), options_.limits.threads, [&](std::size_t i) {
-      LibraryFinding blank;
-      blank.generator = "corpus/" + queries[i]->name;
-      results[i] = ask_all(situation_, {queries[i]->saved.query}, blank);
+      results[i] = ask_all({queries[i]->saved.query}, "corpus/" + queries[i]->name, 0);
       for (LibraryFinding& finding : results[i].findings) finding.index = queries[i]->index;
     });
     report_.corpus.replayed = queries.size();
     for (Asked& asked : results) {
-      for (const auto& [signature, i] : asked.reached) corpus_->reached(signature);
-      asked.reached.clear();
+      for (const auto& [signature, query] : asked.reached) corpus_->reached(signature);
       take(std::move(asked), nullptr);
     }
   }
 
-  void count_corpus() {
-    report_.corpus.signatures = corpus_->signatures();
-    report_.corpus.kept = corpus_->kept();
+  void count_corpus() { corpus_->count(report_.corpus); }
+
+  void shrink_findings() {
+    std::vector<LibraryFinding>& findings = report_.findings;
+    parallel_for(findings.size(), options_.limits.threads, [&](std::size_t i) {
+      LibraryFinding& finding = findings[i];
+      ShrunkForLibrary shrunk = shrink_for_library(options_.asked, finding.query, finding.found, report_.knows_times);
+      finding.shrunk = shrunk.query;
+      finding.found = std::move(shrunk.found);
+      require_that_the_oracle_agrees(finding.shrunk);
+    });
+    std::vector<LibraryFinding> different;
+    for (LibraryFinding& finding : findings) {
+      const auto same = [&](const LibraryFinding& other) {
+        return other.found.is_like(finding.found) && other.shrunk == finding.shrunk;
+      };
+      if (const auto found = std::find_if(different.begin(), different.end(), same); found != different.end()) {
+        found->alike += finding.alike;
+        if (!finding.file.empty()) fs::remove(finding.file);
+        continue;
+      }
+      save(finding);
+      different.push_back(std::move(finding));
+    }
+    findings = std::move(different);
   }
 
  private:
+  Asked ask_all(const std::vector<AnyQuery>& queries, const std::string& generator, std::uint64_t block) const {
+    Asked result;
+    const std::vector<LibraryAnswer> answers = ask(asked_, queries.at(0).pair, queries);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const AnyQuery& query = queries[i];
+      if (answers[i].given.state == AnswerState::not_asked) continue;
+      const std::optional<ExactContact> exact = exact_contact(query);
+      ++result.asked;
+      result.contacts += exact ? 1 : 0;
+      if (corpus_) {
+        const ReachingQuery reaching{{query, std::nullopt}, exact.has_value()};
+        result.reached.try_emplace(whole_signature(query, answers[i], exact), reaching);
+      }
+      const auto fault = fault_of(answers[i], exact, report_.knows_times);
+      if (!fault) continue;
+      ++result.faults[static_cast<std::size_t>(fault->fault)];
+      if (counts(fault->fault, asked_.exact))
+        result.findings.push_back({*fault, generator, block, i, query, query, 0, {}});
+    }
+    return result;
+  }
+
   void take(Asked asked, LibraryTally* tally) {
-    asked_ += asked.asked;
+    asked_queries_ += asked.asked;
     report_.contacts += asked.contacts;
     if (tally != nullptr) tally->asked += asked.asked, tally->contacts += asked.contacts;
     for (std::size_t i = 0; i < library_fault_count; ++i) {
       report_.faults[i] += asked.faults[i];
       if (tally != nullptr) tally->faults[i] += asked.faults[i];
     }
-    for (const auto& reached : asked.reached) {
-      const std::string& signature = reached.first;
-      const std::size_t i = reached.second;
-      if (!corpus_->reached(signature)) continue;
-      report_.not_saved.attempt([&] { corpus_->keep(signature, {asked.queries[i], std::nullopt}, asked.contact[i]); });
-    }
+    if (corpus_) corpus_->keep_new(asked.reached, report_.not_saved);
     for (LibraryFinding& finding : asked.findings) keep_simplest(std::move(finding));
   }
 
@@ -268,34 +205,8 @@ class LibraryFuzzing : public Fuzzing<LibraryFuzzing, LibraryFuzzOptions, Librar
     save_query(finding.file, finding.shrunk, finding.found.kind != ContactKind::apart, comments);
   }
 
-  void shrink_findings() {
-    std::vector<LibraryFinding>& findings = report_.findings;
-    parallel_for(findings.size(), options_.limits.threads, [&](std::size_t i) {
-      LibraryFinding& finding = findings[i];
-      ShrunkForLibrary shrunk = shrink_for_library(options_.asked, finding.query, finding.found, report_.knows_times);
-      finding.shrunk = shrunk.query;
-      finding.found = std::move(shrunk.found);
-      require_that_the_oracle_agrees(finding.shrunk);
-    });
-    std::vector<LibraryFinding> different;
-    for (LibraryFinding& finding : findings) {
-      const auto same = [&](const LibraryFinding& other) {
-        return other.found.is_like(finding.found) && other.shrunk == finding.shrunk;
-      };
-      if (const auto found = std::find_if(different.begin(), different.end(), same); found != different.end()) {
-        found->alike += finding.alike;
-        if (!finding.file.empty()) fs::remove(finding.file);
-        continue;
-      }
-      save(finding);
-      different.push_back(std::move(finding));
-    }
-    findings = std::move(different);
-  }
-
   std::vector<QueryGenerator> generators_;
-  Situation situation_;
-  std::uint64_t asked_ = 0, corpus_findings_ = 0;
+  std::uint64_t asked_queries_ = 0, corpus_findings_ = 0;
 };
 
 }  // namespace
@@ -304,9 +215,21 @@ LibraryFuzzReport fuzz_library(const LibraryFuzzOptions& options) { return Libra
 
 ShrunkForLibrary shrink_for_library(const LibraryUnderTest& library, const AnyQuery& query, const FaultFound& fault,
                                     bool knows_times) {
-  Shrinking shrinking(library, fault, knows_times);
-  const FirstFailure first_failure = [&](std::span<const AnyQuery> queries) {
-    return shrinking.first_failure(queries);
+  constexpr int most_costly = 400;  // of those that hang or take all memory
+  const LibraryUnderTest asked = asked_while_shrinking(library, true);
+  int costly = 0;
+  const FirstFailure first_failure = [&](std::span<const AnyQuery> queries) -> std::optional<std::size_t> {
+    if (costly >= most_costly || asked.host.stopped()) return std::nullopt;
+    const std::vector<LibraryAnswer> answers = ask(asked, queries[0].pair, queries);
+    for (const LibraryAnswer& answer : answers) {
+      const AnswerState state = answer.given.state;
+      costly += state == AnswerState::hung || state == AnswerState::too_much_memory ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const auto found = fault_of(answers[i], exact_contact(queries[i]), knows_times);
+      if (found && found->is_like(fault)) return i;
+    }
+    return std::nullopt;
   };
   const AnyQuery shrunk = minimise(query, first_failure);
   if (shrunk == query) return {query, fault};

@@ -51,7 +51,6 @@ struct LibraryFinding {
 /// What a generator's queries came to.
 struct LibraryTally {
   std::string name, attacks;
-  FeaturePair pair = FeaturePair::vertex_face;
   std::uint64_t asked = 0, contacts = 0;
   FaultCounts faults{};  ///< those that do not count included
 };

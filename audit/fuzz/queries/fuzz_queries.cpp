@@ -43,18 +43,12 @@ struct Item {
   Answers declared = {true, true, true, true};
 };
 
-struct Reached {
-  std::string signature;
-  SavedQuery saved;
-  bool contact;
-};
-
 struct BlockResult {
   std::array<std::uint64_t, 4> answers{};
   ProbeTally probes;
   StageCounters stages;
   std::vector<RawFinding> findings;
-  std::vector<Reached> reached;  ///< where there is a corpus: the first of each signature
+  Reached reached;  ///< where there is a corpus
 };
 
 /// What is wrong with the query itself, if the oracle's answer is not what its generator says.
@@ -72,12 +66,6 @@ std::optional<std::string> broken_promise(const Item& item, ContactKind truth) {
 void count(const Probe& probe, const ProbeTruth& truth, ProbeTally& tally) {
   if (probe.eta) ++(truth.within_t ? tally.within : tally.apart);
   ++(truth.failure == probe.from ? tally.failed : std::isfinite(truth.failure) ? tally.failing : tally.never_failing);
-}
-
-std::optional<Stage> only_stage(const StageCounters& counters) {
-  const auto counted = [&](Stage stage) { return counters[stage] > 0; };
-  const auto found = std::find_if(all_stages.begin(), all_stages.end(), counted);
-  return found == all_stages.end() ? std::nullopt : std::optional(*found);
 }
 
 void judge(const QueryFuzzOptions& options, const Item& item, BlockResult& result) {
@@ -98,11 +86,8 @@ void judge(const QueryFuzzOptions& options, const Item& item, BlockResult& resul
   result.stages += stages;
   if (!options.corpus) return;
   const double first = truth.time ? truth.time->lower() : 0;
-  std::string reached = signature(query, only_stage(stages), truth.kind, first);
-  const auto same = [&](const Reached& other) { return other.signature == reached; };
-  if (std::none_of(result.reached.begin(), result.reached.end(), same)) {
-    result.reached.push_back({std::move(reached), {query, item.probe}, truth.time.has_value()});
-  }
+  result.reached.try_emplace(signature(query, deciding_stage(stages), truth.kind, first),
+                             ReachingQuery{{query, item.probe}, truth.time.has_value()});
 }
 
 /// A query of the corpus that was saved without a probe gets one that depends on its number.
@@ -113,15 +98,20 @@ Item corpus_item(const QueryFuzzOptions& options, const CorpusQuery& one, std::s
   return {{query, {}}, probe, "corpus/" + one.name, number, one.index};
 }
 
-void shrink(Finding& finding, const Decide& decide) {
+/// What is wrong with what the subject says.
+std::optional<std::string> difference(const AnyQuery& query, const Decide& decide) {
   StageCounters ignored;
-  const auto fails = [&](const AnyQuery& query) {
-    return difference(query, truth_of(query), decide, ignored).has_value();
-  };
-  finding.shrunk = minimise(finding.query, fails);
-  const Truth truth = truth_of(finding.shrunk);
-  finding.truth = truth.kind;
-  finding.difference = difference(finding.shrunk, truth, decide, ignored).value();
+  return difference(query, truth_of(query), decide, ignored);
+}
+std::optional<std::string> difference(const AnyQuery& query, const Probe& probe, const DecideProbe& decide) {
+  return difference(query, probe, truth_of(query, probe), decide);
+}
+
+void shrink(Finding& finding, const Decide& decide) {
+  finding.shrunk =
+      minimise(finding.query, [&](const AnyQuery& query) { return difference(query, decide).has_value(); });
+  finding.truth = truth_of(finding.shrunk).kind;
+  finding.difference = difference(finding.shrunk, decide).value();
 }
 
 /// Probes that may do as well, the simplest first.
@@ -139,16 +129,13 @@ std::vector<Probe> simpler(const Probe& probe) {
 }
 
 void shrink_probe(Finding& finding, const DecideProbe& decide) {
-  const auto fault = [&](const AnyQuery& query, const Probe& probe) {
-    return difference(query, probe, truth_of(query, probe), decide);
-  };
   for (const Probe& candidate : simpler(finding.probe)) {
-    if (fault(finding.query, candidate)) finding.probe = candidate;
+    if (difference(finding.query, candidate, decide)) finding.probe = candidate;
   }
-  finding.shrunk =
-      minimise(finding.query, [&](const AnyQuery& query) { return fault(query, finding.probe).has_value(); });
+  finding.shrunk = minimise(
+      finding.query, [&](const AnyQuery& query) { return difference(query, finding.probe, decide).has_value(); });
   finding.truth = truth_of(finding.shrunk).kind;
-  finding.difference = fault(finding.shrunk, finding.probe).value();
+  finding.difference = difference(finding.shrunk, finding.probe, decide).value();
 }
 
 std::string file_name(const QueryFuzzOptions& options, const Finding& finding) {
@@ -199,17 +186,13 @@ class QueryFuzzing : public Fuzzing<QueryFuzzing, QueryFuzzOptions, QueryFuzzRep
     parallel_for(queries.size(), options_.limits.threads,
                  [&](std::size_t i) { judge(options_, corpus_item(options_, queries[i], i), results[i]); });
     for (BlockResult& result : results) {
-      for (const Reached& reached : result.reached) corpus_->reached(reached.signature);
-      result.reached.clear();
+      for (const auto& [signature, query] : result.reached) corpus_->reached(signature);
       take(std::move(result), nullptr);
     }
     report_.corpus.replayed = queries.size();
   }
 
-  void count_corpus() {
-    report_.corpus.signatures = corpus_->signatures();
-    report_.corpus.kept = corpus_->kept();
-  }
+  void count_corpus() { corpus_->count(report_.corpus); }
 
   std::uint64_t items() const {
     return std::accumulate(report_.answers.begin(), report_.answers.end(), std::uint64_t{0});
@@ -223,10 +206,7 @@ class QueryFuzzing : public Fuzzing<QueryFuzzing, QueryFuzzOptions, QueryFuzzRep
     }
     report_.probes += result.probes;
     report_.stages += result.stages;
-    for (const Reached& one : result.reached) {
-      if (!corpus_->reached(one.signature)) continue;
-      report_.not_saved.attempt([&] { corpus_->keep(one.signature, one.saved, one.contact); });
-    }
+    if (corpus_) corpus_->keep_new(result.reached, report_.not_saved);
     for (RawFinding& raw : result.findings) found(std::move(raw));
   }
 
@@ -255,29 +235,23 @@ ProbeTally& ProbeTally::operator+=(const ProbeTally& other) {
 
 std::vector<std::string> replay(const AnyQuery& query, const std::optional<Probe>& probe, const Decide& decide,
                                 const DecideProbe& decide_probe) {
-  StageCounters ignored;
   std::vector<std::string> differences;
-  if (auto what = difference(query, truth_of(query), decide, ignored)) {
-    differences.push_back(std::move(*what));
-  }
+  if (auto what = difference(query, decide)) differences.push_back(std::move(*what));
   if (!probe) return differences;
-  if (auto what = difference(query, *probe, truth_of(query, *probe), decide_probe)) {
-    differences.push_back(std::move(*what));
-  }
+  if (auto what = difference(query, *probe, decide_probe)) differences.push_back(std::move(*what));
   return differences;
 }
 
 std::optional<Finding> shrunk_finding(const AnyQuery& query, const std::optional<Probe>& probe, const Decide& decide,
                                       const DecideProbe& decide_probe) {
-  StageCounters ignored;
   Finding finding;
   finding.query = finding.shrunk = query;
   if (probe) finding.probe = *probe;
-  if (difference(query, truth_of(query), decide, ignored)) {
+  if (difference(query, decide)) {
     shrink(finding, decide);
     return finding;
   }
-  if (!probe || !difference(query, *probe, truth_of(query, *probe), decide_probe)) return std::nullopt;
+  if (!probe || !difference(query, *probe, decide_probe)) return std::nullopt;
   shrink_probe(finding, decide_probe);
   return finding;
 }

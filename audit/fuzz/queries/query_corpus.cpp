@@ -53,6 +53,11 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 }  // namespace
 
+std::optional<Stage> deciding_stage(const StageCounters& counters) {
+  const auto found = std::ranges::find_if(all_stages, [&](Stage stage) { return counters[stage] > 0; });
+  return found == all_stages.end() ? std::nullopt : std::optional(*found);
+}
+
 std::string signature(const AnyQuery& query, std::optional<Stage> stage, ContactKind kind, double first) {
   return fmt::format("{}-{}d-{}-{}-{}-{}", name(query.pair), query.dimension, stage ? name(*stage) : "no_stage",
                      name(kind), when(kind, first), roots(query));
@@ -85,6 +90,12 @@ void QueryCorpus::keep(const std::string& signature, const SavedQuery& saved, bo
   for (int again = 2; fs::exists(file); ++again) file = folder_ / fmt::format("{}-{}.csv", signature, again);
   save_query(file, saved.query, contact, comments);
   ++kept_;
+}
+
+void QueryCorpus::keep_new(const Reached& reached, NotSaved& not_saved) {
+  for (const auto& [signature, query] : reached) {
+    if (reached_.insert(signature).second) not_saved.attempt([&] { keep(signature, query.saved, query.contact); });
+  }
 }
 
 }  // namespace noli::audit

@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -27,10 +28,14 @@
 #include <noli/contact.h>
 #include <noli/time_of_impact.h>
 #include "audit/ccd/library_answers.h"
+#include "audit/fuzz/fuzzing.h"
 #include "audit/fuzz/queries/saved_query.h"
 #include "certify/queries/any_query.h"
 
 namespace noli::audit {
+
+/// The stage of the kernel that settled a query.
+std::optional<Stage> deciding_stage(const StageCounters& counters);
 
 /// What a query reached in the kernel. `first`: the first time of contact, rounded down; not used when apart.
 std::string signature(const AnyQuery& query, std::optional<Stage> stage, ContactKind kind, double first);
@@ -44,30 +49,12 @@ struct CorpusQuery {
   std::size_t index = 0;  ///< in its file, from 0
 };
 
-class QueryCorpus {
- public:
-  /// Reads all files *.csv of the folder, in the order of their names. A folder that is not there is empty. Throws
-  /// InputError.
-  explicit QueryCorpus(std::filesystem::path folder);
-
-  const std::vector<CorpusQuery>& queries() const { return queries_; }
-  const std::filesystem::path& folder() const { return folder_; }
-
-  /// Takes note that this was reached; false if it had been before.
-  bool reached(const std::string& signature) { return reached_.insert(signature).second; }
-
-  /// Writes the query to SIGNATURE.csv, or SIGNATURE-2.csv if there is such a file. Throws std::system_error.
-  void keep(const std::string& signature, const SavedQuery& saved, bool contact);
-
-  std::uint64_t kept() const { return kept_; }
-  std::size_t signatures() const { return reached_.size(); }
-
- private:
-  std::filesystem::path folder_;
-  std::vector<CorpusQuery> queries_;
-  std::set<std::string> reached_;
-  std::uint64_t kept_ = 0;
+/// What some queries reached: for each signature one that has it, and whether it is in contact.
+struct ReachingQuery {
+  SavedQuery saved;
+  bool contact = false;
 };
+using Reached = std::map<std::string, ReachingQuery>;
 
 /// What a run did with its corpus.
 struct CorpusTally {
@@ -75,6 +62,33 @@ struct CorpusTally {
   std::uint64_t signatures = 0;  ///< reached, those of the folder's queries included
   std::uint64_t kept = 0;        ///< files that were added
   friend bool operator==(const CorpusTally&, const CorpusTally&) = default;
+};
+
+class QueryCorpus {
+ public:
+  /// Reads all files *.csv of the folder, in the order of their names. A folder that is not there is empty. Throws
+  /// InputError.
+  explicit QueryCorpus(std::filesystem::path folder);
+
+  const std::vector<CorpusQuery>& queries() const { return queries_; }
+
+  /// Takes note that this was reached; false if it had been before.
+  bool reached(const std::string& signature) { return reached_.insert(signature).second; }
+
+  /// Writes the query to SIGNATURE.csv, or SIGNATURE-2.csv if there is such a file. Throws std::system_error.
+  void keep(const std::string& signature, const SavedQuery& saved, bool contact);
+
+  /// Keeps those of which nothing had this signature before.
+  void keep_new(const Reached& reached, NotSaved& not_saved);
+
+  std::uint64_t kept() const { return kept_; }
+  void count(CorpusTally& tally) const { tally.signatures = reached_.size(), tally.kept = kept_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<CorpusQuery> queries_;
+  std::set<std::string> reached_;
+  std::uint64_t kept_ = 0;
 };
 
 }  // namespace noli::audit

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cctype>
 #include <utility>
 
 #include <noli/errors.h>
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/save_whole.h"
+#include "certify/process/scratch_folder.h"
 #include "integrator/scene/json_text.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/text.h"
@@ -51,8 +51,8 @@ bool agree(const std::string& verdict, int code) {
 
 class SceneJudge {
  public:
-  SceneJudge(const GeneratedScene& scene, const RunNoli& noli, const fs::path& folder)
-      : scene_(scene), noli_(noli), folder_(folder), text_(scene.scene.dump(1) + '\n') {}
+  SceneJudge(const GeneratedScene& scene, const RunNoli& noli)
+      : scene_(scene), noli_(noli), text_(scene.scene.dump(1) + '\n') {}
 
   SceneJudgement judge() {
     write_file(file(), text_);
@@ -151,7 +151,8 @@ class SceneJudge {
 
   const GeneratedScene& scene_;
   const RunNoli& noli_;
-  fs::path folder_;
+  const ScratchFolder scratch_{ScratchFolder::Place::memory};
+  const fs::path folder_ = scratch_.path();
   std::string text_;
   SceneJudgement judgement_;
 };
@@ -206,13 +207,7 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
   }
 
  private:
-  SceneJudgement judge(const GeneratedScene& scene) const {
-    const fs::path folder = options_.work_folder / fmt::format("scene-{}", number_++);
-    fs::create_directories(folder);
-    SceneJudgement judgement = judge_scene(scene, options_.noli, folder);
-    fs::remove_all(folder);
-    return judgement;
-  }
+  SceneJudgement judge(const GeneratedScene& scene) const { return judge_scene(scene, options_.noli); }
 
   void found(const JudgedScene& one, std::size_t index) {
     if (!is_kept() || ++alike_[*one.judgement.difference] > options_.max_alike) return;
@@ -234,13 +229,10 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
     finding.file = folder / scene_file;
     std::vector<std::string> command = {"noli", "fuzz", "scenes", "--replay", finding.file};
     if (finding.wrong_place) command.insert(command.end(), {"--wrong-place", *finding.wrong_place});
-    save_whole(folder, [&](const fs::path& to) {
-      write_file(to / scene_file, finding.shrunk.dump(2) + '\n');
-      write_file(to / "README", fmt::format("{}\nShown again by\n  {}\n", finding.difference, shell_words(command)));
-    });
+    save_whole(folder, finding.difference, command,
+               [&](const fs::path& to) { write_file(to / scene_file, finding.shrunk.dump(2) + '\n'); });
   }
 
-  mutable std::atomic<std::uint64_t> number_ = 0;
   std::map<std::string, std::size_t> alike_;  ///< by difference
 };
 
@@ -250,9 +242,7 @@ SceneJson read_saved_scene(const fs::path& file) {
   return integrator::parse_json(read_whole_file(file), file.string());
 }
 
-SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli, const fs::path& folder) {
-  return SceneJudge(scene, noli, folder).judge();
-}
+SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli) { return SceneJudge(scene, noli).judge(); }
 
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options) { return SceneFuzzing(options).run(); }
 

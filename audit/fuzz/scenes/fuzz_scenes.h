@@ -34,9 +34,8 @@ using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
 
 struct SceneFuzzOptions : FuzzSettings {
   RunNoli noli;
-  std::filesystem::path work_folder;  ///< folder that is there, for runs
-  std::size_t max_alike = 3;          ///< findings with the same words that are kept
-  std::size_t shrink_budget = 150;    ///< scenes to try for each of them
+  std::size_t max_alike = 3;        ///< findings with the same words that are kept
+  std::size_t shrink_budget = 150;  ///< scenes to try for each of them
 };
 
 struct SceneFinding {
@@ -70,8 +69,8 @@ struct SceneJudgement {
 /// A scene that was saved. Throws InputError.
 SceneJson read_saved_scene(const std::filesystem::path& file);
 
-/// Simulates and so on, in a folder that is there and empty.
-SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli, const std::filesystem::path& folder);
+/// Simulates and so on, in a folder that vanishes.
+SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli);
 
 /// A scene for which `fails` holds and that is not simpler without one of its members, or with a shorter number. Stops
 /// early after so many calls. Precondition: fails(scene).

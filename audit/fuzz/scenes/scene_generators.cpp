@@ -10,20 +10,21 @@ namespace noli::audit {
 
 namespace {
 
-/// What is extreme about a scene. Lengths are in units of `size`.
+/// What is extreme about a scene. Lengths are in units of `size`. Members stand in the order in which generators draw
+/// them.
 struct Extremes {
   double size = 1;             ///< of a body [m]
   double stiffness = 100;      ///< of the lowest body's edges [N/m]
   double stiffness_ratio = 1;  ///< of each body to the one below it
   double mass = 0.01;          ///< of a vertex of the lowest body [kg]
   double mass_ratio = 1;
-  double speed = 1;         ///< [sizes/s]
   double thickness = 0.05;  ///< of contact
-  double offset = 0;        ///< of everything from the origin
-  double sliver = 1;        ///< the width of what is broad
+  int most_layers = 1000;
+  double speed = 1;   ///< [sizes/s]
+  double offset = 0;  ///< of everything from the origin
+  double sliver = 1;  ///< the width of what is broad
   double step_factor = 0.5;
   bool unstable = false, own_steps = false, contact = true;
-  int most_layers = 1000;
 };
 
 /// 2^low to 2^high, each power as likely, times 1 to 2 in sixteenths.
@@ -157,30 +158,18 @@ GeneratedScene made(const Extremes& extremes, Random& random) { return {SceneMak
 GeneratedScene plain(Random& random) { return made({}, random); }
 
 GeneratedScene stiff(Random& random) {
-  Extremes e;
-  e.stiffness = between_powers(random, -10, 30);
-  e.stiffness_ratio = between_powers(random, -20, 20);
-  return made(e, random);
+  return made({.stiffness = between_powers(random, -10, 30), .stiffness_ratio = between_powers(random, -20, 20)},
+              random);
 }
 
 GeneratedScene heavy(Random& random) {
-  Extremes e;
-  e.mass = between_powers(random, -20, 10);
-  e.mass_ratio = between_powers(random, -15, 15);
-  return made(e, random);
+  return made({.mass = between_powers(random, -20, 10), .mass_ratio = between_powers(random, -15, 15)}, random);
 }
 
-GeneratedScene fast(Random& random) {
-  Extremes e;
-  e.speed = between_powers(random, -10, 30);
-  return made(e, random);
-}
+GeneratedScene fast(Random& random) { return made({.speed = between_powers(random, -10, 30)}, random); }
 
 GeneratedScene thin(Random& random) {
-  Extremes e;
-  e.thickness = between_powers(random, -40, -4);
-  e.speed = between_powers(random, -4, 4);
-  return made(e, random);
+  return made({.thickness = between_powers(random, -40, -4), .speed = between_powers(random, -4, 4)}, random);
 }
 
 GeneratedScene far_off(Random& random) {
@@ -190,17 +179,11 @@ GeneratedScene far_off(Random& random) {
 }
 
 GeneratedScene scaled(Random& random) {
-  Extremes e;
   const int low = random.one_in(4) ? -300 : -30, high = random.one_in(4) ? 300 : 30;
-  e.size = between_powers(random, low, high);
-  return made(e, random);
+  return made({.size = between_powers(random, low, high)}, random);
 }
 
-GeneratedScene sliver(Random& random) {
-  Extremes e;
-  e.sliver = between_powers(random, -30, -1);
-  return made(e, random);
-}
+GeneratedScene sliver(Random& random) { return made({.sliver = between_powers(random, -30, -1)}, random); }
 
 GeneratedScene long_steps(Random& random) {
   Extremes e;
@@ -211,17 +194,11 @@ GeneratedScene long_steps(Random& random) {
 }
 
 GeneratedScene few_layers(Random& random) {
-  Extremes e;
-  e.most_layers = static_cast<int>(random.between(1, 4));
-  e.speed = between_powers(random, 0, 10);
-  return made(e, random);
+  return made({.most_layers = static_cast<int>(random.between(1, 4)), .speed = between_powers(random, 0, 10)}, random);
 }
 
 GeneratedScene no_contact_forces(Random& random) {
-  Extremes e;
-  e.contact = false;
-  e.speed = between_powers(random, 0, 6);
-  return made(e, random);
+  return made({.speed = between_powers(random, 0, 6), .contact = false}, random);
 }
 
 /// A value that is wrong, at a place, which is made if it is not there.

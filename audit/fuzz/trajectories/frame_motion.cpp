@@ -6,11 +6,10 @@
 #include <bit>
 #include <charconv>
 #include <exception>
-#include <optional>
-#include <string_view>
 #include <system_error>
 
 #include <noli/errors.h>
+#include "audit/fuzz/save_whole.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/write_obj.h"
 #include "trajectory/formats/write_ply.h"
@@ -43,6 +42,22 @@ FrameFormat format_of(const fs::path& file) {
   return ascii ? FrameFormat::ply_ascii : FrameFormat::ply_binary;
 }
 
+constexpr std::string_view frame_prefix = "frame-";
+
+/// Frames that come after the last one that was read, behind a gap, or that are of the other format.
+void require_no_more(const fs::path& folder, const fs::path& missing) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto number = frame_number(entry.path(), frame_prefix);
+    const std::string name = entry.path().filename().string();
+    if (!number) continue;
+    if (*number >= frame_number(missing, frame_prefix))
+      throw InputError(folder.string(), "", fmt::format("has {}, but no {}", name, missing.filename().string()));
+    if (entry.path().extension() == missing.extension()) continue;
+    const std::string read = fs::path(name).replace_extension(missing.extension()).string();
+    throw InputError(folder.string(), "", fmt::format("has {} beside {}; expected one of them", name, read));
+  }
+}
+
 }  // namespace
 
 int FrameMotion::dimension() const {
@@ -66,6 +81,12 @@ std::vector<fs::path> write_frames(const FrameMotion& motion, const fs::path& fo
   return files;
 }
 
+void save_motion(const FrameMotion& motion, const std::string& difference, std::vector<std::string> replay_command,
+                 const fs::path& folder) {
+  replay_command.push_back(folder.string());
+  save_whole(folder, difference, replay_command, [&](const fs::path& to) { write_frames(motion, to); });
+}
+
 std::optional<std::size_t> frame_number(const fs::path& file, std::string_view prefix) {
   const std::string name = file.filename().string();
   if (!name.starts_with(prefix) || (file.extension() != ".ply" && file.extension() != ".obj")) return std::nullopt;
@@ -74,26 +95,6 @@ std::optional<std::size_t> frame_number(const fs::path& file, std::string_view p
   const auto [last, error] = std::from_chars(name.data() + prefix.size(), end, number);
   return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
 }
-
-namespace {
-
-constexpr std::string_view frame_prefix = "frame-";
-
-/// Frames that come after the last one that was read, behind a gap, or that are of the other format.
-void require_no_more(const fs::path& folder, const fs::path& missing) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const auto number = frame_number(entry.path(), frame_prefix);
-    const std::string name = entry.path().filename().string();
-    if (!number) continue;
-    if (*number >= frame_number(missing, frame_prefix))
-      throw InputError(folder.string(), "", fmt::format("has {}, but no {}", name, missing.filename().string()));
-    if (entry.path().extension() == missing.extension()) continue;
-    const std::string read = fs::path(name).replace_extension(missing.extension()).string();
-    throw InputError(folder.string(), "", fmt::format("has {} beside {}; expected one of them", name, read));
-  }
-}
-
-}  // namespace
 
 FrameMotion read_frames(const fs::path& folder) {
   FrameMotion motion;

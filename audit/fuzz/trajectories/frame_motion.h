@@ -45,6 +45,11 @@ std::vector<std::filesystem::path> write_frames(const FrameMotion& motion, const
 /// Reads what write_frames wrote. Throws InputError.
 FrameMotion read_frames(const std::filesystem::path& folder);
 
+/// A finding as a folder: its frames, and a README with what is wrong and with the words of the command that shows it
+/// again, to which the folder is added. All of it or nothing (audit/fuzz/save_whole.h). Throws std::system_error.
+void save_motion(const FrameMotion& motion, const std::string& difference, std::vector<std::string> replay_command,
+                 const std::filesystem::path& folder);
+
 /// The number of "frame-12.ply" or "frame-12.obj" with the prefix "frame-"; nothing for other names.
 std::optional<std::size_t> frame_number(const std::filesystem::path& file, std::string_view prefix);
 

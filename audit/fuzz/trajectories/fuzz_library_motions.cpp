@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "audit/fuzz/finding_name.h"
+#include "audit/fuzz/fuzzing_library.h"
 #include "audit/fuzz/trajectories/fuzz_trajectories.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
-#include "audit/fuzz/trajectories/save_motion.h"
 #include "kernel/parallel.h"
 
 namespace noli::audit {
@@ -34,41 +34,17 @@ bool is_costly(const LibraryMotionAnswer& answer) {
   return answer.found && (answer.found->fault == MotionFault::hang || answer.found->fault == MotionFault::memory);
 }
 
-/// For a motion that is shrunk: what hangs is waited for but a part of the limit, or it would take all day.
-LibraryUnderTest asked_while_shrinking(LibraryUnderTest library, MotionFault fault) {
-  constexpr std::chrono::nanoseconds least = std::chrono::milliseconds(20);
-  HostOptions& host = library.host;
-  if (fault == MotionFault::hang) host.query_limit = std::min(host.query_limit, std::max(host.query_limit / 50, least));
-  host.deadline.reset();
-  return library;
-}
-
 class LibraryMotionFuzzing
-    : public Fuzzing<LibraryMotionFuzzing, LibraryMotionOptions, LibraryMotionReport, AskedMotion> {
+    : public FuzzingLibrary<LibraryMotionFuzzing, LibraryMotionOptions, LibraryMotionReport, AskedMotion> {
  public:
   static constexpr std::uint64_t items_per_block = motions_per_block;
 
   explicit LibraryMotionFuzzing(const LibraryMotionOptions& options)
-      : Fuzzing(options), asked_(options.asked), generators_(motion_generators(options.families)) {
+      : FuzzingLibrary(options), generators_(motion_generators(options.families)) {
     for (const MotionGenerator& generator : generators_) {
-      report_.generators.push_back({std::string(generator.name), std::string(generator.attacks), 0, 0, {}});
+      report_.generators.push_back({std::string(generator.name), 0, 0, {}});
     }
   }
-
-  LibraryMotionReport run() {
-    require_ccd_library(asked_.path, asked_.host);
-    if (const auto& limit = options_.limits.time_limit) {
-      using Clock = std::chrono::steady_clock;
-      asked_.host.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*limit);
-    }
-    report_.knows_times = knows_times(options_.asked);
-    report_ = Fuzzing::run();
-    shrink_findings();
-    report_.interrupted |= stopped();  // while they were shrunk
-    return std::move(report_);
-  }
-
-  bool enough() const { return options_.first_only && report_.findings_total > 0; }
 
   std::uint64_t items() const {
     std::uint64_t sum = 0;
@@ -110,6 +86,19 @@ class LibraryMotionFuzzing
       take(std::move(block.motions[index]), tally.name, index, &tally);
     }
     report_.not_asked += block.not_asked;
+  }
+
+  void shrink_findings() {
+    std::vector<LibraryMotionFinding>& findings = report_.findings;
+    parallel_for(findings.size(), options_.limits.threads, [&](std::size_t i) {
+      LibraryMotionFinding& finding = findings[i];
+      if (stopped()) return;
+      ShrunkMotion shrunk = shrink_for_library(options_.asked, finding.motion, finding.found, report_.knows_times,
+                                               options_.shrink_budget);
+      finding.shrunk = std::move(shrunk.motion);
+      finding.found = std::move(shrunk.found);
+    });
+    for (LibraryMotionFinding& finding : findings) save(finding);
   }
 
  private:
@@ -165,20 +154,6 @@ class LibraryMotionFuzzing
     finding.folder.clear();
   }
 
-  void shrink_findings() {
-    std::vector<LibraryMotionFinding>& findings = report_.findings;
-    parallel_for(findings.size(), options_.limits.threads, [&](std::size_t i) {
-      LibraryMotionFinding& finding = findings[i];
-      if (stopped()) return;
-      ShrunkMotion shrunk = shrink_for_library(options_.asked, finding.motion, finding.found, report_.knows_times,
-                                               options_.shrink_budget);
-      finding.shrunk = std::move(shrunk.motion);
-      finding.found = std::move(shrunk.found);
-    });
-    for (LibraryMotionFinding& finding : findings) save(finding);
-  }
-
-  LibraryUnderTest asked_;  ///< to be asked until the time of the run is over
   std::vector<MotionGenerator> generators_;
 };
 
@@ -191,12 +166,11 @@ LibraryMotionReport fuzz_library_motions(const LibraryMotionOptions& options) {
 ShrunkMotion shrink_for_library(const LibraryUnderTest& library, const FrameMotion& motion,
                                 const MotionFaultFound& found, bool knows_times, std::size_t budget) {
   constexpr std::size_t most_costly = 100;  // of those that hang or take all memory
-  const LibraryUnderTest asked = asked_while_shrinking(library, found.fault);
+  const LibraryUnderTest asked = asked_while_shrinking(library, found.fault == MotionFault::hang);
   const MotionQuestion question{knows_times, found.fault == MotionFault::leak};
   std::size_t costly = 0;
   const auto fails = [&](const FrameMotion& candidate) {
-    const std::atomic<bool>* const stop = library.host.stop;
-    if (costly >= most_costly || (stop != nullptr && stop->load())) return false;
+    if (costly >= most_costly || library.host.stopped()) return false;
     const LibraryMotionAnswer answer = ask_motion(asked, candidate, {}, question);
     costly += is_costly(answer) ? 1 : 0;
     return !answer.stopped && answer.found && answer.found->is_like(found);

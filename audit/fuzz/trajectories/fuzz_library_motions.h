@@ -50,7 +50,7 @@ struct LibraryMotionFinding {
 
 /// What a generator's motions came to.
 struct LibraryMotionTally {
-  std::string name, attacks;
+  std::string name;
   std::uint64_t motions = 0, contacts = 0;  ///< pairs of features that meet in a step that was asked
   MotionFaultCounts faults{};
 };

@@ -12,7 +12,6 @@
 
 #include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
-#include "audit/fuzz/trajectories/save_motion.h"
 #include "trajectory/text.h"
 
 namespace noli::audit {

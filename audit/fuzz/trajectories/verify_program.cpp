@@ -8,6 +8,7 @@
 
 #include "certify/json.h"
 #include "certify/process/run_program.h"
+#include "certify/process/scratch_folder.h"
 #include "certify/process/this_program.h"
 #include "trajectory/text.h"
 
@@ -65,22 +66,6 @@ void read_answer(const Json& said, MotionAnswer& answer) {
                   first["time"].get<double>()};
 }
 
-/// A folder for one motion.
-class WorkFolder {
- public:
-  explicit WorkFolder(fs::path path) : path_(std::move(path)) { fs::create_directory(path_); }
-  ~WorkFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 }  // namespace
 
 VerifyProgram::VerifyProgram(std::uint64_t verified_every, const std::atomic<bool>& stop)
@@ -93,7 +78,7 @@ VerifyProgram::VerifyProgram(std::uint64_t verified_every, const std::atomic<boo
 
 MotionAnswer VerifyProgram::operator()(const FrameMotion& motion) {
   const std::uint64_t number = number_++;
-  const WorkFolder work_folder(folder_.path() / std::to_string(number));
+  const ScratchFolder work_folder(ScratchFolder::Place::memory);
   const std::string proof = work_folder.path() / "proof.noli";
   std::vector<std::string> files;
   for (const fs::path& file : write_frames(motion, work_folder.path())) files.push_back(file.string());

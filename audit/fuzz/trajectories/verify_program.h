@@ -10,7 +10,6 @@
 
 #include "audit/fuzz/trajectories/fuzz_trajectories.h"
 #include "certify/process/run_program.h"
-#include "certify/process/scratch_folder.h"
 
 namespace noli::audit {
 
@@ -31,7 +30,6 @@ class VerifyProgram {
   std::filesystem::path noli_, plain_, verified_;
   bool has_verified_;
   std::uint64_t verified_every_;
-  ScratchFolder folder_{ScratchFolder::Place::memory};
   std::atomic<std::uint64_t> number_ = 0;
 };
 
