@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -74,11 +73,10 @@ audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& t
 
 /// The proof or witness that `noli verify` writes of a motion with some claim; nothing if it writes none, as for some
 /// degenerate contacts, or if the user would not wait.
-std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, const std::vector<std::string>& claim,
-                                          const fs::path& work_folder) {
-  fs::create_directories(work_folder);
-  const fs::path proof = work_folder / "proof.noli";
-  const std::vector<fs::path> files = audit::write_frames(motion, work_folder);
+std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, const std::vector<std::string>& claim) {
+  const ScratchFolder work_folder(ScratchFolder::Place::memory);
+  const fs::path proof = work_folder.path() / "proof.noli";
+  const std::vector<fs::path> files = audit::write_frames(motion, work_folder.path());
   std::vector<std::string> words = {
       this_program_file().string(), "verify", "--threads", "1", "--no-check", "--force", "--proof", proof};
   if (motion.at_rest()) words.emplace_back("--static");
@@ -96,7 +94,7 @@ std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, cons
 }
 
 /// Proofs and witnesses of small motions, with all sorts of claims.
-std::vector<audit::ProofCase> made_cases(const fs::path& folder) {
+std::vector<audit::ProofCase> made_cases() {
   const std::vector<std::vector<std::string>> claims = {{},
                                                         {"--strict"},
                                                         {"--points"},
@@ -110,7 +108,7 @@ std::vector<audit::ProofCase> made_cases(const fs::path& folder) {
     const audit::MotionGenerator& generator = generators[i % generators.size()];
     const audit::FrameMotion motion = generator.make(random).motion;
     if (motion.mesh.cell_count() > most_cells) continue;
-    auto made = made_case(motion, claims[i % claims.size()], folder / fmt::format("case-{}", i));
+    auto made = made_case(motion, claims[i % claims.size()]);
     if (!made) continue;
     made->name = fmt::format("{} {}", generator.name, i);
     cases.push_back(std::move(*made));
@@ -165,9 +163,9 @@ std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzz
 
 /// The proof that was given, or those that are made. Fewer if the user would not wait: then there are no mutants, and
 /// that is told as undecided.
-std::vector<audit::ProofCase> cases(const ProofsArguments& arguments, const fs::path& folder) {
+std::vector<audit::ProofCase> cases(const ProofsArguments& arguments) {
   try {
-    if (arguments.files.empty()) return made_cases(folder);
+    if (arguments.files.empty()) return made_cases();
     return {
         read_case(arguments.files[0], trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()}))};
   } catch (const Stopped&) {
@@ -175,45 +173,27 @@ std::vector<audit::ProofCase> cases(const ProofsArguments& arguments, const fs::
   }
 }
 
-/// The checkers that lie beside this program, each with a folder of its own.
-class CheckersBeside {
- public:
-  explicit CheckersBeside(const fs::path& folder) : folder_(folder) {}
-
-  audit::MakeCheckers make() {
-    const fs::path verified = beside_this_program("noli_check_verified");
-    const bool has_verified = fs::exists(verified);
-    if (!has_verified) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
-    return [this, verified, has_verified] {
-      ProgramLimits limits;
-      limits.stop = stop_by(&interrupted());
-      return audit::Checkers{
-          audit::hosted_checker(beside_this_program("noli_check_host"), new_folder(), std::chrono::seconds(20)),
-          has_verified ? audit::program_checker(verified, new_folder(), limits) : nullptr};
-    };
-  }
-
- private:
-  fs::path new_folder() {
-    fs::path work_folder = folder_ / fmt::format("checker-{}", checkers_++);
-    fs::create_directory(work_folder);
-    return work_folder;
-  }
-
-  fs::path folder_;
-  std::atomic<std::uint64_t> checkers_ = 0;
-};
+/// Of the checkers that lie beside this program.
+audit::MakeCheckers checkers_beside() {
+  const fs::path verified = beside_this_program("noli_check_verified");
+  const bool has_verified = fs::exists(verified);
+  if (!has_verified) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
+  return [verified, has_verified] {
+    ProgramLimits limits;
+    limits.stop = stop_by(&interrupted());
+    return audit::Checkers{audit::hosted_checker(beside_this_program("noli_check_host"), std::chrono::seconds(20)),
+                           has_verified ? audit::program_checker(verified, limits) : nullptr};
+  };
+}
 
 ExitCode run(ProofsArguments& arguments) {
   if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
   const Output output = begin_fuzzing(arguments.common, arguments.files);
-  const ScratchFolder scratch(ScratchFolder::Place::memory);
-  CheckersBeside checkers(scratch.path());
   audit::ProofFuzzOptions options;
   set_common(options, arguments.common);
   options.verified_every = arguments.verified_every;
-  options.make_checkers = checkers.make();
-  options.cases = cases(arguments, scratch.path());
+  options.make_checkers = checkers_beside();
+  options.cases = cases(arguments);
   if (options.cases.empty() && !interrupted()) throw std::runtime_error("no proof could be made to begin with");
   return run_fuzzer(
       {"fuzz proofs",
@@ -225,14 +205,6 @@ ExitCode run(ProofsArguments& arguments) {
       [&](const auto& report) { return report_text(arguments, report, options.cases.size()); });
 }
 
-/// Writes it into --out; where.
-fs::path save_minimised(const ProofsArguments& arguments, const audit::JudgedProof& smallest) {
-  fs::path folder = minimised_folder(arguments.common, arguments.again.saved());
-  const std::string what = "made smaller: " + on_one_line(arguments.again.saved());
-  audit::save_finding(smallest.files, what, smallest.judgement.difference, folder);
-  return folder;
-}
-
 /// A saved proof again, as it is or made smaller.
 ExitCode again(const ProofsArguments& arguments) {
   if (!arguments.files.empty()) {
@@ -241,15 +213,15 @@ ExitCode again(const ProofsArguments& arguments) {
   const Output output(arguments.common.results, saved_files(arguments.again.saved()));
   if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::JudgedProof proof{audit::read_proof_files(arguments.again.saved()), {}};
-  const ScratchFolder scratch(ScratchFolder::Place::memory);
-  CheckersBeside beside(scratch.path());
-  const audit::Checkers checkers = beside.make()();
+  const audit::Checkers checkers = checkers_beside()();
   proof.judgement = audit::judge_proof(proof.files, checkers);
   const bool finding = !proof.judgement.difference.empty();
   std::optional<fs::path> saved;
   if (finding && arguments.again.minimise) {
     proof = audit::minimise_finding(std::move(proof), checkers, interrupted(), most_candidates);
-    saved = save_minimised(arguments, proof);
+    saved = minimised_folder(arguments.common, arguments.again.saved());
+    const std::string what = "made smaller: " + on_one_line(arguments.again.saved());
+    audit::save_finding(proof.files, what, proof.judgement.difference, *saved);
   }
   const audit::ProofJudgement& judged = proof.judgement;
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";

@@ -45,13 +45,10 @@ bool step_fields(Mutating& m) {
 bool finer_units(Mutating& m) {
   constexpr std::array<int, 5> by = {1, 2, 7, 60, 900};
   bool changed = false;
-  for (ProofGroup& group : m.groups) {
-    for (ProofBlock& block : group) {
-      if (block.kind != step || block.payload.size() != step_size) continue;
-      changed = change_field<std::uint32_t>(block.payload, 24 + 4 * m.random.below(2), [&](std::uint32_t n) {
-        return static_cast<std::uint32_t>(std::max(-1200, static_cast<int>(n) - m.random.one_of(by)));
-      });
-    }
+  for (ProofBlock* const block : whole_steps(m)) {
+    changed = change_field<std::uint32_t>(block->payload, 24 + 4 * m.random.below(2), [&](std::uint32_t n) {
+      return static_cast<std::uint32_t>(std::max(-1200, static_cast<int>(n) - m.random.one_of(by)));
+    });
   }
   return changed;
 }

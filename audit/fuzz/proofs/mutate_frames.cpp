@@ -2,11 +2,9 @@
 //
 // Mutations of the frames that a proof is about; the proof's hashes become those of the changed frames, mostly.
 #include <array>
-#include <exception>
 
 #include "audit/fuzz/proofs/mutating.h"
 #include "trajectory/cells.h"
-#include "trajectory/formats/frames.h"
 
 namespace noli::audit {
 
@@ -15,35 +13,24 @@ namespace {
 using namespace mutating;
 
 /// The frames, taken apart at the first change; nullptr for a run.
-FrameMotion* frames_of(Mutating& m) {
+FrameMotion* frames_to_change(Mutating& m) {
   m.fits = m.fits || !m.random.one_in(20);
   if (m.frames) return &*m.frames;
   if (m.from.extension == "blocks") return nullptr;
-  FrameMotion motion;
-  motion.format = m.from.extension == "obj" ? FrameFormat::obj : FrameFormat::ply_ascii;
-  for (const std::string& bytes : m.from.files) {
-    Frame frame = parse_frame(bytes, "frame." + m.from.extension);
-    motion.mesh = frame.mesh;
-    motion.frames.push_back(std::move(frame.positions));
-  }
-  return &m.frames.emplace(std::move(motion));
+  return &m.frames.emplace(frames_of(m.from));
 }
 
 /// The last bit that all positions have, by what the first step says.
-double unit_of(const Mutating& m) {
-  for (const ProofGroup& group : m.groups) {
-    for (const ProofBlock& block : group) {
-      if (block.kind != step || block.payload.size() != step_size) continue;
-      const auto p = static_cast<std::int32_t>(get<std::uint32_t>(block.payload.data() + 24));
-      return std::ldexp(1.0, std::clamp(p, -1000, 900));
-    }
-  }
-  return 0x1p-4;
+double unit_of(Mutating& m) {
+  const std::vector<ProofBlock*> steps = whole_steps(m);
+  if (steps.empty()) return 0x1p-4;
+  const auto p = static_cast<std::int32_t>(get<std::uint32_t>(steps[0]->payload.data() + 24));
+  return std::ldexp(1.0, std::clamp(p, -1000, 900));
 }
 
 /// A position moves by units, to the place or a coordinate of another.
 bool positions(Mutating& m) {
-  FrameMotion* const motion = frames_of(m);
+  FrameMotion* const motion = frames_to_change(m);
   if (motion == nullptr || motion->frames[0].empty()) return false;
   for (std::uint64_t i = 1 + m.random.below(2); i > 0; --i) {
     auto& frame = motion->frames[some_index(m.random, motion->frames)];
@@ -66,7 +53,7 @@ bool positions(Mutating& m) {
 
 /// All frames are scaled by a power of two; where the unit follows the proof holds as before.
 bool scaled(Mutating& m) {
-  FrameMotion* const motion = frames_of(m);
+  FrameMotion* const motion = frames_to_change(m);
   if (motion == nullptr) return false;
   constexpr std::array<int, 5> powers = {1, -1, 3, 10, -20};
   const int power = m.random.one_of(powers);
@@ -78,17 +65,15 @@ bool scaled(Mutating& m) {
       }
     }
   }
-  for (ProofGroup& group : m.groups) {
-    for (ProofBlock& block : group) {
-      if (block.kind != step || m.random.one_in(20)) continue;
-      change_field<std::uint32_t>(block.payload, 24, [&](auto n) { return n + static_cast<std::uint32_t>(power); });
-    }
+  for (ProofBlock* const block : blocks_of(m, {step})) {
+    if (m.random.one_in(20)) continue;
+    change_field<std::uint32_t>(block->payload, 24, [&](auto n) { return n + static_cast<std::uint32_t>(power); });
   }
   return true;
 }
 
 bool order_of_frames(Mutating& m) {
-  FrameMotion* const motion = frames_of(m);
+  FrameMotion* const motion = frames_to_change(m);
   if (motion == nullptr) return false;
   auto& frames = motion->frames;
   const std::size_t k = some_index(m.random, frames);
@@ -104,7 +89,7 @@ bool order_of_frames(Mutating& m) {
 
 /// Another mesh: a vertex of a cell, a cell less, a cell more.
 bool cells(Mutating& m) {
-  FrameMotion* const motion = frames_of(m);
+  FrameMotion* const motion = frames_to_change(m);
   if (motion == nullptr) return false;
   Mesh& mesh = motion->mesh;
   const auto vertex = [&] { return static_cast<VertexId>(m.random.below(mesh.vertex_count)); };

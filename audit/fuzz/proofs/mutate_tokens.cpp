@@ -39,25 +39,37 @@ std::size_t end_of_token(const std::string& payload, std::size_t at) {
   return at;
 }
 
-/// The tokens of one block, taken apart and put back.
-struct Tokens {
-  ProofBlock* block = nullptr;
-  std::vector<std::string> items;
-
-  static Tokens of(Mutating& m) {
-    Tokens tokens{some_block(m, {mutating::tokens}), {}};
-    if (tokens.block == nullptr) return tokens;
-    const std::string& payload = tokens.block->payload;
-    for (std::size_t at = 0; at < payload.size();) {
-      const std::size_t end = std::min(end_of_token(payload, at), payload.size());
-      tokens.items.push_back(payload.substr(at, end - at));
-      at = end;
-    }
-    return tokens;
+/// Changes the tokens of a block, if it has at least so many.
+template <class Change>
+bool change_tokens(Mutating& m, std::size_t least, const Change& change) {
+  ProofBlock* const block = some_block(m, {mutating::tokens});
+  if (block == nullptr) return false;
+  std::vector<std::string> tokens;
+  for (std::size_t at = 0; at < block->payload.size();) {
+    const std::size_t end = std::min(end_of_token(block->payload, at), block->payload.size());
+    tokens.push_back(block->payload.substr(at, end - at));
+    at = end;
   }
-  bool empty() const { return items.empty(); }
-  void put_back() const { block->payload = std::accumulate(items.begin(), items.end(), std::string()); }
-};
+  if (tokens.size() < least || !change(tokens)) return false;
+  block->payload = std::accumulate(tokens.begin(), tokens.end(), std::string());
+  return true;
+}
+
+/// Changes one of the tokens of a block, each that fits as likely. `change` is told all of them too.
+template <class Fits, class Change>
+bool change_token(Mutating& m, const Fits& fits, const Change& change) {
+  return change_tokens(m, 1, [&](std::vector<std::string>& tokens) {
+    std::vector<std::string*> some;
+    for (std::string& token : tokens) {
+      if (fits(token)) some.push_back(&token);
+    }
+    if (some.empty()) return false;
+    change(*some[some_index(m.random, some)], tokens);
+    return true;
+  });
+}
+
+bool any_token(const std::string& /*token*/) { return true; }
 
 /// The token S with small numbers.
 std::string direction_token(Random& random) {
@@ -117,106 +129,77 @@ std::string some_token(Random& random, const std::vector<std::string>& items) {
 }
 
 bool token_deleted(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  if (tokens.empty()) return false;
-  tokens.items.erase(tokens.items.begin() + static_cast<std::ptrdiff_t>(some_index(m.random, tokens.items)));
-  tokens.put_back();
-  return true;
+  return change_token(m, any_token, [](std::string& token, const auto&) { token.clear(); });
 }
 
 bool token_doubled(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  if (tokens.empty()) return false;
-  const std::size_t k = some_index(m.random, tokens.items);
-  tokens.items[k] += tokens.items[k];
-  tokens.put_back();
-  return true;
+  return change_token(m, any_token, [](std::string& token, const auto&) { token += token; });
 }
 
 bool tokens_swapped(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  if (tokens.items.size() < 2) return false;
-  const std::size_t k = some_index(m.random, tokens.items);
-  std::swap(tokens.items[k],
-            tokens.items[m.random.one_in(2) ? (k + 1) % tokens.items.size() : some_index(m.random, tokens.items)]);
-  tokens.put_back();
-  return true;
+  return change_tokens(m, 2, [&](std::vector<std::string>& tokens) {
+    const std::size_t k = some_index(m.random, tokens);
+    std::swap(tokens[k], tokens[m.random.one_in(2) ? (k + 1) % tokens.size() : some_index(m.random, tokens)]);
+    return true;
+  });
 }
 
 bool token_replaced(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  if (tokens.empty()) return false;
-  tokens.items[some_index(m.random, tokens.items)] = some_token(m.random, tokens.items);
-  tokens.put_back();
-  return true;
+  return change_tokens(m, 1, [&](std::vector<std::string>& tokens) {
+    const std::string other = some_token(m.random, tokens);
+    tokens[some_index(m.random, tokens)] = other;
+    return true;
+  });
 }
 
 bool token_inserted(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  if (tokens.empty()) return false;
-  std::string& before = tokens.items[some_index(m.random, tokens.items)];
-  before = some_token(m.random, tokens.items) + before;
-  tokens.put_back();
-  return true;
+  return change_token(m, any_token, [&](std::string& token, const std::vector<std::string>& tokens) {
+    token = some_token(m.random, tokens) + token;
+  });
 }
 
 /// T before a token that is then needed twice, which is good; or three times, or once; or very often.
 bool split_inserted(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  if (tokens.empty()) return false;
-  std::string& token = tokens.items[some_index(m.random, tokens.items)];
-  constexpr std::array<std::size_t, 7> depths = {1, 1, 1, 3, 20, 1023, 1025};
-  const std::size_t depth = m.random.one_of(depths), times = depth + 1 - (m.random.one_in(4) ? 1 : 0);
-  std::string all(depth, '\0');
-  for (std::size_t i = 0; i < times; ++i) all += token;
-  token = all;
-  tokens.put_back();
-  return true;
+  return change_token(m, any_token, [&](std::string& token, const auto&) {
+    constexpr std::array<std::size_t, 7> depths = {1, 1, 1, 3, 20, 1023, 1025};
+    const std::size_t depth = m.random.one_of(depths), times = depth + 1 - (m.random.one_in(4) ? 1 : 0);
+    std::string all(depth, '\0');
+    for (std::size_t i = 0; i < times; ++i) all += token;
+    token = all;
+  });
 }
 
 /// A coefficient of S, in either of its forms, of P or W.
 bool coefficient(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  std::vector<std::string*> some;
-  for (std::string& token : tokens.items) {
-    if (token.size() > 1) some.push_back(&token);
-  }
-  if (some.empty()) return false;
-  std::string& token = *some[some_index(m.random, some)];
-  if (token[0] == '\x10') {
-    const auto shift = static_cast<unsigned>(10 * m.random.below(3));
-    change_field<std::uint32_t>(token, 1, [&](std::uint32_t bits) {
-      const auto n = static_cast<std::uint32_t>(other_integer(m.random, bits >> shift & 1023U)) & 1023U;
-      return (bits & ~(1023U << shift)) | n << shift;
-    });
-  } else {
-    const std::size_t at = 1 + m.random.below(token.size() - 1);
-    constexpr std::array<int, 6> changes = {1, -1, 2, -2, 3, 64};
-    token[at] = static_cast<char>((token[at] & 0x80) | ((token[at] + m.random.one_of(changes)) & 0x7f));
-  }
-  tokens.put_back();
-  return true;
+  const auto has_one = [](const std::string& token) { return token.size() > 1; };
+  return change_token(m, has_one, [&](std::string& token, const auto&) {
+    if (token[0] == '\x10') {
+      const auto shift = static_cast<unsigned>(10 * m.random.below(3));
+      change_field<std::uint32_t>(token, 1, [&](std::uint32_t bits) {
+        const auto n = static_cast<std::uint32_t>(other_integer(m.random, bits >> shift & 1023U)) & 1023U;
+        return (bits & ~(1023U << shift)) | n << shift;
+      });
+    } else {
+      const std::size_t at = 1 + m.random.below(token.size() - 1);
+      constexpr std::array<int, 6> changes = {1, -1, 2, -2, 3, 64};
+      token[at] = static_cast<char>((token[at] & 0x80) | ((token[at] + m.random.one_of(changes)) & 0x7f));
+    }
+  });
 }
 
 /// A direction along an axis is written as a plane at rest, whose bounds are met, or missed by one.
 bool direction_as_plane(Mutating& m) {
-  Tokens tokens = Tokens::of(m);
-  std::vector<std::string*> some;
-  for (std::string& token : tokens.items) {
-    if (token.size() == 1 && token[0] >= 8 && token[0] <= 13) some.push_back(&token);
-  }
-  if (some.empty()) return false;
-  std::string& token = *some[some_index(m.random, some)];
-  const int axis = (token[0] - 8) / 2;
-  const std::int64_t sign = token[0] % 2 == 0 ? 1 : -1;
-  constexpr std::array<std::uint64_t, 6> shifts = {0, 0, 1, 4, 4096, 4097};
-  std::string plane = std::string(1, '\x12') + uint_bytes(m.random.one_of(shifts));
-  for (int i = 0; i < 3; ++i) plane += sint_bytes(i == axis ? sign : 0);
-  plane += scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 1) : 0);
-  plane += some_scaled_number(m.random, 5, -6, 6);
-  token = plane + scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 4) : 0);
-  tokens.put_back();
-  return true;
+  const auto along_axis = [](const std::string& token) { return token.size() == 1 && token[0] >= 8 && token[0] <= 13; };
+  return change_token(m, along_axis, [&](std::string& token, const auto&) {
+    const int axis = (token[0] - 8) / 2;
+    const std::int64_t sign = token[0] % 2 == 0 ? 1 : -1;
+    constexpr std::array<std::uint64_t, 6> shifts = {0, 0, 1, 4, 4096, 4097};
+    std::string plane = std::string(1, '\x12') + uint_bytes(m.random.one_of(shifts));
+    for (int i = 0; i < 3; ++i) plane += sint_bytes(i == axis ? sign : 0);
+    plane += scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 1) : 0);
+    plane += some_scaled_number(m.random, 5, -6, 6);
+    token = plane + scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 4) : 0);
+  });
 }
 
 /// TOKS is cut in two, or an empty one is added.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small changes that all mutations of proofs use. Internal to audit/mutate_*.cpp.
+// Small changes that all mutations of proofs use. Internal to this folder.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,27 @@ inline constexpr FourLetters claim = four_letters("CLAM"), labels = four_letters
                              tree = four_letters("TREE"), tokens = four_letters("TOKS"), witness = four_letters("WITN");
 inline constexpr std::size_t step_size = 65;  ///< of the payload of a STEP
 
-/// A block of one of these kinds, each as likely; nullptr if there is none.
-inline ProofBlock* some_block(Mutating& m, std::initializer_list<FourLetters> kinds) {
+/// The blocks of these kinds, in their order.
+inline std::vector<ProofBlock*> blocks_of(Mutating& m, std::initializer_list<FourLetters> kinds) {
   std::vector<ProofBlock*> found;
   for (ProofGroup& group : m.groups) {
     for (ProofBlock& block : group) {
       if (std::ranges::find(kinds, block.kind) != kinds.end()) found.push_back(&block);
     }
   }
+  return found;
+}
+
+/// The blocks STEP that have a step's size.
+inline std::vector<ProofBlock*> whole_steps(Mutating& m) {
+  std::vector<ProofBlock*> found = blocks_of(m, {step});
+  std::erase_if(found, [](const ProofBlock* block) { return block->payload.size() != step_size; });
+  return found;
+}
+
+/// A block of one of these kinds, each as likely; nullptr if there is none.
+inline ProofBlock* some_block(Mutating& m, std::initializer_list<FourLetters> kinds) {
+  const std::vector<ProofBlock*> found = blocks_of(m, kinds);
   return found.empty() ? nullptr : found[m.random.below(found.size())];
 }
 
@@ -79,6 +92,13 @@ inline double other_double(Random& random, double x) {
     }
   }
 }
+
+/// Makes the hashes in the claim and the steps of a mutant those of its claim and frames, where it has any that can be
+/// read.
+void fit_hashes(Mutating& m);
+
+/// The frames that a case is about. Precondition: it is not about a run.
+FrameMotion frames_of(const ProofCase& from);
 
 /// Bits flipped, bytes changed, inserted, deleted, repeated; from `low` on.
 void change_bytes(Random& random, std::string& bytes, std::size_t low = 0);

@@ -12,6 +12,7 @@
 
 #include <noli/errors.h>
 #include "audit/fuzz/trajectories/frame_motion.h"
+#include "certify/process/scratch_folder.h"
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
@@ -45,6 +46,24 @@ void require_nothing_else(const fs::path& folder, const ProofFiles& files) {
   }
 }
 
+/// Removes from a folder with these files what it has of a longer trajectory, or of one of another form.
+void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
+  for (const char* const extension : extensions) {
+    const bool same = extension == files.extension;
+    if (same && files.extension == "blocks") continue;
+    for (std::size_t i = same ? files.files.size() : 0; fs::remove(folder / trajectory_name({"", extension, {}}, i));
+         ++i) {
+    }
+  }
+}
+
+/// A device would be read until memory is full.
+std::string read_regular_file(const fs::path& file) {
+  if (fs::exists(file) && !fs::is_regular_file(file))
+    throw InputError(file.string(), "", "is no regular file; expected one that was saved");
+  return read_whole_file(file);
+}
+
 ProofAnswer answer_of(int code) {
   if (code == 0 || code == 1 || code == 3) return {code, "", ""};
   return {code, fmt::format("exit code {}", code), ""};
@@ -61,8 +80,8 @@ std::string file_record(const std::string& name, const std::string& data) {
 
 class HostedChecker : public ProofChecker {
  public:
-  HostedChecker(fs::path host, fs::path folder, std::chrono::milliseconds limit)
-      : program_(std::move(host)), folder_(std::move(folder)), limits_{.time = limit, .to_end = {}} {
+  HostedChecker(fs::path host, std::chrono::milliseconds limit)
+      : program_(std::move(host)), limits_{.time = limit, .to_end = {}} {
     start();
   }
 
@@ -85,7 +104,7 @@ class HostedChecker : public ProofChecker {
 
  private:
   void start() {
-    host_.emplace(std::vector{program_.string(), folder_.string()},
+    host_.emplace(std::vector{program_.string(), folder_.path().string()},
                   Child::Descriptors{.in = Child::piped, .out = Child::piped, .err = Child::shared});
   }
 
@@ -109,26 +128,28 @@ class HostedChecker : public ProofChecker {
     return answer;
   }
 
-  fs::path program_, folder_;
+  const ScratchFolder folder_{ScratchFolder::Place::memory};
+  fs::path program_;
   ProgramLimits limits_;
   std::optional<Child> host_;
 };
 
 class ProgramChecker : public ProofChecker {
  public:
-  ProgramChecker(fs::path program, fs::path folder, const ProgramLimits& limits)
-      : program_(std::move(program)), folder_(std::move(folder)), limits_(limits) {}
+  ProgramChecker(fs::path program, const ProgramLimits& limits) : program_(std::move(program)), limits_(limits) {}
 
   ProofAnswer check(const ProofFiles& files) override {
     std::vector<std::string> words = {program_.string()};
     for (const std::string& field : own_claim(files.proof)) words.insert(words.end(), {"--require", field});
-    for (const std::string& name : write_proof_files(files, folder_)) words.push_back(folder_ / name);
+    const fs::path& folder = folder_.path();
+    for (const std::string& name : write_proof_files(files, folder)) words.push_back(folder / name);
     const ProgramEnd end = run_program(std::move(words), limits_);
     return end.kind == ProgramEnd::Kind::exited ? answer_of(end.code) : ProofAnswer{-1, end.words(), ""};
   }
 
  private:
-  fs::path program_, folder_;
+  const ScratchFolder folder_{ScratchFolder::Place::memory};
+  fs::path program_;
   ProgramLimits limits_;
 };
 
@@ -171,30 +192,13 @@ std::vector<std::string> own_claim(const std::string& proof) {
   return fields;
 }
 
-std::unique_ptr<ProofChecker> hosted_checker(const fs::path& host, const fs::path& folder,
-                                             std::chrono::milliseconds limit) {
-  return std::make_unique<HostedChecker>(host, folder, limit);
+std::unique_ptr<ProofChecker> hosted_checker(const fs::path& host, std::chrono::milliseconds limit) {
+  return std::make_unique<HostedChecker>(host, limit);
 }
 
-std::unique_ptr<ProofChecker> program_checker(const fs::path& program, const fs::path& folder,
-                                              const ProgramLimits& limits) {
-  return std::make_unique<ProgramChecker>(program, folder, limits);
+std::unique_ptr<ProofChecker> program_checker(const fs::path& program, const ProgramLimits& limits) {
+  return std::make_unique<ProgramChecker>(program, limits);
 }
-
-namespace {
-
-/// Removes from a folder with these files what it has of a longer trajectory, or of one of another form.
-void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
-  for (const char* const extension : extensions) {
-    const bool same = extension == files.extension;
-    if (same && files.extension == "blocks") continue;
-    for (std::size_t i = same ? files.files.size() : 0; fs::remove(folder / trajectory_name({"", extension, {}}, i));
-         ++i) {
-    }
-  }
-}
-
-}  // namespace
 
 std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::path& folder) {
   std::vector<std::string> names = {proof_name};
@@ -206,17 +210,6 @@ std::vector<std::string> write_proof_files(const ProofFiles& files, const fs::pa
   remove_other_frames(files, folder);
   return names;
 }
-
-namespace {
-
-/// A device would be read until memory is full.
-std::string read_regular_file(const fs::path& file) {
-  if (fs::exists(file) && !fs::is_regular_file(file))
-    throw InputError(file.string(), "", "is no regular file; expected one that was saved");
-  return read_whole_file(file);
-}
-
-}  // namespace
 
 ProofFiles read_proof_files(const fs::path& folder) {
   ProofFiles files;

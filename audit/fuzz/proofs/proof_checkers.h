@@ -35,7 +35,7 @@ struct ProofAnswer {
   std::string words{};  ///< of the host: the first line of what it printed
 };
 
-/// A checker that one thread asks.
+/// A checker that one thread asks. It has a folder for its files, which vanishes with it.
 class ProofChecker {
  public:
   ProofChecker() = default;
@@ -46,13 +46,10 @@ class ProofChecker {
   virtual ProofAnswer check(const ProofFiles& files) = 0;
 };
 
-/// The host, which writes its files into a folder that is there. Throws std::runtime_error when it is not there.
-std::unique_ptr<ProofChecker> hosted_checker(const std::filesystem::path& host, const std::filesystem::path& folder,
-                                             std::chrono::milliseconds limit);
+/// The host. Throws std::runtime_error when it is not there.
+std::unique_ptr<ProofChecker> hosted_checker(const std::filesystem::path& host, std::chrono::milliseconds limit);
 
-/// A program, whose files go to a folder that is there.
-std::unique_ptr<ProofChecker> program_checker(const std::filesystem::path& program, const std::filesystem::path& folder,
-                                              const ProgramLimits& limits);
+std::unique_ptr<ProofChecker> program_checker(const std::filesystem::path& program, const ProgramLimits& limits);
 
 /// Writes proof.noli and trajectory-0.ply, ... (or trajectory.blocks), and removes frames behind the last and those of
 /// another form; the names in the order of a command line.

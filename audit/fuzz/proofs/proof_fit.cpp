@@ -2,13 +2,9 @@
 //
 // The hashes are those that the prover writes: a proof file of the changed claim and frames is begun in memory, and
 // they are taken from there.
-#include "audit/fuzz/proofs/proof_fit.h"
-
-#include <noli/errors.h>
 #include "audit/fuzz/proofs/mutating.h"
 #include "certify/proofs/parsed_claim.h"
 #include "proofs/prover/tokens/proof_file.h"
-#include "trajectory/formats/frames.h"
 
 namespace noli::audit {
 
@@ -24,17 +20,6 @@ class MemorySink : public Sink {
  private:
   std::string& bytes_;
 };
-
-FrameMotion frames_of_mutant(const Mutating& m) {
-  if (m.frames) return *m.frames;
-  FrameMotion motion;
-  for (const std::string& bytes : m.from.files) {
-    Frame frame = parse_frame(bytes, "frame." + m.from.extension);
-    motion.mesh = frame.mesh;
-    motion.frames.push_back(std::move(frame.positions));
-  }
-  return motion;
-}
 
 /// The beginnings of all steps, in a proof file of their own.
 ProofGroups written_anew(const ParsedClaim& claim, const Mesh& mesh, const FrameMotion& motion) {
@@ -66,22 +51,19 @@ ProofGroups written_anew(const ParsedClaim& claim, const Mesh& mesh, const Frame
 
 }  // namespace
 
-void fit_hashes(Mutating& m) {
+void mutating::fit_hashes(Mutating& m) {
   const auto claim = parse_claim(m.groups);
   if (!claim || m.from.extension == "blocks" || (claim->source != 0 && claim->source != 1)) return;
   if (claim->dimension != 2 && claim->dimension != 3) return;
   if (!std::isfinite(claim->eta)) return;
-  const FrameMotion motion = frames_of_mutant(m);
+  const FrameMotion motion = m.frames ? *m.frames : frames_of(m.from);
   const auto mesh = claimed_mesh(*claim, motion.mesh);
   if (!mesh || motion.frames.empty() || motion.frames[0].empty()) return;
   const ProofGroups anew = written_anew(*claim, *mesh, motion);
   m.groups[0][0].payload.replace(16, 32, anew[0][0].payload, 16, 32);
-  for (ProofGroup& group : m.groups) {
-    for (ProofBlock& block : group) {
-      if (block.kind != mutating::step || block.payload.size() != mutating::step_size) continue;
-      const auto k = get<std::uint64_t>(block.payload.data());
-      if (k + 1 < anew.size()) block.payload.replace(33, 32, anew[k + 1][0].payload, 33, 32);
-    }
+  for (ProofBlock* const block : whole_steps(m)) {
+    const auto k = get<std::uint64_t>(block->payload.data());
+    if (k + 1 < anew.size()) block->payload.replace(33, 32, anew[k + 1][0].payload, 33, 32);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "audit/fuzz/proofs/mutating.h"
-#include "audit/fuzz/proofs/proof_fit.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli::audit {
 
@@ -70,6 +70,17 @@ std::string bytes_of(const Mutating& m, std::string& names) {
 
 namespace mutating {
 
+FrameMotion frames_of(const ProofCase& from) {
+  FrameMotion motion;
+  motion.format = from.extension == "obj" ? FrameFormat::obj : FrameFormat::ply_ascii;
+  for (const std::string& bytes : from.files) {
+    Frame frame = parse_frame(bytes, "frame." + from.extension);
+    motion.mesh = frame.mesh;
+    motion.frames.push_back(std::move(frame.positions));
+  }
+  return motion;
+}
+
 void change_bytes(Random& random, std::string& bytes, std::size_t low) {
   constexpr std::array<int, 5> times = {1, 1, 1, 2, 4};
   constexpr std::array<int, 6> values = {0, 1, 2, 127, 128, 255};
@@ -106,7 +117,7 @@ ProofMutant make_mutant(const ProofCase& from, std::span<const ProofCase> others
     mutant.mutations += (mutant.mutations.empty() ? "" : "+") + std::string(mutation.name);
     --left;
   }
-  if (m.fits) fit_hashes(m);
+  if (m.fits) mutating::fit_hashes(m);
   if (m.groups.empty()) m.groups.emplace_back();
   if (m.frames) mutant.files = files_of(*m.frames);
   mutant.proof = bytes_of(m, mutant.mutations);
