@@ -66,6 +66,22 @@ std::vector<VertexId> unreferenced_vertices(const Mesh& mesh) {
   return result;
 }
 
+std::vector<VertexId> drop_unreferenced_vertices(Mesh& mesh) {
+  const std::vector<VertexId> unused = unreferenced_vertices(mesh);
+  std::vector<VertexId> kept, number(mesh.vertex_count, 0);
+  for (VertexId v = 0; v < mesh.vertex_count; ++v) {
+    if (std::binary_search(unused.begin(), unused.end(), v)) continue;
+    number[v] = static_cast<VertexId>(kept.size());
+    kept.push_back(v);
+  }
+  const auto rename = [&](VertexId& v) { v = number[v]; };
+  for (auto& face : mesh.faces) std::for_each(face.begin(), face.end(), rename);
+  for (auto& edge : mesh.edges) std::for_each(edge.begin(), edge.end(), rename);
+  std::for_each(mesh.points.begin(), mesh.points.end(), rename);
+  mesh.vertex_count = kept.size();
+  return kept;
+}
+
 std::vector<VertexId> held_cells(const Mesh& mesh, std::span<const std::uint8_t> held) {
   std::vector<VertexId> first;
   const auto look = [&](const auto& cells) {

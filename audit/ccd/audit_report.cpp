@@ -13,6 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// "disagreement": a label in a file is wrong.
+const char* audit_verdict(const AuditOutcome& outcome) {
+  if (outcome.findings() > 0) return "finding";
+  if (outcome.wrong_labels() > 0) return "disagreement";
+  return outcome.complete ? "no_finding" : "undecided";
+}
+
 // --- JSON ------------------------------------------------------------------------------------------------------------
 
 Json counts_json(const AuditCounts& counts) {
@@ -212,12 +219,6 @@ std::string table_text(const std::vector<TableRow>& rows, std::size_t words) {
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
   return text;
-}
-
-const char* audit_verdict(const AuditOutcome& outcome) {
-  if (outcome.findings() > 0) return "finding";
-  if (outcome.wrong_labels() > 0) return "disagreement";
-  return outcome.complete ? "no_finding" : "undecided";
 }
 
 std::string audit_name(const AuditOutcome& outcome, const std::filesystem::path& library) {

@@ -12,9 +12,6 @@
 
 namespace noli::audit {
 
-/// "finding", "disagreement" (a label in a file is wrong), "undecided", "no_finding".
-const char* audit_verdict(const AuditOutcome& outcome);
-
 report::Answer audit_answer(const AuditOutcome& outcome);
 
 Json audit_json(const AuditOutcome& outcome);

@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include <noli/errors.h>
-#include <noli/query.h>
-#include <noli/time_of_impact.h>
+#include "audit/ccd/library_answers.h"
 
 namespace noli::audit {
 namespace {
@@ -32,27 +30,20 @@ QueryKind kind_of(const fs::path& path) {
   throw InputError(path.string(), "", "the name does not say what is asked; expected vertex-face or edge-edge in it");
 }
 
-template <class Query>
-std::optional<double> first_time(const QueryRecord& record) {
-  Query query;
-  query.x_t0 = record.x_t0;
-  query.x_t1 = record.x_t1;
-  const auto first = first_contact(query);
-  return first ? std::optional(first->time.lower()) : std::nullopt;
-}
-
 /// Nothing when the user would not wait for it.
 std::optional<Exam> prepare(AuditedFile& file, const AuditRequest& request) {
   const std::vector<QueryRecord> records = read_query_csv(file.path, file.kind);
   const bool edges = file.kind == QueryKind::edge_edge;
+  const FeaturePair pair = edges ? FeaturePair::edge_edge : FeaturePair::vertex_face;
   Exam exam{edges ? NOLI_CCD_EDGE_EDGE : NOLI_CCD_VERTEX_FACE, {}, {}};
   file.queries = records.size();
   for (std::size_t i = 0; i < records.size(); ++i) {
-    if (request.host.stop != nullptr && request.host.stop->load(std::memory_order_relaxed)) return std::nullopt;
+    if (request.host.stopped()) return std::nullopt;
     const QueryRecord& record = records[i];
     exam.queries.push_back(asked(record));
-    exam.truth.push_back(edges ? first_time<EdgeEdge3>(record) : first_time<VertexFace3>(record));
-    const bool contact = exam.truth.back().has_value();
+    const auto exact = exact_contact({pair, 3, record.x_t0, record.x_t1});
+    const bool contact = exact.has_value();
+    exam.truth.push_back(contact ? std::optional(exact->time) : std::nullopt);
     file.contacts += contact ? 1 : 0;
     file.labelled += record.label ? 1 : 0;
     if (record.label && *record.label != contact) file.wrong_labels.push_back(i + 1);
@@ -198,11 +189,7 @@ class Audit {
     return static_cast<double>(done_) / static_cast<double>(outcome_.audits.size() * outcome_.files.size());
   }
 
-  bool is_over() const {
-    if (done_ == outcome_.audits.size() * outcome_.files.size()) return false;
-    if (request_.host.stop != nullptr && request_.host.stop->load(std::memory_order_relaxed)) return true;
-    return request_.host.deadline && std::chrono::steady_clock::now() >= *request_.host.deadline;
-  }
+  bool is_over() const { return done_ < outcome_.audits.size() * outcome_.files.size() && request_.host.over(); }
 
   void end_it() {
     over_ = true;

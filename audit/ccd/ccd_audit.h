@@ -67,7 +67,6 @@ struct AuditCounts {
   double slowest_ns = 0;    ///< of the first answers
 
   AuditCounts& operator+=(const AuditCounts& other);
-  std::uint64_t false_answers() const { return false_positives + false_negatives; }
   /// How many findings there are.
   std::uint64_t findings() const;
   double ns_per_query() const;

@@ -14,9 +14,10 @@
 #include <span>
 #include <utility>
 
-#include <noli/time_of_impact.h>
-#include "audit/ccd/ccd_library.h"
+#include "audit/ccd/library_answers.h"
+#include "certify/stopwatch.h"
 #include "proofs/prover/verifier.h"
+#include "trajectory/cells.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frames.h"
 
@@ -24,13 +25,13 @@ namespace noli::audit {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using Edge = std::array<VertexId, 2>;
 using Face = std::array<VertexId, 3>;
 
 /// Two features that meet, by their numbers as noli_ccd_candidates has them.
 struct MeshContact {
   std::uint32_t kind = 0, first = 0, second = 0;
+  friend auto operator<=>(const MeshContact&, const MeshContact&) = default;
 };
 
 /// A step as libraries are told it: without vertices that nothing refers to, and with the edges of faces as a list.
@@ -41,42 +42,6 @@ struct Step {
   std::vector<MeshContact> contacts;  ///< sorted by kind, first, second
   std::vector<double> times;          ///< the exact first time of each, rounded down
   std::vector<VertexId> number;       ///< of each vertex, in the frames
-};
-
-/// Numbers for the vertices that some cell has.
-class Renumbering {
- public:
-  explicit Renumbering(const Mesh& mesh) : number_(mesh.vertex_count, 0) {
-    for (const Face& face : mesh.faces) mark(face);
-    for (const Edge& edge : mesh.edges) mark(edge);
-    for (const VertexId v : mesh.points) number_[v] = 1;
-    VertexId next = 0;
-    for (VertexId& n : number_) n = n != 0 ? next++ : none;
-  }
-
-  template <std::size_t N>
-  std::array<VertexId, N> operator()(std::array<VertexId, N> vertices) const {
-    for (VertexId& v : vertices) v = number_[v];
-    return vertices;
-  }
-  /// The old numbers of the vertices, in the order of the new ones.
-  std::vector<VertexId> kept() const {
-    std::vector<VertexId> result;
-    for (VertexId v = 0; v < number_.size(); ++v) {
-      if (number_[v] != none) result.push_back(v);
-    }
-    return result;
-  }
-
- private:
-  static constexpr VertexId none = std::numeric_limits<VertexId>::max();
-
-  template <std::size_t N>
-  void mark(const std::array<VertexId, N>& vertices) {
-    for (const VertexId v : vertices) number_[v] = 1;
-  }
-
-  std::vector<VertexId> number_;
 };
 
 std::vector<Position> chosen(std::span<const Position> x, const std::vector<VertexId>& vertices) {
@@ -135,14 +100,8 @@ void add_contact(const FeatureContact& contact, const std::vector<Edge>& edges,
   }
 }
 
-template <class Query>
-double first_time(const Step& step, const std::array<VertexId, 4>& vertices) {
-  Query query;
-  for (std::size_t i = 0; i < 4; ++i) {
-    query.x_t0[i] = step.x_t0[vertices[i]];
-    query.x_t1[i] = step.x_t1[vertices[i]];
-  }
-  return first_contact(query).value().time.lower();
+FeaturePair pair_of(std::uint32_t kind) {
+  return kind == NOLI_CCD_EDGE_EDGE ? FeaturePair::edge_edge : FeaturePair::vertex_face;
 }
 
 template <class Pair>
@@ -156,16 +115,15 @@ std::array<VertexId, 4> vertices_of(const Step& step, const Pair& contact) {
 }
 
 double first_time(const Step& step, const MeshContact& contact) {
-  const std::array<VertexId, 4> vertices = vertices_of(step, contact);
-  return contact.kind == NOLI_CCD_EDGE_EDGE ? first_time<EdgeEdge3>(step, vertices)
-                                            : first_time<VertexFace3>(step, vertices);
+  const AnyQuery query = query_of(pair_of(contact.kind), vertices_of(step, contact), step.x_t0, step.x_t1);
+  return exact_contact(query).value().time;
 }
 
 /// The pair in the frames' own numbers.
 template <class Pair>
 FeatureContact named(const Step& step, const Pair& contact) {
   FeatureContact result;
-  result.pair = contact.kind == NOLI_CCD_EDGE_EDGE ? FeaturePair::edge_edge : FeaturePair::vertex_face;
+  result.pair = pair_of(contact.kind);
   result.vertices = vertices_of(step, contact);
   for (VertexId& v : result.vertices) v = step.number[v];
   return result;
@@ -204,8 +162,6 @@ Answers answers_in(const SharedMemory& memory, const Step& step, std::uint64_t s
   return answers;
 }
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
 /// In either half of the repetitions, by more than an allocator takes at a time.
 bool grew(const Resident& resident) {
   return resident[0] > 0 && resident[1] >= resident[0] + leak_slack && resident[2] >= resident[1] + leak_slack;
@@ -229,18 +185,12 @@ class PipelineRun {
   }
 
  private:
-  bool stopped() const { return request_.host.stop != nullptr && request_.host.stop->load(std::memory_order_relaxed); }
-
   /// Finds all contacts; false if the user would not wait for it.
   bool prepare(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1) {
-    const Renumbering renumbered(mesh);
-    step_.number = renumbered.kept();
+    Mesh kept = mesh;
+    step_.number = drop_unreferenced_vertices(kept);
     step_.x_t0 = chosen(x_t0, step_.number);
     step_.x_t1 = chosen(x_t1, step_.number);
-    Mesh kept{step_.x_t0.size(), {}, {}, {}};
-    for (const Face& face : mesh.faces) kept.faces.push_back(renumbered(face));
-    for (const Edge& edge : mesh.edges) kept.edges.push_back(renumbered(edge));
-    for (const VertexId v : mesh.points) kept.points.push_back(renumbered(std::array{v})[0]);
     step_.edges = edges_of(kept);
     step_.faces = kept.faces;
     outcome_.vertices = kept.vertex_count;
@@ -256,23 +206,22 @@ class PipelineRun {
     options.max_reports = std::numeric_limits<std::size_t>::max();
     options.stop = request_.host.stop;
     options.deadline = request_.host.deadline;
-    const auto begin = Clock::now();
+    const Stopwatch watch;
     const VerifyResult result = verify_step(mesh, step_.x_t0, step_.x_t1, options);
-    outcome_.noli_seconds = seconds_since(begin);
+    outcome_.noli_seconds = watch.seconds();
     std::multimap<Face, std::uint32_t> faces;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) faces.emplace(mesh.faces[f], f);
     auto& contacts = step_.contacts;
     for (const FeatureContact& contact : result.reports) add_contact(contact, step_.edges, faces, contacts);
-    std::sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return key(a) < key(b); });
-    const auto same = [](const MeshContact& a, const MeshContact& b) { return key(a) == key(b); };
-    contacts.erase(std::unique(contacts.begin(), contacts.end(), same), contacts.end());
+    std::sort(contacts.begin(), contacts.end());
+    contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
     for (const MeshContact& contact : contacts) ++outcome_.contacts[contact.kind];
     return result.complete;
   }
 
   bool find_times() {
     for (const MeshContact& contact : step_.contacts) {
-      if (stopped()) return false;
+      if (request_.host.stopped()) return false;
       step_.times.push_back(first_time(step_, contact));
     }
     if (!step_.times.empty()) outcome_.first_time = std::ranges::min(step_.times);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the host takes from a library, and its clock.
+// What the host takes from a library, its clock, and how much memory it has.
 #pragma once
 
 #include <dlfcn.h>
 #include <noli/ccd_plugin.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 
 #include "audit/ccd/host/exchange.h"
@@ -24,6 +27,15 @@ struct Library {
 
 inline double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// How much memory is resident, the library's and the host's, in bytes; 0 where it cannot be found out.
+inline std::uint64_t resident_bytes() {
+  std::FILE* const file = std::fopen("/proc/self/statm", "r");
+  unsigned long long all = 0, resident = 0;
+  const bool read = file != nullptr && std::fscanf(file, "%llu %llu", &all, &resident) == 2;
+  if (file != nullptr) std::fclose(file);
+  return read ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
 inline void enter(HostStatus& status, HostPhase phase) { status.phase.store(phase, std::memory_order_release); }

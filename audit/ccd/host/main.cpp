@@ -25,7 +25,6 @@
 #include "audit/ccd/host/exchange.h"
 #include "audit/ccd/host/library.h"
 #include "audit/ccd/host/pipeline.h"
-#include "audit/ccd/host/resident.h"
 #include "audit/ccd/host/sandbox.h"
 #include "audit/ccd/plugins/textbook.h"
 

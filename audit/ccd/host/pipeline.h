@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "audit/ccd/host/library.h"
-#include "audit/ccd/host/resident.h"
 
 namespace noli::audit {
 

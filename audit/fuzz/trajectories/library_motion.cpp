@@ -102,20 +102,12 @@ class StepJudge {
     const auto worst = std::ranges::min_element(audit_.reports, {}, rank);
     if (worst == audit_.reports.end()) return std::nullopt;
     require_that_the_oracle_agrees(motion_, step_, *worst);
-    const auto exact = exact_contact(query_of(worst->contact));
+    const FeatureContact& pair = worst->contact;
+    const auto exact = exact_contact(query_of(pair.pair, pair.vertices, motion_.begin(step_), motion_.end(step_)));
     const std::string kind = exact ? fmt::format(" ({})", name(exact->kind)) : "";
-    MotionFaultFound result = found(rank(*worst), words(worst->contact) + ": " + worst->words + kind);
+    MotionFaultFound result = found(rank(*worst), words(pair) + ": " + worst->words + kind);
     if (exact) result.kind = exact->kind;
     return result;
-  }
-
-  AnyQuery query_of(const FeatureContact& contact) const {
-    AnyQuery query{contact.pair, 3, {}, {}};
-    for (std::size_t i = 0; i < 4; ++i) {
-      query.x_t0[i] = motion_.begin(step_)[contact.vertices[i]];
-      query.x_t1[i] = motion_.end(step_)[contact.vertices[i]];
-    }
-    return query;
   }
 
   const FrameMotion& motion_;
@@ -159,7 +151,6 @@ LibraryMotionAnswer ask_motion(const LibraryUnderTest& library, const FrameMotio
     if (answer.stopped) return answer;
     const PipelineAudit& audit = outcome.audits[0];
     require_what_was_planted(motion, planted, step, outcome);
-    ++answer.steps;
     answer.contacts += outcome.contacts[0] + outcome.contacts[1];
     answer.candidates += audit.candidates[0] + audit.candidates[1];
     answer.false_positives += audit.false_positives[0] + audit.false_positives[1];

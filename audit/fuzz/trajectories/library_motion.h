@@ -75,8 +75,7 @@ struct MotionFaultFound {
 };
 
 struct LibraryMotionAnswer {
-  bool stopped = false;   ///< by the user or the time limit; then the rest does not count
-  std::size_t steps = 0;  ///< that were asked: none behind one with a fault
+  bool stopped = false;  ///< by the user or the time limit; then the rest does not count
   std::uint64_t contacts = 0, candidates = 0, false_positives = 0;
   std::optional<MotionFaultFound> found;
   std::string shape;  ///< what it went through, as a word

@@ -39,22 +39,10 @@ void erase_cell(Mesh& mesh, std::size_t cell) {
 
 /// Leaves out the vertices that no cell has.
 void erase_unused_vertices(FrameMotion& motion) {
-  Mesh& mesh = motion.mesh;
-  std::vector<bool> unused(mesh.vertex_count, false);
-  for (const VertexId v : unreferenced_vertices(mesh)) unused[v] = true;
-  std::vector<VertexId> name(mesh.vertex_count, 0);
-  VertexId next = 0;
-  for (std::size_t v = 0; v < name.size(); ++v) name[v] = unused[v] ? 0 : next++;
-  for (auto& face : mesh.faces) std::ranges::for_each(face, [&](VertexId& v) { v = name[v]; });
-  for (auto& edge : mesh.edges) std::ranges::for_each(edge, [&](VertexId& v) { v = name[v]; });
-  std::ranges::for_each(mesh.points, [&](VertexId& v) { v = name[v]; });
-  mesh.vertex_count = next;
+  const std::vector<VertexId> kept = drop_unreferenced_vertices(motion.mesh);
   for (auto& frame : motion.frames) {
-    std::size_t kept = 0;
-    for (std::size_t v = 0; v < name.size(); ++v) {
-      if (!unused[v]) frame[kept++] = frame[v];
-    }
-    frame.resize(next);
+    for (std::size_t v = 0; v < kept.size(); ++v) frame[v] = frame[kept[v]];
+    frame.resize(kept.size());
   }
 }
 
