@@ -29,23 +29,17 @@ std::string corpus_text(const CorpusTally& corpus) {
 }
 
 /// Where a finding lies, and the command that asks it again.
-template <class Options>
-std::string whereabouts(const Options& options, const std::filesystem::path& file) {
+std::string whereabouts(const QueryFuzzSettings& options, const std::filesystem::path& file) {
   if (file.empty()) return "not saved";
-  return "saved as " + on_one_line(file.string()) +
-         (options.command ? "\n  again: " + on_one_line(options.command(file)) : "");
+  return "saved as " + on_one_line(file.string()) + "\n  again: " + on_one_line(options.command(file));
 }
 
 // --- the kernel against the oracle -----------------------------------------------------------------------------------
 
-Json finding_json(const Finding& finding, const std::string& command) {
-  return {{"generator", finding.generator},
-          {"block", finding.block},
-          {"index", finding.index},
-          {"difference", finding.difference},
-          {"truth", name(finding.truth)},
-          {"file", finding.file.string()},
-          {"command", command}};
+Json finding_json(const QueryFuzzSettings& options, const Finding& finding) {
+  return {{"generator", finding.generator},          {"block", finding.block},       {"index", finding.index},
+          {"difference", finding.difference},        {"truth", name(finding.truth)}, {"file", finding.file.string()},
+          {"command", options.command(finding.file)}};
 }
 
 Json generator_json(const GeneratorTally& generator) {
@@ -95,7 +89,7 @@ Json query_json(const AnyQuery& query) {
   return json;
 }
 
-Json finding_json(const LibraryFinding& finding, const std::string& command) {
+Json finding_json(const QueryFuzzSettings& options, const LibraryFinding& finding) {
   return {{"finding", name(finding.found.fault)},
           {"contact", name(finding.found.kind)},
           {"words", finding.found.words},
@@ -106,7 +100,7 @@ Json finding_json(const LibraryFinding& finding, const std::string& command) {
           {"query", query_json(finding.shrunk)},
           {"distinct_coordinates", distinct_coordinates(finding.shrunk)},
           {"file", finding.file.string()},
-          {"command", command}};
+          {"command", options.command(finding.file)}};
 }
 
 /// A line for each generator that had its turn.
@@ -135,9 +129,7 @@ Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report) {
                {"answers", answers_json(report.answers)}};
   json["probes"] = probes_json(report.probes);
   json["reports"] = Json::array();
-  for (const auto& finding : report.findings) {
-    json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));
-  }
+  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(options, finding));
   json["generators"] = Json::array();
   for (const auto& generator : report.generators) json["generators"].push_back(generator_json(generator));
   json["stages"] = stages_json(report.stages);
@@ -174,9 +166,7 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
                {"findings", report.findings_total},
                {"faults", faults_json(report.faults)}};
   json["reports"] = Json::array();
-  for (const auto& finding : report.findings) {
-    json["reports"].push_back(finding_json(finding, options.command ? options.command(finding.file) : ""));
-  }
+  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(options, finding));
   json["generators"] = Json::array();
   for (const auto& tally : report.generators) {
     json["generators"].push_back({{"name", tally.name},

@@ -12,7 +12,7 @@
 
 namespace noli::audit {
 
-/// Without `timing`.
+/// Without `timing`. Precondition here and below: the options have the command that asks a finding again.
 Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report);
 std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& report);
 

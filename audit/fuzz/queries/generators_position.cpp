@@ -70,10 +70,10 @@ void put_on_line(WholeQuery& query, std::size_t point, std::size_t from, std::si
 
 /// The same queries about simpler features, made into ones about degenerate features of `type`. The truth is kept: new
 /// points are in the hulls.
-Made lifted(const QueryType& type, ContactKind kind, const Flavour& flavour, Random& random) {
+Made lifted(const QueryType& type, ContactKind kind, Random& random) {
   const bool to_point = type.pair == FeaturePair::vertex_edge || random.one_in(4);
   const FeaturePair lower = to_point ? FeaturePair::vertex_vertex : FeaturePair::vertex_edge;
-  Made made = recipe(kind, {lower, type.dimension}, flavour, random);
+  Made made = recipe(kind, {lower, type.dimension}, plain_flavour, random);
   WholeQuery& query = made.query;
   query.type = type;
   if (type.pair == FeaturePair::vertex_edge) {
@@ -91,8 +91,7 @@ Made lifted(const QueryType& type, ContactKind kind, const Flavour& flavour, Ran
 
 /// Features that are less than they are named all the time.
 Generated degenerate(const QueryType& type, const Answers& declared, Random& random) {
-  constexpr Flavour flavour = {any_directions, 1 << 16, 1 << 16, any_time};
-  return finish(lifted(type, random_answer(declared, random), flavour, random), random);
+  return finish(lifted(type, random_answer(declared, random), random), random);
 }
 
 Directions collapsed_directions(Random& random, int axes) {
@@ -148,25 +147,12 @@ std::vector<QueryFamily> families_of_position() {
   return {
       {"grid", "ties: equal coordinates, vanishing determinants and several contacts at once", every_type(),
        every_answer, grid},
-      {"nearly_parallel",
-       "ill-conditioned normals: directions that differ by one unit in up to 2^30",
-       {vertex_face, edge_edge},
-       every_answer,
-       nearly_parallel},
-      {"slivers",
-       "lengths that differ by up to 2^30 within one query",
-       {vertex_face, edge_edge, {FeaturePair::vertex_edge, 3}, {FeaturePair::vertex_edge, 2}},
-       every_answer,
-       slivers},
-      {"degenerate",
-       "faces that are segments or points, edges that are points, all the time",
-       {vertex_face, edge_edge, {FeaturePair::vertex_edge, 3}, {FeaturePair::vertex_edge, 2}},
-       no_crossing,
-       degenerate},
-      {"collapsing",
-       "features that are degenerate or parallel exactly when they meet",
-       {vertex_face, edge_edge},
-       every_answer,
+      {"nearly_parallel", "ill-conditioned normals: directions that differ by one unit in up to 2^30", solid_types(),
+       every_answer, nearly_parallel},
+      {"slivers", "lengths that differ by up to 2^30 within one query", types_with_edges(), every_answer, slivers},
+      {"degenerate", "faces that are segments or points, edges that are points, all the time", types_with_edges(),
+       no_crossing, degenerate},
+      {"collapsing", "features that are degenerate or parallel exactly when they meet", solid_types(), every_answer,
        collapsing},
       {"parallel_edges", "edges that are parallel or collinear all the time", {edge_edge}, no_crossing, parallel_edges},
       {"shared", "points and coordinates in common, hits of corners", every_type(), every_answer, shared},

@@ -73,36 +73,6 @@ Point3 make_normal(const AnyQuery& query, const std::array<std::size_t, 2>& poin
   return finite ? n : Point3{1, 0, 0};
 }
 
-}  // namespace
-
-bool fits(const AnyQuery& query, const Probe& probe) {
-  const std::size_t first = first_size(query.pair);
-  const bool planar = query.pair == FeaturePair::vertex_edge || query.pair == FeaturePair::vertex_vertex;
-  return probe.points[0] < first && probe.points[1] >= first && probe.points[1] < query.size() &&
-         (query.dimension == 3 || planar);
-}
-
-Probe make_probe(const AnyQuery& query, bool distance, Random& random) {
-  const std::size_t first = first_size(query.pair);
-  Probe probe;
-  probe.points = {random.below(first), first + random.below(query.size() - first)};
-  probe.rays = {random.one_in(3), random.one_in(3)};
-  if (distance) probe.eta = make_eta(query, probe.points, random);
-  probe.normal = make_normal(query, probe.points, random);
-  probe.from = random.one_in(3) ? random_time(random) : 0;
-  if (!random.one_in(4)) probe.gap = near(dot(probe.normal, between(query, probe.points, random_time(random))), random);
-  return probe;
-}
-
-std::string probe_line(const AnyQuery& query, const Probe& probe) {
-  return fmt::format("# noli-fuzz dimension {} eta {} normal {} {} {} gap {} from {} points {} {} rays {} {}",
-                     query.dimension, probe.eta ? fmt::format("{}", *probe.eta) : no_eta, probe.normal[0],
-                     probe.normal[1], probe.normal[2], probe.gap, probe.from, probe.points[0], probe.points[1],
-                     probe.rays[0] ? 1 : 0, probe.rays[1] ? 1 : 0);
-}
-
-namespace {
-
 /// Takes words and numbers off a line, and remembers whether all were as expected.
 class Taker {
  public:
@@ -140,6 +110,32 @@ class Taker {
 };
 
 }  // namespace
+
+bool fits(const AnyQuery& query, const Probe& probe) {
+  const std::size_t first = first_size(query.pair);
+  const bool planar = query.pair == FeaturePair::vertex_edge || query.pair == FeaturePair::vertex_vertex;
+  return probe.points[0] < first && probe.points[1] >= first && probe.points[1] < query.size() &&
+         (query.dimension == 3 || planar);
+}
+
+Probe make_probe(const AnyQuery& query, bool distance, Random& random) {
+  const std::size_t first = first_size(query.pair);
+  Probe probe;
+  probe.points = {random.below(first), first + random.below(query.size() - first)};
+  probe.rays = {random.one_in(3), random.one_in(3)};
+  if (distance) probe.eta = make_eta(query, probe.points, random);
+  probe.normal = make_normal(query, probe.points, random);
+  probe.from = random.one_in(3) ? random_time(random) : 0;
+  if (!random.one_in(4)) probe.gap = near(dot(probe.normal, between(query, probe.points, random_time(random))), random);
+  return probe;
+}
+
+std::string probe_line(const AnyQuery& query, const Probe& probe) {
+  return fmt::format("# noli-fuzz dimension {} eta {} normal {} {} {} gap {} from {} points {} {} rays {} {}",
+                     query.dimension, probe.eta ? fmt::format("{}", *probe.eta) : no_eta, probe.normal[0],
+                     probe.normal[1], probe.normal[2], probe.gap, probe.from, probe.points[0], probe.points[1],
+                     probe.rays[0] ? 1 : 0, probe.rays[1] ? 1 : 0);
+}
 
 std::optional<SavedProbe> parse_probe_line(std::string_view line) {
   Taker take(line);
