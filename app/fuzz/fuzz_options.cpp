@@ -8,7 +8,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "audit/fuzz/finding_name.h"
+#include "audit/fuzz/save_finding.h"
 #include "certify/result_file.h"
 
 namespace noli::app {

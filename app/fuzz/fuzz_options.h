@@ -46,7 +46,7 @@ struct AgainArguments {
 void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
                        std::vector<std::string> excluded);
 
-/// "NAME-minimised" in --out, for a saved folder NAME, so that nothing is overwritten (audit/fuzz/finding_name.h).
+/// "NAME-minimised" in --out, for a saved folder NAME, so that nothing is overwritten (audit/fuzz/save_finding.h).
 std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved);
 
 /// The files in a saved folder, which --json may not overwrite; none if it is not there.

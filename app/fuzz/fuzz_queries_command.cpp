@@ -18,10 +18,10 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/queries/fuzz_queries_report.h"
 #include "audit/fuzz/queries/minimise_query.h"
 #include "audit/fuzz/queries/saved_query.h"
+#include "audit/fuzz/save_finding.h"
 #include "certify/result_file.h"
 
 namespace noli::app {

@@ -9,7 +9,6 @@
 #include "app/output.h"
 #include "app/output_files.h"
 #include "app/process.h"
-#include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/scenes/fuzz_scenes.h"
 #include "certify/json.h"
 #include "certify/process/run_program.h"

@@ -11,7 +11,6 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
 #include "audit/fuzz/trajectories/verify_program.h"
 #include "certify/json.h"

@@ -76,20 +76,15 @@ class Marking {
   }
 
  private:
-  void report(std::size_t i, const char* what, const std::string& words = "") {
-    if (audit_.findings.size() < max_reports_) audit_.findings.push_back({i + 1, what, words});
+  void report(std::size_t i, std::string_view what, const std::string& words = "") {
+    if (audit_.findings.size() < max_reports_) audit_.findings.push_back({i + 1, std::string(what), words});
   }
 
   void mark(std::size_t i) {
     const GivenAnswer& answer = answers_.answers[i];
     const std::string& ending = answers_.endings[i];
-    switch (answer.state) {
-      case AnswerState::not_asked: return;
-      case AnswerState::crashed: return report(i, "crash", ending);
-      case AnswerState::hung: return report(i, "hang", ending);
-      case AnswerState::too_much_memory: return report(i, "memory", ending);
-      case AnswerState::answered: break;
-    }
+    if (answer.state == AnswerState::not_asked) return;
+    if (const auto ended = ending_of(answer.state)) return report(i, name(*ended), ending);
     ++counts_.answered;
     counts_.slowest_ns = std::max(counts_.slowest_ns, answer.ns);
     if (!ending.empty()) report(i, "ended", ending);

@@ -263,9 +263,7 @@ class PipelineRun {
     PipelineAudit audit;
     audit.plugin = library;
     audit.tolerance = tolerance;
-    audit.end = ending.kind;
-    audit.ending = ending.words;
-    audit.said = ending.said;
+    audit.ending = ending;
     audit.search_seconds = exchange.search_seconds;
     audit.query_seconds = exchange.query_seconds;
     const bool finished = ending.kind == Ending::Kind::finished;
@@ -367,7 +365,7 @@ class PipelineRun {
 }  // namespace
 
 std::uint64_t PipelineAudit::findings() const {
-  const bool ended = end != Ending::Kind::finished && end != Ending::Kind::stopped;
+  const bool ended = ending.kind != Ending::Kind::finished && ending.kind != Ending::Kind::stopped;
   return not_found + false_negatives + late.count() + bad_times + failures + bad_pairs + (ended ? 1 : 0);
 }
 

@@ -66,9 +66,7 @@ struct PipelineAudit {
   std::uint64_t bad_pairs = 0;  ///< candidates that are no two features without a vertex in common; not asked
   TimeErrors late, early;
   std::vector<PipelineFinding> reports;  ///< of contacts, in their order; at most max_reports
-  std::string ending;                    ///< how the process ended before all was done, in words; "" if it did not
-  Ending::Kind end = Ending::Kind::finished;
-  std::string said;  ///< the end of what the library wrote to its standard error
+  Ending ending;                         ///< of the process; without words where all was done
   double search_seconds = 0, query_seconds = 0;
 
   std::uint64_t findings() const;

@@ -92,16 +92,12 @@ HostProcess::HostProcess(const std::optional<fs::path>& library, const SharedMem
       status_(status),
       child_(words(options, library, pipeline), {.err = Child::piped, .third = memory.descriptor()}) {}
 
-/// What the library says may be endless: only the end of it is kept.
-void HostProcess::keep_the_end() {
-  if (child_.err.size() > 2 * most_said) child_.err.erase(0, child_.err.size() - most_said);
-}
-
 Ending HostProcess::wait() {
   nanoseconds pause = std::chrono::microseconds(100);
   begin_call();
   for (;;) {
-    keep_the_end();
+    // What the library says may be endless: only the end of it is kept.
+    if (child_.err.size() > 2 * most_said) child_.err.erase(0, child_.err.size() - most_said);
     if (child_.has_ended()) return ending();
     if (options_.over()) return ended_by_us(Ending::Kind::stopped, "stopped");
     if (hangs())

@@ -81,7 +81,6 @@ class HostProcess {
   bool hangs();
   void begin_call();
   std::chrono::nanoseconds limit() const;
-  void keep_the_end();
   static std::string said(ProgramEnd& end);
   Ending ending();
   Ending ended_by_us(Ending::Kind kind, const std::string& words);

@@ -85,13 +85,8 @@ std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optio
   const auto found = [&](LibraryFault fault, const std::string& more) {
     return FaultFound{fault, exact ? exact->kind : ContactKind::apart, fmt::format("{}: {}", name(fault), more)};
   };
-  switch (answer.given.state) {
-    case AnswerState::not_asked: return std::nullopt;
-    case AnswerState::crashed: return found(LibraryFault::crash, answer.ending);
-    case AnswerState::hung: return found(LibraryFault::hang, answer.ending);
-    case AnswerState::too_much_memory: return found(LibraryFault::memory, answer.ending);
-    case AnswerState::answered: break;
-  }
+  if (answer.given.state == AnswerState::not_asked) return std::nullopt;
+  if (const auto ended = ending_of(answer.given.state)) return found(*ended, answer.ending);
   const int code = answer.given.code;
   if (code != NOLI_CCD_HIT && code != NOLI_CCD_NO_HIT)
     return found(LibraryFault::failure, fmt::format("code {}", code));

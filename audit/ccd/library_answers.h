@@ -70,6 +70,18 @@ constexpr bool is_answer(LibraryFault fault) {
          fault != LibraryFault::memory;
 }
 
+/// How a query ended the process in which it was asked, if it did.
+constexpr std::optional<LibraryFault> ending_of(AnswerState state) {
+  switch (state) {
+    case AnswerState::crashed: return LibraryFault::crash;
+    case AnswerState::hung: return LibraryFault::hang;
+    case AnswerState::too_much_memory: return LibraryFault::memory;
+    case AnswerState::not_asked:
+    case AnswerState::answered: break;
+  }
+  return std::nullopt;
+}
+
 /// The two pairs of features that libraries answer for, both in 3D.
 constexpr bool is_library_query(const QueryType& type) {
   return type.dimension == 3 && (type.pair == FeaturePair::vertex_face || type.pair == FeaturePair::edge_edge);

@@ -17,7 +17,7 @@ const char* verdict(const PipelineOutcome& outcome) {
 }
 
 const char* ending(const PipelineAudit& audit) {
-  switch (audit.end) {
+  switch (audit.ending.kind) {
     case Ending::Kind::finished: return "finished";
     case Ending::Kind::crashed: return "crash";
     case Ending::Kind::hung: return "hang";
@@ -53,9 +53,9 @@ Json audit_json(const PipelineAudit& audit) {
                {"failures", audit.failures},
                {"bad_pairs", audit.bad_pairs},
                {"ending", ending(audit)},
-               {"words", audit.ending},
+               {"words", audit.ending.words},
                {"reports", reports_json(audit)}};
-  if (!audit.said.empty()) json["standard_error"] = audit.said;
+  if (!audit.ending.said.empty()) json["standard_error"] = audit.ending.said;
   return json;
 }
 
@@ -79,8 +79,9 @@ TableRow row_of(const PipelineAudit& audit) {
 
 void append_findings(const PipelineAudit& audit, std::string& text) {
   const std::string name = fmt::format("{}, tolerance {:g}", on_one_line(audit.plugin.string()), audit.tolerance);
-  if (!audit.ending.empty()) text += fmt::format("{}: {}: {}\n", name, ending(audit), audit.ending);
-  if (!audit.said.empty()) text += said_text(name, audit.said);
+  const auto& [kind, words, said] = audit.ending;
+  if (!words.empty()) text += fmt::format("{}: {}: {}\n", name, ending(audit), words);
+  if (!said.empty()) text += said_text(name, said);
   for (const PipelineFinding& finding : audit.reports) {
     text += fmt::format("{}: {}: {}: {}\n", name, finding.what, contact_text(finding.contact), finding.words);
   }

@@ -32,13 +32,14 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <noli/errors.h>
-#include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/random.h"
+#include "audit/fuzz/save_finding.h"
 #include "audit/fuzz/shape_corpus.h"
 #include "kernel/parallel.h"
 
@@ -54,6 +55,14 @@ struct FuzzLimits {
   /// Called from the caller's thread now and then, with the share of the run that is done.
   std::function<void(double)> progress;
 };
+
+/// Differences are told as "KIND: what, exactly": a finding that is made smaller has to stay one of its kind.
+inline std::string_view kind_of(std::string_view difference) { return difference.substr(0, difference.find(':')); }
+
+/// Whether there still is a difference, and of this kind.
+inline bool is_of_kind(const std::optional<std::string>& difference, std::string_view kind) {
+  return difference && kind_of(*difference) == kind;
+}
 
 /// Options that all fuzzers share.
 struct FuzzSettings {

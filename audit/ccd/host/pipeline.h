@@ -143,13 +143,11 @@ class Pipeline {
       std::copy_n(mesh_.x_t0 + 3 * std::size_t{v[i]}, 3, query.x_t0.begin() + 3 * i);
       std::copy_n(mesh_.x_t1 + 3 * std::size_t{v[i]}, 3, query.x_t1.begin() + 3 * i);
     }
-    e_.asked = named(pair);
+    e_.asked = {pair.kind, pair.first, pair.second, 1};
     e_.calls.store(++calls_, std::memory_order_relaxed);
     time = std::numeric_limits<double>::quiet_NaN();
     return library_.ask(static_cast<int>(pair.kind), query.x_t0.data(), query.x_t1.data(), e_.tolerance, &time);
   }
-
-  static MeshPair named(const Pair& pair) { return {pair.kind, pair.first, pair.second, 1}; }
 
   void ask(std::size_t i) {
     double time = 0;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "audit/fuzz/proofs/minimise_mutant.h"
-#include "audit/fuzz/save_whole.h"
+#include "audit/fuzz/save_finding.h"
 
 namespace noli::audit {
 

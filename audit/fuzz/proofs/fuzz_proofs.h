@@ -65,7 +65,7 @@ struct ProofFuzzReport : FuzzTotals {
 };
 
 /// A finding as a folder, with a README: what it is, its difference, and the command that shows it again. All of it or
-/// nothing (audit/fuzz/save_whole.h). Throws std::system_error.
+/// nothing (audit/fuzz/save_finding.h). Throws std::system_error.
 void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
                   const std::filesystem::path& folder);
 

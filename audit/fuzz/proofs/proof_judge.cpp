@@ -16,6 +16,41 @@ namespace noli::audit {
 
 namespace {
 
+/// The frames; if not the whole trajectory counts, up to the first that cannot be read.
+FrameMotion read_trajectory(const std::string& extension, const std::vector<std::string>& files, bool whole) {
+  FrameMotion motion;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    try {
+      const std::string name = fmt::format("frame-{}.{}", i, extension);
+      Frame frame = parse_frame(files[i], name);
+      if (i == 0) motion.mesh = frame.mesh;
+      require_same_mesh(motion.mesh, "frame-0", frame.mesh, name);
+      motion.frames.push_back(std::move(frame.positions));
+    } catch (const InputError&) {
+      if (whole) throw;
+      break;
+    }
+  }
+  return motion;
+}
+
+/// Whether the claim of a proof holds of its trajectory; nothing where that is not judged. `whole`: else only frames
+/// before the first that cannot be read count, as for a witness, behind whose step no checker looks. Throws InputError
+/// for what cannot be read.
+std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole) {
+  if (from.extension == "blocks") return std::nullopt;
+  const auto claim = parse_claim(parse_proof(mutant.proof, "mutant"));
+  if (claim && claim->source == 2) return std::nullopt;
+  const bool possible = claim && claim->source < 2 && (claim->dimension == 2 || claim->dimension == 3) &&
+                        std::isfinite(claim->eta) && claim->eta >= 0;
+  if (!possible) throw InputError("mutant", "", "makes no claim that could be true");
+  const FrameMotion motion = read_trajectory(from.extension, mutant.files ? *mutant.files : from.files, whole);
+  const auto claimed = claimed_mesh(*claim, motion.mesh);
+  if (!claimed) throw InputError("mutant", "", "merges a vertex that is not there");
+  if (motion.frames.size() < (claim->source == 1 ? 1 : 2)) throw InputError("mutant", "", "is about no step");
+  return claim_holds(*claim, *claimed, motion.frames);
+}
+
 class ProofJudge {
  public:
   ProofJudge(const ProofCase& from, const ProofMutant& mutant, const Checkers& checkers)
@@ -73,24 +108,6 @@ class ProofJudge {
   ProofJudgement judgement_;
 };
 
-/// The frames; if not the whole trajectory counts, up to the first that cannot be read.
-FrameMotion read_trajectory(const std::string& extension, const std::vector<std::string>& files, bool whole) {
-  FrameMotion motion;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    try {
-      const std::string name = fmt::format("frame-{}.{}", i, extension);
-      Frame frame = parse_frame(files[i], name);
-      if (i == 0) motion.mesh = frame.mesh;
-      require_same_mesh(motion.mesh, "frame-0", frame.mesh, name);
-      motion.frames.push_back(std::move(frame.positions));
-    } catch (const InputError&) {
-      if (whole) throw;
-      break;
-    }
-  }
-  return motion;
-}
-
 }  // namespace
 
 ProofFiles files_of(const ProofCase& from, const ProofMutant& mutant) {
@@ -126,20 +143,6 @@ std::string shape_of(const ProofJudgement& judgement) {
                             : judgement.truth ? "the claim as it was"
                                               : "a claim that is not judged";
   return fmt::format("{}: {}", word_of(judgement.plain), claim);
-}
-
-std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole) {
-  if (from.extension == "blocks") return std::nullopt;
-  const auto claim = parse_claim(parse_proof(mutant.proof, "mutant"));
-  if (claim && claim->source == 2) return std::nullopt;
-  const bool possible = claim && claim->source < 2 && (claim->dimension == 2 || claim->dimension == 3) &&
-                        std::isfinite(claim->eta) && claim->eta >= 0;
-  if (!possible) throw InputError("mutant", "", "makes no claim that could be true");
-  const FrameMotion motion = read_trajectory(from.extension, mutant.files ? *mutant.files : from.files, whole);
-  const auto claimed = claimed_mesh(*claim, motion.mesh);
-  if (!claimed) throw InputError("mutant", "", "merges a vertex that is not there");
-  if (motion.frames.size() < (claim->source == 1 ? 1 : 2)) throw InputError("mutant", "", "is about no step");
-  return claim_holds(*claim, *claimed, motion.frames);
 }
 
 }  // namespace noli::audit

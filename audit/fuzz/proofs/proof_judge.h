@@ -60,9 +60,4 @@ std::string kind_of(const ProofJudgement& judgement);
 /// What a proof reached, on one line: where the plain checker rejects it and why, or that it takes what was changed.
 std::string shape_of(const ProofJudgement& judgement);
 
-/// Whether the claim of a proof holds of its trajectory; nothing where that is not judged. `whole`: else only frames
-/// before the first that cannot be read count, as for a witness, behind whose step no checker looks. Throws InputError
-/// for what cannot be read.
-std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& mutant, bool whole);
-
 }  // namespace noli::audit

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include <noli/contact.h>
-#include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/fuzzing_library.h"
 #include "audit/fuzz/queries/judge.h"
 #include "audit/fuzz/queries/minimise_query.h"
 #include "audit/fuzz/queries/query_generators.h"
 #include "audit/fuzz/queries/saved_query.h"
+#include "audit/fuzz/save_finding.h"
 
 namespace noli::audit {
 

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include <noli/errors.h>
-#include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/queries/judge.h"
 #include "audit/fuzz/queries/minimise_query.h"
 #include "audit/fuzz/queries/query_generators.h"
 #include "audit/fuzz/queries/saved_query.h"
+#include "audit/fuzz/save_finding.h"
 #include "kernel/parallel.h"
 
 namespace noli::audit {

@@ -64,13 +64,8 @@ std::string signature(const AnyQuery& query, std::optional<Stage> stage, Contact
 }
 
 std::string signature_of_answer(const LibraryAnswer& answer, const std::optional<double>& exact) {
-  switch (answer.given.state) {
-    case AnswerState::not_asked: return "not_asked";
-    case AnswerState::crashed: return "crash";
-    case AnswerState::hung: return "hang";
-    case AnswerState::too_much_memory: return "memory";
-    case AnswerState::answered: break;
-  }
+  if (answer.given.state == AnswerState::not_asked) return "not_asked";
+  if (const auto ended = ending_of(answer.given.state)) return std::string(name(*ended));
   if (answer.given.code < 0) return "failure";
   if (answer.given.code == NOLI_CCD_NO_HIT) return "no_hit";
   return exact ? time_class(answer.given.time, *exact) : "false_hit";

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include <noli/errors.h>
-#include "audit/fuzz/kind_of_difference.h"
-#include "audit/fuzz/save_whole.h"
+#include "audit/fuzz/save_finding.h"
 #include "certify/process/scratch_folder.h"
 #include "integrator/scene/json_text.h"
 #include "trajectory/blocks/sha256.h"

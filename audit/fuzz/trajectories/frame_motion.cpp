@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include <noli/errors.h>
-#include "audit/fuzz/save_whole.h"
+#include "audit/fuzz/save_finding.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/write_obj.h"
 #include "trajectory/formats/write_ply.h"

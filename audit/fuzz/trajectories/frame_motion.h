@@ -46,7 +46,7 @@ std::vector<std::filesystem::path> write_frames(const FrameMotion& motion, const
 FrameMotion read_frames(const std::filesystem::path& folder);
 
 /// A finding as a folder: its frames, and a README with what is wrong and with the words of the command that shows it
-/// again, to which the folder is added. All of it or nothing (audit/fuzz/save_whole.h). Throws std::system_error.
+/// again, to which the folder is added. All of it or nothing (audit/fuzz/save_finding.h). Throws std::system_error.
 void save_motion(const FrameMotion& motion, const std::string& difference, std::vector<std::string> replay_command,
                  const std::filesystem::path& folder);
 

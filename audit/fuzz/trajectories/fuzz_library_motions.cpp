@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "audit/fuzz/finding_name.h"
 #include "audit/fuzz/fuzzing_library.h"
+#include "audit/fuzz/save_finding.h"
 #include "audit/fuzz/trajectories/fuzz_trajectories.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
 #include "kernel/parallel.h"

@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "audit/fuzz/kind_of_difference.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
 #include "trajectory/text.h"
 

@@ -69,11 +69,11 @@ class StepJudge {
       : motion_(motion), step_(step), audit_(audit) {}
 
   std::optional<MotionFaultFound> operator()() const {
-    if (const auto ended = fault_of_end(audit_.end)) {
+    if (const auto ended = fault_of_end(audit_.ending.kind)) {
       const std::string place = audit_.in_search ? ", in the search for candidates"
                                 : audit_.asked   ? where(audit_.asked)
                                                  : ", nobody knows where";
-      return found(*ended, audit_.ending + place);
+      return found(*ended, audit_.ending.words + place);
     }
     if (!audit_.searched) return found(MotionFault::failure, "the search for candidates failed");
     if (auto of_a_pair = worst_report()) return of_a_pair;
@@ -147,7 +147,7 @@ LibraryMotionAnswer ask_motion(const LibraryUnderTest& library, const FrameMotio
   LibraryMotionAnswer answer;
   for (std::size_t step = 0; step < motion.steps() && !answer.found; ++step) {
     const PipelineOutcome outcome = audit_pipeline(request, motion.mesh, motion.begin(step), motion.end(step));
-    answer.stopped = outcome.audits.empty() || outcome.audits[0].end == Ending::Kind::stopped;
+    answer.stopped = outcome.audits.empty() || outcome.audits[0].ending.kind == Ending::Kind::stopped;
     if (answer.stopped) return answer;
     const PipelineAudit& audit = outcome.audits[0];
     require_what_was_planted(motion, planted, step, outcome);
