@@ -92,10 +92,18 @@ ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char*
   return fuzz_exit_code(judged.unknown, finding);
 }
 
-std::string finding_line(const std::string& origin, std::uint64_t block, const char* item, std::size_t index,
-                         const std::string& difference, const std::filesystem::path& place) {
-  return fmt::format("finding: {}, block {}, {} {}: {}; {}\n", origin, block, item, index, on_one_line(difference),
-                     place.empty() ? "not saved" : "saved as " + on_one_line(place.string()));
+std::string finding_line(const audit::FuzzFinding& finding, const char* item, const std::string& more) {
+  return fmt::format("finding: {}, block {}, {} {}: {}; {}\n", finding.generator, finding.block, item, finding.index,
+                     on_one_line(more + finding.difference),
+                     finding.place.empty() ? "not saved" : "saved as " + on_one_line(finding.place.string()));
+}
+
+Json finding_json(const audit::FuzzFinding& finding, const char* place) {
+  return {{"generator", finding.generator},
+          {"block", finding.block},
+          {"index", finding.index},
+          {"difference", finding.difference},
+          {place, finding.place.string()}};
 }
 
 }  // namespace noli::app

@@ -77,9 +77,12 @@ struct JudgedAgain {
 /// Writes that as a result of the schema "fuzz-replay". `place`: the member that names what was saved.
 ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char* place = "folder");
 
-/// "finding: ORIGIN, block 3, scene 7: DIFFERENCE; saved as PLACE", one line; `item` is "scene".
-std::string finding_line(const std::string& origin, std::uint64_t block, const char* item, std::size_t index,
-                         const std::string& difference, const std::filesystem::path& place);
+/// "finding: GENERATOR, block 3, scene 7: DIFFERENCE; saved as PLACE", one line; `item` is "scene", and `more` comes
+/// before the difference.
+std::string finding_line(const audit::FuzzFinding& finding, const char* item, const std::string& more = "");
+
+/// {"generator": "", "block": 3, ...}. `place`: the member that names it.
+Json finding_json(const audit::FuzzFinding& finding, const char* place);
 
 /// How the result of a fuzzer is told.
 struct FuzzResultNames {

@@ -136,22 +136,19 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
   for (const auto& [name, tally] : report.mutations) json["mutations"][name] = tally_json(tally);
   json["reports"] = Json::array();
   for (const auto& finding : report.findings) {
-    json["reports"].push_back({{"proof", finding.name},
+    json["reports"].push_back({{"proof", finding.generator},
                                {"mutations", finding.mutations},
                                {"block", finding.block},
                                {"index", finding.index},
                                {"difference", finding.difference},
-                               {"folder", finding.folder.string()}});
+                               {"folder", finding.place.string()}});
   }
   return json;
 }
 
 std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases) {
   std::string text;
-  for (const auto& finding : report.findings) {
-    text += finding_line(finding.name, finding.block, "mutant", finding.index,
-                         finding.mutations + ": " + finding.difference, finding.folder);
-  }
+  for (const auto& finding : report.findings) text += finding_line(finding, "mutant", finding.mutations + ": ");
   for (const auto& [name, tally] : report.mutations) {
     text += fmt::format("  {:26} accepted {:7} refuted {:7} rejected {:7} failed {:7}\n", name, tally.accepted,
                         tally.refuted, tally.rejected, tally.failed);

@@ -65,21 +65,13 @@ Json report_json(const ScenesArguments& arguments, const audit::SceneFuzzReport&
     for (const auto& [end, count] : ends) json["ends"][generator][end] = count;
   }
   json["reports"] = Json::array();
-  for (const auto& finding : report.findings) {
-    json["reports"].push_back({{"generator", finding.generator},
-                               {"block", finding.block},
-                               {"index", finding.index},
-                               {"difference", finding.difference},
-                               {"file", finding.file.string()}});
-  }
+  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(finding, "file"));
   return json;
 }
 
 std::string report_text(const ScenesArguments& arguments, const audit::SceneFuzzReport& report) {
   std::string text;
-  for (const auto& finding : report.findings) {
-    text += finding_line(finding.generator, finding.block, "scene", finding.index, finding.difference, finding.file);
-  }
+  for (const auto& finding : report.findings) text += finding_line(finding, "scene");
   for (const auto& [generator, ends] : report.ends) {
     text += fmt::format("  {:17}", generator);
     for (const auto& [end, count] : ends) text += fmt::format(" {} {};", end, count);

@@ -62,13 +62,7 @@ Json report_json(const TrajectoriesArguments& arguments, const audit::Trajectory
                {"shapes", report.shapes},
                {"corpus", report.corpus_size}};
   json["reports"] = Json::array();
-  for (const auto& finding : report.findings) {
-    json["reports"].push_back({{"generator", finding.generator},
-                               {"block", finding.block},
-                               {"index", finding.index},
-                               {"difference", finding.difference},
-                               {"folder", finding.folder.string()}});
-  }
+  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(finding, "folder"));
   json["generators"] = Json::array();
   for (const auto& generator : report.generators) {
     json["generators"].push_back({{"name", generator.name},
@@ -82,9 +76,7 @@ Json report_json(const TrajectoriesArguments& arguments, const audit::Trajectory
 
 std::string report_text(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report) {
   std::string text;
-  for (const auto& finding : report.findings) {
-    text += finding_line(finding.generator, finding.block, "motion", finding.index, finding.difference, finding.folder);
-  }
+  for (const auto& finding : report.findings) text += finding_line(finding, "motion");
   for (const auto& generator : report.generators) {
     text += fmt::format("  {:12} apart {:6} contact {:6} without_witness {}\n", generator.name, generator.apart,
                         generator.contact, generator.without_witness);

@@ -72,6 +72,15 @@ struct FuzzSettings {
   std::optional<std::filesystem::path> corpus;  ///< folder that is there: judged first, added to
 };
 
+/// What findings have in common.
+struct FuzzFinding {
+  std::string generator;        ///< or "corpus/" and its name there
+  std::uint64_t block = 0;      ///< of the seed
+  std::size_t index = 0;        ///< within the block
+  std::string difference;       ///< in words, the first of which says what kind of difference it is
+  std::filesystem::path place;  ///< where it was saved, made smaller; empty when it was not
+};
+
 /// A finding that cannot be saved (a full disk) is told all the same: what went wrong is kept, and thrown when all that
 /// was found has been written.
 class NotSaved {
@@ -181,10 +190,10 @@ class Fuzzing {
     return report_.findings.size() < options_.max_findings;
   }
 
-  /// Saves it with save(finding), where things are saved at all. `place` is where, and empty where it was not.
+  /// Saves it with save(finding), which says where, if things are saved at all.
   template <class Finding, class Save>
-  void keep(Finding finding, std::filesystem::path Finding::*place, const Save& save) {
-    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) (finding.*place).clear();
+  void keep(Finding finding, const Save& save) {
+    if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.place.clear();
     report_.findings.push_back(std::move(finding));
   }
 

@@ -138,10 +138,10 @@ TEST_F(FuzzProofs, FindsCheckersThatDiffer) {
   ASSERT_FALSE(report.findings.empty());
   const ProofFinding& finding = report.findings[0];
   EXPECT_EQ(finding.difference, "the plain checker: accepted, the verified one: rejected");
-  std::ifstream readme(finding.folder / "README");
+  std::ifstream readme(finding.place / "README");
   const std::string text{std::istreambuf_iterator<char>(readme), {}};
   EXPECT_NE(text.find("noli fuzz proofs --replay "), std::string::npos) << text;
-  const ProofFiles saved = read_proof_files(finding.folder);
+  const ProofFiles saved = read_proof_files(finding.place);
   EXPECT_EQ(saved.proof, finding.files.proof);
   EXPECT_EQ(saved.files, finding.files.files);
   EXPECT_EQ(judge_proof(saved, options.make_checkers()).difference, finding.difference);
@@ -164,8 +164,8 @@ TEST_F(FuzzProofs, KeepsOneProofOfEachShapeAndJudgesThemFirst) {
   plain = [](const ProofFiles&) -> ProofAnswer { return {-1, "signal 11"}; };
   const ProofFuzzReport report = fuzz_proofs(options);
   ASSERT_GE(report.findings.size(), 2u);
-  EXPECT_TRUE(report.findings[0].name.starts_with("corpus/shape-")) << report.findings[0].name;
-  EXPECT_TRUE(std::filesystem::exists(report.findings[1].folder / "proof.noli"));
+  EXPECT_TRUE(report.findings[0].generator.starts_with("corpus/shape-")) << report.findings[0].generator;
+  EXPECT_TRUE(std::filesystem::exists(report.findings[1].place / "proof.noli"));
 }
 
 TEST_F(FuzzProofs, KeepsAMutantThatIsNoFindingThoughOneOfItsShapeIs) {
@@ -213,10 +213,10 @@ TEST_F(FuzzProofs, SavesAFindingWholeOrNotAtAll) {
   const ProofFuzzReport none = with_full_disk();
   EXPECT_THROW(none.not_saved.require_nothing(), WriteError);
   ASSERT_EQ(none.findings.size(), 3u);
-  for (const ProofFinding& finding : none.findings) EXPECT_TRUE(finding.folder.empty());
+  for (const ProofFinding& finding : none.findings) EXPECT_TRUE(finding.place.empty());
   EXPECT_TRUE(fs::is_empty(options.out)) << *fs::directory_iterator(options.out);
 
-  const fs::path first = fuzz_proofs(options).findings[0].folder;
+  const fs::path first = fuzz_proofs(options).findings[0].place;
   EXPECT_EQ(read_proof_files(first).proof, none.findings[0].files.proof);
   std::ofstream(first / "proof.noli") << "of the user";
   with_full_disk();

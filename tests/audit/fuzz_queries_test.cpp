@@ -95,8 +95,8 @@ TEST_F(FuzzQueries, SavedFilesHoldTheQueryAndItsLabel) {
   ASSERT_FALSE(report.findings.empty());
   for (const Finding& finding : report.findings) {
     const QueryKind kind = file_kind(finding.query.pair);
-    EXPECT_EQ(kind_from_file_name(finding.file), kind) << finding.file;
-    const auto records = read_query_csv(finding.file, kind);
+    EXPECT_EQ(kind_from_file_name(finding.place), kind) << finding.place;
+    const auto records = read_query_csv(finding.place, kind);
     ASSERT_EQ(records.size(), 1U);
     EXPECT_EQ(records[0].label, true);
     for (std::size_t i = 0; i < finding.shrunk.size(); ++i) {
@@ -185,7 +185,7 @@ TEST_F(FuzzQueries, SavedProbesComeBack) {
   const QueryFuzzReport report = fuzz_queries(options);
   ASSERT_EQ(report.findings.size(), 4U);
   for (const Finding& finding : report.findings) {
-    std::ifstream file(finding.file);
+    std::ifstream file(finding.place);
     std::string line, last;
     while (std::getline(file, line)) last = line;
     const auto saved = parse_probe_line(last);
@@ -193,7 +193,7 @@ TEST_F(FuzzQueries, SavedProbesComeBack) {
     EXPECT_EQ(saved->probe, finding.probe);
     EXPECT_EQ(saved->dimension, finding.shrunk.dimension);
     EXPECT_TRUE(fits(finding.shrunk, saved->probe));
-    EXPECT_EQ(read_query_csv(finding.file, file_kind(finding.query.pair)).size(), 1U) << "the line is a comment";
+    EXPECT_EQ(read_query_csv(finding.place, file_kind(finding.query.pair)).size(), 1U) << "the line is a comment";
   }
 }
 
@@ -258,7 +258,7 @@ TEST_F(FuzzQueries, AsksTheCorpusFirst) {
   EXPECT_EQ(second.items, first.corpus.kept + 1);
   ASSERT_EQ(second.findings.size(), 1U);
   EXPECT_EQ(second.findings[0].generator.substr(0, 7), "corpus/");
-  EXPECT_EQ(kind_from_file_name(second.findings[0].file), file_kind(second.findings[0].query.pair));
+  EXPECT_EQ(kind_from_file_name(second.findings[0].place), file_kind(second.findings[0].query.pair));
 }
 
 TEST_F(FuzzQueries, ShrinksSingleQueries) {
@@ -318,7 +318,7 @@ TEST_F(FuzzQueries, SaysWhereItCannotSave) {
   const QueryFuzzReport report = fuzz_queries(options);
   EXPECT_THROW(report.not_saved.require_nothing(), std::runtime_error);
   ASSERT_FALSE(report.findings.empty()) << "what was found is told all the same";
-  EXPECT_TRUE(report.findings[0].file.empty());
+  EXPECT_TRUE(report.findings[0].place.empty());
   std::filesystem::remove(options.out);
   EXPECT_NO_THROW(fuzz_queries(options).not_saved.require_nothing());
 }

@@ -83,7 +83,7 @@ TEST_F(FuzzScenes, KeepsOneSceneOfEachShapeAndJudgesThemFirst) {
   const SceneFuzzReport report = fuzz_scenes(options);
   EXPECT_EQ(report.findings_total, 12u);
   EXPECT_TRUE(report.findings[0].generator.starts_with("corpus/shape-")) << report.findings[0].generator;
-  EXPECT_TRUE(std::filesystem::exists(report.findings[0].file));
+  EXPECT_TRUE(std::filesystem::exists(report.findings[0].place));
 }
 
 TEST_F(FuzzScenes, AWrongSceneThatIsAcceptedIsAFinding) {
@@ -135,7 +135,7 @@ TEST_F(FuzzScenes, MakesAFailingSceneSmall) {
   EXPECT_EQ(finding->difference, "failure: noli simulate: exit code 4: internal error");
   EXPECT_EQ(finding->shrunk.size(), 1u) << finding->shrunk.dump();
   EXPECT_TRUE(finding->shrunk.contains("gravity"));
-  std::ifstream saved(finding->file);
+  std::ifstream saved(finding->place);
   EXPECT_EQ(SceneJson::parse(saved), finding->shrunk);
 }
 

@@ -95,11 +95,11 @@ TEST_F(FuzzTrajectories, MakesAForgottenBorderSmall) {
   EXPECT_EQ(finding.shrunk.frames.size(), 2u);
   EXPECT_EQ(finding.shrunk.mesh.cell_count(), 2u);
   EXPECT_LE(finding.shrunk.mesh.vertex_count, 4u);
-  const FrameMotion saved = read_frames(finding.folder);
+  const FrameMotion saved = read_frames(finding.place);
   EXPECT_EQ(saved.frames, finding.shrunk.frames);
   EXPECT_TRUE(difference(saved, forgets_the_end).has_value());
   EXPECT_FALSE(difference(saved, oracle_answer).has_value());
-  std::ifstream readme(finding.folder / "README");
+  std::ifstream readme(finding.place / "README");
   const std::string text{std::istreambuf_iterator<char>(readme), {}};
   EXPECT_NE(text.find("noli fuzz trajectories --replay "), std::string::npos) << text;
 }

@@ -49,7 +49,7 @@ class ProofFuzzing : public Fuzzing<ProofFuzzing, ProofFuzzOptions, ProofFuzzRep
     const ProofJudgement judged = judge_proof(files, checkers());
     corpus_->reached(shape_of(judged));
     if (!judged.difference.empty() && is_kept())
-      keep(ProofFinding{"corpus/" + name, "", 0, 0, judged.difference, files, {}}, &ProofFinding::folder,
+      keep(ProofFinding{{"corpus/" + name, 0, 0, judged.difference, {}}, "", files},
            [&](ProofFinding& kept) { save(kept, unused(options_.out / name)); });
     return true;
   }
@@ -88,8 +88,8 @@ class ProofFuzzing : public Fuzzing<ProofFuzzing, ProofFuzzOptions, ProofFuzzRep
     const ProofMutant simpler = minimise(from, judged.mutant, [&](const ProofMutant& candidate) {
       return judge_mutant(from, candidate, checkers(), true).difference == difference;
     });
-    keep(ProofFinding{from.name, judged.mutant.mutations, block_, index, difference, files_of(from, simpler), {}},
-         &ProofFinding::folder, [&](ProofFinding& kept) { save(kept, folder_for(kept.block, kept.index, "")); });
+    keep(ProofFinding{{from.name, block_, index, difference, {}}, judged.mutant.mutations, files_of(from, simpler)},
+         [&](ProofFinding& kept) { save(kept, folder_for(kept.block, kept.index, "")); });
   }
 
   /// For what is judged one after another.
@@ -99,8 +99,8 @@ class ProofFuzzing : public Fuzzing<ProofFuzzing, ProofFuzzOptions, ProofFuzzRep
   }
 
   static void save(ProofFinding& finding, const fs::path& folder) {
-    finding.folder = folder;
-    save_finding(finding.files, finding.name + ": " + finding.mutations, finding.difference, folder);
+    finding.place = folder;
+    save_finding(finding.files, finding.generator + ": " + finding.mutations, finding.difference, folder);
   }
 
   std::optional<Checkers> checkers_;

@@ -38,14 +38,10 @@ struct ProofFuzzOptions : FuzzSettings {
       50;  ///< asked about one mutant of so many, and all that are accepted of a changed claim
 };
 
-struct ProofFinding {
-  std::string name;  ///< of the case, or "corpus/" and the folder
+/// Its generator is a case.
+struct ProofFinding : FuzzFinding {
   std::string mutations;
-  std::uint64_t block = 0;       ///< of the seed
-  std::size_t index = 0;         ///< within the block
-  std::string difference;        ///< in words
-  ProofFiles files;              ///< the mutant, made simpler: as much as possible is as in the case
-  std::filesystem::path folder;  ///< where it was saved; empty when it was not
+  ProofFiles files;  ///< the mutant, made simpler: as much as possible is as in the case
 };
 
 /// What the plain checker said, and how often it failed to say anything.

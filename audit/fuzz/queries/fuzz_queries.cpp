@@ -76,7 +76,8 @@ void judge(const QueryFuzzOptions& options, const Item& item, BlockResult& resul
   const auto report = [&](std::optional<std::string> what, Fault fault) {
     if (!what) return;
     result.findings.push_back(
-        {{item.generator, item.block, item.index, std::move(*what), query, query, item.probe, truth.kind, {}}, fault});
+        {{{item.generator, item.block, item.index, std::move(*what), {}}, query, query, item.probe, truth.kind},
+         fault});
   };
   ++result.answers[static_cast<std::size_t>(truth.kind)];
   count(item.probe, probe_truth, result.probes);
@@ -146,11 +147,11 @@ std::string file_name(const QueryFuzzOptions& options, const Finding& finding) {
 }
 
 void save(Finding& finding, const QueryFuzzOptions& options) {
-  finding.file = unused(options.out / file_name(options, finding));
+  finding.place = unused(options.out / file_name(options, finding));
   std::vector<std::string> comments = {"# " + on_one_line(finding.difference)};
-  if (options.command) comments.push_back("# " + options.command(finding.file));
+  if (options.command) comments.push_back("# " + options.command(finding.place));
   comments.push_back(probe_line(finding.shrunk, finding.probe));
-  save_query(finding.file, finding.shrunk, finding.truth != ContactKind::apart, comments);
+  save_query(finding.place, finding.shrunk, finding.truth != ContactKind::apart, comments);
 }
 
 class QueryFuzzing : public Fuzzing<QueryFuzzing, QueryFuzzOptions, QueryFuzzReport, Item, QueryCorpus> {
@@ -214,7 +215,7 @@ class QueryFuzzing : public Fuzzing<QueryFuzzing, QueryFuzzOptions, QueryFuzzRep
     if (!is_kept()) return;
     if (raw.fault == Fault::contact) shrink(raw.finding, options_.decide);
     if (raw.fault == Fault::probe) shrink_probe(raw.finding, options_.decide_probe);
-    keep(std::move(raw.finding), &Finding::file, [this](Finding& finding) { save(finding, options_); });
+    keep(std::move(raw.finding), [this](Finding& finding) { save(finding, options_); });
   }
 };
 

@@ -77,16 +77,11 @@ struct QueryFuzzOptions : QueryFuzzSettings {
 };
 
 /// One query on which the subject is wrong.
-struct Finding {
-  std::string generator;                   ///< its name, or "corpus/NAME"
-  std::uint64_t block = 0;                 ///< where it was made: options.limits.seed, block and index make it again
-  std::size_t index = 0;                   ///< within the block
-  std::string difference;                  ///< in words: "contact: subject says apart, the oracle touching", ...
+struct Finding : FuzzFinding {
   AnyQuery query;                          ///< as generated
-  AnyQuery shrunk;                         ///< simpler, and still a finding
+  AnyQuery shrunk;                         ///< simpler, and still a finding; saved labelled with the truth
   Probe probe;                             ///< what else it was asked; shrunk along if that is what went wrong
   ContactKind truth = ContactKind::apart;  ///< the oracle's answer to `shrunk`
-  std::filesystem::path file;              ///< where `shrunk` was saved, labelled with the truth; empty when it was not
 };
 
 /// Answers of one generator.

@@ -37,9 +37,9 @@ std::string whereabouts(const QueryFuzzSettings& options, const std::filesystem:
 // --- the kernel against the oracle -----------------------------------------------------------------------------------
 
 Json finding_json(const QueryFuzzSettings& options, const Finding& finding) {
-  return {{"generator", finding.generator},          {"block", finding.block},       {"index", finding.index},
-          {"difference", finding.difference},        {"truth", name(finding.truth)}, {"file", finding.file.string()},
-          {"command", options.command(finding.file)}};
+  return {{"generator", finding.generator},           {"block", finding.block},       {"index", finding.index},
+          {"difference", finding.difference},         {"truth", name(finding.truth)}, {"file", finding.place.string()},
+          {"command", options.command(finding.place)}};
 }
 
 Json generator_json(const GeneratorTally& generator) {
@@ -141,7 +141,7 @@ std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& re
   std::string text;
   for (const auto& finding : report.findings) {
     text += fmt::format("finding: {}, block {}, query {}: {}; {}\n", finding.generator, finding.block, finding.index,
-                        finding.difference, whereabouts(options, finding.file));
+                        finding.difference, whereabouts(options, finding.place));
   }
   if (options.corpus) text += corpus_text(report.corpus);
   text += "Answers of the oracle:\n";

@@ -210,23 +210,25 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
 
   void found(const JudgedScene& one, std::size_t index) {
     if (!is_kept() || ++alike_[*one.judgement.difference] > options_.max_alike) return;
-    SceneFinding finding{one.generator, block_, index, *one.judgement.difference, one.made.scene, one.made.scene, {}};
-    finding.wrong_place = one.made.wrong_place;
+    SceneFinding finding{{one.generator, block_, index, *one.judgement.difference, {}},
+                         one.made.scene,
+                         one.made.scene,
+                         one.made.wrong_place};
     const std::string kind(kind_of(finding.difference));
     const auto now = [&](const SceneJson& scene) { return judge({scene, one.made.wrong_place}).difference; };
     const auto fails = [&](const SceneJson& scene) { return is_of_kind(now(scene), kind); };
     // A scene that is wrong stays wrong in other places when something is left out: its message proves nothing then.
     if (!one.made.wrong_place) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
     finding.difference = now(finding.shrunk).value_or(finding.difference);
-    keep(std::move(finding), &SceneFinding::file, [this](SceneFinding& kept) { save(kept); });
+    keep(std::move(finding), [this](SceneFinding& kept) { save(kept); });
   }
 
   void save(SceneFinding& finding) const {
     const bool known = finding.generator.starts_with("corpus/");
     const fs::path folder = known ? unused(options_.out / finding.generator)
                                   : folder_for(finding.block, finding.index, "-" + finding.generator);
-    finding.file = folder / scene_file;
-    std::vector<std::string> command = {"noli", "fuzz", "scenes", "--replay", finding.file};
+    finding.place = folder / scene_file;
+    std::vector<std::string> command = {"noli", "fuzz", "scenes", "--replay", finding.place};
     if (finding.wrong_place) command.insert(command.end(), {"--wrong-place", *finding.wrong_place});
     save_whole(folder, finding.difference, command,
                [&](const fs::path& to) { write_file(to / scene_file, finding.shrunk.dump(2) + '\n'); });

@@ -38,13 +38,8 @@ struct SceneFuzzOptions : FuzzSettings {
   std::size_t shrink_budget = 150;  ///< scenes to try for each of them
 };
 
-struct SceneFinding {
-  std::string generator;  ///< or "corpus/" and the folder
-  std::uint64_t block = 0;
-  std::size_t index = 0;
-  std::string difference;      ///< in words, the first of which says what kind of difference it is
-  SceneJson scene, shrunk;     ///< as made; simpler, and still a finding
-  std::filesystem::path file;  ///< where `shrunk` was saved; empty when it was not
+struct SceneFinding : FuzzFinding {
+  SceneJson scene, shrunk;  ///< as made; simpler, and still a finding
   std::optional<std::string> wrong_place{};
 };
 

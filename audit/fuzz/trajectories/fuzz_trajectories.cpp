@@ -102,11 +102,11 @@ class TrajectoryFuzzing : public Fuzzing<TrajectoryFuzzing, TrajectoryOptions, T
 
   void found(const Judged& judged, const std::string& generator, std::uint64_t block, std::size_t index) {
     if (!is_kept()) return;
-    TrajectoryFinding finding{generator, block, index, *judged.difference, judged.motion, judged.motion, {}};
+    TrajectoryFinding finding{{generator, block, index, *judged.difference, {}}, judged.motion, judged.motion};
     shrink(finding);
-    keep(std::move(finding), &TrajectoryFinding::folder, [this](TrajectoryFinding& kept) {
-      kept.folder = folder_for(kept.block, kept.index, "-" + kept.generator);
-      save_motion(kept.shrunk, kept.difference, options_.replay_command, kept.folder);
+    keep(std::move(finding), [this](TrajectoryFinding& kept) {
+      kept.place = folder_for(kept.block, kept.index, "-" + kept.generator);
+      save_motion(kept.shrunk, kept.difference, options_.replay_command, kept.place);
     });
   }
 

@@ -67,14 +67,9 @@ struct TrajectoryOptions : FuzzSettings {
   std::vector<std::string> replay_command;  ///< the command that replays a saved finding, without its folder
 };
 
-struct TrajectoryFinding {
-  std::string generator;         ///< or the folder in the corpus
-  std::uint64_t block = 0;       ///< of the seed
-  std::size_t index = 0;         ///< within the block
-  std::string difference;        ///< in words, the first of which says what kind of difference it is
-  FrameMotion motion;            ///< as made
-  FrameMotion shrunk;            ///< simpler, and still a finding
-  std::filesystem::path folder;  ///< where `shrunk` was saved; empty when it was not
+struct TrajectoryFinding : FuzzFinding {
+  FrameMotion motion;  ///< as made
+  FrameMotion shrunk;  ///< simpler, and still a finding
 };
 
 struct TrajectoryTally {
