@@ -16,6 +16,7 @@
 
 #include "audit/ccd/library_answers.h"
 #include "certify/stopwatch.h"
+#include "certify/verification.h"
 #include "proofs/prover/verifier.h"
 #include "trajectory/cells.h"
 #include "trajectory/formats/frame_inputs.h"
@@ -100,31 +101,29 @@ void add_contact(const FeatureContact& contact, const std::vector<Edge>& edges,
   }
 }
 
-FeaturePair pair_of(std::uint32_t kind) {
-  return kind == NOLI_CCD_EDGE_EDGE ? FeaturePair::edge_edge : FeaturePair::vertex_face;
-}
-
+/// The pair in the step's numbers.
 template <class Pair>
-std::array<VertexId, 4> vertices_of(const Step& step, const Pair& contact) {
-  if (contact.kind == NOLI_CCD_EDGE_EDGE) {
-    const Edge &a = step.edges[contact.first], &b = step.edges[contact.second];
-    return {a[0], a[1], b[0], b[1]};
+FeatureContact features_of(const Step& step, const Pair& pair) {
+  FeatureContact result;
+  if (pair.kind == NOLI_CCD_EDGE_EDGE) {
+    const Edge &a = step.edges[pair.first], &b = step.edges[pair.second];
+    result.pair = FeaturePair::edge_edge;
+    result.vertices = {a[0], a[1], b[0], b[1]};
+  } else {
+    const Face& f = step.faces[pair.second];
+    result.vertices = {pair.first, f[0], f[1], f[2]};
   }
-  const Face& f = step.faces[contact.second];
-  return {contact.first, f[0], f[1], f[2]};
+  return result;
 }
 
 double first_time(const Step& step, const MeshContact& contact) {
-  const AnyQuery query = query_of(pair_of(contact.kind), vertices_of(step, contact), step.x_t0, step.x_t1);
-  return exact_contact(query).value().time;
+  return exact_contact(query_of(features_of(step, contact), 3, step.x_t0, step.x_t1)).value().time;
 }
 
 /// The pair in the frames' own numbers.
 template <class Pair>
-FeatureContact named(const Step& step, const Pair& contact) {
-  FeatureContact result;
-  result.pair = pair_of(contact.kind);
-  result.vertices = vertices_of(step, contact);
+FeatureContact named(const Step& step, const Pair& pair) {
+  FeatureContact result = features_of(step, pair);
   for (VertexId& v : result.vertices) v = step.number[v];
   return result;
 }

@@ -63,16 +63,6 @@ bool knows_times(const LibraryUnderTest& library) {
   return false;
 }
 
-AnyQuery query_of(FeaturePair pair, const std::array<VertexId, 4>& vertices, std::span<const Position> x_t0,
-                  std::span<const Position> x_t1) {
-  AnyQuery query{pair, 3, {}, {}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    query.x_t0[i] = x_t0[vertices[i]];
-    query.x_t1[i] = x_t1[vertices[i]];
-  }
-  return query;
-}
-
 std::optional<ExactContact> exact_contact(const AnyQuery& query) {
   return visit(query, [](const auto& typed) {
     const auto first = first_contact(typed);

@@ -27,7 +27,6 @@
 #include <string_view>
 #include <vector>
 
-#include <noli/mesh.h>
 #include <noli/time_of_impact.h>
 #include "audit/ccd/ccd_library.h"
 #include "certify/queries/any_query.h"
@@ -105,10 +104,6 @@ struct ExactContact {
   double time;  ///< the first, rounded down
   ContactKind kind;
 };
-
-/// About these vertices of a step of a mesh, in 3D.
-AnyQuery query_of(FeaturePair pair, const std::array<VertexId, 4>& vertices, std::span<const Position> x_t0,
-                  std::span<const Position> x_t1);
 
 /// Nothing when they stay apart.
 std::optional<ExactContact> exact_contact(const AnyQuery& query);

@@ -74,7 +74,7 @@ struct FuzzSettings {
 
 /// What findings have in common.
 struct FuzzFinding {
-  std::string generator;        ///< or "corpus/" and its name there
+  std::string generator;        ///< or what it is called in the corpus
   std::uint64_t block = 0;      ///< of the seed
   std::size_t index = 0;        ///< within the block
   std::string difference;       ///< in words, the first of which says what kind of difference it is

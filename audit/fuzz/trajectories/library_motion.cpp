@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "audit/fuzz/trajectories/motion_oracle.h"
+#include "certify/verification.h"
 
 namespace noli::audit {
 
@@ -103,7 +104,7 @@ class StepJudge {
     if (worst == audit_.reports.end()) return std::nullopt;
     require_that_the_oracle_agrees(motion_, step_, *worst);
     const FeatureContact& pair = worst->contact;
-    const auto exact = exact_contact(query_of(pair.pair, pair.vertices, motion_.begin(step_), motion_.end(step_)));
+    const auto exact = exact_contact(query_of(pair, 3, motion_.begin(step_), motion_.end(step_)));
     const std::string kind = exact ? fmt::format(" ({})", name(exact->kind)) : "";
     MotionFaultFound result = found(rank(*worst), words(pair) + ": " + worst->words + kind);
     if (exact) result.kind = exact->kind;
