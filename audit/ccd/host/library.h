@@ -38,6 +38,20 @@ inline std::uint64_t resident_bytes() {
   return read ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
+/// Calls again() for half the time and for the other half, or until it says no, with a look at the memory before,
+/// between and after.
+template <class Status, class Again>
+void repeat_in_halves(Status& e, const Again& again) {
+  e.resident[0] = resident_bytes();
+  const double begin = seconds();
+  for (std::size_t half = 1; half <= 2; ++half) {
+    const double end = begin + 0.5 * static_cast<double>(half) * e.repeat_seconds;
+    while (again() && seconds() < end) {
+    }
+    e.resident[half] = resident_bytes();
+  }
+}
+
 inline void enter(HostStatus& status, HostPhase phase) { status.phase.store(phase, std::memory_order_release); }
 
 /// As much of it as there is room for.

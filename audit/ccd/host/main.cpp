@@ -92,7 +92,7 @@ class Host {
     if (code != first.code || (code == NOLI_CCD_HIT && !same(time, first.time))) answers_[i].changed = 1;
   }
 
-  /// Passes for half the time and for the other half, with a look at the memory before, between and after.
+  /// Passes over all that can be asked again.
   void repeat() {
     std::uint64_t answered = 0;
     for (std::uint64_t i = 0; i < e_.count; ++i) answered += repeats(i) ? 1 : 0;
@@ -101,15 +101,8 @@ class Host {
     const std::uint64_t rounds = (least_calls + answered - 1) / answered;
     e_.pass_calls = rounds * answered;
     const std::uint64_t calls_before = calls_;
-    e_.resident[0] = resident_bytes();
-    const double begin = seconds();
-    give_up_ = begin + 4 * e_.repeat_seconds;  // in the middle of a pass
-    for (std::size_t half = 1; half <= 2; ++half) {
-      const double end = begin + 0.5 * static_cast<double>(half) * e_.repeat_seconds;
-      while (pass(rounds) && seconds() < end) {
-      }
-      e_.resident[half] = resident_bytes();
-    }
+    give_up_ = seconds() + 4 * e_.repeat_seconds;  // in the middle of a pass
+    repeat_in_halves(e_, [&] { return pass(rounds); });
     e_.repeated = calls_ - calls_before;
   }
 

@@ -52,17 +52,12 @@ class Pipeline {
     pairs.push_back({static_cast<std::uint32_t>(kind), first, second});
   }
 
-  /// For half the time and for the other half, with a look at the memory before, between and after.
   void repeat() {
     enter(e_, HostPhase::repeating);
-    e_.resident[0] = resident_bytes();
-    const double begin = seconds();
-    for (std::size_t half = 1; half <= 2; ++half) {
-      const double end = begin + 0.5 * static_cast<double>(half) * e_.repeat_seconds;
-      do pass();
-      while (seconds() < end);
-      e_.resident[half] = resident_bytes();
-    }
+    repeat_in_halves(e_, [this] {
+      pass();
+      return true;
+    });
   }
 
   void pass() {

@@ -17,14 +17,15 @@ namespace noli::audit {
 
 namespace {
 
-/// The line that says what else the queries were asked, if the file has one.
-std::optional<SavedProbe> saved_probe(const std::string& text) {
+/// What `parse` makes of the first line of which it makes something.
+template <class Parse>
+auto first_parsed(std::string_view text, const Parse& parse) {
   Lines lines(text);
   std::string_view line;
   while (lines.next(line)) {
-    if (const auto saved = parse_probe_line(line)) return saved;
+    if (const auto found = parse(line)) return found;
   }
-  return std::nullopt;
+  return decltype(parse(line))();
 }
 
 std::string type_line(const QueryType& type) { return fmt::format("# query {} {}d", name(type.pair), type.dimension); }
@@ -32,14 +33,10 @@ std::string type_line(const QueryType& type) { return fmt::format("# query {} {}
 }  // namespace
 
 std::optional<QueryType> saved_type(std::string_view text) {
-  Lines lines(text);
-  std::string_view line;
-  while (lines.next(line)) {
-    for (const QueryType& type : all_query_types) {
-      if (line == type_line(type)) return type;
-    }
-  }
-  return std::nullopt;
+  return first_parsed(text, [](std::string_view line) {
+    const auto found = std::ranges::find(all_query_types, line, type_line);
+    return found == all_query_types.end() ? std::nullopt : std::optional(*found);
+  });
 }
 
 std::string file_suffix(const QueryType& type) {
@@ -70,7 +67,7 @@ std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {
   const auto kind = kind_from_file_name(file);
   if (!kind) throw InputError(file.string(), "", "its name tells no kind of query, such as edge-edge");
   const std::string text = read_whole_file(file);
-  const auto saved = saved_probe(text);
+  const auto saved = first_parsed(text, parse_probe_line);
   const auto type = saved_type(text);
   AnyQuery query{static_cast<FeaturePair>(*kind), saved ? saved->dimension : type ? type->dimension : 3, {}, {}};
   const bool fitting = !type || *type == QueryType{query.pair, query.dimension};
