@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How findings are saved. Their names tell where in a run they were found, so another run may find something else under
-// the same name: what an earlier one has saved is nobody's to overwrite. A folder of several files is saved whole or not
-// at all: a part of one (on a full disk) would look like a finding, and show something else or nothing.
+// the same name: what an earlier one has saved is nobody's to overwrite. A folder of several files is saved whole or
+// not at all: a part of one (on a full disk) would look like a finding, and show something else or nothing.
 #pragma once
 
 #include <fmt/format.h>
@@ -28,9 +28,9 @@ inline std::filesystem::path unused(const std::filesystem::path& wanted) {
   return name;
 }
 
-/// Lets `write` put files into a folder beside this one, which takes its name when all are there, with a README: what is
-/// wrong, and the command that shows it again. What was saved under that name before goes then; if something throws, it
-/// stays, and nothing is left of the new one.
+/// Lets `write` put files into a folder beside this one, which takes its name when all are there, with a README: what
+/// is wrong, and the command that shows it again. What was saved under that name before goes then; if something throws,
+/// it stays, and nothing is left of the new one.
 template <class Write>
 void save_whole(const std::filesystem::path& folder, const std::string& what, const std::vector<std::string>& command,
                 const Write& write) {
