@@ -28,6 +28,11 @@ std::string corpus_text(const CorpusTally& corpus) {
   return fmt::format("Corpus: replayed {} signatures {} kept {}.\n", corpus.replayed, corpus.signatures, corpus.kept);
 }
 
+/// The command that asks a finding again; empty when it was not saved.
+std::string command_for(const QueryFuzzSettings& options, const std::filesystem::path& file) {
+  return file.empty() ? "" : options.command(file);
+}
+
 /// Where a finding lies, and the command that asks it again.
 std::string whereabouts(const QueryFuzzSettings& options, const std::filesystem::path& file) {
   if (file.empty()) return "not saved";
@@ -37,9 +42,13 @@ std::string whereabouts(const QueryFuzzSettings& options, const std::filesystem:
 // --- the kernel against the oracle -----------------------------------------------------------------------------------
 
 Json finding_json(const QueryFuzzSettings& options, const Finding& finding) {
-  return {{"generator", finding.generator},           {"block", finding.block},       {"index", finding.index},
-          {"difference", finding.difference},         {"truth", name(finding.truth)}, {"file", finding.place.string()},
-          {"command", options.command(finding.place)}};
+  return {{"generator", finding.generator},
+          {"block", finding.block},
+          {"index", finding.index},
+          {"difference", finding.difference},
+          {"truth", name(finding.truth)},
+          {"file", finding.place.string()},
+          {"command", command_for(options, finding.place)}};
 }
 
 Json generator_json(const GeneratorTally& generator) {
@@ -100,7 +109,7 @@ Json finding_json(const QueryFuzzSettings& options, const LibraryFinding& findin
           {"query", query_json(finding.shrunk)},
           {"distinct_coordinates", distinct_coordinates(finding.shrunk)},
           {"file", finding.file.string()},
-          {"command", options.command(finding.file)}};
+          {"command", command_for(options, finding.file)}};
 }
 
 /// A line for each generator that had its turn.

@@ -174,7 +174,8 @@ GeneratedScene thin(Random& random) {
 
 GeneratedScene far_off(Random& random) {
   Extremes e;
-  e.offset = (random.one_in(2) ? 1 : -1) * between_powers(random, 10, 44);
+  const double sign = random.one_in(2) ? 1 : -1;  // drawn first
+  e.offset = sign * between_powers(random, 10, 44);
   return made(e, random);
 }
 
