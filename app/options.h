@@ -31,9 +31,6 @@ CLI::Validator is_positive();
 /// Accepts 0 too.
 CLI::Validator is_not_negative();
 
-/// Accepts 0, 1, 2, ...
-CLI::Validator is_count();
-
 /// Accepts 2 and 3.
 CLI::Validator is_dimension();
 

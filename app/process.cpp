@@ -113,8 +113,6 @@ void hear_stops_everywhere() {
   if (user_asked.load()) ask_to_stop(StopReason::interrupted);  // a moment too early
 }
 
-bool stop_requested() { return stop_asked().has_value() || user_asked.load(std::memory_order_relaxed); }
-
 void stop_after(std::chrono::nanoseconds limit) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(limit);
   struct itimerspec when = {};

@@ -28,9 +28,6 @@ void hear_stops_everywhere();
 /// was called. A second call replaces the first. Throws std::system_error.
 void stop_after(std::chrono::nanoseconds limit);
 
-/// Whether work has to end, whoever asked for it.
-bool stop_requested();
-
 /// Makes a failed allocation inside GMP, which cannot throw, and std::terminate end in one line and ExitCode::failure;
 /// and makes sure that descriptors 0 to 2 exist, so that no file that is opened later takes the place of a closed
 /// standard output.

@@ -41,6 +41,13 @@ std::string excluded_text(const NotCompared& left_out) {
   return text + " (excluded)";
 }
 
+std::string what_is_not_compared(const NotCompared& left_out) {
+  std::string what;
+  if (left_out.any_held) what = held_text(left_out);
+  if (!left_out.excluded.empty()) what += (what.empty() ? "" : "; ") + excluded_text(left_out);
+  return what;
+}
+
 }  // namespace
 
 NotCompared not_compared(const Mesh& mesh, std::span<const std::uint8_t> held, const Exclusions& exclusions,
@@ -65,17 +72,6 @@ std::string pair_text(const std::array<std::string, 2>& pair) {
   const std::string a = on_one_line(pair[0]);
   return pair[0] == pair[1] ? a : a + " and " + on_one_line(pair[1]);
 }
-
-namespace {
-
-std::string what_is_not_compared(const NotCompared& left_out) {
-  std::string what;
-  if (left_out.any_held) what = held_text(left_out);
-  if (!left_out.excluded.empty()) what += (what.empty() ? "" : "; ") + excluded_text(left_out);
-  return what;
-}
-
-}  // namespace
 
 std::string nothing_touches(const NotCompared& left_out, const std::string& where) {
   if (!left_out.any()) return fmt::format("Nothing touches {}.", where);

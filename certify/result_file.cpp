@@ -97,20 +97,6 @@ bool can_make_files(const std::string& folder) {
   return TemporaryFile(std::filesystem::path(folder) / "file").is_open();
 }
 
-}  // namespace
-
-bool write_all(int descriptor, const std::string& text) {
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  return true;
-}
-
-namespace {
-
 bool replace_file(const std::string& path, const std::string& text) {
   const std::string target = link_target(path);
   TemporaryFile file(target);
@@ -133,6 +119,16 @@ bool is_written(const std::string& path, const std::string& text) {
 }
 
 }  // namespace
+
+bool write_all(int descriptor, const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
 
 void write_result(const std::string& path, const std::string& text) {
   if (!is_written(path, text)) throw WriteError(path + ": cannot be written: " + reason());
