@@ -62,8 +62,7 @@ class RunVerification : private Verification {
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
-    for (const std::uint8_t label : reader_.scene().labels) scripted_.push_back(label & scripted_vertex);
-    outcome_.not_compared = not_compared(mesh, scripted_, reader_.scene().exclusions, log_.names);
+    outcome_.not_compared = not_compared(mesh, reader_.scene().labels, reader_.scene().exclusions, log_.names);
     if (mesh.cell_count() == 0) {
       throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
     }
@@ -205,7 +204,7 @@ class RunVerification : private Verification {
     options.first_only = request_.first_only;
     options.strict = request_.strict;
     options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
-    options.scripted = scripted_;
+    options.scripted = reader_.scene().labels;
     options.exclusions = &reader_.scene().exclusions;
     options.stop = request_.stop;
     options.deadline = request_.deadline;
@@ -314,7 +313,6 @@ class RunVerification : private Verification {
   bool live_;  ///< another process writes to it
   LogFacts log_;
   SeriesReader reader_;
-  std::vector<std::uint8_t> scripted_;
   std::optional<WindowVerifier> verifier_;  ///< made where the run begins
   std::unique_ptr<RunProof> proof_;
   std::unique_ptr<WindowsAgain> again_;  ///< with --reproduce

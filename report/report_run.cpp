@@ -113,9 +113,7 @@ class Run {
   }
 
   NotCompared left_out(const LogFacts& log) const {
-    std::vector<std::uint8_t> held;
-    for (const std::uint8_t label : reader_.scene().labels) held.push_back(label & scripted_vertex);
-    return not_compared(reader_.mesh(), held, reader_.scene().exclusions, log.names);
+    return not_compared(reader_.mesh(), reader_.scene().labels, reader_.scene().exclusions, log.names);
   }
 
   Json facts(const LogFacts& log) const {

@@ -7,11 +7,7 @@
 namespace noli {
 namespace {
 
-CellLabels labels_of_scene(const RunScene& scene) {
-  std::vector<std::uint8_t> scripted;
-  for (const std::uint8_t label : scene.labels) scripted.push_back(label & scripted_vertex);
-  return labels_of_run(scene.mesh, scripted, scene.exclusions);
-}
+CellLabels labels_of_scene(const RunScene& scene) { return labels_of_run(scene.mesh, scene.labels, scene.exclusions); }
 
 ProofHeader header_of(const RunScene& scene, const RunProof::Claim& claim) {
   ProofHeader header;

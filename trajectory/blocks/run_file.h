@@ -29,7 +29,8 @@ namespace noli {
 
 enum class RecordMode : std::uint32_t { full = 0, frames = 1 };
 
-/// A vertex label is a set of bits; more may come with later versions.
+/// A vertex label is a set of bits; more may come with later versions. This one refuses others, and whoever asks for
+/// scripted vertices takes the labels as they are.
 inline constexpr std::uint8_t scripted_vertex = 1;
 
 struct RunHeader {
