@@ -59,8 +59,8 @@ ExitCode run(const ExportArguments& arguments) {
   if (arguments.at || arguments.figure) {
     require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
   }
-  if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern, request.force});
-  if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern, request.force});
+  if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern});
+  if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern});
   const ExportOutcome outcome = run_export(request);
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
                                  digits17(outcome.end), !outcome.interrupted);

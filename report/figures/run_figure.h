@@ -40,7 +40,6 @@ struct FigureRequest {
   std::filesystem::path run;
   std::string figure;
   std::string output;  ///< its ending says what is written: .svg or .csv
-  bool force = false;  ///< a file that is there may be replaced
 };
 
 struct FigureOutcome {

@@ -85,9 +85,8 @@ PictureOutcome run_picture(const PictureRequest& request) {
   check(request);
   SeriesReader reader = open_run(request.run);
   const RunFrame frame = frame_at(reader, request);
-  std::vector<bool> fixed;
-  for (const std::uint8_t label : reader.scene().labels) fixed.push_back(label == scripted_vertex);
-  fixed.resize(frame.positions.size(), false);
+  const auto& labels = reader.scene().labels;
+  const std::vector<bool> fixed(labels.begin(), labels.end());
   try {
     const View view = view_of(request, reader.header().dimension);
     const Picture picture = draw({reader.mesh(), frame.positions}, fixed, view);

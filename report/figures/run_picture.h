@@ -17,7 +17,6 @@ struct PictureRequest {
   double time = 0;               ///< [s]
   std::optional<Position> from;  ///< direction in which the eye is; its own for each dimension
   std::filesystem::path output;  ///< ends in .png
-  bool force = false;            ///< a file that is there may be replaced
 };
 
 struct PictureOutcome {

@@ -109,7 +109,7 @@ void all_commands(const Runs& runs) {
   if (has_report_page()) ends([&] { report_page(run); });
   ends([&] { run_export({run, 20, (runs.folder / "frame%d.obj").string(), true}); });
   for (const char* const figure : figure_names) {
-    ends([&] { run_figure({run, figure, (runs.folder / "figure.svg").string(), true}); });
+    ends([&] { run_figure({run, figure, (runs.folder / "figure.svg").string()}); });
   }
   ends([&] { run_info(run); });
   ends([&] { run_reproduce({runs.scene, false, run, 6, runs.folder / "block"}); });
