@@ -2,33 +2,16 @@
 #include "certify/contact_report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <utility>
 #include <vector>
 
+#include "certify/body_names.h"
+
 namespace noli {
-namespace {
-
-using Ids = std::vector<VertexId>;
-
-/// Vertex ids of the two features of a contact.
-std::pair<Ids, Ids> features(const FeatureContact& contact) {
-  const auto begin = contact.vertices.begin();
-  const auto middle = begin + static_cast<std::ptrdiff_t>(first_size(contact.pair));
-  const auto end = begin + static_cast<std::ptrdiff_t>(point_count(contact.pair));
-  return {Ids(begin, middle), Ids(middle, end)};
-}
-
-std::string feature_text(const Ids& ids) {
-  static constexpr const char* names[] = {"vertex", "edge", "face"};
-  return fmt::format("{} {}", names[ids.size() - 1], fmt::join(ids, "-"));
-}
-
-}  // namespace
 
 Json contact_json(const FeatureContact& contact) {
-  const auto [first, second] = features(contact);
+  const auto begin = contact.vertices.begin(), middle = begin + first_size(contact.pair);
+  const std::vector<VertexId> first(begin, middle), second(middle, begin + point_count(contact.pair));
   return {{"pair", name(contact.pair)}, {"features", Json::array({first, second})}};
 }
 
@@ -68,14 +51,13 @@ Json contact_json(const integrator::ContactSettings& settings) {
 }
 
 std::string contact_text(const FeatureContact& contact) {
-  const auto [first, second] = features(contact);
-  return fmt::format("{} meets {}", feature_text(first), feature_text(second));
+  return BodyNames().pair(contact.pair, contact.vertices, "meets");
 }
 
 std::string pair_in_short(const FeatureContact& contact, std::optional<std::uint32_t> face) {
-  const auto [first, second] = features(contact);
   const bool numbered = face && contact.pair == FeaturePair::vertex_face;
-  return fmt::format("{} × {}", feature_text(first), numbered ? fmt::format("face {}", *face) : feature_text(second));
+  if (numbered) return fmt::format("vertex {} × face {}", contact.vertices[0], *face);
+  return BodyNames().pair(contact.pair, contact.vertices, "×");
 }
 
 }  // namespace noli
