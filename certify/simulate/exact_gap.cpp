@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "certificates/closest.h"
+#include "certify/queries/any_query.h"
 #include "kernel/thickness.h"
 
 namespace noli {
@@ -163,17 +164,9 @@ class GapSearch {
 }  // namespace
 
 ExactGap exact_gap(const WorldLines& lines, int dimension, FeaturePair pair, const std::array<VertexId, 4>& vertices) {
-  if (dimension == 2) {
-    if (pair == FeaturePair::vertex_edge) return GapSearch<FeaturePair::vertex_edge, 2>(lines, vertices)();
-    return GapSearch<FeaturePair::vertex_vertex, 2>(lines, vertices)();
-  }
-  switch (pair) {
-    case FeaturePair::vertex_face: return GapSearch<FeaturePair::vertex_face, 3>(lines, vertices)();
-    case FeaturePair::edge_edge: return GapSearch<FeaturePair::edge_edge, 3>(lines, vertices)();
-    case FeaturePair::vertex_edge: return GapSearch<FeaturePair::vertex_edge, 3>(lines, vertices)();
-    case FeaturePair::vertex_vertex: return GapSearch<FeaturePair::vertex_vertex, 3>(lines, vertices)();
-  }
-  throw std::invalid_argument("exact_gap: no such pair");
+  return visit({pair, dimension, {}, {}}, [&]<FeaturePair Pair, int Dim>(const Query<Pair, Dim>&) {
+    return GapSearch<Pair, Dim>(lines, vertices)();
+  });
 }
 
 }  // namespace noli
