@@ -48,9 +48,8 @@ bool wants_watch(const integrator::Scene& scene, const integrator::Explanation& 
   return scene.allow_unstable || !explanation.resonances.empty();
 }
 
-bool loses_by_restitution(const integrator::ContactSettings* contact) {
-  return contact != nullptr && std::any_of(contact->materials.begin(), contact->materials.end(),
-                                           [](const auto& material) { return material.restitution < 1; });
+bool loses_by_restitution(const std::optional<integrator::ContactSettings>& contact) {
+  return contact && std::ranges::any_of(contact->materials, [](const auto& m) { return m.restitution < 1; });
 }
 
 }  // namespace noli

@@ -59,6 +59,6 @@ Json energy_json(const EnergyAstray& energy);
 bool wants_watch(const integrator::Scene& scene, const integrator::Explanation& explanation);
 
 /// Whether contact takes energy that no book has.
-bool loses_by_restitution(const integrator::ContactSettings* contact);
+bool loses_by_restitution(const std::optional<integrator::ContactSettings>& contact);
 
 }  // namespace noli

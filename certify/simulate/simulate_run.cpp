@@ -129,8 +129,7 @@ class CertifiedRun {
  private:
   void watch_energy() {
     const integrator::State<double, Dim> state = Simulation<double, Dim>(built_.model).state();
-    const auto& contact = built_.model.contact;
-    energy_.emplace(state.kinetic, state.potential, loses_by_restitution(contact ? &*contact : nullptr));
+    energy_.emplace(state.kinetic, state.potential, loses_by_restitution(built_.model.contact));
     outcome_.energy_watched = true;
   }
 
