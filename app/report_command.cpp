@@ -16,7 +16,6 @@
 #include "app/output.h"
 #include "app/output_files.h"
 #include "certify/runs/run_folder.h"
-#include "report/report_assets.h"
 #include "report/report_inputs.h"
 #include "report/report_page.h"
 #include "report/report_results.h"

@@ -5,15 +5,21 @@
 #include <stdexcept>
 #include <utility>
 
-#include "report/report_assets.h"
 #include "trajectory/formats/base64.h"
 #include "trajectory/text.h"
 
 #ifdef NOLI_WITH_REPORT
 #include <zlib.h>
+
+/// Made by viewer/embed.cmake: HTML with the places @TITLE@, @PAGE@, @CELLS@ and @MOTION@.
+extern const char noli_report_page[];
+extern const unsigned long noli_report_page_size;
 #endif
 
 namespace noli::report {
+
+#ifdef NOLI_WITH_REPORT
+
 namespace {
 
 /// In an element <script>: a text of the data cannot end it.
@@ -32,7 +38,8 @@ std::string within_script(const Json& json) {
 
 }  // namespace
 
-#ifdef NOLI_WITH_REPORT
+bool has_report_page() { return true; }
+
 std::string packed(std::string_view bytes) {
   uLongf size = compressBound(bytes.size());
   std::string out(size, '\0');
@@ -42,9 +49,6 @@ std::string packed(std::string_view bytes) {
   out.resize(size);
   return base64(out);
 }
-#else
-std::string packed(std::string_view) { throw std::logic_error("built without reports"); }
-#endif
 
 std::string report_html(const ReportPage& report) {
   const std::array<std::pair<std::string_view, std::string>, 4> parts = {{
@@ -53,7 +57,7 @@ std::string report_html(const ReportPage& report) {
       {"@CELLS@", report.cells},
       {"@MOTION@", report.motion},
   }};
-  std::string_view rest = report_page();
+  std::string_view rest(noli_report_page, noli_report_page_size);
   std::string out;
   for (const auto& [place, text] : parts) {  // in the order of the page
     const std::size_t at = rest.find(place);
@@ -63,5 +67,13 @@ std::string report_html(const ReportPage& report) {
   }
   return out.append(rest);
 }
+
+#else
+
+bool has_report_page() { return false; }
+std::string packed(std::string_view) { throw std::logic_error("built without reports"); }
+std::string report_html(const ReportPage&) { throw std::logic_error("built without reports"); }
+
+#endif
 
 }  // namespace noli::report

@@ -29,6 +29,9 @@ struct ReportPage {
   std::string cells, motion;  ///< packed; empty without a scene
 };
 
+/// Whether the page without its data, viewer/ as it was bundled, is part of this program (NOLI_WITH_REPORT).
+bool has_report_page();
+
 /// zlib, as fast as the smallest result allows, then base64.
 std::string packed(std::string_view bytes);
 

@@ -20,7 +20,7 @@
 #include "certify/simulate/reproduce_run.h"
 #include "check_frame.h"
 #include "report/figures/run_figure.h"
-#include "report/report_assets.h"
+#include "report/report_page.h"
 #include "report/report_run.h"
 #include "report/run_explanation_report.h"
 #include "tests/app/runs/bouncing_point.h"
