@@ -51,6 +51,20 @@ void Verification::add_first(const FeatureContact& contact, ContactKind kind, do
   if (!outcome_.first) outcome_.first = First{contact, outcome_.steps.size(), kind, time, face_of(mesh, contact)};
 }
 
+void Verification::search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,
+                                const VerifyOptions& options) {
+  try {
+    outcome_.complete = proof.prove(step, verifier, options);
+    if (outcome_.complete) proof.commit();
+  } catch (const TooNear& near) {
+    outcome_.near = ListedNear{outcome_.steps.size(), near};
+    if (proof.refute(step, near)) ++outcome_.witnesses;
+    if (outcome_.steps.size() == 1) outcome_.largest_distance = proof.largest(step, verifier, options);
+  } catch (const NoProof&) {
+    note_no_proof();
+  }
+}
+
 void Verification::note_no_proof() {
   outcome_.no_proof = true;
   outcome_.complete = !request_.needs_proof();

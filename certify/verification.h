@@ -3,12 +3,13 @@
 // What the verifications of frames and of runs share: step by step they add what was found, in the end they conclude.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include <noli/verify.h>
+#include "certify/proofs/step_proofs.h"
 #include "certify/queries/any_query.h"
-#include "proofs/prover/tokens/no_proof.h"
 
 namespace noli {
 
@@ -33,20 +34,15 @@ class Verification {
   /// Where there is no first contact yet. `time`: within the step, or of the run.
   void add_first(const FeatureContact& contact, ContactKind kind, double time, const Mesh& mesh);
 
-  /// Asks for the proof of the step that was added last, in which nothing touches: prove() tells whether it was not
-  /// stopped; refute(near), where something is too near, whether there is a witness; largest(), which is asked of the
-  /// first step alone, the largest least distance.
-  template <class Prove, class Refute, class Largest>
-  void search_proof(const Prove& prove, const Refute& refute, const Largest& largest) {
-    try {
-      outcome_.complete = prove();
-    } catch (const TooNear& near) {
-      outcome_.near = ListedNear{outcome_.steps.size(), near};
-      if (refute(near)) ++outcome_.witnesses;
-      if (outcome_.steps.size() == 1) outcome_.largest_distance = largest();
-    } catch (const NoProof&) {
-      note_no_proof();
-    }
+  /// Finds the proof of the step that was added last, in which nothing touches; where something is too near, a witness
+  /// and, of the first step alone, the largest least distance.
+  void search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,
+                    const VerifyOptions& options);
+  /// Writes a witness for a step in which something touches, if there is one.
+  template <class Result>
+  void refute(StepProofs& proof, const MotionStep& step, const Result& result) {
+    const auto first = result.first ? std::optional(result.first->contact) : std::nullopt;
+    if (proof.refute(step, first, result)) ++outcome_.witnesses;
   }
   void note_no_proof();
 

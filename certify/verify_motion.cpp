@@ -212,7 +212,7 @@ class RunVerification : private Verification {
   }
 
   void verify(RunWindow& window) {
-    if (!verifier_) verifier_.emplace(reader_.mesh(), beginning(window), options());
+    if (!verifier_) verifier_.emplace(reader_.mesh(), beginning_of(*window.lines), options());
     if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
     outcome_.claim.to = window.end;
     WindowOptions deciding = options();
@@ -236,14 +236,14 @@ class RunVerification : private Verification {
     give_lines(window);
     if (!proof_) {
       outcome_.proof_begun = true;
-      const RunProof::Claim claim{request_.strict, request_.min_distance, request_.ring};
-      proof_ = std::make_unique<RunProof>(request_.open_proof(outcome_.claim), reader_.scene(), *verifier_, claim);
+      proof_ = proof_of_run(request_.open_proof(outcome_.claim), reader_.scene(), outcome_.claim);
     }
+    const MotionStep step{window.index, *window.lines, 0, window.group_hash};
     if (result.touches()) {
       witness_sought_ = true;
-      if (proof_->refute(window.index, *window.lines, window.group_hash, result)) ++outcome_.witnesses;
+      refute(*proof_, step, result);
     } else if (!outcome_.touches()) {
-      prove_untouched(window);
+      search_proof(*proof_, step, *verifier_, options());
     }
     outcome_.proof_seconds += watch.seconds();
   }
@@ -262,27 +262,9 @@ class RunVerification : private Verification {
     lines_->commit();
   }
 
-  void prove_untouched(const RunWindow& window) {
-    const VerifyOptions options = this->options();
-    search_proof(
-        [&] {
-          const bool proved = proof_->prove(window.index, *window.lines, window.group_hash, options);
-          if (proved) proof_->commit();
-          return proved;
-        },
-        [&](const TooNear& near) { return proof_->refute(window.index, *window.lines, window.group_hash, near); },
-        [&] { return proof_->largest(beginning(window), options); });
-  }
-
-  std::vector<Position> beginning(const RunWindow& window) const {
-    std::vector<Position> x;
-    for (VertexId v = 0; v < reader_.mesh().vertex_count; ++v) x.push_back(window.lines->positions(v).front());
-    return x;
-  }
-
   /// What meets where a window begins was counted in the window before.
   void drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
-    const std::vector<Position> x = beginning(window);
+    const std::vector<Position> x = beginning_of(*window.lines);
     WindowOptions resting = options();
     resting.first_only = false;
     resting.max_reports = 0;
@@ -314,7 +296,7 @@ class RunVerification : private Verification {
   LogFacts log_;
   SeriesReader reader_;
   std::optional<WindowVerifier> verifier_;  ///< made where the run begins
-  std::unique_ptr<RunProof> proof_;
+  std::unique_ptr<StepProofs> proof_;
   std::unique_ptr<WindowsAgain> again_;  ///< with --reproduce
   std::optional<RunWriter> lines_;       ///< of the run as if it were recorded in full
   bool witness_sought_ = false;

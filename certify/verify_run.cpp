@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -133,7 +134,7 @@ class SequenceVerification : private Verification {
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
-    outcome_.claim = claim_of_frames(request_, outcome_, mesh, groups_ ? &groups_->exclusions : nullptr);
+    outcome_.claim = claim_of_frames(request_, outcome_, mesh, exclusions());
     verifier_.emplace(std::move(mesh), options());
   }
 
@@ -170,6 +171,8 @@ class SequenceVerification : private Verification {
                                    sequence_.path_t1().string(), sequence_.step() + 1));
   }
 
+  const Exclusions* exclusions() const { return groups_ ? &groups_->exclusions : nullptr; }
+
   SequenceOptions options() {
     SequenceOptions options;
     options.dimension = outcome_.dimension;
@@ -178,7 +181,7 @@ class SequenceVerification : private Verification {
     options.first_only = request_.first_only;
     options.strict = request_.strict;
     options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
-    options.exclusions = groups_ ? &groups_->exclusions : nullptr;
+    options.exclusions = exclusions();
     options.stop = request_.stop;
     options.deadline = request_.deadline;
     options.progress = [this](double share) {
@@ -188,7 +191,7 @@ class SequenceVerification : private Verification {
   }
 
   void verify() {
-    const bool by_verifier = request_.open_proof && FrameProof::is_by_verifier(request_);
+    const bool by_verifier = request_.open_proof && verifier_proves(request_);
     const bool wanted = !outcome_.touches() && !outcome_.no_proof;
     if (by_verifier && request_.open_proof_at_once) begin_proof();
     const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
@@ -201,10 +204,13 @@ class SequenceVerification : private Verification {
   void prove(const StepResult& result) {
     const Stopwatch watch;
     begin_proof();
+    const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
+    const auto number = sequence_.step();
+    const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
     if (result.touches()) {
-      if (proof_->refute(sequence_.step(), sequence_.x_t0(), sequence_.x_t1(), result)) ++outcome_.witnesses;
+      refute(*proof_, step, result);
     } else if (!outcome_.touches()) {
-      prove_untouched(result);
+      prove_untouched(step, result);
     }
     outcome_.proof_seconds += watch.seconds();
   }
@@ -212,21 +218,16 @@ class SequenceVerification : private Verification {
   void begin_proof() {
     if (proof_) return;
     outcome_.proof_begun = true;
-    proof_.emplace(request_, outcome_.claim, outcome_.dimension, verifier_->mesh(), classes_ ? &*classes_ : nullptr,
-                   groups_ ? &groups_->exclusions : nullptr, sequence_.x_t0());
+    const Mesh& mesh = verifier_->mesh();
+    proof_ = proof_of_frames(request_, outcome_.claim, mesh, classes_ ? &*classes_ : nullptr, exclusions());
+    const WindowOptions options{verifier_->step_options(), {}, exclusions()};
+    if (!verifier_proves(request_)) prover_.emplace(mesh, sequence_.x_t0(), options);
   }
 
-  void prove_untouched(const StepResult& result) {
-    const auto step = sequence_.step();
-    const auto x_t0 = sequence_.x_t0(), x_t1 = sequence_.x_t1();
-    if (FrameProof::is_by_verifier(request_)) {
-      if (!result.proof) return note_no_proof();
-      return proof_->write(step, x_t0, x_t1, *result.proof);
-    }
-    const VerifyOptions options = verifier_->step_options();
-    search_proof([&] { return proof_->prove(step, x_t0, x_t1, options); },
-                 [&](const TooNear& near) { return proof_->refute(step, x_t0, x_t1, near); },
-                 [&] { return proof_->largest(x_t0, options); });
+  void prove_untouched(const MotionStep& step, const StepResult& result) {
+    if (!verifier_proves(request_)) return search_proof(*proof_, step, *prover_, verifier_->step_options());
+    if (!result.proof) return note_no_proof();
+    proof_->write(step, *result.proof);
   }
 
   void conclude() {
@@ -255,8 +256,9 @@ class SequenceVerification : private Verification {
   std::optional<IdenticalVertices> classes_;
   std::optional<Groups> groups_;  ///< with --ignore
   std::optional<SequenceVerifier> verifier_;
-  std::optional<FrameProof> proof_;
-  std::vector<std::string> at_rest_;  ///< notes on steps in which nothing moves
+  std::unique_ptr<StepProofs> proof_;
+  std::optional<WindowVerifier> prover_;  ///< where the verifier's proofs do not do
+  std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
 };
 
 }  // namespace

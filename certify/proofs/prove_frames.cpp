@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/prove_frames.h"
 
-#include <algorithm>
 #include <set>
 
 #include "certify/proofs/claim.h"
@@ -22,11 +21,10 @@ CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions) {
   return labels;
 }
 
-ProofHeader header_of(const VerifyRequest& request, const Claim& claim, int dimension,
-                      const IdenticalVertices* classes) {
+ProofHeader header_of(const VerifyRequest& request, const Claim& claim, const IdenticalVertices* classes) {
   ProofHeader header;
   header.source = request.constant_motion ? ProofSource::frames_at_rest : ProofSource::frames;
-  header.dimension = dimension;
+  header.dimension = claim.dimension;
   header.strict = request.strict;
   header.points = request.points;
   header.eta = request.min_distance;
@@ -60,46 +58,11 @@ Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome
   return claim;
 }
 
-FrameProof::FrameProof(const VerifyRequest& request, const Claim& claim, int dimension, const Mesh& mesh,
-                       const IdenticalVertices* classes, const Exclusions* exclusions, std::span<const Position> x)
-    : rest_(request.constant_motion),
-      proofs_(mesh, header_of(request, claim, dimension, classes), labels_of_frames(mesh, exclusions),
-              [&](const ProofHeader& header) { return ProofFile(request.open_proof(claim), header); }) {
-  if (is_by_verifier(request)) return;
-  WindowOptions options;
-  options.dimension = dimension;
-  options.strict = request.strict;
-  options.exclusions = exclusions;
-  prover_.emplace(mesh, x, options);
-}
-
-void FrameProof::write(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                       const StepProof& proof) {
-  std::optional<std::string> tree;
-  if (leaf_cells_ != proof.leaf_cells) tree = encoded_tree(proof.leaf_cells);
-  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  proofs_.write(at(step, lines), tree, proof.tokens);
-  leaf_cells_ = proof.leaf_cells;
-}
-
-bool FrameProof::prove(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                       const VerifyOptions& options) {
-  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  if (!proofs_.prove(at(step, lines), *prover_, options)) return false;
-  proofs_.commit();
-  return true;
-}
-
-bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                        const StepResult& result) {
-  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  return proofs_.refute(at(step, lines), result.first ? std::optional(result.first->contact) : std::nullopt, result);
-}
-
-bool FrameProof::refute(std::size_t step, std::span<const Position> x_t0, std::span<const Position> x_t1,
-                        const TooNear& near) {
-  const WorldLines lines = WorldLines::from_frames(x_t0, x_t1);
-  return proofs_.refute(at(step, lines), near);
+std::unique_ptr<StepProofs> proof_of_frames(const VerifyRequest& request, const Claim& claim, const Mesh& mesh,
+                                            const IdenticalVertices* classes, const Exclusions* exclusions) {
+  return std::make_unique<StepProofs>(
+      mesh, header_of(request, claim, classes), labels_of_frames(mesh, exclusions),
+      [&](const ProofHeader& header) { return ProofFile(request.open_proof(claim), header); });
 }
 
 }  // namespace noli

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "certify/proofs/largest_distance.h"
+
 namespace noli {
 namespace {
 
@@ -30,10 +32,11 @@ bool StepProofs::prove(const MotionStep& step, const WindowVerifier& verifier, c
   return file_.tokens([&](const auto& take) { return verifier.prove(step.lines, options, distance, take); });
 }
 
-void StepProofs::write(const MotionStep& step, const std::optional<std::string>& tree, const JoinedTokens& tokens) {
+void StepProofs::write(const MotionStep& step, const StepProof& proof) {
   begin(step, ProofFile::Kind::proof);
-  if (tree) file_.tree(*tree);
-  file_.tokens(tokens);
+  if (leaf_cells_ != proof.leaf_cells) file_.tree(encoded_tree(proof.leaf_cells));
+  leaf_cells_ = proof.leaf_cells;
+  file_.tokens(proof.tokens);
   file_.commit();
 }
 
@@ -43,6 +46,11 @@ bool StepProofs::refute(const MotionStep& step, const std::optional<FeatureConta
 
 bool StepProofs::refute(const MotionStep& step, const TooNear& near) {
   return write_witness(step, witness_of(what(step), near, paths_));
+}
+
+std::optional<LargestDistance> StepProofs::largest(const MotionStep& step, const WindowVerifier& verifier,
+                                                   const VerifyOptions& options) const {
+  return largest_distance(verifier, mesh_, beginning_of(step.lines), {header_.eta, &paths_}, options);
 }
 
 void StepProofs::begin(const MotionStep& step, ProofFile::Kind kind) {
@@ -60,6 +68,12 @@ bool StepProofs::write_witness(const MotionStep& step, const std::optional<std::
   file_.witness(*witness);
   file_.commit();
   return true;
+}
+
+std::vector<Position> beginning_of(const WorldLines& lines) {
+  std::vector<Position> x;
+  for (VertexId v = 0; v < lines.vertex_count(); ++v) x.push_back(lines.positions(v).front());
+  return x;
 }
 
 }  // namespace noli

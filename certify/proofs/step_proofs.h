@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
+#include <vector>
 
 #include <noli/findings.h>
-#include "certify/proofs/largest_distance.h"
 #include "proofs/prover/cells/labels.h"
 #include "proofs/prover/tokens/mesh_paths.h"
 #include "proofs/prover/tokens/no_proof.h"
@@ -34,12 +33,15 @@ class StepProofs {
 
   /// `mesh`: what is compared, which has to outlive this. `header`: all but labels and exclusions, which are `labels`.
   StepProofs(const Mesh& mesh, ProofHeader header, CellLabels labels, const Open& open);
+  StepProofs(const StepProofs&) = delete;
+  StepProofs& operator=(const StepProofs&) = delete;
 
-  /// Finds and writes the proof of a step in which nothing touches; it does not count before commit(). False if it was
-  /// stopped; that, and TooNear and NoProof, which it throws, leave the file as it was.
+  /// Finds and writes the proof of a step in which nothing touches; it does not count before commit(). `verifier`: of
+  /// the mesh, the same for all steps. False if it was stopped; that, and TooNear and NoProof, which it throws, leave
+  /// the file as it was.
   bool prove(const MotionStep& step, const WindowVerifier& verifier, const VerifyOptions& options);
-  /// Writes a proof that is there, below a tree, if that is another one than before, and commits it.
-  void write(const MotionStep& step, const std::optional<std::string>& tree, const JoinedTokens& tokens);
+  /// Writes a proof that is there and commits it.
+  void write(const MotionStep& step, const StepProof& proof);
   void commit() { file_.commit(); }
 
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.
@@ -47,11 +49,9 @@ class StepProofs {
   /// The same for one in which something comes nearer than the least distance.
   bool refute(const MotionStep& step, const TooNear& near);
 
-  /// The largest least distance that positions allow, if it is less than what was asked for.
-  std::optional<LargestDistance> largest(const WindowVerifier& verifier, std::span<const Position> x,
-                                         const VerifyOptions& options) const {
-    return largest_distance(verifier, mesh_, x, {header_.eta, &paths_}, options);
-  }
+  /// The largest least distance that the positions where a step begins allow, if it is less than what was asked for.
+  std::optional<LargestDistance> largest(const MotionStep& step, const WindowVerifier& verifier,
+                                         const VerifyOptions& options) const;
 
  private:
   void begin(const MotionStep& step, ProofFile::Kind kind);
@@ -63,6 +63,10 @@ class StepProofs {
   ProofHeader header_;
   MeshPaths paths_;
   ProofFile file_;
+  std::vector<std::uint32_t> leaf_cells_;  ///< of the tree that write() has written last
 };
+
+/// Where the vertices are when the lines begin.
+std::vector<Position> beginning_of(const WorldLines& lines);
 
 }  // namespace noli

@@ -73,6 +73,13 @@ StepResult as_step(WindowResult window) {
   return step;
 }
 
+/// What the run's files have of a scene.
+template <int Dim>
+RunScene run_scene(const integrator::Scene& scene, const integrator::Model<double, Dim>& model) {
+  const RecordMode record = scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames;
+  return {{Dim, record, scene.window}, model.mesh, labels_of<Dim>(model), exclusions_of<Dim>(model)};
+}
+
 template <int Dim>
 class CertifiedRun {
  public:
@@ -80,12 +87,10 @@ class CertifiedRun {
       : request_(request),
         built_(integrator::build_model<Dim>(scene)),
         names_(names_of(built_.bodies)),
-        labels_(labels_of<Dim>(built_.model)),
-        exclusions_(exclusions_of<Dim>(built_.model)),
+        scene_(run_scene<Dim>(scene, built_.model)),
         deadline_(request.deadline),
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
-        record_(scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames),
         frame_rate_(scene.frame_rate) {
     folder_.lock();
     outcome_.title = scene.title;
@@ -93,7 +98,7 @@ class CertifiedRun {
     outcome_.vertices = built_.model.x.size();
     outcome_.cells = built_.model.mesh.cell_count();
     outcome_.window_length = scene.window;
-    outcome_.not_compared = not_compared(built_.model.mesh, labels_, exclusions_, names_);
+    outcome_.not_compared = not_compared(scene_.mesh, scene_.labels, scene_.exclusions, names_);
     outcome_.windows_total = windows_of(request, scene);
     require_cells();
     require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
@@ -164,8 +169,8 @@ class CertifiedRun {
     options.dimension = Dim;
     options.threads = request_.threads;
     options.initial = false;
-    options.scripted = labels_;
-    options.exclusions = &exclusions_;
+    options.scripted = scene_.labels;
+    options.exclusions = &scene_.exclusions;
     options.stop = request_.stop;
     options.deadline = deadline_;
     return options;
@@ -209,23 +214,15 @@ class CertifiedRun {
     return run;
   }
 
-  RunScene run_scene(const integrator::Scene& scene) const {
-    RunScene result;
-    result.header.dimension = Dim;
-    result.header.record = record_;
-    result.header.window_length = scene.window;
-    result.mesh = built_.model.mesh;
-    result.labels = labels_;
-    result.exclusions = exclusions_;
-    return result;
-  }
-
   /// What the log says of the scene, for those who read the run without it.
   Json facts() const {
     Json json = {{"bodies", names_.to_json()}};
     if (built_.model.contact) json["contact"] = contact_json(*built_.model.contact);
     return json;
   }
+
+  /// World lines are recorded, and proofs written.
+  bool full() const { return scene_.header.record == RecordMode::full; }
 
   CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
 
@@ -240,12 +237,10 @@ class CertifiedRun {
     if (!go_on) {
       Simulation<double, Dim> simulation(built_.model);  // which may be stopped; then nothing is written
       folder_.make(request_.force || request_.resume);
-      writer_.emplace(folder_.path(), run_scene(scene));
+      writer_.emplace(folder_.path(), scene_);
       folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
-      if (record_ == RecordMode::full && request_.prove) {
-        proof_ =
-            std::make_unique<RunProof>(std::make_unique<FileSink>(proof_path(folder_.path()), FileSink::Open::create),
-                                       run_scene(scene), verifier_, RunProof::Claim{});
+      if (full() && request_.prove) {
+        proof_ = proof_of_run(std::make_unique<FileSink>(proof_path(folder_.path()), FileSink::Open::create), scene_);
       }
       go_on_with(std::move(simulation));
       return;
@@ -253,7 +248,7 @@ class CertifiedRun {
     const KnownWindows known = folder_.go_on(scene.document, hash_of<Dim>(built_.model));
     SeriesReader reader(folder_.path());
     reader.expect(known);
-    if (reader.scene() != run_scene(scene)) {
+    if (reader.scene() != scene_) {
       throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
     }
     Snapshot<double, Dim> last;
@@ -273,9 +268,9 @@ class CertifiedRun {
     writer_.emplace(folder_.path(), reader);
     folder_.resumed(committed(), facts());
     const bool proved = std::filesystem::exists(proof_path(folder_.path())) || last.windows == 0;
-    if (record_ == RecordMode::full && request_.prove && proved) {
+    if (full() && request_.prove && proved) {
       try {
-        proof_ = RunProof::resume(folder_.path(), last.windows, run_scene(scene), verifier_, window_options());
+        proof_ = resumed_proof_of_run(folder_.path(), last.windows, scene_, verifier_, window_options());
       } catch (const NoProof& none) {
         outcome_.no_proof = none.what();  // it ended before this already
       }
@@ -323,7 +318,7 @@ class CertifiedRun {
     const PhaseScope recording(activity_, Phase::recording);
     next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
     next.velocities = positions_of<Dim>(simulation_->snapshot().v);
-    next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, labels_);
+    next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, scene_.labels);
     next.row.halvings = retries_.halvings();
     outcome_.simulating_seconds += watch.seconds();
     return next;
@@ -351,7 +346,7 @@ class CertifiedRun {
   /// it, and no checker accepts that for the whole. False if it was stopped.
   bool prove(std::uint64_t index, const WorldLines& lines) {
     try {
-      return proof_->prove(index, lines, writer_->open_window_hash(), window_options());
+      return proof_->prove({index, lines, 0, writer_->open_window_hash()}, verifier_, window_options());
     } catch (const NoProof& none) {
       folder_.log({{"event", "no_proof"}, {"window", index}, {"why", none.what()}});
       outcome_.no_proof = fmt::format("window {}: {}", index + 1, none.what());
@@ -436,7 +431,7 @@ class CertifiedRun {
   /// With "record": "frames", those within the window.
   std::vector<RunFrame> frames_of(const Candidate<Dim>& window) const {
     std::vector<RunFrame> frames;
-    if (record_ == RecordMode::full) return frames;
+    if (full()) return frames;
     const WorldLines& lines = *window.lines;
     for_each_frame_time(window.index, lines.first_time(), lines.last_time(), frame_rate_, [&](double t) {
       frames.push_back({t, sample(lines, t)});
@@ -525,15 +520,13 @@ class CertifiedRun {
   const SimulateRequest& request_;
   integrator::BuiltScene<Dim> built_;
   BodyNames names_;
-  std::vector<std::uint8_t> labels_;
-  Exclusions exclusions_;
+  RunScene scene_;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   WindowVerifier verifier_;
   RunFolder folder_;
-  RecordMode record_;
   double frame_rate_;
   std::optional<RunWriter> writer_;
-  std::unique_ptr<RunProof> proof_;  ///< with record full
+  std::unique_ptr<StepProofs> proof_;  ///< with record full
   integrator::Activity activity_;
   std::optional<Simulation<double, Dim>> simulation_;
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
