@@ -103,32 +103,20 @@ bool read_field(std::string_view key, std::string_view value, Claim& claim) {
   return key == "to" && read_number(value, claim.to);
 }
 
-constexpr std::array<std::string_view, 13> keys = {"motion",   "dimension", "steps",  "strict",   "points",
-                                                   "distance", "ring",      "merged", "excluded", "cells",
-                                                   "empty",    "from",      "to"};
+/// A value as the line of a claim has it.
+std::string word_of(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (value.is_number_float()) return digits17(value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_array() ? pairs_text(value.get<LabelPairs>()) : value.dump();
+}
 
 /// Values of a claim in the order of its line.
 std::vector<std::pair<std::string, std::string>> values(const Claim& claim) {
-  const auto flag = [](bool b) { return std::string(b ? "1" : "0"); };
-  return {{"motion", claim.motion},
-          {"dimension", std::to_string(claim.dimension)},
-          {"steps", std::to_string(claim.steps)},
-          {"strict", flag(claim.strict)},
-          {"points", flag(claim.points)},
-          {"distance", digits17(claim.distance)},
-          {"ring", std::to_string(claim.ring)},
-          {"merged", std::to_string(claim.merged)},
-          {"excluded", pairs_text(claim.excluded)},
-          {"cells", claim.cells},
-          {"empty", flag(claim.empty)},
-          {"from", digits17(claim.from)},
-          {"to", digits17(claim.to)}};
-}
-
-Json pairs_json(const LabelPairs& pairs) {
-  Json list = Json::array();
-  for (const auto& [a, b] : pairs) list.push_back({a, b});
-  return list;
+  std::vector<std::pair<std::string, std::string>> words;
+  const Json members = claim_json(claim);  // items() only refers to it
+  for (const auto& [key, value] : members.items()) words.emplace_back(key, word_of(value));
+  return words;
 }
 
 /// The members of a claim file, which are read one by one.
@@ -162,30 +150,19 @@ class ClaimFile {
 
   /// The checker says which numbers are possible.
   std::string word(const std::string& key, const Json& value) const {
-    const bool count = value.is_number_unsigned();
-    if (key == "strict" || key == "points" || key == "empty") {
-      if (!value.is_boolean()) fail("/" + key, "expected true or false");
-      return value.get<bool>() ? "1" : "0";
-    }
-    if (key == "dimension" || key == "steps" || key == "ring" || key == "merged") {
-      if (!count) fail("/" + key, "expected a whole number");
-      return std::to_string(value.get<std::uint64_t>());
-    }
-    if (key == "distance") {
-      if (!value.is_number()) fail("/" + key, "expected a number");
-      return digits17(value.get<double>());
-    }
-    if (key == "motion" || key == "cells") {
-      if (!value.is_string()) fail("/" + key, "expected a string");
-      return value.get<std::string>();
-    }
-    if (key == "excluded") return pairs(value);
-    fail("/" + key, "unknown member; `noli schema claim` lists those of a claim");
+    const Json members = claim_file({});
+    if (!members.contains(key)) fail("/" + key, "unknown member; `noli schema claim` lists those of a claim");
+    const Json& like = members[key];
+    if (like.is_boolean() && !value.is_boolean()) fail("/" + key, "expected true or false");
+    if (like.is_number_integer() && !value.is_number_unsigned()) fail("/" + key, "expected a whole number");
+    if (like.is_number_float() && !value.is_number()) fail("/" + key, "expected a number");
+    if (like.is_string() && !value.is_string()) fail("/" + key, "expected a string");
+    if (like.is_array()) require_pairs(value);
+    return word_of(like.is_number_float() ? Json(value.get<double>()) : value);
   }
 
-  std::string pairs(const Json& list) const {
+  void require_pairs(const Json& list) const {
     if (!list.is_array()) fail("/excluded", "expected an array of pairs of labels");
-    LabelPairs pairs;
     for (const Json& pair : list) {
       const bool two =
           pair.is_array() && pair.size() == 2 && pair[0].is_number_unsigned() && pair[1].is_number_unsigned();
@@ -193,9 +170,7 @@ class ClaimFile {
           pair[1].get<std::uint64_t>() > 0xffffffff) {
         fail("/excluded", "expected pairs [a, b] of labels, a <= b");
       }
-      pairs.insert({pair[0].get<std::uint32_t>(), pair[1].get<std::uint32_t>()});
     }
-    return pairs_text(pairs);
   }
 
   std::string file_;
@@ -221,7 +196,7 @@ std::optional<Claim> claim_of_words(const std::string& words) {
   if (!line.starts_with("claim ")) return std::nullopt;
   line.remove_prefix(6);
   Claim claim;
-  for (const std::string_view key : keys) {
+  for (const auto& [key, plain] : values(claim)) {
     const std::string_view field = line.substr(0, line.find(' '));
     const std::size_t equal = std::min(field.find('='), field.size());
     if (field.substr(0, equal) != key || equal == field.size()) return std::nullopt;
@@ -288,7 +263,7 @@ std::vector<std::string> weakenings(const Claim& claim) {
 Json claim_json(const Claim& claim) {
   return {{"motion", claim.motion}, {"dimension", claim.dimension}, {"steps", claim.steps},
           {"strict", claim.strict}, {"points", claim.points},       {"distance", claim.distance},
-          {"ring", claim.ring},     {"merged", claim.merged},       {"excluded", pairs_json(claim.excluded)},
+          {"ring", claim.ring},     {"merged", claim.merged},       {"excluded", claim.excluded},
           {"cells", claim.cells},   {"empty", claim.empty},         {"from", claim.from},
           {"to", claim.to}};
 }
