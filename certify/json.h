@@ -5,6 +5,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include <noli/contact.h>
@@ -23,6 +24,12 @@ std::string digits4(double number);
 /// The document with an indentation of two and a newline at its end. Bytes that are no UTF-8 (in names of files) are
 /// replaced. Numbers that are not finite become null.
 std::string to_text(const Json& document);
+
+/// null for nothing.
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
 
 /// {"comparison": n, ..., "gmp": n}
 Json stages_json(const StageCounters& stages);

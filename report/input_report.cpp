@@ -20,7 +20,7 @@ Json input_json(const FrameFacts& facts) {
   }
   json["numbers"] = facts.looked_at ? Json(facts.numbers) : Json(nullptr);
   json["vertices"] = facts.looked_at ? Json(facts.vertices) : Json(nullptr);
-  json["cells"] = facts.cells ? Json(*facts.cells) : Json(nullptr);
+  json["cells"] = or_null(facts.cells);
   return json;
 }
 

@@ -62,11 +62,7 @@ Json kinds_json(const RunExplanation& e, double time) {
   Json json = Json::object();
   for (std::size_t k = 0; k < e.events.size(); ++k) {
     const std::string kind(name(static_cast<ForceKind>(k)));
-    if (time == 0) {
-      json[kind] = e.events[k];
-    } else {
-      json[kind] = rate(static_cast<double>(e.events[k]), time);
-    }
+    json[kind] = time == 0 ? Json(e.events[k]) : Json(rate(static_cast<double>(e.events[k]), time));
   }
   return json;
 }
@@ -183,12 +179,11 @@ Json to_json(const RunExplanation& e) {
   json["step_halvings"] = e.halvings;
   json["roll_backs"] = e.log.roll_backs;
   json["energy"] = energy_json(e.energy);
-  const auto bound = e.bound();
   json["timing"] = {{"phases", phases_json(e.log.phases)},
                     {"verifying_seconds", e.log.verifying_seconds},
                     {"certificates", certificates_json(e.log.certificates)},
                     {"deepest_active", e.log.deepest},
-                    {"bound", bound ? Json(*bound) : Json(nullptr)},
+                    {"bound", or_null(e.bound())},
                     {"end", e.log.end()},
                     {"parts", e.log.parts},
                     {"parts_ended", e.log.parts_ended},

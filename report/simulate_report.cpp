@@ -214,7 +214,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["energy"] = {{"watched", outcome.energy_watched},
                     {"astray", outcome.energy_astray ? energy_json(*outcome.energy_astray) : Json(nullptr)}};
   json["roll_backs"] = outcome.roll_backs;
-  json["proof"] = {{"whole", outcome.proved}, {"ends", outcome.no_proof ? Json(*outcome.no_proof) : Json(nullptr)}};
+  json["proof"] = {{"whole", outcome.proved}, {"ends", or_null(outcome.no_proof)}};
   json["certificate_defects"] = outcome.certificate_defects;
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;

@@ -138,7 +138,6 @@ Json near_json(const VerifyOutcome& outcome) {
 }
 
 Json proof_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
-  const auto or_null = [](const std::optional<std::string>& text) { return text ? Json(*text) : Json(nullptr); };
   return {{"file", request.proof ? Json(request.proof->string()) : Json(nullptr)},
           {"witnesses", outcome.witnesses},
           {"checked", or_null(outcome.checked)},
@@ -154,10 +153,10 @@ Json asked_json(const Claim& claim) {
 }
 
 Json run_json(const RunEnding& ending) {
-  return {{"end", ending.why ? Json(*ending.why) : Json(nullptr)},
+  return {{"end", or_null(ending.why)},
           {"time", ending.time},
-          {"windows_total", ending.windows_total ? Json(*ending.windows_total) : Json(nullptr)},
-          {"duration", ending.duration ? Json(*ending.duration) : Json(nullptr)}};
+          {"windows_total", or_null(ending.windows_total)},
+          {"duration", or_null(ending.duration)}};
 }
 
 /// Why a run has not come to the end of its scene.
