@@ -30,7 +30,8 @@ class Plots {
   }
 
   void begin(const std::string& title, const std::string& y, bool log) {
-    plot_ = {{"title", title}, {"x", "time [s]"}, {"y", y}, {"log", log}, {"times", times_}, {"series", Json::array()}};
+    plots_.push_back(
+        {{"title", title}, {"x", "time [s]"}, {"y", y}, {"log", log}, {"times", times_}, {"series", Json::array()}});
   }
   /// A series of which no value is there, or not 0, is left out.
   void add(const std::string& name, const Value& value) {
@@ -41,17 +42,18 @@ class Plots {
       any = any || (number && *number != 0);
       values.push_back(number && std::isfinite(*number) ? Json(*number) : Json(nullptr));
     }
-    if (any) plot_["series"].push_back({{"name", name}, {"values", values}});
+    if (any) plots_.back()["series"].push_back({{"name", name}, {"values", values}});
   }
-  void end() {
-    if (!plot_["series"].empty()) plots_.push_back(plot_);
+  /// Those that have a series.
+  Json take() {
+    std::erase_if(plots_, [](const Json& plot) { return plot["series"].empty(); });
+    return std::move(plots_);
   }
-  Json take() { return std::move(plots_); }
 
  private:
   std::vector<Rows> points_;
   std::vector<double> times_;
-  Json plot_, plots_ = Json::array();
+  std::vector<Json> plots_;
 };
 
 /// Of the last row.
@@ -90,33 +92,28 @@ void add_energy(Plots& plots) {
     plots.add(std::string(name(static_cast<integrator::ForceKind>(k))),
               last([k](const SeriesRow& r) { return r.potential[k]; }));
   }
-  plots.end();
 }
 
 void add_momentum(Plots& plots) {
   constexpr std::array axes = {"x", "y", "z"};
   plots.begin("Momentum", "momentum [N s]", false);
   for (std::size_t k = 0; k < 3; ++k) plots.add(axes[k], last([k](const SeriesRow& r) { return r.momentum[k]; }));
-  plots.end();
 }
 
 void add_gap(Plots& plots) {
   plots.begin("Nearest at an impulse of contact", "distance [m]", true);
   plots.add("distance", least([](const SeriesRow& r) { return r.nearest.layer > 0 ? r.nearest.distance : 0; }));
-  plots.end();
   plots.begin("Deepest layer of contact", "layer", false);
   plots.add("layer", [](Rows rows) {
     double deepest = 0;
     for (const SeriesRow& row : rows) deepest = std::max(deepest, static_cast<double>(row.deepest.layer));
     return std::optional(deepest);
   });
-  plots.end();
 }
 
 void add_steps(Plots& plots) {
   plots.begin("Smallest step of a free vertex", "step [s]", true);
   plots.add("step", least([](const SeriesRow& r) { return r.steps.smallest; }));
-  plots.end();
 }
 
 void add_events(Plots& plots) {
@@ -125,7 +122,6 @@ void add_events(Plots& plots) {
     plots.add(std::string(name(static_cast<integrator::ForceKind>(k))),
               sum([k](const SeriesRow& r) { return static_cast<double>(r.events[k]); }));
   }
-  plots.end();
 }
 
 }  // namespace
