@@ -13,19 +13,12 @@ using integrator::ForceKind;
 class Table {
  public:
   void name(const std::string& column) { out_ += (out_.empty() ? "" : ",") + column; }
-  void begin_line() {
-    out_ += '\n';
-    first_ = true;
-  }
-  void number(double x) {
-    out_ += (first_ ? "" : ",") + digits17(x);
-    first_ = false;
-  }
+  void begin_line() { out_ += '\n'; }
+  void number(double x) { out_ += (out_.back() == '\n' ? "" : ",") + digits17(x); }
   std::string finish() { return std::move(out_) + '\n'; }
 
  private:
   std::string out_;
-  bool first_ = true;
 };
 
 std::string of(const char* what, std::size_t kind) {

@@ -17,8 +17,12 @@ using Point = Svg::Point;
 constexpr double page_width = 900, field_left = 96, field_right = 700;
 constexpr std::size_t most_columns = 600;  ///< about one for each pixel
 
-std::string titled(const FigureData& data, const std::string& what) {
-  return data.title.empty() ? what : data.title + ": " + what;
+/// A page with its title.
+Svg begin_page(const FigureData& data, const std::string& what, double height) {
+  const std::string title = data.title.empty() ? what : data.title + ": " + what;
+  Svg svg(page_width, height, title);
+  svg.text({field_left, 30}, title);
+  return svg;
 }
 
 Scale time_scale(const FigureData& data) {
@@ -108,9 +112,7 @@ void colour_bar(Svg& svg, const Shown& shown, const Field& field) {
 std::string steps(const FigureData& data) {
   const std::vector<Column> columns = columns_of(data);
   const bool free = std::any_of(columns.begin(), columns.end(), [](const Column& c) { return !c.steps.bins.empty(); });
-  const std::string title = titled(data, "steps of vertices");
-  Svg svg(page_width, 470, title);
-  svg.text({field_left, 30}, title);
+  Svg svg = begin_page(data, "steps of vertices", 470);
   const Field field{time_scale(data), {0, 100, 400, 50}};
   if (free) {
     const Shown shown(columns);
@@ -206,18 +208,14 @@ std::vector<Curve> energies(const FigureData& data) {
 }
 
 std::string energy(const FigureData& data) {
-  const std::string title = titled(data, "energy");
-  Svg svg(page_width, 470, title);
-  svg.text({field_left, 30}, title);
+  Svg svg = begin_page(data, "energy", 470);
   const std::vector<Curve> curves = energies(data);
   draw(svg, data, curves, {time_scale(data), value_scale(curves, 400, 50)}, "energy [J]");
   return svg.finish();
 }
 
 std::string momentum(const FigureData& data) {
-  const std::string title = titled(data, "momentum");
-  Svg svg(page_width, 790, title);
-  svg.text({field_left, 30}, title);
+  Svg svg = begin_page(data, "momentum", 790);
   std::vector<Curve> linear, angular;
   static constexpr const char* axes[] = {"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
