@@ -46,16 +46,16 @@ class Run {
       add(*window);
       stop_if_interrupted(path_);
     }
-    const LogFacts& log = log_;
     report.page["title"] = title_of(path_);
     // Without a window nothing was decided, however the run ended.
-    take_word(rows_.empty() && log.last_end == "done" ? "undecided" : word_of_end(log.last_end, log.going_on), report);
-    add_lines(log, report.page["verdict"]["lines"]);
-    report.page["facts"] = facts(log);
+    const bool nothing = rows_.empty() && log_.last_end == "done";
+    take_word(nothing ? "undecided" : word_of_end(log_.last_end, log_.going_on), report);
+    add_lines(report.page["verdict"]["lines"]);
+    report.page["facts"] = facts();
     if (rows_.empty()) return;  // nothing moves
     report.page["plots"] = report_plots(rows_);
-    PackedFrames frames = packer_.pack();
-    put_scene(scene(log), std::move(frames), report);
+    PackedFrames frames = packer_.pack();  // before the scene, which says how many it left
+    put_scene(scene(), std::move(frames), report);
   }
 
  private:
@@ -79,10 +79,10 @@ class Run {
     });
   }
 
-  void add_lines(const LogFacts& log, Json& lines) const {
-    lines.push_back(rows_.empty() ? "No window was committed: nothing is claimed." : claim(log));
-    if (const std::string end = end_line(log); !end.empty()) lines.push_back(end);
-    if (log.going_on) lines.push_back("The run has not ended, or was killed.");
+  void add_lines(Json& lines) const {
+    lines.push_back(rows_.empty() ? "No window was committed: nothing is claimed." : claim());
+    if (const std::string end = end_line(); !end.empty()) lines.push_back(end);
+    if (log_.going_on) lines.push_back("The run has not ended, or was killed.");
     if (reader_.open_window()) lines.push_back("A window that was never committed follows; it is left out.");
     if (rows_.empty()) return;
     lines.push_back(full()
@@ -91,32 +91,29 @@ class Run {
                           "decides it again.");
   }
 
-  std::string claim(const LogFacts& log) const {
+  std::string claim() const {
     const std::string where =
         fmt::format("in the {} windows of this run, from {} s to {} s", rows_.size(), begin_, ends_.back());
-    return nothing_touches(left_out(log), where) +
-           " Each window was decided in exact arithmetic before it was written.";
+    const NotCompared left_out =
+        not_compared(reader_.mesh(), reader_.scene().labels, reader_.scene().exclusions, log_.names);
+    return nothing_touches(left_out, where) + " Each window was decided in exact arithmetic before it was written.";
   }
 
   /// Why the window after the last is not in the run, as its log has it.
-  std::string end_line(const LogFacts& log) const {
-    const std::string what = what_ended(log);
+  std::string end_line() const {
+    const std::string what = what_ended(log_);
     const std::string named = what.empty() ? "" : ": " + on_one_line(what);
     const std::string in_it = rows_.empty() ? "In the first window " : "In the window after them ";
-    if (log.last_end == "contact") return in_it + "something touches, so it is not in the run" + named + ".";
-    if (log.last_end == "too_near") {
+    if (log_.last_end == "contact") return in_it + "something touches, so it is not in the run" + named + ".";
+    if (log_.last_end == "too_near") {
       return in_it + "a pair comes nearer than the scene's layers of contact allow" + named + ".";
     }
-    if (log.last_end == "unstable") return "The energy goes astray" + named + ". Steps are too long, or kick in time.";
-    if (log.last_end != "not_finite") return "";
+    if (log_.last_end == "unstable") return "The energy goes astray" + named + ". Steps are too long, or kick in time.";
+    if (log_.last_end != "not_finite") return "";
     return in_it + "numbers run out: a velocity or position is not finite. It is not in the run.";
   }
 
-  NotCompared left_out(const LogFacts& log) const {
-    return not_compared(reader_.mesh(), reader_.scene().labels, reader_.scene().exclusions, log.names);
-  }
-
-  Json facts(const LogFacts& log) const {
+  Json facts() const {
     std::uint64_t events = 0, breakpoints = 0;
     for (const SeriesRow& row : rows_) {
       events += row.events_in_all();
@@ -130,10 +127,10 @@ class Run {
     add("Windows", rows_.empty() ? "none" : fmt::format("{}, up to {} s", rows_.size(), ends_.back()));
     add("Events", fmt::format("{}", events));
     add("Breakpoints", fmt::format("{}", breakpoints));
-    add("Ended", log.end().empty() ? "its log does not say how" : log.end());
-    if (!log.roll_backs.empty()) add("Windows that were run again", fmt::format("{}", log.roll_backs.size()));
+    add("Ended", log_.end().empty() ? "its log does not say how" : log_.end());
+    if (!log_.roll_backs.empty()) add("Windows that were run again", fmt::format("{}", log_.roll_backs.size()));
     if (const ActingLayer nearest = nearest_layer(); nearest.layer > 0) {
-      const std::string pair = log.names.pair(nearest.pair, nearest.vertices, "and");
+      const std::string pair = log_.names.pair(nearest.pair, nearest.vertices, "and");
       add("Nearest at an impulse",
           fmt::format("{}: {} m, at {} s", pair, digits17(nearest.distance), digits17(nearest.time)));
     }
@@ -149,18 +146,18 @@ class Run {
     return nearest;
   }
 
-  ReportScene scene(const LogFacts& log) const {
+  ReportScene scene() const {
     std::string note = full() ? fmt::format("Frames are samples of the motion, {} a second at most.", limits_.fps)
                               : "Frames are those that the run recorded.";
     if (packer_.stride() > 1) note += fmt::format(" One of {} is shown.", packer_.stride());
     note += " Straight lines between them are not the motion that was verified; positions are rounded for the picture.";
-    return {static_cast<int>(reader_.header().dimension), reader_.mesh(), parts(log), "s", begin_, ends_, note};
+    return {static_cast<int>(reader_.header().dimension), reader_.mesh(), parts(), "s", begin_, ends_, note};
   }
 
-  std::vector<ReportPart> parts(const LogFacts& log) const {
+  std::vector<ReportPart> parts() const {
     std::vector<ReportPart> parts;
     const std::vector<std::uint8_t>& labels = reader_.scene().labels;
-    for (const auto& body : log.names.bodies()) {
+    for (const auto& body : log_.names.bodies()) {
       if (body.first > labels.size() || body.vertices > labels.size() - body.first) continue;  // no body of this mesh
       const auto begin = labels.begin() + static_cast<std::ptrdiff_t>(body.first);
       const bool fixed = std::all_of(begin, begin + static_cast<std::ptrdiff_t>(body.vertices),
