@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -18,6 +17,7 @@
 #include "app/output.h"
 #include "app/process.h"
 #include "app/progress.h"
+#include "certify/process/child.h"
 #include "certify/process/scratch_folder.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/claim.h"
@@ -238,24 +238,20 @@ void prepare_to_reproduce(VerifyRequest& request) {
 class MotionFile {
  public:
   explicit MotionFile(const VerifyRequest& request) {
-    if (request.run) path_ = trajectory_path(request.frames[0]);
-    if (request.run) descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (!request.run) return;
+    path_ = trajectory_path(request.frames[0]);
+    file_.take(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   }
-  ~MotionFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  MotionFile(const MotionFile&) = delete;
-  MotionFile& operator=(const MotionFile&) = delete;
 
   bool was_replaced() const {
     struct stat opened = {}, named = {};
-    if (descriptor_ < 0 || ::fstat(descriptor_, &opened) != 0) return false;
+    if (file_.get() < 0 || ::fstat(file_.get(), &opened) != 0) return false;
     return ::stat(path_.c_str(), &named) != 0 || opened.st_dev != named.st_dev || opened.st_ino != named.st_ino;
   }
 
  private:
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  Descriptor file_;
 };
 
 VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
