@@ -118,7 +118,7 @@ Json check_json(const CheckerVersion& checker, const fs::path& proof, const std:
                 const CheckerVerdict& verdict, const char* word) {
   const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
   return {{"verdict", word},
-          {"checker", {{"name", checker.name}, {"version", checker.version}, {"commit", checker.commit}}},
+          {"checker", checker_json(checker)},
           {"proof", proof.string()},
           {"asked", asked_json(asked)},
           {"claim", claim ? claim_json(*claim) : Json(nullptr)},

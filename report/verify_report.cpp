@@ -506,11 +506,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   }
   if (request.open_proof) json["proof"] = proof_json(request, outcome);
   json["claim"] = asked_json(outcome.claim);
-  json["checker"] = nullptr;
-  if (outcome.checker) {
-    json["checker"] = {
-        {"name", outcome.checker->name}, {"version", outcome.checker->version}, {"commit", outcome.checker->commit}};
-  }
+  json["checker"] = outcome.checker ? checker_json(*outcome.checker) : Json();
   json["timing"] = {{"seconds", outcome.seconds},
                     {"read_seconds", outcome.read_seconds},
                     {"reproduce_seconds", outcome.reproduce_seconds},

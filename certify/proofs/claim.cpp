@@ -268,6 +268,10 @@ Json claim_json(const Claim& claim) {
           {"to", claim.to}};
 }
 
+Json checker_json(const CheckerVersion& checker) {
+  return {{"name", checker.name}, {"version", checker.version}, {"commit", checker.commit}};
+}
+
 Json claim_file(const Claim& claim) {
   Json json = {{"schema", schema}, {"version", schema_version}};
   const Json fields = claim_json(claim);  // items() only refers to it

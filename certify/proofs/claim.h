@@ -19,6 +19,9 @@ void set_cells(Claim& claim, const Mesh& mesh, std::span<const std::uint32_t> la
 
 Json claim_json(const Claim& claim);
 
+/// {"name": text, "version": text, "commit": text}
+Json checker_json(const CheckerVersion& checker);
+
 /// The file CLAIM.json: schema "noli-claim", version 1.
 Json claim_file(const Claim& claim);
 
