@@ -17,6 +17,7 @@
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_info.h"
 #include "trajectory/formats/file_info.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/formats/query_csv.h"
 
 namespace noli::app {
@@ -37,13 +38,6 @@ struct InfoArguments {
   std::string time_limit;
   OutputOptions results;
 };
-
-bool is_csv(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return extension == ".csv";
-}
 
 Json query_info(const std::filesystem::path& path) {
   const std::optional<FeaturePair> pair = query_kind(path);
@@ -87,7 +81,7 @@ Json mesh_info(const std::filesystem::path& path) {
 Json info_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return run_info(path);
   if (is_proof(path)) return proof_info(path);
-  return is_csv(path) ? query_info(path) : mesh_info(path);
+  return extension_of(path) == ".csv" ? query_info(path) : mesh_info(path);
 }
 
 std::string as_text(const Json& value) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -62,17 +61,10 @@ struct Inputs {
   std::vector<fs::path> frames, results, pictures;
 };
 
-std::string extension(const fs::path& path) {
-  std::string text = path.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return text;
-}
-
 Inputs sorted(const std::vector<fs::path>& paths) {
   Inputs inputs;
   for (const fs::path& path : paths) {
-    const std::string end = extension(path);
+    const std::string end = extension_of(path);
     if (fs::is_directory(path)) {
       if (inputs.run) throw UsageError(path.string() + ": expected one run at most");
       inputs.run = path;

@@ -35,14 +35,6 @@ void require_same_cells(std::string_view what, const std::vector<Cell>& expected
 
 // --- Formats ---------------------------------------------------------------------------------------------------------
 
-/// In lower case.
-std::string extension_of(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  std::ranges::transform(text, text.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 constexpr std::string_view arrays =
     "write each frame as PLY from Python, which keeps float64: "
     "meshio.Mesh(points, [(\"triangle\", faces)]).write(\"frame_0.ply\")";
@@ -132,6 +124,13 @@ std::string conversion_advice(const std::filesystem::path& path) {
   if (found->text == "meshio") return fmt::format("convert it: meshio convert {} {}.ply", name, stem);
   if (found->text == "ParaView") return fmt::format("open it in ParaView and save the data as {}.ply", stem);
   return fmt::format("unpack it: {} {}", found->text, name);
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
+  std::ranges::transform(text, text.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
 }
 
 MeshFormat mesh_format(const std::filesystem::path& path) {

@@ -83,6 +83,9 @@ class FrameSequence {
   std::vector<Position> x_t0_, x_t1_;
 };
 
+/// ".ply": in lower case.
+std::string extension_of(const std::filesystem::path& path);
+
 enum class MeshFormat { ply, obj };
 
 /// By the extension, in any case. Throws InputError for all but .ply and .obj, with conversion_advice().
