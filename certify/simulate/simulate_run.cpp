@@ -88,7 +88,6 @@ class CertifiedRun {
         built_(integrator::build_model<Dim>(scene)),
         names_(names_of(built_.bodies)),
         scene_(run_scene<Dim>(scene, built_.model)),
-        deadline_(request.deadline),
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
         frame_rate_(scene.frame_rate) {
@@ -153,7 +152,7 @@ class CertifiedRun {
   bool stopped() {
     const bool asked = request_.stop != nullptr && request_.stop->load(std::memory_order_relaxed);
     if (asked || stop_asked() == StopReason::interrupted) outcome_.end = RunEnd::interrupted;
-    const bool late = deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+    const bool late = request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline;
     if (late || stop_asked() == StopReason::out_of_time) outcome_.end = RunEnd::out_of_time;
     return outcome_.end != RunEnd::done;
   }
@@ -172,7 +171,7 @@ class CertifiedRun {
     options.scripted = scene_.labels;
     options.exclusions = &scene_.exclusions;
     options.stop = request_.stop;
-    options.deadline = deadline_;
+    options.deadline = request_.deadline;
     return options;
   }
 
@@ -521,7 +520,6 @@ class CertifiedRun {
   integrator::BuiltScene<Dim> built_;
   BodyNames names_;
   RunScene scene_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
   WindowVerifier verifier_;
   RunFolder folder_;
   double frame_rate_;
