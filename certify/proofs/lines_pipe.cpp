@@ -81,8 +81,11 @@ void LinesPipe::close() {
 
 bool LinesPipe::given_up() const {
   const std::lock_guard lock(mutex_);
-  if (abandoned_ || stop_asked()) return true;
-  return deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+  return abandoned_ || is_stopped();
+}
+
+bool LinesPipe::is_stopped() const {
+  return stop_asked() || (deadline_ && std::chrono::steady_clock::now() >= *deadline_);
 }
 
 /// Whether somebody has waited too long for the checker to read. Before anybody waits it may not have been started.
@@ -130,7 +133,7 @@ void LinesPipe::work() {
     if (waiting_.empty()) changed_.notify_all();
   }
   over_ = true;
-  unopened_ = !end && !abandoned_ && !stop_asked() && !(deadline_ && std::chrono::steady_clock::now() >= *deadline_);
+  unopened_ = !end && !abandoned_ && !is_stopped();
   waiting_.clear();
   lock.unlock();
   if (end) ::close(*end);

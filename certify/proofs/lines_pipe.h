@@ -48,6 +48,7 @@ class LinesPipe {
   void put(std::string_view bytes);
   void work();
   bool given_up() const;
+  bool is_stopped() const;
   bool waited_too_long() const;
   std::optional<int> open() const;
   bool write(int end, std::string_view bytes) const;
