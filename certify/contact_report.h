@@ -3,7 +3,6 @@
 // Contacts in words and as JSON, the same in every command.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <noli/findings.h>
 #include <noli/mesh.h>

@@ -3,8 +3,6 @@
 // The words of `noli simulate`.
 #pragma once
 
-#include <string>
-
 #include <noli/simulate.h>
 #include "certify/json.h"
 #include "report/answer.h"

@@ -3,8 +3,6 @@
 // The words of `noli verify`: its JSON, and its answer for people and machines.
 #pragma once
 
-#include <string>
-
 #include <noli/verify.h>
 #include "certify/json.h"
 #include "report/answer.h"

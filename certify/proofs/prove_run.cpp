@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include <noli/errors.h>
 #include "trajectory/stop.h"
 
 namespace noli {

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
 
 #include <noli/errors.h>
 #include "certify/runs/run_folder.h"
