@@ -145,7 +145,7 @@ class Export {
     switch (pattern_.format) {
       case FrameFormat::ply: return write_ply(path, frame, PlyEncoding::binary_little_endian);
       case FrameFormat::obj: return write_obj(path, frame);
-      case FrameFormat::vtu: return write_vtu(path, frame, VtuEncoding::base64);
+      case FrameFormat::vtu: return write_vtu(path, frame);
     }
   }
 

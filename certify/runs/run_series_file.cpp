@@ -13,6 +13,7 @@
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/runs/series_file.h"
+#include "trajectory/blocks/bytes.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/sample.h"
 
@@ -207,7 +208,7 @@ class Series {
 
   void write_frame(double time, const std::vector<Position>& positions) {
     column("frames/time").append(time);
-    column("frames/positions").append(std::span<const double>(positions.front().data(), 3 * positions.size()));
+    column("frames/positions").append(coordinates(positions));
   }
 
   const std::filesystem::path& run_;

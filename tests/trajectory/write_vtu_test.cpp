@@ -20,32 +20,30 @@ Frame sample_frame() {
   return frame;
 }
 
-TEST(WriteVtu, Ascii) {
-  EXPECT_EQ(format_vtu(sample_frame(), VtuEncoding::ascii), R"(<?xml version="1.0"?>
+TEST(WriteVtu, WholeFile) {
+  const std::string points =
+      "YAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADwPwAAAAAAAAAAAAAAAAAA"
+      "AAAAAAAAAAAAAJqZmZmZmbk/AAAAAAAAAAAAAAAAAAAUQAAAAAAAABhAAAAAAAAAHEA=";
+  const std::string connectivity = "MAAAAAAAAAAAAAAAAAAAAAEAAAAAAAAAAgAAAAAAAAACAAAAAAAAAAMAAAAAAAAAAwAAAAAAAAA=";
+  const std::string offsets = "GAAAAAAAAAADAAAAAAAAAAUAAAAAAAAABgAAAAAAAAA=", types = "AwAAAAAAAAAFAwE=";
+  EXPECT_EQ(format_vtu(sample_frame()), R"(<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
   <UnstructuredGrid>
     <Piece NumberOfPoints="4" NumberOfCells="3">
       <Points>
-        <DataArray type="Float64" Name="Points" NumberOfComponents="3" format="ascii">
-0 0 0
-1 0 0
-0 0.10000000000000001 0
-5 6 7
-        </DataArray>
+        <DataArray type="Float64" Name="Points" NumberOfComponents="3" format="appended" offset="0"/>
       </Points>
       <Cells>
-        <DataArray type="Int64" Name="connectivity" format="ascii">
-0 1 2 2 3 3
-        </DataArray>
-        <DataArray type="Int64" Name="offsets" format="ascii">
-3 5 6
-        </DataArray>
-        <DataArray type="UInt8" Name="types" format="ascii">
-5 3 1
-        </DataArray>
+        <DataArray type="Int64" Name="connectivity" format="appended" offset="140"/>
+        <DataArray type="Int64" Name="offsets" format="appended" offset="216"/>
+        <DataArray type="UInt8" Name="types" format="appended" offset="260"/>
       </Cells>
     </Piece>
   </UnstructuredGrid>
+  <AppendedData encoding="base64">
+_)" + points + connectivity + offsets + types +
+                                            R"(
+  </AppendedData>
 </VTKFile>
 )");
 }
@@ -88,7 +86,7 @@ std::vector<T> numbers(const std::string& bytes) {
 }
 
 TEST(WriteVtu, AppendedArraysAreWhereTheFileSays) {
-  const std::string file = format_vtu(sample_frame(), VtuEncoding::base64);
+  const std::string file = format_vtu(sample_frame());
   const auto array = [&](const char* name) { return appended_array(file, offset_of(file, name)); };
   EXPECT_EQ(numbers<double>(array("Points")), (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 0.1, 0, 5, 6, 7}));
   EXPECT_EQ(numbers<std::int64_t>(array("connectivity")), (std::vector<std::int64_t>{0, 1, 2, 2, 3, 3}));
@@ -102,15 +100,13 @@ TEST(WriteVtu, EveryLengthOfBase64) {
     frame.mesh.vertex_count = 1;
     frame.mesh.points.assign(points, 0);
     frame.positions.resize(1);
-    const std::string file = format_vtu(frame, VtuEncoding::base64);
+    const std::string file = format_vtu(frame);
     EXPECT_EQ(appended_array(file, offset_of(file, "types")), std::string(points, '\1'));
   }
 }
 
 TEST(WriteVtu, EmptyMesh) {
-  for (const VtuEncoding encoding : {VtuEncoding::ascii, VtuEncoding::base64}) {
-    EXPECT_NE(format_vtu({}, encoding).find("NumberOfPoints=\"0\" NumberOfCells=\"0\""), std::string::npos);
-  }
+  EXPECT_NE(format_vtu({}).find("NumberOfPoints=\"0\" NumberOfCells=\"0\""), std::string::npos);
 }
 
 TEST(WritePvd, NamesFilesAndTimes) {
@@ -127,11 +123,11 @@ TEST(WritePvd, NamesFilesAndTimes) {
 
 TEST(WriteVtu, Files) {
   const test::TemporaryFolder folder;
-  write_vtu(folder / "a.vtu", sample_frame(), VtuEncoding::base64);
-  EXPECT_EQ(test::read_text(folder / "a.vtu"), format_vtu(sample_frame(), VtuEncoding::base64));
+  write_vtu(folder / "a.vtu", sample_frame());
+  EXPECT_EQ(test::read_text(folder / "a.vtu"), format_vtu(sample_frame()));
   write_pvd(folder / "a.pvd", {});
   EXPECT_EQ(test::read_text(folder / "a.pvd"), format_pvd({}));
-  EXPECT_THROW(write_vtu(folder / "no/a.vtu", sample_frame(), VtuEncoding::ascii), std::system_error);
+  EXPECT_THROW(write_vtu(folder / "no/a.vtu", sample_frame()), std::system_error);
 }
 
 }  // namespace

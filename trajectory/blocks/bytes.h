@@ -13,6 +13,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include <noli/mesh.h>
+
 namespace noli {
 
 /// An unsigned integer or double.
@@ -59,6 +61,11 @@ void get_all(const char* bytes, std::span<T> values) {
   } else {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<T>(bytes + i * sizeof(T));
   }
+}
+
+/// The coordinates of all positions, one after another.
+inline std::span<const double> coordinates(std::span<const Position> positions) {
+  return {positions.empty() ? nullptr : positions.front().data(), 3 * positions.size()};
 }
 
 }  // namespace noli

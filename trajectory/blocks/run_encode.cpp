@@ -6,10 +6,6 @@
 namespace noli::run_block {
 namespace {
 
-std::span<const double> coordinates(std::span<const Position> positions) {
-  return {positions.empty() ? nullptr : positions.front().data(), 3 * positions.size()};
-}
-
 void put_positions(std::string& out, std::uint32_t dimension, std::span<const Position> positions) {
   if (dimension == 3) return put_all(out, coordinates(positions));
   for (const Position& x : positions) put_all(out, std::span<const double>(x).first(2));

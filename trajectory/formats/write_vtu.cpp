@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -37,67 +36,37 @@ VtkCells vtk_cells(const Mesh& mesh) {
   return cells;
 }
 
-/// Numbers between the tags of their array.
-class AsciiArrays {
- public:
-  template <class T>
-  std::string element(std::string_view attributes, std::span<const T> values, std::size_t per_line) {
-    std::string text = fmt::format("        <DataArray {} format=\"ascii\">\n", attributes);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      fmt::format_to(std::back_inserter(text), std::is_same_v<T, double> ? "{:.17g}" : "{}", values[i]);
-      text += (i + 1) % per_line == 0 || i + 1 == values.size() ? '\n' : ' ';
-    }
-    return text + "        </DataArray>\n";
-  }
-  std::string appended() const { return ""; }
-};
-
-/// Numbers at the end of the file, each array as its length in bytes and its bytes, in base64 together; `offset` counts
-/// characters from the underscore.
-class AppendedArrays {
- public:
-  template <class T>
-  std::string element(std::string_view attributes, std::span<const T> values, std::size_t) {
-    std::string bytes;
-    put(bytes, std::uint64_t{values.size_bytes()});
-    put_all(bytes, values);
-    const std::size_t offset = text_.size();
-    text_ += base64(bytes);
-    return fmt::format("        <DataArray {} format=\"appended\" offset=\"{}\"/>\n", attributes, offset);
-  }
-  std::string appended() const {
-    return fmt::format("  <AppendedData encoding=\"base64\">\n_{}\n  </AppendedData>\n", text_);
-  }
-
- private:
-  std::string text_;
-};
-
-std::span<const double> coordinates(const std::vector<Position>& positions) {
-  return {positions.empty() ? nullptr : positions.front().data(), 3 * positions.size()};
+/// Adds an array to what is appended to the file: its length in bytes and its bytes, in base64 together. Returns its
+/// element, whose offset counts characters from the underscore.
+template <class T>
+std::string append_array(std::string& appended, std::string_view attributes, std::span<const T> values) {
+  std::string bytes;
+  put(bytes, std::uint64_t{values.size_bytes()});
+  put_all(bytes, values);
+  const std::size_t offset = appended.size();
+  appended += base64(bytes);
+  return fmt::format("        <DataArray {} format=\"appended\" offset=\"{}\"/>\n", attributes, offset);
 }
 
-template <class Arrays>
-std::string format_grid(const Frame& frame, Arrays written) {
+}  // namespace
+
+std::string format_vtu(const Frame& frame) {
   const VtkCells cells = vtk_cells(frame.mesh);
+  std::string appended;
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
   text += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n",
                       frame.positions.size(), cells.types.size());
-  text += written.element("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", coordinates(frame.positions), 3);
-  text += "      </Points>\n      <Cells>\n";
   text +=
-      written.element("type=\"Int64\" Name=\"connectivity\"", std::span<const std::uint64_t>(cells.connectivity), 12);
-  text += written.element("type=\"Int64\" Name=\"offsets\"", std::span<const std::uint64_t>(cells.offsets), 12);
-  text += written.element("type=\"UInt8\" Name=\"types\"", std::span<const std::uint8_t>(cells.types), 24);
-  return text + "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n" + written.appended() + "</VTKFile>\n";
-}
-
-}  // namespace
-
-std::string format_vtu(const Frame& frame, VtuEncoding encoding) {
-  return encoding == VtuEncoding::ascii ? format_grid(frame, AsciiArrays()) : format_grid(frame, AppendedArrays());
+      append_array(appended, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", coordinates(frame.positions));
+  text += "      </Points>\n      <Cells>\n";
+  text += append_array(appended, "type=\"Int64\" Name=\"connectivity\"",
+                       std::span<const std::uint64_t>(cells.connectivity));
+  text += append_array(appended, "type=\"Int64\" Name=\"offsets\"", std::span<const std::uint64_t>(cells.offsets));
+  text += append_array(appended, "type=\"UInt8\" Name=\"types\"", std::span<const std::uint8_t>(cells.types));
+  text += "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n";
+  return text + "  <AppendedData encoding=\"base64\">\n_" + appended + "\n  </AppendedData>\n</VTKFile>\n";
 }
 
 std::string format_pvd(std::span<const PvdEntry> entries) {
@@ -111,9 +80,7 @@ std::string format_pvd(std::span<const PvdEntry> entries) {
   return text + "  </Collection>\n</VTKFile>\n";
 }
 
-void write_vtu(const std::filesystem::path& path, const Frame& frame, VtuEncoding encoding) {
-  write_file(path, format_vtu(frame, encoding));
-}
+void write_vtu(const std::filesystem::path& path, const Frame& frame) { write_file(path, format_vtu(frame)); }
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {
   write_file(path, format_pvd(entries));

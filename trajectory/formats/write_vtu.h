@@ -2,7 +2,7 @@
 //
 // Writes VTK's XML files, as ParaView opens them: VTU, an unstructured grid for each frame, and PVD, which says at what
 // times they are. Faces are triangles (cell type 5), loose edges lines (3), loose points vertices (1); vertices that
-// nothing refers to are points without a cell.
+// nothing refers to are points without a cell. Numbers are appended data in base64, so doubles keep all their bits.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,8 @@
 
 namespace noli {
 
-enum class VtuEncoding {
-  ascii,  ///< 17 significant digits, which name one double only
-  base64  ///< the same numbers as appended data, smaller and quicker to read
-};
-
 /// The bytes of the file. Precondition: as many positions as vertices.
-std::string format_vtu(const Frame& frame, VtuEncoding encoding);
+std::string format_vtu(const Frame& frame);
 
 struct PvdEntry {
   double time = 0;   ///< seconds
@@ -29,7 +24,7 @@ struct PvdEntry {
 std::string format_pvd(std::span<const PvdEntry> entries);
 
 /// Write the file, or replace it. Throw std::system_error when it cannot be written in full.
-void write_vtu(const std::filesystem::path& path, const Frame& frame, VtuEncoding encoding);
+void write_vtu(const std::filesystem::path& path, const Frame& frame);
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries);
 
 }  // namespace noli
