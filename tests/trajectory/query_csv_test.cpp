@@ -6,11 +6,11 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "support.h"
+#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {
@@ -123,13 +123,6 @@ TEST(QueryCsv, KindFromFileName) {
   EXPECT_EQ(kind_from_file_name("erleben-cube-cliff-edges-edge-edge-0.csv"), QueryKind::edge_edge);
 }
 
-TEST(QueryCsv, KindFromName) {
-  EXPECT_EQ(kind_from_name("edge-edge"), QueryKind::edge_edge);
-  EXPECT_EQ(kind_from_name("vertex_face"), QueryKind::vertex_face);
-  EXPECT_EQ(kind_from_name("an-edge-edge"), std::nullopt);
-  EXPECT_EQ(kind_from_name(""), std::nullopt);
-}
-
 /// Doubles of every size: subnormals, limits, powers, plain ones.
 rc::Gen<double> any_double() {
   const auto plain = rc::gen::map(rc::gen::inRange(-1000, 1000), [](int i) { return i / 8.0; });
@@ -152,9 +145,7 @@ RC_GTEST_PROP(QueryCsv, RoundTripBitForBit, ()) {
     }
     if (with_label) query.label = *rc::gen::arbitrary<bool>();
   }
-  std::ostringstream out;
-  write_query_csv(out, kind, queries);
-  const auto read = parse_query_csv(out.str(), "round trip", kind);
+  const auto read = parse_query_csv(format_query_csv(kind, queries), "round trip", kind);
   RC_ASSERT(read.size() == queries.size());
   const auto all_bits = [](const auto& x) { return testing::bits({x.begin(), x.end()}); };
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -167,9 +158,10 @@ RC_GTEST_PROP(QueryCsv, RoundTripBitForBit, ()) {
 TEST(QueryCsv, WritesFiles) {
   const test::TemporaryFolder folder;
   const std::vector<QueryRecord> queries{{.x_t0 = {{{1, 2, 3}}}, .x_t1 = {{{0.5, 0, 1e300}}}, .label = true}};
-  write_query_csv(folder / "q.csv", QueryKind::vertex_vertex, queries);
+  const std::string text = format_query_csv(QueryKind::vertex_vertex, queries);
+  write_file(folder / "q.csv", text);
   EXPECT_EQ(read_query_csv(folder / "q.csv", QueryKind::vertex_vertex), queries);
-  EXPECT_THROW(write_query_csv(folder / "no/q.csv", QueryKind::vertex_vertex, queries), std::system_error);
+  EXPECT_THROW(write_file(folder / "no/q.csv", text), std::system_error);
   EXPECT_EQ(input_error([&] { read_query_csv(folder / "none.csv", QueryKind::edge_edge); }),
             (folder / "none.csv").string() + ": cannot be opened: No such file or directory");
 }
@@ -177,8 +169,7 @@ TEST(QueryCsv, WritesFiles) {
 TEST(QueryCsv, LabelsOfAllOrOfNone) {
   std::vector<QueryRecord> queries(2);
   queries[0].label = true;
-  std::ostringstream out;
-  EXPECT_THROW(write_query_csv(out, QueryKind::edge_edge, queries), std::invalid_argument);
+  EXPECT_THROW(format_query_csv(QueryKind::edge_edge, queries), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,13 +6,10 @@
 #include <gmpxx.h>
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include <noli/errors.h>
 #include "trajectory/stop.h"
@@ -29,11 +26,6 @@ constexpr std::array<KindName, 4> kind_names = {{{"vertex-face", QueryKind::vert
                                                  {"edge-edge", QueryKind::edge_edge},
                                                  {"vertex-edge", QueryKind::vertex_edge},
                                                  {"vertex-vertex", QueryKind::vertex_vertex}}};
-
-std::string with_hyphens(std::string text) {
-  std::replace(text.begin(), text.end(), '_', '-');
-  return text;
-}
 
 std::string_view trimmed(std::string_view field) {
   const std::size_t begin = field.find_first_not_of(" \t");
@@ -154,21 +146,16 @@ mpz_class to_integer(std::string_view word) {
   return mpz_class(std::string(word), 10);
 }
 
-/// Number of zero bits below the lowest one. Precondition: not zero.
-std::int64_t trailing_zeros(const mpz_class& z) { return static_cast<std::int64_t>(mpz_scan1(z.get_mpz_t(), 0)); }
-
 /// Takes the factors of two out of z, which must not be zero, and returns how many there were.
 std::int64_t make_odd(mpz_class& z) {
-  const std::int64_t zeros = trailing_zeros(z);
-  z >>= static_cast<mp_bitcnt_t>(zeros);
-  return zeros;
+  const mp_bitcnt_t zeros = mpz_scan1(z.get_mpz_t(), 0);
+  z >>= zeros;
+  return static_cast<std::int64_t>(zeros);
 }
-
-std::int64_t bit_length(const mpz_class& z) { return static_cast<std::int64_t>(mpz_sizeinbase(z.get_mpz_t(), 2)); }
 
 /// Sets `value` to n 2^exponent, n odd, if that is a double.
 bool scale_exactly(const mpz_class& n, std::int64_t exponent, double& value) {
-  const std::int64_t bits = bit_length(n);
+  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(n.get_mpz_t(), 2));
   if (bits > significand_bits || exponent < lowest_exponent || bits + exponent > highest_exponent) return false;
   value = std::ldexp(n.get_d(), static_cast<int>(exponent));
   return true;
@@ -187,7 +174,8 @@ std::size_t point_count(QueryKind kind) {
 }
 
 std::optional<QueryKind> kind_from_file_name(const std::filesystem::path& path) {
-  const std::string file_name = with_hyphens(path.filename().string());
+  std::string file_name = path.filename().string();
+  std::ranges::replace(file_name, '_', '-');
   std::optional<QueryKind> result;
   for (const auto& [word, kind] : kind_names) {
     if (file_name.find(word) == std::string::npos) continue;
@@ -195,14 +183,6 @@ std::optional<QueryKind> kind_from_file_name(const std::filesystem::path& path) 
     result = kind;
   }
   return result;
-}
-
-std::optional<QueryKind> kind_from_name(std::string_view name) {
-  const std::string hyphenated = with_hyphens(std::string(name));
-  for (const auto& [word, kind] : kind_names) {
-    if (word == hyphenated) return kind;
-  }
-  return std::nullopt;
 }
 
 std::vector<QueryRecord> parse_query_csv(std::string_view text, const std::string& file, QueryKind kind) {
@@ -214,23 +194,17 @@ std::vector<QueryRecord> read_query_csv(const std::filesystem::path& path, Query
   return parse_query_csv(read_whole_file(path), path.string(), kind);
 }
 
-void write_query_csv(std::ostream& out, QueryKind kind, std::span<const QueryRecord> records) {
+std::string format_query_csv(QueryKind kind, std::span<const QueryRecord> records) {
+  std::string text;
   for (const QueryRecord& record : records) {
     if (record.label.has_value() != records[0].label.has_value()) {
-      throw std::invalid_argument("write_query_csv: some queries have a label and some have none");
+      throw std::invalid_argument("format_query_csv: some queries have a label and some have none");
     }
     for (const auto& positions : {record.x_t0, record.x_t1}) {
-      for (std::size_t p = 0; p < point_count(kind); ++p) out << format_row(positions[p], record.label);
+      for (std::size_t p = 0; p < point_count(kind); ++p) text += format_row(positions[p], record.label);
     }
   }
-}
-
-void write_query_csv(const std::filesystem::path& path, QueryKind kind, std::span<const QueryRecord> records) {
-  errno = 0;
-  std::ofstream out(path, std::ios::binary);
-  if (out) write_query_csv(out, kind, records);
-  out.close();
-  if (!out) throw std::system_error(errno, std::generic_category(), path.string());
+  return text;
 }
 
 std::string parse_exact_quotient(std::string_view numerator, std::string_view denominator, double& value) {

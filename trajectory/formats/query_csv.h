@@ -15,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,9 +35,6 @@ std::size_t point_count(QueryKind kind);
 /// '-'. Folders do not count. Nothing when it names none or more than one.
 std::optional<QueryKind> kind_from_file_name(const std::filesystem::path& path);
 
-/// The kind of that very name, as above; nothing for any other word.
-std::optional<QueryKind> kind_from_name(std::string_view name);
-
 struct QueryRecord {
   std::array<Position, 4> x_t0{};  ///< the first point_count(kind) count; the rest are zero
   std::array<Position, 4> x_t1{};
@@ -54,12 +50,9 @@ std::vector<QueryRecord> read_query_csv(const std::filesystem::path& path, Query
 /// The same for a text in memory; `file` is what errors call it.
 std::vector<QueryRecord> parse_query_csv(std::string_view text, const std::string& file, QueryKind kind);
 
-/// Writes queries such that reading gives the same doubles bit for bit, and the same labels. Preconditions: finite
-/// coordinates; all records have a label or none has (else std::invalid_argument).
-void write_query_csv(std::ostream& out, QueryKind kind, std::span<const QueryRecord> records);
-
-/// The same to a file. Throws std::system_error when it cannot be written.
-void write_query_csv(const std::filesystem::path& path, QueryKind kind, std::span<const QueryRecord> records);
+/// The text of queries, which reading turns into the same doubles bit for bit, and the same labels. Preconditions:
+/// finite coordinates; all records have a label or none has (else std::invalid_argument).
+std::string format_query_csv(QueryKind kind, std::span<const QueryRecord> records);
 
 /// Sets `value` to numerator / denominator, two decimal integers of any length with or without a sign. Returns "" when
 /// the quotient is exactly a finite double, else what is wrong: no integer, a zero denominator, a quotient that is no

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -47,14 +46,13 @@ std::string file_suffix(const QueryType& type) {
 
 void save_query(const std::filesystem::path& file, const AnyQuery& query, bool contact,
                 std::span<const std::string> comments) {
-  std::ostringstream text;
   const QueryRecord record{query.x_t0, query.x_t1, contact};
-  write_query_csv(text, file_kind(query.pair), std::span(&record, 1));
-  text << type_line({query.pair, query.dimension}) << '\n';
-  for (const std::string& comment : comments) text << comment << '\n';
+  std::string text = format_query_csv(file_kind(query.pair), std::span(&record, 1));
+  text += type_line({query.pair, query.dimension}) + '\n';
+  for (const std::string& comment : comments) text += comment + '\n';
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   try {
-    write_file(file, text.str());
+    write_file(file, text);
   } catch (...) {
     std::error_code ignored;  // part of it may be there
     std::filesystem::remove(file, ignored);
