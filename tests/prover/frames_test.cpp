@@ -9,7 +9,7 @@
 
 #include "brute_force.h"
 #include "tests/support/real_data.h"
-#include "trajectory/formats/ply.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli::testing {
 namespace {
@@ -34,7 +34,7 @@ std::optional<Step> read(const Pair& pair) {
   const auto t0 = test::real_data(std::string("frames/") + pair.t0),
              t1 = test::real_data(std::string("frames/") + pair.t1);
   if (!t0 || !t1) return std::nullopt;
-  const Frame begin = read_ply(*t0), end = read_ply(*t1);
+  const Frame begin = read_frame(*t0), end = read_frame(*t1);
   return Step{begin.mesh, begin.positions, end.positions};
 }
 

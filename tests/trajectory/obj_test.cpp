@@ -2,6 +2,7 @@
 #include "trajectory/formats/obj.h"
 
 #include "support.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli {
 namespace {
@@ -95,9 +96,9 @@ TEST_P(ObjErrors, SaysWhatAndWhere) {
 
 TEST(ObjFiles, MissingAndEmpty) {
   const test::TemporaryFolder folder;
-  EXPECT_EQ(testing::input_error([&] { read_obj(folder / "none.obj"); }),
+  EXPECT_EQ(testing::input_error([&] { read_frame(folder / "none.obj"); }),
             (folder / "none.obj").string() + ": cannot be opened: No such file or directory");
-  EXPECT_EQ(testing::input_error([&] { read_obj(folder.write("empty.obj", "")); }),
+  EXPECT_EQ(testing::input_error([&] { read_frame(folder.write("empty.obj", "")); }),
             (folder / "empty.obj").string() + ": is empty");
 }
 

@@ -3,6 +3,7 @@
 // Every way in which the text of a PLY file can be wrong, and the line and words of the message.
 #include "support.h"
 #include "trajectory/formats/ply.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {
@@ -126,7 +127,9 @@ TEST_P(PlyErrors, SaysWhatAndWhere) {
 
 TEST(PlyFiles, MissingEmptyAndFolder) {
   const test::TemporaryFolder folder;
-  const auto message = [](const std::filesystem::path& path) { return testing::input_error([&] { read_ply(path); }); };
+  const auto message = [](const std::filesystem::path& path) {
+    return testing::input_error([&] { parse_ply(read_whole_file(path), path.string()); });
+  };
   EXPECT_EQ(message(folder / "none.ply"),
             (folder / "none.ply").string() + ": cannot be opened: No such file or directory");
   EXPECT_EQ(message(folder.write("empty.ply", "")), (folder / "empty.ply").string() + ": is empty");

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "support.h"
-#include "trajectory/formats/obj.h"
+#include "trajectory/formats/frames.h"
 
 namespace noli {
 namespace {
@@ -40,7 +40,7 @@ TEST(WriteObj, IsReadBackBitForBit) {
   }
   const test::TemporaryFolder folder;
   write_obj(folder / "a.obj", frame);
-  const Frame read = read_obj(folder / "a.obj");
+  const Frame read = read_frame(folder / "a.obj");
   EXPECT_EQ(read.mesh, frame.mesh);
   EXPECT_EQ(bits(read.positions), bits(frame.positions));
   EXPECT_THROW(write_obj(folder / "no/a.obj", frame), std::system_error);

@@ -9,6 +9,7 @@
 
 #include "support.h"
 #include "trajectory/cells.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/formats/ply.h"
 
 namespace noli {
@@ -69,7 +70,7 @@ RC_GTEST_PROP(WritePly, RoundTrip, ()) {
 TEST(WritePly, Files) {
   const test::TemporaryFolder folder;
   write_ply(folder / "a.ply", sample, PlyEncoding::binary_little_endian);
-  EXPECT_EQ(read_ply(folder / "a.ply").mesh, sample.mesh);
+  EXPECT_EQ(read_frame(folder / "a.ply").mesh, sample.mesh);
   EXPECT_THROW(write_ply(folder / "no/a.ply", sample, PlyEncoding::ascii), std::system_error);
   if (std::filesystem::exists("/dev/full")) {
     EXPECT_THROW(write_ply("/dev/full", sample, PlyEncoding::ascii), std::system_error);

@@ -168,6 +168,4 @@ Frame parse_obj(std::string_view text, const std::string& file, Polygons* polygo
   return ObjParser(text, file, polygons).parse();
 }
 
-Frame read_obj(const std::filesystem::path& path) { return parse_obj(read_whole_file(path), path.string()); }
-
 }  // namespace noli

@@ -15,7 +15,6 @@
 // (curves, surfaces) is an error: leaving it out could lose faces.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -24,11 +23,8 @@
 
 namespace noli {
 
-/// Reads an OBJ file. Throws InputError with the line for anything that is not as above.
-Frame read_obj(const std::filesystem::path& path);
-
-/// The same for a text in memory; `file` is what errors call it. `polygons`: what to do with those, and where they are
-/// noted.
+/// Reads the text of an OBJ file; `file` is what errors call it. `polygons`: what to do with those, and where they are
+/// noted. Throws InputError with the line for anything that is not as above.
 Frame parse_obj(std::string_view text, const std::string& file, Polygons* polygons = nullptr);
 
 }  // namespace noli

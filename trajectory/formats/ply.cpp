@@ -429,6 +429,4 @@ Frame parse_ply(std::string_view bytes, const std::string& file, Polygons* polyg
   return BodyReader<AsciiSource>(bytes, header, file, polygons).read();
 }
 
-Frame read_ply(const std::filesystem::path& path) { return parse_ply(read_whole_file(path), path.string()); }
-
 }  // namespace noli

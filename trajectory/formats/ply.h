@@ -15,7 +15,6 @@
 // What this does not do: it writes nothing (write_ply.h), welds nothing, and keeps no other property.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -24,13 +23,10 @@
 
 namespace noli {
 
-/// Reads a PLY file, whole, at once. Throws InputError with line (header and ASCII) or byte (binary) for anything that
-/// is not as above: missing, empty, truncated, NaN or infinite coordinates, indices out of range, trailing content,
-/// malformed headers. Counts are compared with the bytes that remain before anything is allocated for them.
-Frame read_ply(const std::filesystem::path& path);
-
-/// The same for bytes in memory; `file` is what errors call them. `polygons`: what to do with those, and where they are
-/// noted.
+/// Reads the bytes of a PLY file; `file` is what errors call them. `polygons`: what to do with those, and where they are
+/// noted. Throws InputError with line (header and ASCII) or byte (binary) for anything that is not as above: empty,
+/// truncated, NaN or infinite coordinates, indices out of range, trailing content, malformed headers. Counts are
+/// compared with the bytes that remain before anything is allocated for them.
 Frame parse_ply(std::string_view bytes, const std::string& file, Polygons* polygons = nullptr);
 
 }  // namespace noli

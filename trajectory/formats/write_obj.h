@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes OBJ files that read_obj reads back bit for bit: coordinates with 17 significant digits, faces as `f`, loose
+// Writes OBJ files that obj.h reads back bit for bit: coordinates with 17 significant digits, faces as `f`, loose
 // edges as `l`, loose points as `p`.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes PLY files that read_ply reads back bit for bit.
+// Writes PLY files that ply.h reads back bit for bit.
 //
 // Coordinates are doubles, in ASCII with 17 significant digits. Loose edges are the element edge; loose points are
 // faces of one vertex, after all others, which is how ply.h reads them.
