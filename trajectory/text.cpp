@@ -9,10 +9,9 @@
 #include "trajectory/input_file.h"
 
 namespace noli {
-namespace {
 
 template <class T>
-std::string parse_finite_as(std::string_view word, T& value) {
+std::string parse_finite(std::string_view word, T& value) {
   const std::errc error = parse_number(word, value);
   if (error == std::errc::result_out_of_range) {
     return fmt::format("{} is outside the range of {}", in_quotes(word), sizeof(T) == 4 ? "float" : "double");
@@ -21,8 +20,8 @@ std::string parse_finite_as(std::string_view word, T& value) {
   if (!std::isfinite(value)) return fmt::format("expected a finite number, found {}", in_quotes(word));
   return {};
 }
-
-}  // namespace
+template std::string parse_finite(std::string_view word, float& value);
+template std::string parse_finite(std::string_view word, double& value);
 
 std::string read_whole_file(const std::filesystem::path& path) {
   InputFile file(path);
@@ -59,9 +58,6 @@ bool Lines::next(std::string_view& line) {
   number_ = next_number_++;
   return true;
 }
-
-std::string parse_finite(std::string_view word, float& value) { return parse_finite_as(word, value); }
-std::string parse_finite(std::string_view word, double& value) { return parse_finite_as(word, value); }
 
 std::string escaped_markup(std::string_view text) {
   std::string out;

@@ -36,19 +36,6 @@ void take_digits(const TextDigits& digits, std::size_t enough, FrameFacts& facts
   if (digits.digits() < enough) facts.rounded_at = digits.unit();
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
-/// Takes the next word off a line. Words are short: looking at each character is faster than a search for blanks.
-std::string_view take_word(std::string_view& line) {
-  std::size_t begin = 0;
-  while (begin < line.size() && is_blank(line[begin])) ++begin;
-  std::size_t end = begin;
-  while (end < line.size() && !is_blank(line[end])) ++end;
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
-
 /// The cells of an OBJ file. Where indices count back, what they mean depends on how many vertices came before.
 std::optional<std::uint64_t> look_at_obj(std::string_view bytes, FrameFacts& facts) {
   TextDigits digits;
@@ -63,8 +50,8 @@ std::optional<std::uint64_t> look_at_obj(std::string_view bytes, FrameFacts& fac
     if (line.size() < 2 || !is_blank(line[1])) continue;
     if (line[0] == 'v') {
       ++facts.vertices;
-      line.remove_prefix(1);
-      for (int k = 0; k < 3; ++k) digits.add(take_word(line));
+      Words words(line.substr(1));
+      for (int k = 0; k < 3; ++k) digits.add(words.next());
     } else if (line[0] == 'f' || line[0] == 'l' || line[0] == 'p') {
       if (vertices_told != facts.vertices) cells.add(vertices_told = facts.vertices);
       cells.add(line);
@@ -170,10 +157,11 @@ class PlyLook {
   }
 
   static void add_digits(std::string_view line, const std::vector<std::size_t>& wanted, TextDigits& digits) {
+    Words words(line);
     std::size_t column = 0;
     for (const std::size_t next : wanted) {
-      for (; column < next; ++column) take_word(line);
-      digits.add(take_word(line));
+      for (; column < next; ++column) words.next();
+      digits.add(words.next());
       ++column;
     }
   }
