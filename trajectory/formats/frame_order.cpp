@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,8 +32,16 @@ struct NameNumber {
   std::int64_t exponent = 0;
   std::string digits;
 
-  std::strong_ordering operator<=>(const NameNumber& other) const;
   bool operator==(const NameNumber& other) const = default;
+  std::strong_ordering operator<=>(const NameNumber& other) const {
+    const auto size = [](const NameNumber& a, const NameNumber& b) {
+      if (a.digits.empty() || b.digits.empty()) return a.digits.size() <=> b.digits.size();
+      if (a.exponent != b.exponent) return a.exponent <=> b.exponent;
+      return a.digits.compare(b.digits) <=> 0;
+    };
+    if (negative != other.negative) return negative ? std::strong_ordering::less : std::strong_ordering::greater;
+    return negative ? size(other, *this) : size(*this, other);
+  }
 };
 
 struct NumberedName {
@@ -42,16 +51,6 @@ struct NumberedName {
   std::vector<std::string> fractions;  ///< digits behind a point that may be decimal
   bool has_exponent = false;           ///< 1e-05: there is only one way to read it
 };
-
-std::strong_ordering NameNumber::operator<=>(const NameNumber& other) const {
-  const auto size = [](const NameNumber& a, const NameNumber& b) {
-    if (a.digits.empty() || b.digits.empty()) return a.digits.size() <=> b.digits.size();
-    if (a.exponent != b.exponent) return a.exponent <=> b.exponent;
-    return a.digits.compare(b.digits) <=> 0;
-  };
-  if (negative != other.negative) return negative ? std::strong_ordering::less : std::strong_ordering::greater;
-  return negative ? size(other, *this) : size(*this, other);
-}
 
 /// Stands for a number in a pattern; no path contains it.
 constexpr char number_sign = '\0';
@@ -230,7 +229,7 @@ class Family {
   /// Puts the places of its frames in the order of their numbers: order[k] is the frame at place k.
   void sort(std::vector<std::size_t>& order) const {
     std::vector<std::size_t> sorted(size());
-    for (std::size_t i = 0; i < size(); ++i) sorted[i] = i;
+    std::iota(sorted.begin(), sorted.end(), std::size_t{0});
     std::ranges::stable_sort(
         sorted, {}, [&](std::size_t i) -> const auto& { return names_[i].decimals; });
     for (std::size_t i = 0; i < size(); ++i) order[places_[i]] = places_[sorted[i]];
@@ -246,11 +245,10 @@ class Family {
       const NameNumber& number = names_[i].decimals[*column];
       const bool whole = number.exponent >= static_cast<std::int64_t>(number.digits.size());
       if (number.negative || !whole || number.exponent > most_gap_digits) return {};
+      std::string digits = number.digits;
+      digits.resize(static_cast<std::size_t>(number.exponent), '0');
       std::uint64_t value = 0;
-      for (std::int64_t d = 0; d < number.exponent; ++d) {
-        const auto at = static_cast<std::size_t>(d);
-        value = 10 * value + (at < number.digits.size() ? static_cast<std::uint64_t>(number.digits[at] - '0') : 0);
-      }
+      parse_number(digits, value);
       counted.emplace(value, places_[i]);
     }
     return {counted.begin(), counted.end()};
@@ -288,8 +286,9 @@ class Orderer {
     std::erase_if(families_, [](const Family& family) { return family.size() < 2; });
   }
 
-  OrderedFrames operator()(FrameOrder order) && {
+  OrderedFrames operator()(FrameOrder order) const {
     OrderedFrames result;
+    result.frames = frames_;
     result.how = families_.empty() ? "as given; no two names differ in their numbers alone"
                                    : "as given, which is the order of the numbers in the names";
     if (order == FrameOrder::natural) {
@@ -304,41 +303,38 @@ class Orderer {
         break;
       }
     }
-    append_gaps(result.notes);
-    append_capped(result.notes, twice(), "files that are given more than once");
-    result.frames = std::move(frames_);
+    for (const Family& family : families_) append_capped(result.notes, gaps(family), "gaps in the numbers");
+    append_capped(result.notes, twice(result.frames), "files that are given more than once");
     return result;
   }
 
  private:
+  /// Of the frame at a place in the order given.
   std::string name(std::size_t place) const { return frames_[place].string(); }
 
   static const char* advice() { return "; pass --order natural, or --order given if this is the order you mean"; }
 
   /// What is wrong with the order; "" if nothing is.
   std::string problem_of(const Family& family) const {
+    const bool two_ways = family.may_be_integers();
     const auto decimal = family.against(&NumberedName::decimals);
-    const auto integer = family.may_be_integers() ? family.against(&NumberedName::integers) : std::nullopt;
-    const auto in_words = [&](const Pair& pair) {
-      return fmt::format("{} comes before {}", name(pair.before), name(pair.after));
-    };
-    if (!family.may_be_integers()) return decimal ? in_words(*decimal) : "";
-    if (decimal && integer) return in_words(*decimal);
-    if (decimal) return in_words(*decimal) + ", which is against their numbers if these are decimals (0.10 before 0.9)";
-    if (integer)
-      return in_words(*integer) + ", which is their order only if the numbers are decimals (0.10 before 0.9)";
-    return "";
+    const auto integer = two_ways ? family.against(&NumberedName::integers) : std::nullopt;
+    if (!decimal && !integer) return "";
+    const Pair& pair = decimal ? *decimal : *integer;
+    std::string problem = fmt::format("{} comes before {}", name(pair.before), name(pair.after));
+    if (!decimal) problem += ", which is their order only if the numbers are decimals (0.10 before 0.9)";
+    if (two_ways && !integer) problem += ", which is against their numbers if these are decimals (0.10 before 0.9)";
+    return problem;
   }
 
-  void sort(OrderedFrames& result) {
+  void sort(OrderedFrames& result) const {
     result.how = "sorted by the numbers in the names (--order natural)";
     std::vector<std::size_t> order(frames_.size());
-    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::iota(order.begin(), order.end(), std::size_t{0});
     for (const Family& family : families_) family.sort(order);
-    std::vector<fs::path> sorted;
     std::size_t moved = 0;
     for (std::size_t k = 0; k < order.size(); ++k) {
-      sorted.push_back(frames_[order[k]]);
+      result.frames[k] = frames_[order[k]];
       moved += order[k] != k;
     }
     if (moved > 0) {
@@ -346,14 +342,6 @@ class Orderer {
           fmt::format("frames were sorted by the numbers in their names (--order natural): {} of {} changed places",
                       moved, order.size()));
     }
-    given_ = std::exchange(frames_, std::move(sorted));
-  }
-
-  /// The name of a frame by its place in the order given, which is where families have it.
-  std::string given_name(std::size_t place) const { return given_.empty() ? name(place) : given_[place].string(); }
-
-  void append_gaps(std::vector<std::string>& notes) const {
-    for (const Family& family : families_) append_capped(notes, gaps(family), "gaps in the numbers");
   }
 
   /// Differences of successive numbers that are larger than the most frequent one.
@@ -368,7 +356,7 @@ class Orderer {
       const auto& [low, before] = counted[i - 1];
       const auto& [high, after] = counted[i];
       if (high - low <= stride) continue;
-      found.push_back(fmt::format("{} to {}: {}", given_name(before), given_name(after), missing(low, high, stride)));
+      found.push_back(fmt::format("{} to {}: {}", name(before), name(after), missing(low, high, stride)));
     }
     return found;
   }
@@ -382,13 +370,13 @@ class Orderer {
     return fmt::format("frames {} to {}{} are missing", low + stride, high - stride, by);
   }
 
-  std::vector<std::string> twice() const {
+  static std::vector<std::string> twice(const std::vector<fs::path>& frames) {
     std::map<std::string, std::vector<std::size_t>> places;
-    for (std::size_t k = 0; k < frames_.size(); ++k) {
-      places[fs::absolute(frames_[k]).lexically_normal().string()].push_back(k + 1);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      places[fs::absolute(frames[k]).lexically_normal().string()].push_back(k + 1);
     }
     std::vector<std::string> found;
-    for (const fs::path& frame : frames_) {
+    for (const fs::path& frame : frames) {
       auto& at = places[fs::absolute(frame).lexically_normal().string()];
       if (at.size() < 2) continue;
       const std::string times = at.size() == 2 ? "twice" : fmt::format("{} times", at.size());
@@ -399,7 +387,7 @@ class Orderer {
     return found;
   }
 
-  std::vector<fs::path> frames_, given_;  ///< in the order of time; as given, if that is another one
+  std::vector<fs::path> frames_;  ///< as given
   std::vector<Family> families_;
 };
 
