@@ -59,7 +59,7 @@ void FrameInputs::look_at(std::size_t k, std::string_view bytes) {
   } else {
     if (!look.cells) {
       Polygons polygons{rule_};
-      mesh_ = parse(k, bytes, polygons).mesh;
+      mesh_ = parse_frame(bytes, facts_[k].file, &polygons).mesh;
     }
     first_ = k;
     same_ = {look.cells};
@@ -70,13 +70,10 @@ void FrameInputs::look_at(std::size_t k, std::string_view bytes) {
 void FrameInputs::require_same_cells(std::size_t k, std::string_view bytes, const FrameLook& look) {
   if (look.cells && same_.contains(look.cells)) return;
   Polygons polygons{rule_};
-  if (!mesh_) mesh_ = parse(*first_, read_whole_file(facts_[*first_].file), polygons).mesh;
-  require_same_mesh(*mesh_, facts_[*first_].file, parse(k, bytes, polygons).mesh, facts_[k].file);
+  const std::string &first = facts_[*first_].file, &file = facts_[k].file;
+  if (!mesh_) mesh_ = parse_frame(read_whole_file(first), first, &polygons).mesh;
+  require_same_mesh(*mesh_, first, parse_frame(bytes, file, &polygons).mesh, file);
   same_.insert(look.cells);
-}
-
-Frame FrameInputs::parse(std::size_t k, std::string_view bytes, Polygons& polygons) const {
-  return parse_frame(bytes, facts_[k].file, &polygons);
 }
 
 Frame FrameInputs::read(std::size_t k) {
@@ -86,7 +83,7 @@ Frame FrameInputs::read(std::size_t k) {
                      "has changed since it was looked at; verify the frames again once they are complete");
   }
   Polygons polygons{rule_};
-  Frame frame = parse(k, bytes, polygons);
+  Frame frame = parse_frame(bytes, facts_[k].file, &polygons);
   take(k, bytes, frame, polygons);
   return frame;
 }

@@ -58,7 +58,6 @@ class FrameInputs {
  private:
   void look_at(std::size_t k, std::string_view bytes);
   void require_same_cells(std::size_t k, std::string_view bytes, const FrameLook& look);
-  Frame parse(std::size_t k, std::string_view bytes, Polygons& polygons) const;
   void take(std::size_t k, std::string_view bytes, const Frame& frame, const Polygons& polygons);
 
   PolygonRule rule_;

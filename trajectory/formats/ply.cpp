@@ -308,26 +308,23 @@ class BodyReader {
     if (element.name == "vertex") return read_vertices(element);
     if (element.name == "face") return read_faces(element);
     if (element.name == "edge") return read_edges(element);
-    read_entries(element, [this](std::size_t p, const PlyProperty& property) { skip(p, property); });
+    const auto skip_property = [this](const PlyProperty& property) { skip(property); };
+    read_entries(element, skip_property, [] {});
   }
 
-  /// Calls `read_property(index, property)` for each property of each entry, and `end_of_entry` after each entry.
-  template <class ReadProperty>
-  void read_entries(const PlyElement& element, ReadProperty&& read_property) {
-    read_entries(element, read_property, [] {});
-  }
+  /// Calls `read_property(property)` for each property of each entry, and `end_of_entry` after each entry.
   template <class ReadProperty, class EndOfEntry>
   void read_entries(const PlyElement& element, ReadProperty&& read_property, EndOfEntry&& end_of_entry) {
     for (std::uint64_t entry = 0; entry < element.count; ++entry) {
       end_if_stopped();
       source_.begin_entry(element, entry);
-      for (std::size_t p = 0; p < element.properties.size(); ++p) read_property(p, element.properties[p]);
+      for (const PlyProperty& property : element.properties) read_property(property);
       end_of_entry();
       source_.end_entry();
     }
   }
 
-  void skip(std::size_t, const PlyProperty& property) {
+  void skip(const PlyProperty& property) {
     if (!property.count_type) return source_.skip(property.type);
     const std::uint64_t size = source_.list_size(*property.count_type, source_.item_bytes(property.type));
     for (std::uint64_t i = 0; i < size; ++i) source_.skip(property.type);
@@ -339,7 +336,7 @@ class BodyReader {
     const PlyProperty* z = element.find("z") == nullptr ? nullptr : &require_scalar(file_, element, "z");
     frame_.positions.reserve(element.count);
     Position position{};
-    const auto read_property = [&](std::size_t p, const PlyProperty& property) {
+    const auto read_property = [&](const PlyProperty& property) {
       if (&property == x) {
         position[0] = source_.real(property.type);
       } else if (&property == y) {
@@ -347,7 +344,7 @@ class BodyReader {
       } else if (&property == z) {
         position[2] = source_.real(property.type);
       } else {
-        skip(p, property);
+        skip(property);
       }
     };
     read_entries(element, read_property, [&] { frame_.positions.push_back(position); });
@@ -356,13 +353,10 @@ class BodyReader {
   void read_faces(const PlyElement& element) {
     const PlyProperty* corners = &require_corners(file_, element);
     frame_.mesh.faces.reserve(element.count);
-    read_entries(element, [&](std::size_t p, const PlyProperty& property) {
-      if (&property == corners) {
-        read_polygon(property);
-      } else {
-        skip(p, property);
-      }
-    });
+    const auto read_property = [&](const PlyProperty& property) {
+      &property == corners ? read_polygon(property) : skip(property);
+    };
+    read_entries(element, read_property, [] {});
   }
 
   void read_polygon(const PlyProperty& corners) {
@@ -387,11 +381,11 @@ class BodyReader {
     require_integer(file_, element, *second);
     frame_.mesh.edges.reserve(element.count);
     std::array<VertexId, 2> edge{};
-    const auto read_property = [&](std::size_t p, const PlyProperty& property) {
+    const auto read_property = [&](const PlyProperty& property) {
       if (&property == first || &property == second) {
         edge[&property == first ? 0 : 1] = read_vertex_id(property.type);
       } else {
-        skip(p, property);
+        skip(property);
       }
     };
     read_entries(element, read_property, [&] { frame_.mesh.edges.push_back(edge); });

@@ -2,6 +2,7 @@
 #include "trajectory/formats/ply_header.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -131,8 +132,7 @@ class HeaderParser {
   }
 
   PlyType parse_type(std::string_view word) const {
-    const auto found =
-        std::find_if(type_names.begin(), type_names.end(), [&](const auto& t) { return t.word == word; });
+    const auto* const found = std::ranges::find(type_names, word, &TypeName::word);
     if (found == type_names.end())
       fail(fmt::format("expected a type such as uchar, int, float or double, found {}", in_quotes(word)));
     return found->type;
@@ -175,31 +175,25 @@ std::size_t size_of(PlyType type) {
   return 0;
 }
 
-std::string_view name(PlyType type) {
-  return std::find_if(type_names.begin(), type_names.end(), [&](const auto& t) { return t.type == type; })->word;
-}
-
 const PlyProperty* PlyElement::find(std::string_view property) const {
-  const auto found =
-      std::find_if(properties.begin(), properties.end(), [&](const auto& p) { return p.name == property; });
+  const auto found = std::ranges::find(properties, property, &PlyProperty::name);
   return found == properties.end() ? nullptr : &*found;
 }
 
 const PlyElement* PlyHeader::find(std::string_view element) const {
-  const auto found = std::find_if(elements.begin(), elements.end(), [&](const auto& e) { return e.name == element; });
+  const auto found = std::ranges::find(elements, element, &PlyElement::name);
   return found == elements.end() ? nullptr : &*found;
 }
 
 std::string number_type(const PlyElement& vertex) {
-  std::vector<std::string_view> seen;
-  std::string result;
+  std::vector<std::string_view> types;
   for (const std::string_view axis : {"x", "y", "z"}) {
     const PlyProperty* property = vertex.find(axis);
-    if (property == nullptr || std::find(seen.begin(), seen.end(), name(property->type)) != seen.end()) continue;
-    seen.push_back(name(property->type));
-    result += (result.empty() ? "" : "/") + std::string(seen.back());
+    if (property == nullptr) continue;
+    const std::string_view type = std::ranges::find(type_names, property->type, &TypeName::type)->word;
+    if (std::ranges::find(types, type) == types.end()) types.push_back(type);
   }
-  return result;
+  return fmt::format("{}", fmt::join(types, "/"));
 }
 
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {

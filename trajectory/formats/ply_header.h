@@ -24,8 +24,6 @@ enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, i
 
 /// Bytes of a value in a binary body.
 std::size_t size_of(PlyType type);
-/// The name with the number of bits: "int32", "float64".
-std::string_view name(PlyType type);
 constexpr bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
 struct PlyProperty {
@@ -54,7 +52,8 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
-/// The types of x, y and z of element vertex, each once, in that order: "float32", "float32/float64".
+/// The types of x, y and z of element vertex, with their numbers of bits, each once, in that order: "float32",
+/// "float32/float64".
 std::string number_type(const PlyElement& vertex);
 
 /// Parses the header at the beginning of `bytes`; `file` is what errors call it. Allocates in proportion to the
