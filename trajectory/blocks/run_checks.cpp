@@ -10,12 +10,6 @@
 namespace noli {
 namespace {
 
-std::size_t first_difference(std::span<const Position> a, std::span<const Position> b) {
-  const auto found =
-      std::mismatch(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) { return same_bits(x, y); });
-  return static_cast<std::size_t>(found.first - a.begin());
-}
-
 std::string coordinates(const Position& x) { return fmt::format("({:.17g}, {:.17g}, {:.17g})", x[0], x[1], x[2]); }
 
 }  // namespace
@@ -35,12 +29,6 @@ bool cells_of_one_group(const Mesh& mesh, std::span<const std::uint16_t> groups)
          std::all_of(mesh.edges.begin(), mesh.edges.end(), alike);
 }
 
-std::vector<Position> positions_at_begin(const WorldLines& lines) {
-  std::vector<Position> all(lines.vertex_count());
-  for (VertexId v = 0; v < all.size(); ++v) all[v] = lines.positions(v).front();
-  return all;
-}
-
 std::vector<Position> positions_at_end(const WorldLines& lines) {
   std::vector<Position> all(lines.vertex_count());
   for (VertexId v = 0; v < all.size(); ++v) all[v] = lines.positions(v).back();
@@ -58,11 +46,14 @@ std::string time_problem(const WindowEnd& before, double begin) {
   return fmt::format("the window begins at {:.17g}, but the one before ends at {:.17g}", begin, before.time);
 }
 
-std::string position_problem(const WindowEnd& before, std::span<const Position> begin) {
-  const std::size_t v = first_difference(before.positions, begin);
-  if (v == begin.size()) return "";
-  return fmt::format("vertex {} begins at {}, but the window before left it at {}", v, coordinates(begin[v]),
-                     coordinates(before.positions[v]));
+std::string position_problem(const WindowEnd& before, const WorldLines& lines) {
+  for (VertexId v = 0; v < lines.vertex_count(); ++v) {
+    const Position &begin = lines.positions(v).front(), &end = before.positions[v];
+    if (same_bits(begin, end)) continue;
+    return fmt::format("vertex {} begins at {}, but the window before left it at {}", v, coordinates(begin),
+                       coordinates(end));
+  }
+  return "";
 }
 
 std::string frames_problem(std::uint64_t index, double begin, const WindowEnd& end, std::span<const RunFrame> frames) {
@@ -73,7 +64,8 @@ std::string frames_problem(std::uint64_t index, double begin, const WindowEnd& e
       return fmt::format("a frame at {:.17g} in a window from {:.17g} to {:.17g}, after {:.17g}", frame.time, begin,
                          end.time, before);
     }
-    if (frame.time == end.time && first_difference(frame.positions, end.positions) != end.positions.size()) {
+    const auto alike = [](const Position& a, const Position& b) { return same_bits(a, b); };
+    if (frame.time == end.time && !std::ranges::equal(frame.positions, end.positions, alike)) {
       return "the frame at the window's end has other positions than the end";
     }
     before = frame.time;

@@ -21,14 +21,13 @@ bool same_bits(const Position& a, const Position& b);
 /// Whether the vertices of each cell are of one group. Precondition: a group for each vertex.
 bool cells_of_one_group(const Mesh& mesh, std::span<const std::uint16_t> groups);
 
-std::vector<Position> positions_at_begin(const WorldLines& lines);
 std::vector<Position> positions_at_end(const WorldLines& lines);
 std::uint64_t count_breakpoints(const WorldLines& lines);
 
 /// A window that begins at this time goes on from the one before.
 std::string time_problem(const WindowEnd& before, double begin);
-/// ... with these positions.
-std::string position_problem(const WindowEnd& before, std::span<const Position> begin);
+/// ... with the first positions of these.
+std::string position_problem(const WindowEnd& before, const WorldLines& lines);
 
 /// Frames ascend in time. Those of window 0 are in [begin, end], those of later ones in (begin, end], so that each
 /// moment belongs to one window; one at the end has the positions there.

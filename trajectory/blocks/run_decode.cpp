@@ -18,8 +18,7 @@ class Payload {
  public:
   explicit Payload(const Source& source) : source_(source) {}
 
-  [[noreturn]] void fail(const std::string& problem) const { throw InputError(source_.file, place(), problem); }
-  std::string place() const { return byte_place(source_.block.payload_offset() + last_); }
+  [[noreturn]] void fail(const std::string& problem) const { fail_at(last_, problem); }
   std::uint64_t left() const { return source_.block.payload.size() - at_; }
 
   /// Fails unless exactly `count` items of `size` bytes are left. Nothing overflows: count is compared, not multiplied.
@@ -64,26 +63,26 @@ class Payload {
     }
     return all;
   }
+  /// The same, of all vertices and finite.
+  std::vector<Position> finite_vectors(std::uint32_t dimension, std::size_t vertex_count) {
+    require(vertex_count, dimension * sizeof(double), "the vectors of all vertices");
+    std::vector<Position> all = vectors(dimension);
+    for (std::size_t v = 0; v < all.size(); ++v) {
+      for (const double x : all[v]) {
+        if (!std::isfinite(x)) fail_at(0, fmt::format("vertex {}: expected a finite coordinate, found {}", v, x));
+      }
+    }
+    return all;
+  }
 
  private:
+  [[noreturn]] void fail_at(std::uint64_t offset, const std::string& problem) const {
+    throw InputError(source_.file, byte_place(source_.block.payload_offset() + offset), problem);
+  }
+
   const Source& source_;
   std::uint64_t at_ = 0, last_ = 0;
 };
-
-std::vector<Position> finite_vectors(Payload& payload, const Source& source, std::uint32_t dimension,
-                                     std::size_t vertex_count) {
-  payload.require(vertex_count, dimension * sizeof(double), "the vectors of all vertices");
-  std::vector<Position> all = payload.vectors(dimension);
-  for (std::size_t v = 0; v < all.size(); ++v) {
-    for (const double x : all[v]) {
-      if (!std::isfinite(x)) {
-        throw InputError(source.file, byte_place(source.block.payload_offset()),
-                         fmt::format("vertex {}: expected a finite coordinate, found {}", v, x));
-      }
-    }
-  }
-  return all;
-}
 
 template <class Cell>
 void take_cells(Payload& payload, std::size_t vertex_count, std::vector<Cell>& cells) {
@@ -93,23 +92,6 @@ void take_cells(Payload& payload, std::size_t vertex_count, std::vector<Cell>& c
       if (v >= vertex_count) payload.fail(fmt::format("vertex {} of {}", v, vertex_count));
     }
   }
-}
-
-struct CellCounts {
-  std::uint64_t vertices, faces, edges, points;
-};
-
-/// Fails unless the rest of the payload holds just these cells.
-CellCounts take_counts(Payload& payload) {
-  const CellCounts n{payload.number<std::uint64_t>(), payload.number<std::uint64_t>(), payload.number<std::uint64_t>(),
-                     payload.number<std::uint64_t>()};
-  const std::uint64_t words = payload.left() / sizeof(VertexId);
-  if (n.vertices == 0 || n.vertices > std::uint64_t{1} << 32) {
-    payload.fail(fmt::format("a mesh of {} vertices; expected 1 to 4294967296", n.vertices));
-  }
-  if (n.faces > words || n.edges > words || n.points > words) payload.fail("more cells than the block has bytes");
-  payload.require(3 * n.faces + 2 * n.edges + n.points, sizeof(VertexId), "the vertices of all cells");
-  return n;
 }
 
 }  // namespace
@@ -133,14 +115,21 @@ RunHeader decode_head(const Source& source) {
 
 Mesh decode_mesh(const Source& source) {
   Payload payload(source);
-  const CellCounts counts = take_counts(payload);
+  const auto vertices = payload.number<std::uint64_t>(), faces = payload.number<std::uint64_t>(),
+             edges = payload.number<std::uint64_t>(), points_listed = payload.number<std::uint64_t>();
+  const std::uint64_t words = payload.left() / sizeof(VertexId);
+  if (vertices == 0 || vertices > std::uint64_t{1} << 32) {
+    payload.fail(fmt::format("a mesh of {} vertices; expected 1 to 4294967296", vertices));
+  }
+  if (faces > words || edges > words || points_listed > words) payload.fail("more cells than the block has bytes");
+  payload.require(3 * faces + 2 * edges + points_listed, sizeof(VertexId), "the vertices of all cells");
   Mesh mesh;
-  mesh.vertex_count = counts.vertices;
-  mesh.faces.resize(counts.faces);
-  mesh.edges.resize(counts.edges);
+  mesh.vertex_count = vertices;
+  mesh.faces.resize(faces);
+  mesh.edges.resize(edges);
   take_cells(payload, mesh.vertex_count, mesh.faces);
   take_cells(payload, mesh.vertex_count, mesh.edges);
-  std::vector<std::array<VertexId, 1>> points(counts.points);
+  std::vector<std::array<VertexId, 1>> points(points_listed);
   take_cells(payload, mesh.vertex_count, points);
   for (const auto& [v] : points) mesh.points.push_back(v);
   return mesh;
@@ -175,15 +164,15 @@ Exclusions decode_exclusions(const Source& source, const Mesh& mesh) {
   return exclusions;
 }
 
-WindowTimes decode_window(const Source& source) {
+RunWindow decode_window(const Source& source) {
   Payload payload(source);
-  WindowTimes times;
-  times.index = payload.number<std::uint64_t>();
-  times.begin = payload.finite("time");
-  times.end = payload.finite("time");
-  if (!(times.begin < times.end)) payload.fail(fmt::format("a window from {} to {}", times.begin, times.end));
+  RunWindow window;
+  window.index = payload.number<std::uint64_t>();
+  window.begin = payload.finite("time");
+  window.end = payload.finite("time");
+  if (!(window.begin < window.end)) payload.fail(fmt::format("a window from {} to {}", window.begin, window.end));
   payload.finish();
-  return times;
+  return window;
 }
 
 WorldLines decode_lines(const Source& source, std::uint32_t dimension, std::size_t vertex_count) {
@@ -204,25 +193,22 @@ WorldLines decode_lines(const Source& source, std::uint32_t dimension, std::size
 }
 
 std::vector<Position> decode_vectors(const Source& source, std::uint32_t dimension, std::size_t vertex_count) {
-  Payload payload(source);
-  return finite_vectors(payload, source, dimension, vertex_count);
+  return Payload(source).finite_vectors(dimension, vertex_count);
 }
 
 RunFrame decode_frame(const Source& source, std::uint32_t dimension, std::size_t vertex_count) {
   Payload payload(source);
   RunFrame frame;
   frame.time = payload.finite("time");
-  frame.positions = finite_vectors(payload, source, dimension, vertex_count);
+  frame.positions = payload.finite_vectors(dimension, vertex_count);
   return frame;
 }
 
-LinesHash decode_lines_hash(const Source& source) {
+void decode_lines_hash(const Source& source, RunWindow& window) {
   Payload payload(source);
-  LinesHash hash;
-  hash.breakpoints = payload.number<std::uint64_t>();
-  payload.require(hash.hash.size(), 1, "the bytes of a hash");
-  payload.numbers(std::span<std::uint8_t>(hash.hash));
-  return hash;
+  window.breakpoints = payload.number<std::uint64_t>();
+  payload.require(window.lines_hash.size(), 1, "the bytes of a hash");
+  payload.numbers(std::span<std::uint8_t>(window.lines_hash));
 }
 
 }  // namespace noli::run_block

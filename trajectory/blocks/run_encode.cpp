@@ -58,19 +58,16 @@ std::string encode_labels(std::span<const std::uint8_t> labels) { return {labels
 std::string encode_exclusions(const Exclusions& exclusions) {
   std::string out;
   put(out, static_cast<std::uint32_t>(exclusions.pairs.size()));
-  for (const auto& [a, b] : exclusions.pairs) {
-    put(out, a);
-    put(out, b);
-  }
-  for (const std::uint16_t group : exclusions.groups) put(out, group);
+  for (const Exclusions::Pair& pair : exclusions.pairs) put_all(out, std::span<const std::uint16_t>(pair));
+  put_all(out, std::span<const std::uint16_t>(exclusions.groups));
   return out;
 }
 
-std::string encode_window(const WindowTimes& times) {
+std::string encode_window(std::uint64_t index, double begin, double end) {
   std::string out;
-  put(out, times.index);
-  put(out, times.begin);
-  put(out, times.end);
+  put(out, index);
+  put(out, begin);
+  put(out, end);
   return out;
 }
 
@@ -100,10 +97,10 @@ std::string encode_frame(std::uint32_t dimension, const RunFrame& frame) {
   return out += encode_vectors(dimension, frame.positions);
 }
 
-std::string encode_lines_hash(const LinesHash& hash) {
+std::string encode_lines_hash(std::uint64_t breakpoints, const Sha256Digest& hash) {
   std::string out;
-  put(out, hash.breakpoints);
-  return out.append(bytes_of(hash.hash));
+  put(out, breakpoints);
+  return out.append(bytes_of(hash));
 }
 
 }  // namespace noli::run_block

@@ -32,27 +32,17 @@ inline constexpr FourLetters state = four_letters("STAT");
 
 namespace noli::run_block {
 
-struct WindowTimes {
-  std::uint64_t index = 0;
-  double begin = 0, end = 0;
-};
-
-struct LinesHash {
-  std::uint64_t breakpoints = 0;
-  Sha256Digest hash{};
-};
-
 std::string encode_head(const RunHeader& header);
 std::string encode_mesh(const Mesh& mesh);
 std::string encode_labels(std::span<const std::uint8_t> labels);
 std::string encode_exclusions(const Exclusions& exclusions);
-std::string encode_window(const WindowTimes& times);
+std::string encode_window(std::uint64_t index, double begin, double end);
 /// World lines can be too many to be in memory twice.
 std::uint64_t encoded_lines_size(std::uint32_t dimension, const WorldLines& lines);
 void encode_lines(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer);
 std::string encode_vectors(std::uint32_t dimension, std::span<const Position> vectors);
 std::string encode_frame(std::uint32_t dimension, const RunFrame& frame);
-std::string encode_lines_hash(const LinesHash& hash);
+std::string encode_lines_hash(std::uint64_t breakpoints, const Sha256Digest& hash);
 
 /// A block and the name of its file, for errors.
 struct Source {
@@ -65,10 +55,12 @@ Mesh decode_mesh(const Source& source);
 std::vector<std::uint8_t> decode_labels(const Source& source, std::size_t vertex_count);
 /// `mesh`: whose vertices and cells they are about.
 Exclusions decode_exclusions(const Source& source, const Mesh& mesh);
-WindowTimes decode_window(const Source& source);
+/// A window whose index and times are set.
+RunWindow decode_window(const Source& source);
 WorldLines decode_lines(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
 std::vector<Position> decode_vectors(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
 RunFrame decode_frame(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
-LinesHash decode_lines_hash(const Source& source);
+/// Sets the number of breakpoints and their hash.
+void decode_lines_hash(const Source& source, RunWindow& window);
 
 }  // namespace noli::run_block

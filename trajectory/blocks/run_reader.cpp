@@ -108,16 +108,14 @@ void RunReader::decode_full(const std::vector<Block>& blocks, RunWindow& window)
   window.breakpoints = count_breakpoints(*window.lines);
   window.positions = positions_at_end(*window.lines);
   if (!last_) return;
-  const std::string problem = position_problem(*last_, positions_at_begin(*window.lines));
+  const std::string problem = position_problem(*last_, *window.lines);
   if (!problem.empty()) fail(block, problem);
 }
 
 void RunReader::decode_frames(const std::vector<Block>& blocks, RunWindow& window) const {
   const std::uint32_t dimension = scene_.header.dimension;
   const std::size_t vertex_count = scene_.mesh.vertex_count;
-  const run_block::LinesHash hash = run_block::decode_lines_hash({blocks_.name(), blocks[1]});
-  window.breakpoints = hash.breakpoints;
-  window.lines_hash = hash.hash;
+  run_block::decode_lines_hash({blocks_.name(), blocks[1]}, window);
   const std::size_t ends = blocks.size() - 3;
   for (std::size_t i = 2; i < ends; ++i) {
     window.frames.push_back(run_block::decode_frame({blocks_.name(), blocks[i]}, dimension, vertex_count));
@@ -134,11 +132,7 @@ std::optional<RunWindow> RunReader::next_window() {
     require_count(windows());
     return std::nullopt;
   }
-  const run_block::WindowTimes times = run_block::decode_window({blocks_.name(), blocks->front()});
-  RunWindow window;
-  window.index = times.index;
-  window.begin = times.begin;
-  window.end = times.end;
+  RunWindow window = run_block::decode_window({blocks_.name(), blocks->front()});
   if (window.index != windows() - 1) {
     fail(blocks->front(), fmt::format("window {} where window {} was expected", window.index + 1, windows()));
   }

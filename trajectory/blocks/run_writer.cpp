@@ -32,11 +32,10 @@ bool fits_dimension(std::uint32_t dimension, std::span<const Position> vectors) 
 
 void check_cells(const Mesh& mesh) {
   const auto in_range = [&](VertexId v) { return v < mesh.vertex_count; };
-  for (const auto& face : mesh.faces)
-    require(std::all_of(face.begin(), face.end(), in_range), "a face beyond the mesh");
-  for (const auto& edge : mesh.edges)
-    require(std::all_of(edge.begin(), edge.end(), in_range), "an edge beyond the mesh");
-  require(std::all_of(mesh.points.begin(), mesh.points.end(), in_range), "a point beyond the mesh");
+  const auto within = [&](const auto& cell) { return std::ranges::all_of(cell, in_range); };
+  require(std::ranges::all_of(mesh.faces, within), "a face beyond the mesh");
+  require(std::ranges::all_of(mesh.edges, within), "an edge beyond the mesh");
+  require(std::ranges::all_of(mesh.points, in_range), "a point beyond the mesh");
 }
 
 void check_scene(const RunScene& scene) {
@@ -111,8 +110,8 @@ void RunWriter::check(const WindowToWrite& window) const {
 }
 
 void RunWriter::append_frames(const WindowToWrite& window, const WindowEnd& end) {
-  const run_block::LinesHash hash{count_breakpoints(window.lines), lines_hash(header_.dimension, window.lines)};
-  blocks_.append(run_kind::lines_hash, run_block::encode_lines_hash(hash));
+  const Sha256Digest hash = lines_hash(header_.dimension, window.lines);
+  blocks_.append(run_kind::lines_hash, run_block::encode_lines_hash(count_breakpoints(window.lines), hash));
   for (const RunFrame& frame : window.frames) {
     blocks_.append(run_kind::frame, run_block::encode_frame(header_.dimension, frame));
   }
@@ -121,14 +120,14 @@ void RunWriter::append_frames(const WindowToWrite& window, const WindowEnd& end)
 
 void RunWriter::append_window(const WindowToWrite& window) {
   check(window);
-  const run_block::WindowTimes times{window.index, window.lines.first_time(), window.lines.last_time()};
-  WindowEnd end{times.end, positions_at_end(window.lines)};
+  const double begin = window.lines.first_time();
+  WindowEnd end{window.lines.last_time(), positions_at_end(window.lines)};
   if (last_) {
-    require_none(time_problem(*last_, times.begin));
-    require_none(position_problem(*last_, positions_at_begin(window.lines)));
+    require_none(time_problem(*last_, begin));
+    require_none(position_problem(*last_, window.lines));
   }
-  require_none(frames_problem(window.index, times.begin, end, window.frames));
-  blocks_.append(run_kind::window, run_block::encode_window(times));
+  require_none(frames_problem(window.index, begin, end, window.frames));
+  blocks_.append(run_kind::window, run_block::encode_window(window.index, begin, end.time));
   if (header_.record == RecordMode::full) {
     const auto payload = [&](const ByteConsumer& take) {
       run_block::encode_lines(header_.dimension, window.lines, take);

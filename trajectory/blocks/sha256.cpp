@@ -2,6 +2,7 @@
 #include "trajectory/blocks/sha256.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -59,11 +60,7 @@ Sha256Digest sha256(std::string_view bytes) {
   return hash.digest();
 }
 
-std::string hex(const Sha256Digest& digest) {
-  std::string text;
-  for (const std::uint8_t byte : digest) text += fmt::format("{:02x}", byte);
-  return text;
-}
+std::string hex(const Sha256Digest& digest) { return fmt::format("{:02x}", fmt::join(digest, "")); }
 
 std::optional<Sha256Digest> digest_of_hex(std::string_view text) {
   Sha256Digest digest{};
