@@ -9,19 +9,9 @@
 #include <system_error>
 
 #include <noli/errors.h>
+#include "trajectory/blocks/block_sink.h"
 
 namespace noli {
-namespace {
-
-int open_folder(const std::filesystem::path& folder) {
-  const std::string name = folder.empty() ? "." : folder.string();
-  const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), name);
-  return descriptor;
-}
-
-}  // namespace
-
 PartFile::PartFile(const std::filesystem::path& path)
     : path_(path), name_(path.filename().string()), part_(name_ + ".part"), folder_(open_folder(path.parent_path())) {
   try {

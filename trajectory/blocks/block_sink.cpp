@@ -65,14 +65,19 @@ void FileSink::truncate(std::uint64_t size) {
   check(::lseek(descriptor_, static_cast<off_t>(size), SEEK_SET) >= 0);
 }
 
-void sync_folder(const std::filesystem::path& folder) {
+int open_folder(const std::filesystem::path& folder) {
   const std::string name = folder.empty() ? "." : folder.string();
   const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) throw_errno(name);
+  return descriptor;
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = open_folder(folder);
   const bool synced = ::fsync(descriptor) == 0 || errno == EINVAL;  // some file systems have no such thing
   const int error = errno;
   ::close(descriptor);
-  if (!synced) throw std::system_error(error, std::generic_category(), name);
+  if (!synced) throw std::system_error(error, std::generic_category(), folder.empty() ? "." : folder.string());
 }
 
 }  // namespace noli

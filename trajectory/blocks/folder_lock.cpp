@@ -14,17 +14,14 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <thread>
+
+#include "trajectory/blocks/block_sink.h"
 
 namespace noli {
 namespace {
 
 namespace fs = std::filesystem;
-
-int open_folder(const fs::path& folder) {
-  return ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-}
 
 /// Whether the name still leads to the folder that was opened: another process may have put a new one there.
 bool is_there(int descriptor, const fs::path& folder) {
@@ -67,7 +64,6 @@ int lock_folder(const fs::path& folder) {
   const auto patience = Clock::now() + std::chrono::milliseconds(400);
   for (;;) {
     const int descriptor = open_folder(folder);
-    if (descriptor < 0) throw std::system_error(errno, std::generic_category(), folder.string());
     const Attempt attempt = lock(descriptor, LOCK_EX);
     if (attempt != Attempt::refused && is_there(descriptor, folder)) return descriptor;
     const std::optional<int> process = attempt == Attempt::refused ? holder(descriptor) : std::nullopt;
@@ -85,7 +81,7 @@ FolderLock::FolderLock(const fs::path& folder) : descriptor_(lock_folder(folder)
 FolderLock::~FolderLock() { ::close(descriptor_); }
 
 bool is_locked(const fs::path& folder) {
-  const int descriptor = open_folder(folder);
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return false;
   const bool locked = lock(descriptor, LOCK_SH) == Attempt::refused;
   ::close(descriptor);
