@@ -14,17 +14,17 @@
 namespace noli {
 namespace {
 
+/// Null if it is not there.
+const Json& member(const Json& json, const char* key) {
+  static const Json nothing;
+  return json.contains(key) ? json[key] : nothing;
+}
+
 /// A member that is a number, or else 0.
 template <class T>
 T number(const Json& json, const char* key) {
-  const auto found = json.is_object() ? json.find(key) : json.end();
-  return json.is_object() && found != json.end() && found->is_number() ? found->template get<T>() : T{};
-}
-
-const Json& member(const Json& json, const char* key) {
-  static const Json nothing;
-  const auto found = json.is_object() ? json.find(key) : json.end();
-  return json.is_object() && found != json.end() ? *found : nothing;
+  const Json& found = member(json, key);
+  return found.is_number() ? found.get<T>() : T{};
 }
 
 std::optional<Sha256Digest> digest(const Json& json, const char* key) {
