@@ -13,7 +13,6 @@
 #include "certify/proofs/lines_pipe.h"
 #include "certify/proofs/prove_run.h"
 #include "certify/runs/run_folder.h"
-#include "certify/runs/run_inputs.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/simulate/windows_again.h"

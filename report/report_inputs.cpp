@@ -7,7 +7,7 @@
 #include <string>
 
 #include <noli/errors.h>
-#include "certify/runs/run_inputs.h"
+#include "certify/runs/run_folder.h"
 #include "report/input_report.h"
 #include "trajectory/stop.h"
 

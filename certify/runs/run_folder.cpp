@@ -54,6 +54,12 @@ Json essential(Json scene) {
   return scene;
 }
 
+/// Null where the scene has none.
+Json member_of_scene(const fs::path& run, const char* key) {
+  const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
+  return scene.is_object() ? scene.value(key, Json()) : Json();
+}
+
 /// The files of a run, but not the folder: it may be the current one. What tells that it is a run goes last, so it is
 /// one still if this is cut short. A link is removed, and its target stays.
 void clear(const fs::path& folder) {
@@ -158,10 +164,17 @@ bool is_file_of_run(const fs::path& name) {
   return names.count(text) > 0 || text.starts_with(".noli-");
 }
 
+std::vector<FrameFacts> run_facts(const fs::path& run, const std::function<bool()>& stop) {
+  std::vector<FrameFacts> facts = {file_facts(trajectory_path(run), stop)};
+  const fs::path manifest = run / "manifest.json";
+  std::error_code error;
+  if (fs::exists(manifest, error)) facts.push_back(file_facts(manifest, stop));
+  return facts;
+}
+
 std::string title_of(const fs::path& run) {
-  const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
-  return scene.is_object() && scene.contains("title") && scene["title"].is_string() ? scene["title"].get<std::string>()
-                                                                                    : "";
+  const Json title = member_of_scene(run, "title");
+  return title.is_string() ? title.get<std::string>() : "";
 }
 
 std::optional<double> duration_of(const fs::path& run) {
@@ -169,9 +182,8 @@ std::optional<double> duration_of(const fs::path& run) {
     std::error_code error;
     if (fs::status(run / file, error).type() == fs::file_type::not_found) return std::nullopt;
   }
-  const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
-  if (!scene.is_object() || !scene.contains("duration") || !scene["duration"].is_number()) return std::nullopt;
-  return scene["duration"];
+  const Json duration = member_of_scene(run, "duration");
+  return duration.is_number() ? std::optional(duration.get<double>()) : std::nullopt;
 }
 
 Sha256Digest RunFolder::keep_series() const {

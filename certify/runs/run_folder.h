@@ -7,9 +7,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include <noli/frames.h>
 #include "certify/json.h"
 #include "certify/runs/run_series.h"
 #include "trajectory/blocks/folder_lock.h"
@@ -77,6 +79,11 @@ class RunFolder {
 
 /// Whether a run has a file of this name in its folder, for good or for a moment.
 bool is_file_of_run(const std::filesystem::path& name);
+
+/// The files of a run that `noli verify` reads and that do not change once it has ended: trajectory.blocks and, where
+/// it is there, manifest.json, each with the SHA-256 of its bytes. Throws InputError; ReadInterrupted when `stop` says
+/// true.
+std::vector<FrameFacts> run_facts(const std::filesystem::path& run, const std::function<bool()>& stop);
 
 /// Of the scene of a run. Throws InputError when its manifest or its scene is not there or damaged.
 std::string title_of(const std::filesystem::path& run);
