@@ -74,7 +74,6 @@ class Column {
     ++rows_;
     if (waiting_.size() >= enough) flush();
   }
-  void append(double value) { append(std::span(&value, 1)); }
 
   void flush() {
     if (waiting_.empty()) return;
@@ -91,10 +90,35 @@ class Column {
   std::uint64_t written_ = 0, rows_ = 0;
 };
 
-SeriesProgram program_that_stops(const Stop& stop) {
-  SeriesProgram program = series_program();
-  program.stop = stop;
-  return program;
+std::string in_group(const char* group, std::size_t kind) {
+  return std::string(group) + "/" + std::string(name(static_cast<ForceKind>(kind)));
+}
+
+/// Calls each(name, unit, values) for all that a row says of its window, but for the shares of its steps.
+template <class Each>
+void each_series(const SeriesRow& row, const Each& each) {
+  const auto one = [&each](const std::string& name, const char* unit, double value) {
+    each(name, unit, std::span<const double>(&value, 1));
+  };
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  one("time", "s", row.time);
+  one("energy/kinetic", "J", row.kinetic);
+  one("energy/kinetic_mean", "J", row.kinetic_mean);
+  for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
+    one(in_group("energy/potential", k), "J", row.potential[k]);
+    one(in_group("work", k), "J", row.work[k]);
+    one(in_group("damping_work", k), "J", row.damping_work[k]);
+  }
+  each("momentum", "N s", row.momentum);
+  each("angular_momentum", "N m s", row.angular_momentum);
+  one("events", "1", static_cast<double>(row.events_in_all()));
+  for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
+    one(in_group("events_of", k), "1", static_cast<double>(row.events[k]));
+  }
+  one("breakpoints", "1", static_cast<double>(row.breakpoints));
+  one("contact/deepest_layer", "1", static_cast<double>(row.deepest.layer));
+  one("contact/least_distance", "m", row.nearest.layer > 0 ? row.nearest.distance : none);
+  one("histograms/smallest_step", "s", row.steps.smallest);
 }
 
 class Series {
@@ -105,7 +129,7 @@ class Series {
         stop_(stop),
         extent_(extent),
         reader_(run),
-        file_(run / "series.h5", program_that_stops(stop)) {
+        file_(run / "series.h5", {.file = series_program().file, .stop = stop}) {
     declare();
   }
 
@@ -121,32 +145,15 @@ class Series {
   }
 
  private:
-  static std::string of(const char* group, std::size_t kind) {
-    return std::string(group) + "/" + std::string(name(static_cast<ForceKind>(kind)));
-  }
-
   void declare(const std::string& name, const std::string& unit, const SeriesShape& shape) {
     columns_.try_emplace(name, file_, name, unit, shape);
   }
 
   void declare() {
     const std::uint64_t n = extent_.windows;
-    declare("time", "s", {n});
-    declare("energy/kinetic", "J", {n});
-    declare("energy/kinetic_mean", "J", {n});
-    for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
-      declare(of("energy/potential", k), "J", {n});
-      declare(of("work", k), "J", {n});
-      declare(of("damping_work", k), "J", {n});
-    }
-    declare("momentum", "N s", {n, 3});
-    declare("angular_momentum", "N m s", {n, 3});
-    declare("events", "1", {n});
-    for (std::size_t k = 0; k < integrator::force_kinds; ++k) declare(of("events_of", k), "1", {n});
-    declare("breakpoints", "1", {n});
-    declare("contact/deepest_layer", "1", {n});
-    declare("contact/least_distance", "m", {n});
-    declare("histograms/smallest_step", "s", {n});
+    each_series(SeriesRow{}, [&](const std::string& name, const char* unit, std::span<const double> values) {
+      declare(name, unit, values.size() == 1 ? SeriesShape{n} : SeriesShape{n, values.size()});
+    });
     declare("histograms/step_share", "1", {n, extent_.bins});
     std::vector<double> ends;
     for (std::uint64_t i = 0; i <= extent_.bins; ++i) {
@@ -160,25 +167,9 @@ class Series {
   Column& column(const std::string& name) { return columns_.at(name); }
 
   void write(const SeriesRow& row) {
-    column("time").append(row.time);
-    column("energy/kinetic").append(row.kinetic);
-    column("energy/kinetic_mean").append(row.kinetic_mean);
-    for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
-      column(of("energy/potential", k)).append(row.potential[k]);
-      column(of("work", k)).append(row.work[k]);
-      column(of("damping_work", k)).append(row.damping_work[k]);
-    }
-    column("momentum").append(row.momentum);
-    column("angular_momentum").append(row.angular_momentum);
-    column("events").append(static_cast<double>(row.events_in_all()));
-    for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
-      column(of("events_of", k)).append(static_cast<double>(row.events[k]));
-    }
-    column("breakpoints").append(static_cast<double>(row.breakpoints));
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    column("contact/deepest_layer").append(static_cast<double>(row.deepest.layer));
-    column("contact/least_distance").append(row.nearest.layer > 0 ? row.nearest.distance : none);
-    column("histograms/smallest_step").append(row.steps.smallest);
+    each_series(row, [this](const std::string& name, const char*, std::span<const double> values) {
+      column(name).append(values);
+    });
     column("histograms/step_share").append(shares(row.steps));
   }
 
@@ -207,7 +198,7 @@ class Series {
   }
 
   void write_frame(double time, const std::vector<Position>& positions) {
-    column("frames/time").append(time);
+    column("frames/time").append(std::span(&time, 1));
     column("frames/positions").append(coordinates(positions));
   }
 

@@ -19,11 +19,7 @@ std::string how_it_ended(const ProgramEnd& end) {
 
 bool SeriesProgram::available() const { return ::access(file.c_str(), X_OK) == 0; }
 
-SeriesProgram series_program() {
-  SeriesProgram program;
-  program.file = beside_this_program("noli_series");
-  return program;
-}
+SeriesProgram series_program() { return {.file = beside_this_program("noli_series")}; }
 
 SeriesProcess::SeriesProcess(const SeriesProgram& program, int output)
     : limits_{.time = program.patience, .stop = program.stop, .to_end = {}},
