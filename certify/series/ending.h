@@ -4,6 +4,9 @@
 // because HDF5 writes what it still has when it is closed.
 #pragma once
 
+#include <unistd.h>
+
+#include <cstring>
 #include <string_view>
 
 namespace noli::series {
@@ -14,8 +17,14 @@ enum class Ending : int {
   failure = 4      ///< the machine, or HDF5
 };
 
-[[noreturn]] void end_with(Ending ending, std::string_view line);
+[[noreturn]] inline void end_with(Ending ending, std::string_view line) {
+  for (const std::string_view text : {line, std::string_view("\n")}) {
+    // Nothing is left to do when not even this can be written.
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  }
+  ::_exit(static_cast<int>(ending));
+}
 /// Of the machine: what errno means.
-[[noreturn]] void end_lost(int error);
+[[noreturn]] inline void end_lost(int error) { end_with(Ending::failure, ::strerror(error)); }
 
 }  // namespace noli::series

@@ -14,14 +14,6 @@ Said require(Said said, const std::string& what) {
   return said;
 }
 
-/// Contiguous; no zeros written before the values, which would take as long as the values, at once; no time of day in
-/// the file.
-void make_plain(hid_t properties, const std::string& what) {
-  require(H5Pset_layout(properties, H5D_CONTIGUOUS), what);
-  require(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), what);
-  require(H5Pset_obj_track_times(properties, false), what);
-}
-
 void write_unit(hid_t dataset, const Array& array) {
   const hid_t type = require(H5Tcopy(H5T_C_S1), array.name);
   require(H5Tset_size(type, H5T_VARIABLE), array.name);
@@ -67,7 +59,11 @@ void Hdf5File::declare(const Array& array) {
   const hid_t links = require(H5Pcreate(H5P_LINK_CREATE), array.name);
   const hid_t properties = require(H5Pcreate(H5P_DATASET_CREATE), array.name);
   require(H5Pset_create_intermediate_group(links, 1), array.name);
-  make_plain(properties, array.name);
+  // Contiguous; no zeros written before the values, which would take as long as the values, at once; no time of day in
+  // the file.
+  require(H5Pset_layout(properties, H5D_CONTIGUOUS), array.name);
+  require(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), array.name);
+  require(H5Pset_obj_track_times(properties, false), array.name);
   const hid_t type = array.type == Type::f64 ? H5T_IEEE_F64LE : H5T_STD_I64LE;
   datasets_.push_back(
       require(H5Dcreate2(file_, array.name.c_str(), type, space, links, properties, H5P_DEFAULT), array.name));

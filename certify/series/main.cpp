@@ -33,13 +33,6 @@ void limit_memory() {
 #endif
 }
 
-/// A file beyond the limit of its size is then an error of writing.
-void set_up() {
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::set_terminate([] { end_with(Ending::failure, "internal error"); });
-  limit_memory();
-}
-
 void require_file(int descriptor) {
   struct stat status = {};
   const bool regular = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
@@ -78,7 +71,9 @@ int main(int argc, char** argv) {
   if (argc != 2 || std::string_view(argv[1]) != "write") {
     end_with(Ending::bad_stream, "usage: noli_series write <STREAM 1<>FILE.h5 (noli starts it by itself)");
   }
-  set_up();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is then an error of writing
+  std::set_terminate([] { end_with(Ending::failure, "internal error"); });
+  limit_memory();
   try {
     write();
   } catch (const std::bad_alloc&) {
