@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "trajectory/cells.h"
-#include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
 
 namespace noli {
@@ -66,16 +65,6 @@ std::size_t IdenticalVertices::merged_count() const {
   std::size_t count = 0;
   for (std::size_t v = 0; v < representative_.size(); ++v) count += representative_[v] != v;
   return count;
-}
-
-IdenticalVertices find_identical_vertices(const std::vector<std::filesystem::path>& paths) {
-  FrameSequence sequence(paths, Motion::constant);
-  sequence.next();
-  IdenticalVertices classes(sequence.mesh().vertex_count);
-  do {
-    classes.refine(sequence.x_t0());
-  } while (sequence.next());
-  return classes;
 }
 
 Mesh with_merged_vertices(const Mesh& mesh, const IdenticalVertices& classes) {

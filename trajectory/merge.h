@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -37,10 +36,6 @@ class IdenticalVertices {
  private:
   std::vector<VertexId> representative_;
 };
-
-/// The first pass. Throws InputError as reading a FrameSequence does, also for frames that differ in their mesh.
-/// Precondition: at least one path.
-IdenticalVertices find_identical_vertices(const std::vector<std::filesystem::path>& paths);
 
 /// The mesh with every index replaced by its representative. vertex_count stays, so positions need no change; vertices
 /// that were merged into others are no longer referred to (so ask unreferenced_vertices() before, if they are to

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "support.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/formats/write_ply.h"
 
 namespace noli {
@@ -70,6 +71,17 @@ TEST(Merge, MeshRefersToTheFirstOfEachClass) {
   EXPECT_EQ(merged.faces, (decltype(Mesh::faces){{0, 1, 2}, {0, 0, 5}})) << "the second became degenerate and stays";
   EXPECT_EQ(merged.edges, (decltype(Mesh::edges){{1, 1}, {1, 5}})) << "0-1 became an edge of a face";
   EXPECT_TRUE(merged.points.empty());
+}
+
+/// As `noli verify --merge-identical` does it.
+IdenticalVertices find_identical_vertices(const std::vector<std::filesystem::path>& paths) {
+  FrameSequence sequence(paths, Motion::constant);
+  sequence.next();
+  IdenticalVertices classes(sequence.mesh().vertex_count);
+  do {
+    classes.refine(sequence.x_t0());
+  } while (sequence.next());
+  return classes;
 }
 
 TEST(Merge, ReadsAllFrames) {
