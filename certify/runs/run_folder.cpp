@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const Json& scene) { return scene.dump(2) + "\n"; }
-
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
@@ -104,7 +102,7 @@ void RunFolder::make(bool force) {
 }
 
 void RunFolder::begin(const Json& scene, const Sha256Digest& model, const Json& facts) {
-  write_manifest(path_, text_of(scene), {{"noli", version_number()}}, model);
+  write_manifest(path_, scene.dump(2) + "\n", {{"noli", version_number()}}, model);
   log_.emplace(path_);
   log_begin(facts);
 }

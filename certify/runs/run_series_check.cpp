@@ -57,9 +57,8 @@ void check_vertices(const ActingLayer& layer, const RunScene& scene) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     require(vertices[i] < scene.mesh.vertex_count, "a layer at vertex {}; expected one below {}", vertices[i],
             scene.mesh.vertex_count);
-    require(std::find(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(i), vertices[i]) ==
-                vertices.begin() + static_cast<std::ptrdiff_t>(i),
-            "a layer that names a vertex twice: {}", vertices[i]);
+    require(std::ranges::count(vertices.first(i), vertices[i]) == 0, "a layer that names a vertex twice: {}",
+            vertices[i]);
   }
 }
 
@@ -89,12 +88,6 @@ void check_layers(const SeriesRow& row, const RunWindow& window, const RunScene&
 
 // --- Steps -----------------------------------------------------------------------------------------------------------
 
-void check_bin(const StepHistogram::Bin& bin, std::int64_t greatest) {
-  require(least_step_bin <= bin.number && bin.number <= greatest, "the bin {}; expected bins of steps from {} to {}",
-          bin.number, least_step_bin, greatest);
-  require(bin.ticks > 0, "an empty bin, {}; expected only those that have ticks", bin.number);
-}
-
 /// Their sum; nothing beyond 2^64 is added up.
 std::uint64_t ticks_of(const StepHistogram& steps, std::uint64_t expected) {
   std::uint64_t sum = 0;
@@ -107,7 +100,12 @@ std::uint64_t ticks_of(const StepHistogram& steps, std::uint64_t expected) {
 
 void check_steps(const StepHistogram& steps, const RunWindow& window, const RunScene& scene) {
   const double length = window.end - window.begin;
-  for (const auto& bin : steps.bins) check_bin(bin, step_bin(length));
+  const std::int64_t greatest = step_bin(length);
+  for (const auto& bin : steps.bins) {
+    require(least_step_bin <= bin.number && bin.number <= greatest, "the bin {}; expected bins of steps from {} to {}",
+            bin.number, least_step_bin, greatest);
+    require(bin.ticks > 0, "an empty bin, {}; expected only those that have ticks", bin.number);
+  }
   const auto free = static_cast<std::uint64_t>(std::ranges::count(scene.labels, 0));
   require(free < most_counted >> 32, "{} free vertices; expected fewer", free);
   const std::uint64_t expected = free << 32, found = ticks_of(steps, expected);

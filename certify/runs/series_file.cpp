@@ -25,17 +25,12 @@ void put_values(std::string& bytes, std::span<const std::int64_t> values) {
 /// Whether one of the names is that of a group which the other is in.
 bool one_is_in(const std::string& a, const std::string& b) { return a.starts_with(b + "/") || b.starts_with(a + "/"); }
 
-/// How many values go in one piece: whole rows, or what is a part of one.
-std::uint64_t piece_of(const SeriesShape& shape) {
-  const std::uint64_t row = series::product_from(shape, 1), inner = series::product_from(shape, 2);
-  const std::uint64_t unit = row <= series::most_in_a_piece ? row : inner;
-  return series::most_in_a_piece / unit * unit;
-}
-
-/// The rest of the piece's row, if rows do not fit into pieces.
+/// How many values go in the piece that begins at `first`: whole rows, or what is left of one up to a part of it.
 std::uint64_t piece_at(const SeriesShape& shape, std::uint64_t first) {
-  const std::uint64_t row = series::product_from(shape, 1), piece = piece_of(shape);
-  return row <= series::most_in_a_piece ? piece : std::min(piece, row - first % row);
+  constexpr std::uint64_t most = series::most_in_a_piece;
+  const std::uint64_t row = series::product_from(shape, 1), inner = series::product_from(shape, 2);
+  if (row <= most) return most / row * row;
+  return std::min(most / inner * inner, row - first % row);
 }
 
 std::string advice(const std::filesystem::path& path, const std::string& why) {

@@ -24,19 +24,6 @@ std::size_t place_of(double step) {
   return place;
 }
 
-/// From the window's times to ticks: 0 at its begin, 2^32 at its end.
-class Ticks {
- public:
-  Ticks(double begin, double end) : begin_(begin), scale_(0x1p32 / (end - begin)), end_(end) {}
-  std::uint64_t operator()(double t) const {
-    if (t == end_) return std::uint64_t{1} << 32;
-    return static_cast<std::uint64_t>(std::min((t - begin_) * scale_, 0x1p32));
-  }
-
- private:
-  double begin_, scale_, end_;
-};
-
 }  // namespace
 
 std::int64_t step_bin(double step) { return static_cast<std::int64_t>(place_of(step)) + least_step_bin; }
@@ -82,7 +69,11 @@ double StepHistogram::quantile(double share) const {
 }
 
 StepHistogram step_histogram(const WorldLines& lines, std::span<const std::uint8_t> fixed) {
-  const Ticks ticks(lines.first_time(), lines.last_time());
+  const double begin = lines.first_time(), end = lines.last_time(), scale = 0x1p32 / (end - begin);
+  // From the window's times to ticks: 0 at its begin, 2^32 at its end.
+  const auto ticks = [begin, end, scale](double t) {
+    return t == end ? std::uint64_t{1} << 32 : static_cast<std::uint64_t>(std::min((t - begin) * scale, 0x1p32));
+  };
   std::vector<std::uint64_t> counts(bin_count, 0);
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < lines.vertex_count(); ++v) {
