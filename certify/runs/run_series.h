@@ -11,7 +11,6 @@
 // complement) and its ticks.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>

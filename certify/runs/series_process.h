@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "certify/process/child.h"

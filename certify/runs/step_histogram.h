@@ -17,7 +17,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <noli/run.h>
 #include "trajectory/world_lines.h"

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <span>
 #include <string>
-#include <string_view>
 #include <type_traits>
 
 #include <noli/mesh.h>

@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include <noli/errors.h>
-#include "trajectory/blocks/bytes.h"
 #include "trajectory/blocks/run_checks.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/blocks/run_payload.h"

@@ -8,7 +8,6 @@
 #include <functional>
 #include <vector>
 
-#include <noli/errors.h>
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/ply_header.h"
 #include "trajectory/input_file.h"
