@@ -136,7 +136,7 @@ class Replay {
 
   static Engine scoped(const Arithmetic& arithmetic, const integrator::Model<double, Dim>& model) {
     const MpfrScope scope(arithmetic);
-    return Engine(precise<Number>(model));
+    return Engine(precise(model));
   }
 
   Arithmetic arithmetic_;

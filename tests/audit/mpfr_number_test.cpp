@@ -230,7 +230,7 @@ TEST(MpfrNumber, IsAddedUpInTheOrderOfDoubles) {
       x[k] = std::ldexp(random.unit() - 0.5, static_cast<int>(random.between(-20, 20)));
       y[k] = random.unit() - 0.5;
     }
-    const auto a = precise<MpfrNumber, 3>(x), b = precise<MpfrNumber, 3>(y);
+    const auto a = precise(x), b = precise(y);
     ASSERT_TRUE(same_bits(x.dot(y), a.dot(b)));
     ASSERT_TRUE(same_bits(x.squaredNorm(), a.squaredNorm()));
     const integrator::Vec<double, 3> cross = x.cross(y), quotient = x / y[0];
