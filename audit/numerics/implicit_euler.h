@@ -24,9 +24,4 @@ template <int Dim>
 SampledRun<Dim> run_implicit_euler(const integrator::Model<double, Dim>& model, double step, int windows,
                                    const std::atomic<bool>* stop = nullptr);
 
-extern template SampledRun<2> run_implicit_euler(const integrator::Model<double, 2>&, double, int,
-                                                 const std::atomic<bool>*);
-extern template SampledRun<3> run_implicit_euler(const integrator::Model<double, 3>&, double, int,
-                                                 const std::atomic<bool>*);
-
 }  // namespace noli::audit

@@ -301,12 +301,12 @@ std::size_t PrecisionOutcome::windows_in_order() const {
   return static_cast<std::size_t>(std::count_if(energies.begin(), energies.end(), in_order));
 }
 
-template <int Dim>
-PrecisionOutcome audit_precision(const integrator::Model<double, Dim>& model, const PrecisionRequest& request) {
-  return Audit<Dim>(model, request)();
+PrecisionOutcome audit_precision(const integrator::Model<double, 2>& model, const PrecisionRequest& request) {
+  return Audit<2>(model, request)();
 }
 
-template PrecisionOutcome audit_precision<2>(const integrator::Model<double, 2>&, const PrecisionRequest&);
-template PrecisionOutcome audit_precision<3>(const integrator::Model<double, 3>&, const PrecisionRequest&);
+PrecisionOutcome audit_precision(const integrator::Model<double, 3>& model, const PrecisionRequest& request) {
+  return Audit<3>(model, request)();
+}
 
 }  // namespace noli::audit

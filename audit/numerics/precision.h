@@ -95,10 +95,7 @@ struct PrecisionOutcome {
 };
 
 /// Throws std::invalid_argument where there is no arithmetic or it has no such precision.
-template <int Dim>
-PrecisionOutcome audit_precision(const integrator::Model<double, Dim>& model, const PrecisionRequest& request);
-
-extern template PrecisionOutcome audit_precision<2>(const integrator::Model<double, 2>&, const PrecisionRequest&);
-extern template PrecisionOutcome audit_precision<3>(const integrator::Model<double, 3>&, const PrecisionRequest&);
+PrecisionOutcome audit_precision(const integrator::Model<double, 2>& model, const PrecisionRequest& request);
+PrecisionOutcome audit_precision(const integrator::Model<double, 3>& model, const PrecisionRequest& request);
 
 }  // namespace noli::audit
