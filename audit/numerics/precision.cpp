@@ -84,7 +84,7 @@ class Audit {
 
   /// False when it was not run to its end: then it does not count.
   bool run_window() {
-    const auto stop = [this] { return stopped(); };
+    const integrator::Stop stop = [this] { return stopped(); };
     const double begin = engine_.time();
     log_.clear();
     try {
@@ -100,7 +100,8 @@ class Audit {
     compare_bits(state);
     for (std::size_t i = 0; i < replays_.size(); ++i) measure(i, state);
     measure_energy(state);
-    count();
+    outcome_.examined += log_.examined().size();
+    for (const Examined& examined : log_.examined()) outcome_.impulses += examined.course.acts ? 1 : 0;
     if (!outcome_.tie) find_tie(begin);
     return true;
   }
@@ -111,8 +112,7 @@ class Audit {
   }
 
   bool finite() const {
-    return std::all_of(engine_.particles().begin(), engine_.particles().end(),
-                       [](const auto& p) { return p.x.allFinite() && p.v.allFinite(); });
+    return std::ranges::all_of(engine_.particles(), [](const auto& p) { return p.x.allFinite() && p.v.allFinite(); });
   }
 
   void log_active_pairs() {
@@ -122,20 +122,13 @@ class Audit {
     });
   }
 
-  template <class Stop>
-  void replay(std::size_t i, const Stop& stop) {
+  void replay(std::size_t i, const integrator::Stop& stop) {
     if (outcome_.runs[i].ended) return;
     try {
       replays_[i]->run_window(log_, stop);
     } catch (const integrator::ContactLimit&) {
       outcome_.runs[i].ended = "a pair of features is at distance 0";
     }
-  }
-
-  void count() {
-    outcome_.examined += log_.examined().size();
-    outcome_.impulses += static_cast<std::uint64_t>(
-        std::count_if(log_.examined().begin(), log_.examined().end(), [](const Examined& e) { return e.course.acts; }));
   }
 
   // --- The first run is double, bit for bit --------------------------------------------------------------------------
@@ -147,9 +140,8 @@ class Audit {
     for (std::size_t i = 0; i < engine_.particles().size(); ++i) {
       const auto& a = engine_.particles()[i];
       const auto& b = replay.particles()[i];
-      const bool same_clock = a.t == b.t;
-      if (!same_clock || !same(a.x, b.x)) comparison.differ(t, static_cast<VertexId>(i));
-      if (!same(a.v, b.v)) comparison.differ(t, "velocity of vertex " + std::to_string(i));
+      if (a.t != b.t || !all_same_bits(a.x, b.x)) comparison.differ(t, static_cast<VertexId>(i));
+      if (!all_same_bits(a.v, b.v)) comparison.differ(t, "velocity of vertex " + std::to_string(i));
     }
     const auto& other = replay.state();
     for (std::size_t k = 0; k < integrator::force_kinds; ++k) {
@@ -160,16 +152,8 @@ class Audit {
       comparison.differ(t, "kinetic energy");
     }
     if (!same_bits(damping_work(books_), replay.damping())) comparison.differ(t, "work of damping");
-    if (!same(state.momentum, other.momentum)) comparison.differ(t, "momentum");
-    if (!same(state.angular_momentum, other.angular_momentum)) comparison.differ(t, "angular momentum");
-  }
-
-  template <class A, class B>
-  static bool same(const A& a, const B& b) {
-    for (Eigen::Index k = 0; k < a.size(); ++k) {
-      if (!same_bits(a[k], b[k])) return false;
-    }
-    return true;
+    if (!all_same_bits(state.momentum, other.momentum)) comparison.differ(t, "momentum");
+    if (!all_same_bits(state.angular_momentum, other.angular_momentum)) comparison.differ(t, "angular momentum");
   }
 
   // --- How far apart -------------------------------------------------------------------------------------------------
@@ -252,10 +236,6 @@ class Audit {
     clocks_.push_back({model.window_length, "window", std::numeric_limits<std::uint64_t>::max()});
   }
 
-  static TimedClock clock_of(const integrator::Firing& f) {
-    return {f.h, "layer " + std::to_string(f.layer), (std::uint64_t{f.material} + 1) << 32 | f.layer};
-  }
-
   void find_tie(double begin) {
     std::vector<TimedEvent> events;
     for (const TimedClock& clock : clocks_) add_events(clock, begin, engine_.time(), events);
@@ -264,7 +244,7 @@ class Audit {
     for (const LoggedFiring& logged : log_.firings()) {
       const integrator::Firing& f = logged.firing;
       if (!(f.time > 0)) continue;
-      layers.push_back(clock_of(f));
+      layers.push_back({f.h, "layer " + std::to_string(f.layer), (std::uint64_t{f.material} + 1) << 32 | f.layer});
       events.push_back({f.time, static_cast<std::uint64_t>(std::llround(f.time / f.h)), &layers.back()});
     }
     outcome_.tie = first_tie(events);

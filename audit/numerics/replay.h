@@ -9,6 +9,7 @@
 // What this does not do: it measures no distances between runs (audit/numerics/precision.h).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -30,6 +31,12 @@ inline bool same_bits(double a, const MpfrNumber& b) {
   return b == MpfrNumber(a) && std::signbit(a) == b.negative();
 }
 
+/// Of two vectors.
+template <class A, class B>
+bool all_same_bits(const A& a, const B& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), same_bits);
+}
+
 /// The recorder of a replay: compares with the log as events come.
 template <int Dim>
 class Comparison {
@@ -47,10 +54,7 @@ class Comparison {
     if (!bits_ || !wanted || difference_) return;
     if (next_breakpoint_ == log_->breakpoints().size()) return differ(t, vertex);
     const auto& expected = log_->breakpoints()[next_breakpoint_++];
-    if (expected.vertex != vertex || expected.t != t) return differ(t, vertex);
-    for (int k = 0; k < Dim; ++k) {
-      if (!same_bits(expected.x[k], x[k])) return differ(t, vertex);
-    }
+    if (expected.vertex != vertex || expected.t != t || !all_same_bits(expected.x, x)) differ(t, vertex);
   }
   void layer_fires(const integrator::Firing& firing) { firing_ = firing; }
   void examined(const certificates::Stencil& pair, const integrator::Course& here) {
@@ -108,19 +112,15 @@ class Replay {
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  const Arithmetic& arithmetic() const { return arithmetic_; }
-
-  /// Runs the next window; false when `stop` said so. Throws integrator::ContactLimit.
-  template <class Stop>
-  bool run_window(const EventLog<Dim>& log, const Stop& stop) {
+  /// Runs the next window; after a stop this is of no more use. Throws integrator::ContactLimit.
+  void run_window(const EventLog<Dim>& log, const integrator::Stop& stop) {
     const MpfrScope scope(arithmetic_);
     comparison_.follow(log);
     if (engine_.contact() != nullptr) engine_.contact()->follow(log);
-    if (!engine_.run_window(comparison_, books_, stop)) return false;
+    if (!engine_.run_window(comparison_, books_, stop)) return;
     comparison_.conclude(engine_.time());
     state_ = integrator::Ledger<Number, Dim, ReplayedContact<Number, Dim>>(engine_).state();
     damping_ = damping_work(books_);
-    return true;
   }
 
   const auto& particles() const { return engine_.particles(); }
@@ -129,7 +129,6 @@ class Replay {
   const Number& damping() const { return damping_; }  ///< work since time 0 [J]
 
   Comparison<Dim>& comparison() { return comparison_; }
-  const Comparison<Dim>& comparison() const { return comparison_; }
 
  private:
   using Engine = integrator::Engine<Number, Dim, ReplayedContact<Number, Dim>>;
