@@ -22,7 +22,7 @@ class ImplicitEuler {
   using Vec = integrator::Vec<double, Dim>;
 
   ImplicitEuler(const Model<double, Dim>& model, double step)
-      : model_(model), free_(free_vertices(model)), h_(step), x_(model.x), v_(model.v), size_(extent()) {
+      : model_(model), free_(free_vertices(model)), h_(step), x_(model.x), v_(model.v), size_(extent(model.x)) {
     for (std::size_t i = 0; i < v_.size(); ++i) {
       if (!free_[i]) v_[i].setZero();
     }
@@ -51,15 +51,6 @@ class ImplicitEuler {
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
-  double extent() const {
-    Vec low = model_.x.front(), high = low;
-    for (const Vec& x : model_.x) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    return (high - low).norm();
-  }
-
   /// One correction of x'; whether it was small.
   bool correct(const std::vector<Vec>& target) {
     const auto n = static_cast<Eigen::Index>(x_.size() * Dim);
@@ -72,7 +63,7 @@ class ImplicitEuler {
         if (free_[i]) residual_[row(i, k)] = inertia * (x_[i][k] - target[i][k]);
       }
     }
-    std::apply([&](const auto&... list) { (add(list.forces), ...); }, model_.forces.lists());
+    for_each_list(model_, [&](const auto& list) { add(list.forces); });
     Matrix matrix(n, n);
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     solver_.compute(matrix);

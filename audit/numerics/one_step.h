@@ -13,8 +13,9 @@
 
 namespace noli::audit {
 
-template <int Dim, class Each>
-void for_each_list(integrator::Model<double, Dim>& model, const Each& each) {
+/// Calls each(list) of each kind of forces.
+template <class Model, class Each>
+void for_each_list(Model& model, const Each& each) {
   std::apply([&](auto&... list) { (each(list), ...); }, model.forces.lists());
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "audit/numerics/replay.h"
+#include "audit/numerics/sampled_run.h"
 #include "kernel/parallel.h"
 
 namespace noli::audit {
@@ -51,16 +52,6 @@ class Audit {
  private:
   using State = integrator::State<double, Dim>;
 
-  static double extent(const std::vector<integrator::Vec<double, Dim>>& x) {
-    if (x.empty()) return 0;
-    integrator::Vec<double, Dim> low = x.front(), high = x.front();
-    for (const auto& p : x) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    return (high - low).norm();
-  }
-
   static std::optional<std::string> not_conserved(const integrator::Model<double, Dim>& model) {
     for (const auto& script : model.scripts) {
       for (const auto& x : script.positions) {
@@ -76,8 +67,8 @@ class Audit {
   }
 
   bool stopped() const {
-    if (request_.stop != nullptr && request_.stop->load(std::memory_order_relaxed)) return true;
-    return request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline;
+    return audit::stopped(request_.stop) ||
+           (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline);
   }
 
   // --- A window ------------------------------------------------------------------------------------------------------

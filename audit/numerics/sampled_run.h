@@ -17,9 +17,9 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
+#include "audit/numerics/one_step.h"
 #include "audit/numerics/plain_loop.h"
 #include "integrator/simulation.h"
 
@@ -61,6 +61,18 @@ std::vector<bool> free_vertices(const integrator::Model<double, Dim>& model) {
   return free;
 }
 
+/// The diagonal of the box around all points.
+template <int Dim>
+double extent(const std::vector<integrator::Vec<double, Dim>>& points) {
+  if (points.empty()) return 0;
+  integrator::Vec<double, Dim> low = points.front(), high = low;
+  for (const auto& x : points) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return (high - low).norm();
+}
+
 template <int Dim>
 Mechanics<Dim> mechanics(const integrator::Model<double, Dim>& model, const Sample<Dim>& sample) {
   Mechanics<Dim> result;
@@ -75,15 +87,14 @@ Mechanics<Dim> mechanics(const integrator::Model<double, Dim>& model, const Samp
     result.speeds += m * speed;
     result.moments += m * speed * std::sqrt(sample.x[i].squaredNorm());
   }
-  const auto add = [&](const auto& list) {
+  for_each_list(model, [&](const auto& list) {
     using F = typename std::decay_t<decltype(list.forces)>::value_type;
     integrator::VertexVectors<double, Dim, F::size> x;
     for (const F& force : list.forces) {
       for (std::size_t i = 0; i < F::size; ++i) x[i] = sample.x[force.vertices[i]];
       result.potential += force.energy(x);
     }
-  };
-  std::apply([&](const auto&... list) { (add(list), ...); }, model.forces.lists());
+  });
   result.potential += sample.contact;
   return result;
 }
@@ -176,10 +187,9 @@ SampledRun<Dim> run_plain(const integrator::Model<double, Dim>& model, double st
 template <int Dim>
 bool plain_enough(const integrator::Model<double, Dim>& model) {
   bool damped = false;
-  const auto look = [&](const auto& list) {
+  for_each_list(model, [&](const auto& list) {
     for (const auto& force : list.forces) damped = damped || force.damping != 0;
-  };
-  std::apply([&](const auto&... list) { (look(list), ...); }, model.forces.lists());
+  });
   return !damped && model.scripts.empty() && !model.contact;
 }
 
