@@ -8,6 +8,7 @@
 #include "audit/numerics/implicit_euler.h"
 #include "audit/numerics/one_step.h"
 #include "audit/numerics/sampled_run.h"
+#include "certify/json.h"
 #include "integrator/scene/build_model.h"
 
 namespace noli::audit {
@@ -26,7 +27,8 @@ template <int Dim>
 class Reference {
  public:
   /// Without `coarse` it is the fine run as it is.
-  Reference(const Model<double, Dim>& model, const SampledRun<Dim>& fine, const SampledRun<Dim>* coarse) {
+  Reference(const Model<double, Dim>& model, const SampledRun<Dim>& fine, const SampledRun<Dim>* coarse)
+      : model_(model), free_(free_vertices(model)) {
     for (std::size_t i = 0; i < fine.samples.size(); ++i) {
       Sample<Dim> sample = fine.samples[i];
       if (coarse != nullptr) extrapolate(sample.x, coarse->samples[i].x);
@@ -46,16 +48,15 @@ class Reference {
 
   const std::vector<Sample<Dim>>& samples() const { return samples_; }
 
-  IntegratorErrors errors(const Model<double, Dim>& model, const std::vector<Sample<Dim>>& samples) const {
+  IntegratorErrors errors(const std::vector<Sample<Dim>>& samples) const {
     IntegratorErrors worst;
-    const std::vector<bool> free = free_vertices(model);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const Mechanics<Dim> m = mechanics(model, samples[i]), &r = mechanics_[i];
+      const Mechanics<Dim> m = mechanics(model_, samples[i]), &r = mechanics_[i];
       worst.energy = std::max(worst.energy, part(std::abs(m.energy() - r.energy()), kinetic_));
       worst.momentum = std::max(worst.momentum, part((m.momentum - r.momentum).norm(), speeds_));
       worst.angular_momentum =
           std::max(worst.angular_momentum, part((m.angular_momentum - r.angular_momentum).norm(), moments_));
-      worst.trajectory = std::max(worst.trajectory, distance(model, free, samples[i], samples_[i]));
+      worst.trajectory = std::max(worst.trajectory, distance(samples[i], samples_[i]));
     }
     return worst;
   }
@@ -69,17 +70,18 @@ class Reference {
   /// What does not move has no error to be measured against, and none.
   static double part(double error, double scale) { return scale > 0 ? error / scale : 0; }
 
-  static double distance(const Model<double, Dim>& model, const std::vector<bool>& free, const Sample<Dim>& a,
-                         const Sample<Dim>& b) {
+  double distance(const Sample<Dim>& a, const Sample<Dim>& b) const {
     double sum = 0, mass = 0;
-    for (std::size_t v = 0; v < free.size(); ++v) {
-      if (!free[v]) continue;
-      sum += model.mass[v] * (a.x[v] - b.x[v]).squaredNorm();
-      mass += model.mass[v];
+    for (std::size_t v = 0; v < free_.size(); ++v) {
+      if (!free_[v]) continue;
+      sum += model_.mass[v] * (a.x[v] - b.x[v]).squaredNorm();
+      mass += model_.mass[v];
     }
     return mass > 0 ? std::sqrt(sum / mass) : 0;
   }
 
+  const Model<double, Dim>& model_;
+  std::vector<bool> free_;
   std::vector<Sample<Dim>> samples_;
   std::vector<Mechanics<Dim>> mechanics_;
   double kinetic_ = 0, speeds_ = 0, moments_ = 0;
@@ -149,13 +151,13 @@ class Audit {
     if (!coarse.finite || !fine.finite) throw NotFinite();
     Reference<Dim> reference(model_, fine, result_.plain ? &coarse : nullptr);
     if (!result_.plain) {
-      result_.uncertainty = reference.errors(model_, coarse.samples);
+      result_.uncertainty = reference.errors(coarse.samples);
       return reference;
     }
     const SampledRun<Dim> coarser = checked(verlet(2 * r));
     if (!coarser.finite) throw NotFinite();
     const Reference<Dim> other(model_, coarse, &coarser);
-    result_.uncertainty = reference.errors(model_, other.samples());
+    result_.uncertainty = reference.errors(other.samples());
     return reference;
   }
 
@@ -201,7 +203,7 @@ class Audit {
     } while (sum < short_pass && seconds.size() < most_repetitions);
     std::sort(seconds.begin(), seconds.end());
     IntegratorPoint point{factor, step, last.events, last.finite, last.converged, {}, seconds[seconds.size() / 2]};
-    if (last.finite) point.errors = reference.errors(model_, last.samples);
+    if (last.finite) point.errors = reference.errors(last.samples);
     method.points.push_back(point);
   }
 
@@ -214,10 +216,8 @@ class Audit {
 }  // namespace
 
 bool IntegratorResult::has_finding() const {
-  if (!reference_finite) return true;
-  return std::any_of(methods.begin(), methods.end(), [](const MethodResult& method) {
-    return method.method != "euler" && std::any_of(method.points.begin(), method.points.end(),
-                                                   [](const IntegratorPoint& point) { return !point.finite; });
+  return !reference_finite || std::ranges::any_of(methods, [](const MethodResult& method) {
+    return method.method != "euler" && !std::ranges::all_of(method.points, &IntegratorPoint::finite);
   });
 }
 
@@ -227,7 +227,7 @@ IntegratorResult audit_integrator(const integrator::Scene& scene, const Integrat
 }
 
 std::vector<std::string> integrator_scenes() {
-  return {R"({
+  const std::string uniform = R"({
   "noli_scene": 1,
   "title": "Uniform sheet",
   "about": "A free plate, twisted and stretched a little, that is let go, flies and spins; all cells are of one size.",
@@ -245,27 +245,12 @@ std::vector<std::string> integrator_scenes() {
     }
   ]
 }
-)",
-          R"({
-  "noli_scene": 1,
-  "title": "Graded sheet",
-  "about": "The same plate, but in one place its cells are sixteen times smaller.",
-  "duration": 0.08,
-  "window": 0.01,
-  "bodies": [
-    {
-      "name": "sheet",
-      "mesh": {"grid": {"size": [0.5, 0.5], "cells": [12, 12],
-                        "refine": {"at": [0.1, 0.05], "factor": 16, "radius": 0.001}}},
-      "deform": {"stretch": [1.002, 0.999, 1], "twist": 20},
-      "perturb": 0.00001,
-      "velocity": [0.3, 0.2, 0.1],
-      "spin": [0.2, 0.3, 2],
-      "material": {"young": 1e5, "poisson": 0.3, "density": 300, "thickness": 0.01}
-    }
-  ]
-}
-)"};
+)";
+  Json graded = Json::parse(uniform);
+  graded["title"] = "Graded sheet";
+  graded["about"] = "The same plate, but in one place its cells are sixteen times smaller.";
+  graded["bodies"][0]["mesh"]["grid"]["refine"] = {{"at", {0.1, 0.05}}, {"factor", 16}, {"radius", 0.001}};
+  return {uniform, graded.dump()};
 }
 
 }  // namespace noli::audit

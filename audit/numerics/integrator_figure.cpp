@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -33,16 +34,16 @@ constexpr std::array<ErrorPanel, 4> error_panels = {
      {"error of momentum / largest", &IntegratorErrors::momentum},
      {"error of angular momentum / largest", &IntegratorErrors::angular_momentum}}};
 
-const char* colour_of(const std::string& method) {
-  if (method == "own") return "#2e8b57";
-  if (method == "grouped") return "#1b6ca8";
-  return method == "verlet" ? "#c8553d" : "#c99a1c";
-}
+struct MethodLook {
+  const char *method, *colour, *words;
+};
 
-const char* words_of(const std::string& method) {
-  if (method == "own") return "a step for each force";
-  if (method == "grouped") return "steps in groups";
-  return method == "verlet" ? "Verlet, one step for all" : "implicit Euler";
+const MethodLook& look_of(const MethodResult& result) {
+  static constexpr MethodLook looks[] = {{"own", "#2e8b57", "a step for each force"},
+                                         {"grouped", "#1b6ca8", "steps in groups"},
+                                         {"verlet", "#c8553d", "Verlet, one step for all"},
+                                         {"euler", "#c99a1c", "implicit Euler"}};
+  return *std::ranges::find(looks, result.method, &MethodLook::method);
 }
 
 void axes(Svg& svg, const LogScale& x, const LogScale& y, const char* words) {
@@ -78,16 +79,17 @@ void panel(Svg& svg, const IntegratorResult& result, const ErrorPanel& quantity,
     for (const IntegratorPoint& point : method.points) {
       if (point.finite) points.push_back({x(point.seconds), y(point.errors.*quantity.error)});
     }
-    svg.polyline(points, colour_of(method.method), 1.6);
-    for (const Svg::Point& at : points) svg.rectangle({at[0] - 3.5, at[1] - 3.5}, {7, 7}, colour_of(method.method));
+    const char* const colour = look_of(method).colour;
+    svg.polyline(points, colour, 1.6);
+    for (const Svg::Point& at : points) svg.rectangle({at[0] - 3.5, at[1] - 3.5}, {7, 7}, colour);
   }
 }
 
 void legend(Svg& svg, const IntegratorResults& results) {
   double x = margin_left;
   for (const MethodResult& method : results.front().methods) {
-    svg.rectangle({x, 42}, {9, 9}, colour_of(method.method));
-    svg.text({x + 15, 51}, words_of(method.method));
+    svg.rectangle({x, 42}, {9, 9}, look_of(method).colour);
+    svg.text({x + 15, 51}, look_of(method).words);
     x += 215;
   }
 }

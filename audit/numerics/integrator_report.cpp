@@ -108,10 +108,8 @@ void append_result(const IntegratorResult& result, std::string& text) {
 }  // namespace
 
 const char* integrator_verdict(const IntegratorResults& results) {
-  const auto finding = [](const IntegratorResult& result) { return result.has_finding(); };
-  const auto complete = [](const IntegratorResult& result) { return result.complete; };
-  if (std::any_of(results.begin(), results.end(), finding)) return "finding";
-  return std::all_of(results.begin(), results.end(), complete) && !results.empty() ? "measured" : "undecided";
+  if (std::ranges::any_of(results, &IntegratorResult::has_finding)) return "finding";
+  return !results.empty() && std::ranges::all_of(results, &IntegratorResult::complete) ? "measured" : "undecided";
 }
 
 report::Answer integrator_answer(const IntegratorResults& results) {
