@@ -2,9 +2,10 @@
 #include "audit/numerics/precision_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
+#include <span>
 
 #include "audit/ccd/audit_report.h"
 
@@ -28,13 +29,13 @@ double greatest_position(const PrecisionRun& run, std::size_t windows) {
   return greatest;
 }
 
+/// Of a pair: of one feature, then of the other.
+std::span<const VertexId> vertices_of(const certificates::Stencil& pair) { return {pair.vertices.data(), pair.size()}; }
+
 std::string vertices_text(const certificates::Stencil& pair) {
-  std::string text;
-  for (std::size_t i = 0; i < pair.size(); ++i) {
-    if (i > 0) text += i == pair.first() ? " and " : " ";
-    text += std::to_string(pair.vertices[i]);
-  }
-  return text;
+  const auto vertices = vertices_of(pair);
+  return fmt::format("{} and {}", fmt::join(vertices.first(pair.first()), " "),
+                     fmt::join(vertices.subspan(pair.first()), " "));
 }
 
 // --- text ------------------------------------------------------------------------------------------------------------
@@ -96,12 +97,10 @@ std::string energy_text(const PrecisionOutcome& outcome) {
 Json way_json(const CourseChanges::Way& way) {
   Json json = {{"count", way.count}, {"first", nullptr}};
   if (!way.first) return json;
-  const CourseChange& first = *way.first;
-  json["first"] = {{"time", first.time},
-                   {"layer", first.layer},
-                   {"vertices", Json::array()},
-                   {"acts_in_double", first.acts_in_double}};
-  for (std::size_t i = 0; i < first.pair.size(); ++i) json["first"]["vertices"].push_back(first.pair.vertices[i]);
+  json["first"] = {{"time", way.first->time},
+                   {"layer", way.first->layer},
+                   {"vertices", vertices_of(way.first->pair)},
+                   {"acts_in_double", way.first->acts_in_double}};
   return json;
 }
 
@@ -123,9 +122,8 @@ Json run_json(const PrecisionRun& run, std::size_t windows) {
                {"corners", way_json(run.changes.corners)},
                {"parts", way_json(run.changes.parts)},
                {"sticks", way_json(run.changes.sticks)},
-               {"ended", nullptr},
+               {"ended", run.ended ? Json(*run.ended) : Json(nullptr)},
                {"windows", Json::array()}};
-  if (run.ended) json["ended"] = *run.ended;
   for (const Drift& drift : run.drifts) json["windows"].push_back(drift_json(drift));
   return json;
 }
@@ -139,8 +137,8 @@ Json energy_json(const EnergyError& error) {
 }
 
 Json order_json(const PrecisionOutcome& outcome) {
-  Json json = {{"changes_at", nullptr}, {"tie", nullptr}};
-  if (const auto time = outcome.order_changes()) json["changes_at"] = *time;
+  const auto time = outcome.order_changes();
+  Json json = {{"changes_at", time ? Json(*time) : Json(nullptr)}, {"tie", nullptr}};
   if (outcome.tie) {
     json["tie"] = {{"time", outcome.tie->time}, {"first", outcome.tie->first}, {"second", outcome.tie->second}};
   }
@@ -195,7 +193,7 @@ Json precision_json(const PrecisionOutcome& outcome) {
                {"windows_total", outcome.windows_total},
                {"windows_in_order", outcome.windows_in_order()},
                {"complete", outcome.complete},
-               {"ended", nullptr},
+               {"ended", outcome.ended ? Json(*outcome.ended) : Json(nullptr)},
                {"vertices", outcome.vertices},
                {"extent", outcome.extent},
                {"events", outcome.events},
@@ -203,12 +201,10 @@ Json precision_json(const PrecisionOutcome& outcome) {
                {"impulses", outcome.impulses},
                {"difference", nullptr},
                {"order", order_json(outcome)},
-               {"not_conserved", nullptr},
+               {"not_conserved", outcome.not_conserved ? Json(*outcome.not_conserved) : Json(nullptr)},
                {"energies", Json::array()},
                {"runs", Json::array()}};
-  if (outcome.ended) json["ended"] = *outcome.ended;
   if (outcome.difference) json["difference"] = {{"time", outcome.difference->time}, {"what", outcome.difference->what}};
-  if (outcome.not_conserved) json["not_conserved"] = *outcome.not_conserved;
   for (const EnergyError& error : outcome.energies) json["energies"].push_back(energy_json(error));
   for (const PrecisionRun& run : outcome.runs) json["runs"].push_back(run_json(run, outcome.windows_in_order()));
   return json;
