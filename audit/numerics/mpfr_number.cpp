@@ -33,18 +33,13 @@ MpfrNumber::MpfrNumber(double x) : MpfrNumber() {
   if (current.binary64) mpfr_subnormalize(value_, ternary, MPFR_RNDN);
 }
 
-MpfrNumber::MpfrNumber(const MpfrNumber& other) { copy(other); }
-
 MpfrNumber& MpfrNumber::operator=(const MpfrNumber& other) {
-  if (this != &other) copy(other);
-  return *this;
-}
-
-void MpfrNumber::copy(const MpfrNumber& other) {
+  if (this == &other) return *this;
   value_[0] = other.value_[0];
   const std::size_t used = (static_cast<std::size_t>(bits()) + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS;
   std::copy_n(other.limbs_, used, limbs_);
   mpfr_custom_move(value_, limbs_);
+  return *this;
 }
 
 MpfrNumber operator+(const MpfrNumber& a, const MpfrNumber& b) { return MpfrNumber::of(mpfr_add, a, b); }

@@ -46,7 +46,7 @@ class MpfrNumber {
   MpfrNumber();  ///< 0
   explicit MpfrNumber(double x);
   explicit MpfrNumber(int x) : MpfrNumber(static_cast<double>(x)) {}
-  MpfrNumber(const MpfrNumber& other);
+  MpfrNumber(const MpfrNumber& other) { *this = other; }
   MpfrNumber& operator=(const MpfrNumber& other);
 
   int bits() const { return static_cast<int>(mpfr_get_prec(value_)); }
@@ -81,7 +81,6 @@ class MpfrNumber {
 
   template <class Function, class... Arguments>
   static MpfrNumber of(Function* function, const Arguments&... arguments);
-  void copy(const MpfrNumber& other);
 
   mpfr_t value_;
   mp_limb_t limbs_[most_limbs];
