@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include <noli/errors.h>
 #include "certify/process/run_program.h"
@@ -23,52 +24,30 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A table of numbers with a line of names (`noli export --figure ... -o FILE.csv`).
-class Columns {
- public:
-  explicit Columns(const std::string& text) {
-    std::size_t begin = 0;
-    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-      add_line(text.substr(begin, end - begin));
+/// A table of numbers with a line of names (`noli export --figure ... -o FILE.csv`): its columns.
+using Columns = std::map<std::string, std::vector<double>>;
+
+Columns columns_of(const std::string& text) {
+  Columns columns;
+  std::vector<std::vector<double>*> in_order;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const bool names = in_order.empty();
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
+      if (names) in_order.push_back(&columns[cell]);
+      if (!names && i < in_order.size()) in_order[i]->push_back(std::strtod(cell.c_str(), nullptr));
     }
   }
+  return columns;
+}
 
-  std::size_t rows() const { return rows_; }
-  /// Precondition: there is such a column.
-  const std::vector<double>& operator[](const std::string& name) const { return values_.at(index_.at(name)); }
-  bool has(const std::string& name) const { return index_.contains(name); }
-  const std::map<std::string, std::size_t>& names() const { return index_; }
-
-  bool finite() const {
-    return std::all_of(values_.begin(), values_.end(), [](const std::vector<double>& column) {
-      return std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); });
-    });
-  }
-
- private:
-  void add_line(const std::string& line) {
-    std::size_t begin = 0;
-    for (std::size_t column = 0;; ++column) {
-      const std::size_t end = std::min(line.find(',', begin), line.size());
-      const std::string cell = line.substr(begin, end - begin);
-      if (names_done_) {
-        if (column < values_.size()) values_[column].push_back(std::strtod(cell.c_str(), nullptr));
-      } else {
-        index_[cell] = values_.size();
-        values_.emplace_back();
-      }
-      if (end == line.size()) break;
-      begin = end + 1;
-    }
-    if (names_done_) ++rows_;
-    names_done_ = true;
-  }
-
-  std::map<std::string, std::size_t> index_;
-  std::vector<std::vector<double>> values_;
-  std::size_t rows_ = 0;
-  bool names_done_ = false;
-};
+bool all_finite(const Columns& columns) {
+  return std::ranges::all_of(columns, [](const auto& column) {
+    return std::ranges::all_of(column.second, [](double x) { return std::isfinite(x); });
+  });
+}
 
 /// Asks one point; members are filled in as promises are looked at.
 class Asking {
@@ -80,11 +59,18 @@ class Asking {
     const ProgramEnd run = simulate("run", {});
     point_.exit_code = run.kind == ProgramEnd::Kind::exited ? run.code : -1;
     if (!ended_well(run)) return point_;
-    const Json document = document_of(run);
+    const Json document = run.code == 3 ? Json() : Json::parse(run.out, nullptr, false);
     if (!agrees(run, document)) return point_;
-    const auto windows = document.is_object() ? document["windows"].get<std::uint64_t>() : 0;
-    const bool unstable = document.is_object() && document["verdict"] == "unstable";
-    if (run.code != 0 && !unstable) gives(reason(run, document), said(run, document));
+    if (run.code == 3) {
+      gives("refused", line_of(run.err));
+      return point_;
+    }
+    const auto windows = document["windows"].get<std::uint64_t>();
+    const bool unstable = document["verdict"] == "unstable";
+    if (run.code != 0 && !unstable) {
+      const auto end = document["end"].get<std::string>();
+      gives(end, fmt::format("{} after {} of {} windows", end, windows, document["windows_total"].dump()));
+    }
     if (windows > 0) verify_again(windows);
     if (run.code == 0 || unstable) look_at_series(what.free, unstable);
     if (run.code == 0) resume(document["time"].get<double>());
@@ -98,7 +84,7 @@ class Asking {
       write_file(file, what.frames[i]);
       words.push_back(file.string());
     }
-    for (const char* word : {"--threads", "1", "--max-reports", "1"}) words.emplace_back(word);
+    words.insert(words.end(), {"--threads", "1", "--max-reports", "1"});
     const ProgramEnd run = noli(words);
     point_.exit_code = run.kind == ProgramEnd::Kind::exited ? run.code : -1;
     if (!ended_well(run)) return point_;
@@ -163,11 +149,6 @@ class Asking {
     return false;
   }
 
-  static Json document_of(const ProgramEnd& run) {
-    if (run.code == 3) return nullptr;
-    return Json::parse(run.out, nullptr, false);
-  }
-
   /// Whether it has what is read of it.
   static bool whole(const Json& document) {
     return document.is_object() && document.value("verdict", Json()).is_string() &&
@@ -196,17 +177,6 @@ class Asking {
     return false;
   }
 
-  static std::string reason(const ProgramEnd& run, const Json& document) {
-    return run.code == 3 ? "refused" : document["end"].get<std::string>();
-  }
-
-  /// The line that tells why it ends.
-  std::string said(const ProgramEnd& run, const Json& document) const {
-    if (run.code == 3) return line_of(run.err);
-    return fmt::format("{} after {} of {} windows", document["end"].get<std::string>(), document["windows"].dump(),
-                       document["windows_total"].dump());
-  }
-
   /// Whatever a run ends with, what it has committed never touches.
   void verify_again(std::uint64_t windows) {
     const ProgramEnd run = noli({"verify", "--porcelain", path("run"), "--threads", "1"});
@@ -223,8 +193,8 @@ class Asking {
     const std::string file = path(std::string(figure) + ".csv");
     const ProgramEnd run = noli({"export", path("run"), "--figure", figure, "-o", file, "--force"});
     if (!ended_well(run)) return std::nullopt;
-    const Columns columns(bytes_of(file));
-    if (run.code == 0 && columns.rows() > 0) return columns;
+    const Columns columns = columns_of(bytes_of(file));
+    if (run.code == 0 && !columns.empty() && !columns.begin()->second.empty()) return columns;
     broken("finite", fmt::format("there is no series of {}: {}", figure, line_of(run.err)));
     return std::nullopt;
   }
@@ -233,7 +203,7 @@ class Asking {
   void look_at_series(bool free, bool said) {
     const auto energy = series("energy"), momentum = series("momentum");
     if (!energy || !momentum) return;
-    if (!energy->finite() || !momentum->finite()) return broken("finite", "a series has what is no number");
+    if (!all_finite(*energy) || !all_finite(*momentum)) return broken("finite", "a series has what is no number");
     look_at_energy(*energy, said);
     if (free) look_at_momentum(*momentum);
   }
@@ -241,11 +211,11 @@ class Asking {
   void look_at_energy(const Columns& energy, bool said) {
     // Scenes begin in their shape at rest: what the first window's end has is what the beginning had, and the work.
     double work = 0;
-    for (const auto& [name, column] : energy.names()) {
-      if (name.starts_with("work_") || name.starts_with("damping_work_")) work += energy[name][0];
+    for (const auto& [name, column] : energy) {
+      if (name.starts_with("work_") || name.starts_with("damping_work_")) work += column[0];
     }
-    const double begin = energy["kinetic [J]"][0] - work;
-    for (const double total : energy["total [J]"]) {
+    const double begin = energy.at("kinetic [J]")[0] - work;
+    for (const double total : energy.at("total [J]")) {
       point_.energy_error = std::max(point_.energy_error, std::abs(total - begin) / begin);
     }
     const bool stays = begin > 0 && point_.energy_error <= most_energy_error;
@@ -260,10 +230,10 @@ class Asking {
       const std::string unit = kind == "momentum" ? " [N s]" : " [N m s]";
       const std::array<std::string, 3> names = {kind + "_x" + unit, kind + "_y" + unit, kind + "_z" + unit};
       double size = 0, worst = 0;
-      for (const std::string& name : names) size = std::hypot(size, momentum[name][0]);
-      for (std::size_t i = 0; i < momentum.rows(); ++i) {
+      for (const std::string& name : names) size = std::hypot(size, momentum.at(name)[0]);
+      for (std::size_t i = 0; i < momentum.at(names[0]).size(); ++i) {
         double off = 0;
-        for (const std::string& name : names) off = std::hypot(off, momentum[name][i] - momentum[name][0]);
+        for (const std::string& name : names) off = std::hypot(off, momentum.at(name)[i] - momentum.at(name)[0]);
         worst = std::max(worst, off);
       }
       const double error = worst == 0 ? 0 : worst / size;
