@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include <noli/errors.h>
@@ -14,6 +12,7 @@
 #include "audit/numerics/stability_rows.h"
 #include "certify/process/run_program.h"
 #include "certify/process/scratch_folder.h"
+#include "certify/stopwatch.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -95,7 +94,9 @@ class SelfAudit {
     try {
       if (wanted("rounding")) part("rounding", "self-test", [this](SelfPart& p) { rounding(p); });
       if (wanted("labels")) part("labels", "queries", [this](SelfPart& p) { labels(p); });
-      if (wanted("fuzz")) fuzz_all();
+      if (wanted("fuzz")) {
+        for (const Fuzzer& fuzzer : fuzzers) part("fuzz", fuzzer.name, [&](SelfPart& p) { fuzz(fuzzer, p); });
+      }
       if (wanted("proofs")) proofs();
     } catch (const Stopped&) {
       report_.complete = false;
@@ -110,14 +111,14 @@ class SelfAudit {
     SelfPart result;
     result.group = group;
     result.name = name;
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     make(result);
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = watch.seconds();
     report_.parts.push_back(std::move(result));
   }
 
   bool wanted(const std::string& group) const {
-    return options_.only.empty() || std::find(options_.only.begin(), options_.only.end(), group) != options_.only.end();
+    return options_.only.empty() || std::ranges::count(options_.only, group) > 0;
   }
 
   ProgramEnd noli(std::vector<std::string> words, nanoseconds limit = nanoseconds(0)) const {
@@ -172,17 +173,11 @@ class SelfAudit {
     if (files.empty()) return skip(p, "there are no queries/*.csv in " + on_one_line(options_.data->string()));
     std::vector<std::string> words = {"ccd"};
     for (const fs::path& file : files) words.push_back(file.string());
-    for (const std::string& word : {std::string("--json"), std::string("-")}) words.push_back(word);
+    words.insert(words.end(), {"--json", "-"});
     const Json json = document(noli(words), "agreement", p);
     if (!json.is_object()) return;
     p.figures.emplace_back("files", files.size());
     if (figure(json, "queries", p) && figure(json, "labelled", p)) hold(p);
-  }
-
-  void fuzz_all() {
-    for (const Fuzzer& fuzzer : fuzzers) {
-      part("fuzz", fuzzer.name, [&](SelfPart& p) { fuzz(fuzzer, p); });
-    }
   }
 
   void fuzz(const Fuzzer& fuzzer, SelfPart& p) const {
@@ -204,8 +199,7 @@ class SelfAudit {
   void proofs() {
     for (const CheckerProgram& checker : checkers) look_for(checker);
     for (const StabilityRow& row : stability_rows()) {
-      const auto is_it = [&](const char* name) { return row.name == name; };
-      if (std::none_of(std::begin(examples), std::end(examples), is_it)) continue;
+      if (std::ranges::count(examples, row.name) == 0) continue;
       part("proofs", row.name, [&](SelfPart& p) { example(row, p); });
     }
     shipped_scenes();
@@ -273,8 +267,8 @@ class SelfAudit {
     words.insert(words.end(), more.begin(), more.end());
     const ProgramEnd run = noli(words);
     const Json json = Json::parse(run.out, nullptr, false);
-    const auto ends = [&](int code) { return run.exited_with(code); };
-    if (std::none_of(codes.begin(), codes.end(), ends) || !json.is_object()) return fail(p, told(run));
+    const bool ends = run.kind == ProgramEnd::Kind::exited && std::ranges::count(codes, run.code) > 0;
+    if (!ends || !json.is_object()) return fail(p, told(run));
     const auto windows = json.value("windows", std::uint64_t{0});
     if (windows == 0) {
       if (run.exited_with(2)) return skip(p, "no window was done within --scene-time");
@@ -323,8 +317,7 @@ class SelfAudit {
 }  // namespace
 
 std::size_t SelfReport::count(PartState state) const {
-  return static_cast<std::size_t>(
-      std::count_if(parts.begin(), parts.end(), [state](const SelfPart& p) { return p.state == state; }));
+  return static_cast<std::size_t>(std::ranges::count(parts, state, &SelfPart::state));
 }
 
 SelfReport audit_self(const SelfOptions& options) { return SelfAudit(options).run(); }

@@ -6,16 +6,13 @@
 #include <algorithm>
 
 #include "audit/numerics/stability_point.h"
+#include "certify/process/child.h"
 #include "certify/process/scratch_folder.h"
 
 namespace noli::audit {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool asked_to_stop(const StabilityOptions& options) {
-  return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
-}
 
 /// Keeps what the point was asked with.
 void save(const fs::path& scratch, const std::string& name, const StabilityOptions& options, StabilityPoint& point) {
@@ -28,38 +25,39 @@ void save(const fs::path& scratch, const std::string& name, const StabilityOptio
   }
 }
 
+/// The sum of what `count` says of each point.
+template <class Count>
+std::size_t sum_over_points(const StabilityReport& report, const Count& count) {
+  std::size_t sum = 0;
+  for (const StabilityResult& row : report.rows) {
+    for (const StabilityPoint& point : row.points) sum += count(point);
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::size_t StabilityResult::first_to_give() const {
   const auto gives = [](const StabilityPoint& point) { return !point.gives.empty(); };
-  return static_cast<std::size_t>(std::find_if(points.begin(), points.end(), gives) - points.begin());
+  return static_cast<std::size_t>(std::ranges::find_if(points, gives) - points.begin());
 }
 
 std::size_t StabilityReport::points() const {
-  std::size_t sum = 0;
-  for (const StabilityResult& row : rows) sum += row.points.size();
-  return sum;
+  return sum_over_points(*this, [](const StabilityPoint&) { return 1U; });
 }
 
 std::size_t StabilityReport::held() const {
-  std::size_t sum = 0;
-  for (const StabilityResult& row : rows) {
-    for (const StabilityPoint& point : row.points) sum += point.gives.empty() ? 1 : 0;
-  }
-  return sum;
+  return sum_over_points(*this, [](const StabilityPoint& point) { return point.gives.empty() ? 1U : 0U; });
 }
 
 std::size_t StabilityReport::findings() const {
-  std::size_t sum = 0;
-  for (const StabilityResult& row : rows) {
-    for (const StabilityPoint& point : row.points) sum += point.findings.size();
-  }
-  return sum;
+  return sum_over_points(*this, [](const StabilityPoint& point) { return point.findings.size(); });
 }
 
 StabilityReport audit_stability(const std::vector<StabilityRow>& rows, const StabilityOptions& options) {
   std::size_t total = 0, done = 0;
   for (const StabilityRow& row : rows) total += row.values.size();
+  const auto stopped = stop_by(options.stop);
   StabilityReport report;
   for (const StabilityRow& row : rows) {
     report.rows.push_back({row.name, row.varied, row.contact, {}});
@@ -67,7 +65,7 @@ StabilityReport audit_stability(const std::vector<StabilityRow>& rows, const Sta
       if (options.progress) options.progress(static_cast<double>(done++) / static_cast<double>(total), row.name);
       const ScratchFolder scratch;
       StabilityPoint point = ask_point(row.make(value), scratch.path(), options);
-      if (asked_to_stop(options)) {
+      if (stopped()) {
         report.complete = false;
         return report;
       }
