@@ -61,12 +61,11 @@ Json chains(bool contact) {
   return lasting(std::move(scene), 0.6, 12);
 }
 
-void scale_velocities(Json& body, double factor) {
-  for (Json& v : body["velocity"]) v = v.get<double>() * factor;
-  if (body["spin"].is_array()) {
-    for (Json& w : body["spin"]) w = w.get<double>() * factor;
-  } else {
-    body["spin"] = body["spin"].get<double>() * factor;
+/// A number, or all that are in arrays.
+void scale(Json& numbers, double factor) {
+  if (numbers.is_number()) numbers = numbers.get<double>() * factor;
+  if (numbers.is_array()) {
+    for (Json& each : numbers) scale(each, factor);
   }
 }
 
@@ -115,7 +114,7 @@ Json thickness(Json scene, double value) {
 /// As far as at ordinary speed.
 Json speed(Json scene, double factor) {
   const double duration = scene["duration"].get<double>() / factor;
-  scale_velocities(scene["bodies"][0], factor);
+  for (const char* const motion : {"velocity", "spin"}) scale(scene["bodies"][0][motion], factor);
   return lasting(std::move(scene), duration, 10);
 }
 
@@ -139,17 +138,10 @@ Json offset(Json scene, double value) {
 /// double before lengths do.
 Json magnitude(bool contact, double factor) {
   Json scene = chains(contact);
-  const auto scale = [&](Json& points) {
-    for (Json& point : points) {
-      for (Json& x : point) x = x.get<double>() * factor;
-    }
-  };
   for (Json& body : scene["bodies"]) {
-    scale(body["mesh"]["chain"]["points"]);
+    scale(body["mesh"]["chain"]["points"], factor);
     body["material"] = {{"edge_stiffness", 100}, {"mass_per_vertex", 1}};
-    if (body.contains("velocity")) {
-      for (Json& v : body["velocity"]) v = v.get<double>() * factor;
-    }
+    if (body.contains("velocity")) scale(body["velocity"], factor);
   }
   if (contact) scene["contact"]["thickness"] = 0.01 * factor;
   return scene;
@@ -215,33 +207,19 @@ Json resonance(bool contact, double step) {
 
 // --- frames ----------------------------------------------------------------------------------------------------------
 
-struct TwoFrames {
-  std::array<Frame, 2> frames;
-
-  TwoFrames() {
-    for (Frame& frame : frames) {
-      frame.mesh.vertex_count = 6;
-      frame.mesh.faces = {{0, 1, 2}, {3, 4, 5}};
-    }
-  }
-};
-
 /// A face, and above it another one whose lowest corner comes down to half a unit above its plane, or to half a unit
-/// below.
-TwoFrames corner_over_face(bool touch) {
-  TwoFrames two;
-  two.frames[0].positions = {{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}, {0, 0, 1}, {-1, 0, 3}, {1, 0, 3}};
-  two.frames[1].positions = two.frames[0].positions;
-  for (std::size_t v = 3; v < 6; ++v) two.frames[1].positions[v][2] -= touch ? 1.5 : 0.5;
-  return two;
-}
-
-FramesCase framed(TwoFrames two, bool touch, const std::function<Position(Position)>& change) {
+/// below; all places changed.
+FramesCase corner_over_face(bool touch, const std::function<Position(Position)>& change) {
+  Frame frame;
+  frame.mesh.vertex_count = 6;
+  frame.mesh.faces = {{0, 1, 2}, {3, 4, 5}};
   FramesCase result;
   result.touch = touch;
   for (std::size_t i = 0; i < 2; ++i) {
-    for (Position& x : two.frames[i].positions) x = change(x);
-    result.frames[i] = format_ply(two.frames[i], PlyEncoding::ascii);
+    const double down = i == 0 ? 0 : touch ? 1.5 : 0.5;
+    frame.positions = {{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}, {0, 0, 1 - down}, {-1, 0, 3 - down}, {1, 0, 3 - down}};
+    for (Position& x : frame.positions) x = change(x);
+    result.frames[i] = format_ply(frame, PlyEncoding::ascii);
   }
   return result;
 }
@@ -251,7 +229,7 @@ double power_below(double value) { return std::ldexp(1.0, std::ilogb(value)); }
 
 FramesCase frames_magnitude(bool touch, double value) {
   const double factor = power_below(value);
-  return framed(corner_over_face(touch), touch, [factor](const Position& x) {
+  return corner_over_face(touch, [factor](const Position& x) {
     return Position{x[0] * factor, x[1] * factor, x[2] * factor};
   });
 }
@@ -259,24 +237,18 @@ FramesCase frames_magnitude(bool touch, double value) {
 /// Heights are small, and as multiples of a half exact as long as half of the unit is a double.
 FramesCase frames_height(bool touch, double value) {
   const double factor = power_below(value);
-  return framed(corner_over_face(touch), touch, [factor](const Position& x) {
-    return Position{x[0], x[1], x[2] * factor};
-  });
+  return corner_over_face(touch, [factor](const Position& x) { return Position{x[0], x[1], x[2] * factor}; });
 }
 
 FramesCase frames_sliver(bool touch, double ratio) {
   const double factor = power_below(1 / ratio);
-  return framed(corner_over_face(touch), touch, [factor](const Position& x) {
-    return Position{x[0], x[1] * factor, x[2]};
-  });
+  return corner_over_face(touch, [factor](const Position& x) { return Position{x[0], x[1] * factor, x[2]}; });
 }
 
 /// Exact as long as a half can be told beside the offset, which is that of all.
 FramesCase frames_offset(bool touch, double value) {
   const double far = power_below(value);
-  return framed(corner_over_face(touch), touch, [far](const Position& x) {
-    return Position{x[0] + far, x[1] + far, x[2] + far};
-  });
+  return corner_over_face(touch, [far](const Position& x) { return Position{x[0] + far, x[1] + far, x[2] + far}; });
 }
 
 // --- rows ------------------------------------------------------------------------------------------------------------
