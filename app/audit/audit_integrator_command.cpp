@@ -39,7 +39,6 @@ struct IntegratorArguments {
   audit::IntegratorOptions options;
   std::vector<fs::path> scenes;
   bool brief = false;
-  std::uint64_t halvings = 3, windows = 20;
   std::optional<std::string> svg;
   OutputOptions results;
 };
@@ -66,8 +65,6 @@ ExitCode exit_code(const audit::IntegratorResults& results) {
 
 ExitCode run(IntegratorArguments& arguments) {
   audit::IntegratorOptions& options = arguments.options;
-  options.halvings = static_cast<int>(arguments.halvings);
-  options.windows = static_cast<int>(arguments.windows);
   options.stop = &interrupted();
   const Output output(arguments.results, arguments.scenes, outputs("--svg", arguments.svg));
   audit::IntegratorResults results;
@@ -91,19 +88,20 @@ Command add_audit_integrator(CLI::App& audit) {
       audit.add_subcommand("integrator", "Error against run time, beside the methods one would write instead");
   command->footer(integrator_footer);
   const auto arguments = std::make_shared<IntegratorArguments>();
+  audit::IntegratorOptions& options = arguments->options;
   command->add_option("scenes", arguments->scenes, "Scenes to run; without any, a uniform sheet and a graded one")
       ->type_name("SCENE.json");
   command->add_flag("--short", arguments->brief, "The scenes' short forms");
-  command->add_option("--halvings", arguments->halvings, "How often steps are halved")
+  command->add_option("--halvings", options.halvings, "How often steps are halved")
       ->check(whole_number(0, 20))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--windows", arguments->windows, "How many windows of each scene, at most those it has")
+  command->add_option("--windows", options.windows, "How many windows of each scene, at most those it has")
       ->check(whole_number(1, 1'000'000))
       ->capture_default_str()
       ->type_name("N");
   command->add_flag_callback(
-      "--no-euler", [arguments] { arguments->options.euler = false; }, "Without the implicit Euler method");
+      "--no-euler", [&options] { options.euler = false; }, "Without the implicit Euler method");
   command->add_option("--svg", arguments->svg, "Draw errors against run time")->type_name("OUT.svg");
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};

@@ -39,12 +39,12 @@ constexpr const char* precision_footer =
     "  noli audit precision scenes/swinging_cloth.json --short --bits 53,256 --svg cloth.svg --json cloth.result.json";
 
 struct PrecisionArguments {
+  audit::PrecisionRequest request;
   fs::path scene;
   bool brief = false;
   std::optional<double> until;
   bool past_duration = false;
   std::vector<int> bits = {53, 64, 113, 256};
-  int threads = 0;
   std::string time_limit;
   std::optional<std::string> svg;
   OutputOptions results;
@@ -76,10 +76,9 @@ ExitCode exit_code(const audit::PrecisionOutcome& outcome) {
   return outcome.complete && outcome.windows > 0 ? ExitCode::holds : ExitCode::undecided;
 }
 
-ExitCode run(const PrecisionArguments& arguments) {
-  audit::PrecisionRequest request;
+ExitCode run(PrecisionArguments& arguments) {
+  audit::PrecisionRequest& request = arguments.request;
   request.arithmetics = arithmetics(arguments.bits);
-  request.threads = arguments.threads;
   request.stop = &interrupted();
   if (!arguments.time_limit.empty()) {
     request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
@@ -99,7 +98,7 @@ ExitCode run(const PrecisionArguments& arguments) {
     return audit_scene(scene, request);
   });
   Json json = audit::precision_json(outcome);
-  json["timing"] = {{"seconds", watch.seconds()}, {"threads", arguments.threads}};
+  json["timing"] = {{"seconds", watch.seconds()}, {"threads", request.threads}};
   output.write("audit-precision", audit::precision_answer(outcome), json);
   if (arguments.svg) write_file(*arguments.svg, audit::precision_svg(outcome, scene.title));
   return exit_code(outcome);
@@ -130,12 +129,10 @@ Command add_audit_precision(CLI::App& audit) {
       ->check(whole_number(least_bits, audit::MpfrNumber::most_bits))
       ->type_name("P,...");
   command->add_option("--svg", arguments->svg, "Draw drifts and energy errors over time")->type_name("OUT.svg");
-  command
-      ->add_option("--time-limit", arguments->time_limit,
-                   "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped")
-      ->type_name("TIME");
+  add_time_limit_option(*command, arguments->time_limit,
+                        "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped");
   add_output_options(*command, arguments->results);
-  add_threads_option(*command, arguments->threads);
+  add_threads_option(*command, arguments->request.threads);
   return {command, [arguments] { return run(*arguments); }};
 }
 
