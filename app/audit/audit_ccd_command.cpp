@@ -18,7 +18,6 @@
 #include "audit/ccd/ccd_audit.h"
 #include "audit/ccd/ccd_pipeline.h"
 #include "audit/ccd/pipeline_report.h"
-#include "certify/process/this_program.h"
 #include "trajectory/write_file.h"
 
 namespace noli::app {
@@ -83,10 +82,7 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
 
 ExitCode run(AuditArguments& arguments) {
   audit::AuditRequest& request = arguments.request;
-  request.host.host = beside_this_program("noli_ccd_host");
-  request.host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
-  request.host.most_memory = arguments.megabytes * 1'000'000;
-  request.host.stop = &interrupted();
+  settle_host(request.host, arguments.query_limit, arguments.megabytes);
   if (arguments.time_limit) {
     request.host.deadline = std::chrono::steady_clock::now() + parse_duration(*arguments.time_limit, "--time-limit");
   }

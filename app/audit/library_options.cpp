@@ -41,13 +41,16 @@ void add_library_options(CLI::App& command, LibraryArguments& arguments, const s
       ->needs(path);
 }
 
-void settle_library(LibraryArguments& arguments) {
-  audit::HostOptions& host = arguments.asked.host;
+void settle_host(audit::HostOptions& host, const std::string& query_limit, std::uint64_t megabytes) {
   host.host = beside_this_program("noli_ccd_host");
-  host.query_limit = parse_duration(arguments.query_limit, "--query-limit");
-  host.most_memory = arguments.megabytes * 1'000'000;
-  host.most_hangs = 4;
+  host.query_limit = parse_duration(query_limit, "--query-limit");
+  host.most_memory = megabytes * 1'000'000;
   host.stop = &interrupted();
+}
+
+void settle_library(LibraryArguments& arguments) {
+  settle_host(arguments.asked.host, arguments.query_limit, arguments.megabytes);
+  arguments.asked.host.most_hangs = 4;
 }
 
 std::vector<std::string> library_words(const LibraryArguments& arguments) {

@@ -28,6 +28,9 @@ CLI::Option* add_sandbox_option(CLI::App& command, bool& sandbox);
 /// `instead`: what is not asked then, "the kernel".
 void add_library_options(CLI::App& command, LibraryArguments& arguments, const std::string& instead);
 
+/// Fills in how libraries are run: --query-limit, --memory-limit, until an interruption. Throws UsageError.
+void settle_host(audit::HostOptions& host, const std::string& query_limit, std::uint64_t megabytes);
+
 /// Fills in how the library is run. Throws UsageError.
 void settle_library(LibraryArguments& arguments);
 
