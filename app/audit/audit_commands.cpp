@@ -4,12 +4,11 @@
 #include "app/commands.h"
 
 namespace noli::app {
-namespace {
 
-CLI::App& add_fuzz(CLI::App& app) {
-  CLI::App* const fuzz = app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
-  fuzz->require_subcommand(1);
-  fuzz->footer(
+std::vector<Command> add_audits(CLI::App& app) {
+  CLI::App& fuzz = *app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");
+  fuzz.require_subcommand(1);
+  fuzz.footer(
       "Examples:\n"
       "  noli fuzz queries --for 60s --seed 1\n"
       "  noli fuzz queries --library ./mine.so --for 60s\n"
@@ -17,13 +16,9 @@ CLI::App& add_fuzz(CLI::App& app) {
       "  noli fuzz scenes --for 60s --seed 1\n"
       "  noli fuzz proofs --for 60s --seed 1\n"
       "`noli fuzz queries --help` says more.");
-  return *fuzz;
-}
-
-CLI::App& add_audit(CLI::App& app) {
-  CLI::App* const audit = app.add_subcommand("audit", "How far can numbers, and somebody else's code, be trusted?");
-  audit->require_subcommand(1);
-  audit->footer(
+  CLI::App& audit = *app.add_subcommand("audit", "How far can numbers, and somebody else's code, be trusted?");
+  audit.require_subcommand(1);
+  audit.footer(
       "Examples:\n"
       "  noli audit ccd --library ./mine.so queries-edge-edge.csv\n"
       "  noli audit precision scenes/bounce.json --short\n"
@@ -31,13 +26,6 @@ CLI::App& add_audit(CLI::App& app) {
       "  noli audit stability                           how far it goes, and how it ends there\n"
       "  noli audit self                                all that noli has to look at itself with\n"
       "`noli audit ccd --help` says more, and so for each.");
-  return *audit;
-}
-
-}  // namespace
-
-std::vector<Command> add_audits(CLI::App& app) {
-  CLI::App &fuzz = add_fuzz(app), &audit = add_audit(app);
   return {add_fuzz_queries(fuzz),      add_fuzz_trajectories(fuzz), add_fuzz_proofs(fuzz),
           add_fuzz_scenes(fuzz),       add_audit_ccd(audit),        add_audit_precision(audit),
           add_audit_integrator(audit), add_audit_self(audit),       add_audit_stability(audit)};

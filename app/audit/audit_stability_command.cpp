@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -158,11 +160,10 @@ std::vector<StabilityRow> chosen_rows(const std::vector<std::string>& names) {
   if (names.empty()) return all;
   std::vector<StabilityRow> chosen;
   for (const std::string& name : names) {
-    const auto row = std::find_if(all.begin(), all.end(), [&](const StabilityRow& r) { return r.name == name; });
+    const auto row = std::ranges::find(all, name, &StabilityRow::name);
     if (row == all.end()) {
-      std::string known;
-      for (const StabilityRow& r : all) known += (known.empty() ? "" : ", ") + r.name;
-      throw UsageError(fmt::format("--row: there is no row {}; there are {}", on_one_line(name), known));
+      throw UsageError(fmt::format("--row: there is no row {}; there are {}", on_one_line(name),
+                                   fmt::join(all | std::views::transform(&StabilityRow::name), ", ")));
     }
     chosen.push_back(*row);
   }
