@@ -62,7 +62,7 @@ struct Measured {
 };
 
 Measured measured(const Model<double, 3>& model, audit::SampledRun<3> run, const std::vector<double>& seconds) {
-  const double error = audit::energy_drift(model, run) / audit::mechanics(model, run.samples.front()).energy();
+  const double error = audit::energy_error(model, run);
   return {std::move(run), median(seconds), error};
 }
 

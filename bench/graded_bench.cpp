@@ -43,10 +43,6 @@ Model with_one_step(integrator::Scene scene) {
   return model;
 }
 
-double energy_error(const Model& model, const audit::SampledRun<3>& run) {
-  return audit::energy_drift(model, run) / audit::mechanics(model, run.samples.front()).energy();
-}
-
 void add_row(Table& table, const char* name, const audit::SampledRun<3>& run, double seconds, double error) {
   table.row({name, fmt::format("{}", run.events), fmt::format("{}", run.impulses), fmt::format("{:.2f}", seconds),
              fmt::format("{:.1e}", error)});
@@ -66,7 +62,8 @@ bool run() {
     own = audit::run_with_clocks(model, windows);
     times.push_back(own.seconds);
   }
-  const double seconds = median(times), error = energy_error(model, own), one_error = energy_error(one_step, one);
+  const double seconds = median(times), error = audit::energy_error(model, own),
+               one_error = audit::energy_error(one_step, one);
   Table table({"graded sheet in contact", "events", "impulses of layers", "s", "energy error"});
   add_row(table, "steps by groups and classes", own, seconds, error);
   add_row(table, "one step for all", one, one.seconds, one_error);

@@ -108,39 +108,27 @@ bool is_finite(const Sample<Dim>& sample) {
 
 inline bool stopped(const std::atomic<bool>* stop) { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 
-/// A clock of what this thread computes between start() and pause(): other work on the machine disturbs it least.
-class SplitWatch {
- public:
-  void start() { begin_ = now(); }
-  void pause() { sum_ += now() - begin_; }
-  double seconds() const { return sum_; }
-
- private:
-  static double now() {
-    struct timespec time = {};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-
-  double begin_ = 0, sum_ = 0;
-};
+/// What this thread has computed: other work on the machine disturbs that least.
+inline double thread_seconds() {
+  struct timespec time = {};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 /// Runs `advance`, a window each time it is called, and samples with `look`. Ends early with what is not finite, or
 /// when told to stop.
 template <int Dim, class Advance, class Look>
 void sample_windows(SampledRun<Dim>& run, int windows, const std::atomic<bool>* stop, const Advance& advance,
                     const Look& look) {
-  SplitWatch watch;
   run.samples.push_back(look());
   for (int i = 0; i < windows && !stopped(stop) && run.finite; ++i) {
-    watch.start();
+    const double begin = thread_seconds();
     advance();
-    watch.pause();
+    run.seconds += thread_seconds() - begin;
     Sample<Dim> sample = look();
     run.finite = is_finite(sample);
     if (run.finite) run.samples.push_back(std::move(sample));
   }
-  run.seconds = watch.seconds();
 }
 
 /// This project's integrator, with the model's clocks and steps.
@@ -193,15 +181,15 @@ bool plain_enough(const integrator::Model<double, Dim>& model) {
   return !damped && model.scripts.empty() && !model.contact;
 }
 
-/// The largest difference of energy from the beginning at the ends of windows [J].
+/// The largest difference of energy from the beginning at the ends of windows, in parts of the beginning.
 template <int Dim>
-double energy_drift(const integrator::Model<double, Dim>& model, const SampledRun<Dim>& run) {
+double energy_error(const integrator::Model<double, Dim>& model, const SampledRun<Dim>& run) {
   const double begin = mechanics(model, run.samples.front()).energy();
   double worst = 0;
   for (const Sample<Dim>& sample : run.samples) {
     worst = std::max(worst, std::abs(mechanics(model, sample).energy() - begin));
   }
-  return worst;
+  return worst / begin;
 }
 
 }  // namespace noli::audit
