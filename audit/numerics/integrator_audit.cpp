@@ -131,10 +131,6 @@ class Audit {
     return run;
   }
 
-  void begin(const std::string& method, double factor) const {
-    if (options_.begun) options_.begun(method, factor);
-  }
-
   SampledRun<Dim> verlet(double step) const {
     if (result_.plain) return run_plain(model_, step, result_.windows, options_.stop);
     Model<double, Dim> model = model_;
@@ -146,7 +142,7 @@ class Audit {
 
   Reference<Dim> make_reference() {
     const double r = std::ldexp(least_, -options_.halvings - 1);
-    begin("reference", r / least_);
+    options_.begun("reference", r / least_);
     const SampledRun<Dim> coarse = checked(verlet(r)), fine = checked(verlet(r / 2));
     if (!coarse.finite || !fine.finite) throw NotFinite();
     Reference<Dim> reference(model_, fine, result_.plain ? &coarse : nullptr);
@@ -192,7 +188,7 @@ class Audit {
   template <class Run>
   void point(double factor, double step, const Reference<Dim>& reference, const Run& run) {
     MethodResult& method = result_.methods.back();
-    begin(method.method, factor);
+    options_.begun(method.method, factor);
     std::vector<double> seconds;
     SampledRun<Dim> last;
     double sum = 0;

@@ -41,7 +41,8 @@ struct IntegratorOptions {
   int windows = 20;  ///< at most those of the scene
   bool euler = true;
   const std::atomic<bool>* stop = nullptr;
-  std::function<void(const std::string& method, double factor)> begun;  ///< may be empty; before each run
+  /// Called before each run.
+  std::function<void(const std::string& method, double factor)> begun = [](const std::string&, double) {};
 };
 
 struct IntegratorErrors {

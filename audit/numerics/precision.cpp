@@ -38,9 +38,7 @@ class Audit {
   PrecisionOutcome operator()() {
     while (outcome_.windows < request_.windows && !stopped() && run_window()) {
       ++outcome_.windows;
-      if (request_.progress) {
-        request_.progress(static_cast<double>(outcome_.windows) / static_cast<double>(request_.windows));
-      }
+      request_.progress(static_cast<double>(outcome_.windows) / static_cast<double>(request_.windows));
     }
     outcome_.complete = outcome_.windows == request_.windows;
     outcome_.events = engine_.events();

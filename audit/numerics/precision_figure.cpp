@@ -125,7 +125,7 @@ Panel drifts(const PrecisionOutcome& outcome, const Quantity& quantity) {
   return panel;
 }
 
-Panel energy_error(const PrecisionOutcome& outcome) {
+Panel energy_errors(const PrecisionOutcome& outcome) {
   Curve truncation{"truncation", {}}, rounding{"rounding", {}};
   for (const EnergyError& error : outcome.energies) {
     truncation.values.push_back(std::abs(error.truncation));
@@ -135,18 +135,13 @@ Panel energy_error(const PrecisionOutcome& outcome) {
   return {"energy error [J]", {truncation, rounding}};
 }
 
-std::vector<Panel> panels_of(const PrecisionOutcome& outcome) {
-  std::vector<Panel> panels;
-  for (const Quantity& quantity : quantities) panels.push_back(drifts(outcome, quantity));
-  panels.push_back(energy_error(outcome));
-  return panels;
-}
-
 }  // namespace
 
 std::string precision_svg(const PrecisionOutcome& outcome, const std::string& title) {
   const std::string words = title + ": double against other precisions";
-  const std::vector<Panel> panels = panels_of(outcome);
+  std::vector<Panel> panels;
+  for (const Quantity& quantity : quantities) panels.push_back(drifts(outcome, quantity));
+  panels.push_back(energy_errors(outcome));
   Svg svg(900, first_top + static_cast<double>(panels.size()) * panel_stride, words);
   svg.text({left, 30}, words);
   std::vector<double> times;

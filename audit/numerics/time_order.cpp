@@ -26,13 +26,11 @@ void add_events(const TimedClock& clock, double begin, double end, std::vector<T
 
 std::optional<TimeTie> first_tie(std::vector<TimedEvent>& events) {
   const MpfrScope scope({128, false});
-  std::stable_sort(events.begin(), events.end(),
-                   [](const TimedEvent& a, const TimedEvent& b) { return a.time < b.time; });
+  std::ranges::stable_sort(events, {}, &TimedEvent::time);
   for (auto group = events.begin(); group != events.end();) {
     const auto end = std::find_if(group, events.end(), [&](const TimedEvent& e) { return e.time != group->time; });
     if (end - group > 1) {
-      std::stable_sort(group, end,
-                       [](const TimedEvent& a, const TimedEvent& b) { return exact_time(a) < exact_time(b); });
+      std::ranges::stable_sort(group, end, {}, exact_time);
       for (auto next = group + 1; next != end; ++next) {
         const auto before = next - 1;
         if (before->clock->rank <= next->clock->rank || !(exact_time(*before) < exact_time(*next))) continue;
