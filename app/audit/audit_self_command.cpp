@@ -68,12 +68,6 @@ const char* verdict(ExitCode code) {
   return code == ExitCode::holds ? "holds" : code == ExitCode::refuted ? "finding" : "undecided";
 }
 
-Json figures_json(const SelfPart& part) {
-  Json json = Json::object();
-  for (const auto& [key, number] : part.figures) json[key] = number;
-  return json;
-}
-
 Json self_json(const SelfArguments& arguments, const SelfReport& report, double seconds) {
   Json json = {{"verdict", verdict(exit_code(report, arguments.require_all))},
                {"held", report.count(PartState::held)},
@@ -86,7 +80,7 @@ Json self_json(const SelfArguments& arguments, const SelfReport& report, double 
   for (const SelfPart& part : report.parts) {
     Json about = {{"group", part.group}, {"name", part.name}, {"state", name(part.state)}, {"words", part.words}};
     Json time = {{"group", part.group}, {"name", part.name}, {"seconds", part.seconds}};
-    (part.by_clock ? time : about)["figures"] = figures_json(part);
+    (part.by_clock ? time : about)["figures"] = part.figures;
     json["parts"].push_back(about);
     times.push_back(time);
   }
@@ -97,7 +91,9 @@ Json self_json(const SelfArguments& arguments, const SelfReport& report, double 
 
 std::string figures_text(const SelfPart& part) {
   std::string text;
-  for (const auto& [key, number] : part.figures) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, key);
+  for (const auto& [key, number] : part.figures.items()) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number.dump(), key);
+  }
   return text;
 }
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include <noli/errors.h>
 #include "audit/numerics/stability_point.h"
@@ -20,7 +19,6 @@ namespace noli::audit {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using std::chrono::nanoseconds;
 
 /// `noli fuzz NAME`, what its document calls the number of things that it has tried, and that all was well.
@@ -154,7 +152,7 @@ class SelfAudit {
       fail(p, fmt::format("it says that all is well, of no {}", key));
       return false;
     }
-    p.figures.emplace_back(key, number);
+    p.figures[key] = number;
     return true;
   }
 
@@ -176,7 +174,7 @@ class SelfAudit {
     words.insert(words.end(), {"--json", "-"});
     const Json json = document(noli(words), "agreement", p);
     if (!json.is_object()) return;
-    p.figures.emplace_back("files", files.size());
+    p.figures["files"] = files.size();
     if (figure(json, "queries", p) && figure(json, "labelled", p)) hold(p);
   }
 
@@ -216,8 +214,8 @@ class SelfAudit {
     });
   }
 
-  /// Whether each checker says so: 0 accepted, 1 refuted.
-  bool check(const std::vector<std::string>& files, int code, SelfPart& p) const {
+  /// Holds if each checker says so of these steps: 0 accepted, 1 refuted.
+  void check(const std::vector<std::string>& files, int code, std::uint64_t steps, SelfPart& p) const {
     for (const CheckerProgram& checker : present_) {
       std::vector<std::string> words = {"check", "--porcelain"};
       words.insert(words.end(), files.begin(), files.end());
@@ -225,15 +223,10 @@ class SelfAudit {
       const ProgramEnd run = noli(words);
       const char* const expected = code == 0 ? "verdict=accepted" : "verdict=refuted";
       if (run.exited_with(code) && first_line(run.out).starts_with(expected)) continue;
-      fail(p, fmt::format("{}: {}", checker.name, told(run)));
-      return false;
+      return fail(p, fmt::format("{}: {}", checker.name, told(run)));
     }
-    return true;
-  }
-
-  void checked(std::uint64_t steps, SelfPart& p) const {
-    p.figures.emplace_back("steps", steps);
-    p.figures.emplace_back("checkers", present_.size());
+    p.figures["steps"] = steps;
+    p.figures["checkers"] = present_.size();
     if (present_.empty()) return fail(p, "there is no checker that could say so");
     hold(p);
   }
@@ -255,7 +248,7 @@ class SelfAudit {
     const ProgramEnd run = noli({"verify", "--porcelain", frames[0], frames[1], "--proof", proof});
     const char* const expected = two.touch ? "verdict=contact " : "verdict=proved ";
     if (!run.exited_with(two.touch ? 1 : 0) || !run.out.starts_with(expected)) return fail(p, told(run));
-    if (check({proof, frames[0], frames[1]}, two.touch ? 1 : 0, p)) checked(1, p);
+    check({proof, frames[0], frames[1]}, two.touch ? 1 : 0, 1, p);
   }
 
   /// Runs scene.json of the folder and checks what was committed; `codes`: how it may end.
@@ -274,7 +267,7 @@ class SelfAudit {
       if (run.exited_with(2)) return skip(p, "no window was done within --scene-time");
       return fail(p, "no window was committed: " + told(run));
     }
-    if (check({run_folder}, 0, p)) checked(windows, p);
+    check({run_folder}, 0, windows, p);
   }
 
   void shipped_scenes() {

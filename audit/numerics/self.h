@@ -22,8 +22,9 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "certify/json.h"
 
 namespace noli::audit {
 
@@ -49,9 +50,9 @@ enum class PartState { held, failed, skipped };
 struct SelfPart {
   std::string group, name;
   PartState state = PartState::failed;
-  std::string words;  ///< what failed, or why it was skipped; one line
-  std::vector<std::pair<std::string, std::uint64_t>> figures;
-  bool by_clock = false;  ///< figures depend on how fast the machine is
+  std::string words;              ///< what failed, or why it was skipped; one line
+  Json figures = Json::object();  ///< numbers
+  bool by_clock = false;          ///< figures depend on how fast the machine is
   double seconds = 0;
 };
 

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
 #include <noli/errors.h>
+#include "certify/json.h"
 #include "certify/process/run_program.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
@@ -22,7 +22,6 @@ namespace noli::audit {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// A table of numbers with a line of names (`noli export --figure ... -o FILE.csv`): its columns.
 using Columns = std::map<std::string, std::vector<double>>;

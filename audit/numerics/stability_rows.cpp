@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "certify/json.h"
 #include "trajectory/formats/write_ply.h"
 
 namespace noli::audit {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // --- scenes ----------------------------------------------------------------------------------------------------------
 
