@@ -15,4 +15,10 @@ enum class ExitCode {
   failure = 4     ///< an internal check failed, or the machine did
 };
 
+/// Of what looks for something that does not hold.
+inline ExitCode exit_code_of(bool refuted, bool holds) {
+  if (refuted) return ExitCode::refuted;
+  return holds ? ExitCode::holds : ExitCode::undecided;
+}
+
 }  // namespace noli::app

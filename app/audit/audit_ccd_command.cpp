@@ -54,11 +54,6 @@ struct AuditArguments {
   PolygonRule polygons = PolygonRule::fan;
 };
 
-ExitCode exit_code(std::uint64_t findings, bool complete) {
-  if (findings > 0) return ExitCode::refuted;
-  return complete ? ExitCode::holds : ExitCode::undecided;
-}
-
 std::vector<fs::path> inputs(const AuditArguments& arguments) {
   std::vector<fs::path> all = arguments.request.files;
   all.insert(all.end(), arguments.request.libraries.begin(), arguments.request.libraries.end());
@@ -77,7 +72,7 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
   outcome.notes.insert(outcome.notes.begin(), ordered.notes.begin(), ordered.notes.end());
   const Json json = audit::pipeline_json(outcome);
   output.write("audit-pipeline", audit::pipeline_answer(json, outcome), json);
-  return exit_code(outcome.findings(), outcome.complete);
+  return exit_code_of(outcome.findings() > 0, outcome.complete);
 }
 
 ExitCode run(AuditArguments& arguments) {
@@ -100,7 +95,7 @@ ExitCode run(AuditArguments& arguments) {
   });
   output.write("audit-ccd", audit::audit_answer(outcome), audit::audit_json(outcome));
   if (arguments.svg) write_file(*arguments.svg, audit::audit_svg(outcome));
-  return exit_code(outcome.findings() + outcome.wrong_labels(), outcome.complete);
+  return exit_code_of(outcome.findings() + outcome.wrong_labels() > 0, outcome.complete);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <noli/errors.h>
@@ -57,12 +58,6 @@ std::vector<integrator::Scene> scenes_of(const IntegratorArguments& arguments) {
   return scenes;
 }
 
-ExitCode exit_code(const audit::IntegratorResults& results) {
-  const std::string verdict = audit::integrator_verdict(results);
-  if (verdict == "finding") return ExitCode::refuted;
-  return verdict == "measured" ? ExitCode::holds : ExitCode::undecided;
-}
-
 ExitCode run(IntegratorArguments& arguments) {
   audit::IntegratorOptions& options = arguments.options;
   options.stop = &interrupted();
@@ -78,7 +73,8 @@ ExitCode run(IntegratorArguments& arguments) {
   }
   output.write("audit-integrator", audit::integrator_answer(results), audit::integrator_json(results));
   if (arguments.svg) write_file(*arguments.svg, audit::integrator_svg(results));
-  return exit_code(results);
+  const std::string_view verdict = audit::integrator_verdict(results);
+  return exit_code_of(verdict == "finding", verdict == "measured");
 }
 
 }  // namespace

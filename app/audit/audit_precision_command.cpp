@@ -71,11 +71,6 @@ audit::PrecisionOutcome audit_scene(const integrator::Scene& scene, const audit:
   return audit::audit_precision(integrator::build_model<3>(scene).model, request);
 }
 
-ExitCode exit_code(const audit::PrecisionOutcome& outcome) {
-  if (outcome.difference) return ExitCode::refuted;
-  return outcome.complete && outcome.windows > 0 ? ExitCode::holds : ExitCode::undecided;
-}
-
 ExitCode run(PrecisionArguments& arguments) {
   audit::PrecisionRequest& request = arguments.request;
   request.arithmetics = arithmetics(arguments.bits);
@@ -101,7 +96,7 @@ ExitCode run(PrecisionArguments& arguments) {
   json["timing"] = {{"seconds", watch.seconds()}, {"threads", request.threads}};
   output.write("audit-precision", audit::precision_answer(outcome), json);
   if (arguments.svg) write_file(*arguments.svg, audit::precision_svg(outcome, scene.title));
-  return exit_code(outcome);
+  return exit_code_of(outcome.difference.has_value(), outcome.complete && outcome.windows > 0);
 }
 
 }  // namespace

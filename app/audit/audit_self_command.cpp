@@ -59,9 +59,8 @@ const char* name(PartState state) {
 }
 
 ExitCode exit_code(const SelfReport& report, bool require_all) {
-  if (report.count(PartState::failed) > 0) return ExitCode::refuted;
   const bool all = report.complete && (!require_all || report.count(PartState::skipped) == 0);
-  return all && report.count(PartState::held) > 0 ? ExitCode::holds : ExitCode::undecided;
+  return exit_code_of(report.count(PartState::failed) > 0, all && report.count(PartState::held) > 0);
 }
 
 const char* verdict(ExitCode code) {

@@ -60,11 +60,6 @@ const char* verdict(const StabilityReport& report) {
   return report.complete ? "no_finding" : "undecided";
 }
 
-ExitCode exit_code(const StabilityReport& report) {
-  if (report.findings() > 0) return ExitCode::refuted;
-  return report.complete ? ExitCode::holds : ExitCode::undecided;
-}
-
 // --- JSON ------------------------------------------------------------------------------------------------------------
 
 Json point_json(const StabilityPoint& point) {
@@ -192,7 +187,7 @@ ExitCode run(StabilityArguments& arguments) {
   const double seconds = watch.seconds();
   const Json json = stability_json(report, seconds);
   output.write("audit-stability", stability_answer(json, report, seconds), json);
-  return exit_code(report);
+  return exit_code_of(report.findings() > 0, report.complete);
 }
 
 }  // namespace
