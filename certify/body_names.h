@@ -48,6 +48,7 @@ class BodyNames {
 template <class Bodies>
 BodyNames names_of(const Bodies& built) {
   std::vector<BodyNames::Body> bodies;
+  bodies.reserve(built.size());
   for (const auto& body : built) bodies.push_back({body.name, body.first, body.vertices});
   return BodyNames(std::move(bodies));
 }

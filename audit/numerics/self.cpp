@@ -72,16 +72,17 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::string& extens
 /// The folder in which fuzzers may make their own; it goes again if they did not.
 class FindingsFolder {
  public:
-  explicit FindingsFolder(const fs::path& path) : path_(path) { fs::create_directories(path_); }
+  explicit FindingsFolder(const fs::path& path) : path_(path), made_(fs::create_directories(path)) {}
   ~FindingsFolder() {
     std::error_code not_empty;
-    fs::remove(path_, not_empty);
+    if (made_) fs::remove(path_, not_empty);
   }
   FindingsFolder(const FindingsFolder&) = delete;
   FindingsFolder& operator=(const FindingsFolder&) = delete;
 
  private:
   const fs::path& path_;
+  bool made_;
 };
 
 class SelfAudit {

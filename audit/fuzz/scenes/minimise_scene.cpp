@@ -46,7 +46,9 @@ class SceneMinimiser {
       : scene_(std::move(scene)), fails_(fails), budget_(budget) {}
 
   SceneJson run() {
-    while (leave_out() | shorten()) {
+    for (bool smaller = true; smaller;) {
+      smaller = leave_out();
+      smaller = shorten() || smaller;
     }
     return scene_;
   }
