@@ -55,7 +55,7 @@ Json faults_json(const audit::MotionFaultCounts& counts) {
   return json;
 }
 
-Json finding_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionFinding& finding) {
+Json library_finding_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionFinding& finding) {
   const std::string folder = finding.folder.string();
   return {{"generator", finding.generator},
           {"block", finding.block},
@@ -91,7 +91,7 @@ Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMo
                {"faults", faults_json(report.faults)},
                {"corpus", report.corpus_size}};
   json["reports"] = Json::array();
-  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(arguments, finding));
+  for (const auto& finding : report.findings) json["reports"].push_back(library_finding_json(arguments, finding));
   json["generators"] = Json::array();
   for (const auto& generator : report.generators) {
     json["generators"].push_back({{"name", generator.name},
