@@ -52,8 +52,8 @@ class Lines {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// Walks over the words of a line, which are separated by blanks and tabs. Words are short: looking at each character is
-/// faster than a search.
+/// Walks over the words of a line, which are separated by blanks and tabs. Words are short: looking at each character
+/// is faster than a search.
 class Words {
  public:
   explicit Words(std::string_view line) : rest_(line) {}

@@ -21,8 +21,8 @@ void set_cells_of_run(Claim& claim, const RunScene& scene);
 /// Writes to an empty sink. Of the claim only strict, distance and ring count. The scene has to outlive the proof, here
 /// and below.
 std::unique_ptr<StepProofs> proof_of_run(std::unique_ptr<Sink> sink, const RunScene& scene, const Claim& claim = {});
-/// Goes on with the proof that `noli simulate` began, of a run of which so many windows are committed: cuts off what is about others, and proves
-/// those that it lacks. Throws InputError when the proof cannot be read.
+/// Goes on with the proof that `noli simulate` began, of a run of which so many windows are committed: cuts off what is
+/// about others, and proves those that it lacks. Throws InputError when the proof cannot be read.
 std::unique_ptr<StepProofs> resumed_proof_of_run(const std::filesystem::path& run_folder, std::uint64_t windows,
                                                  const RunScene& scene, const WindowVerifier& verifier,
                                                  const VerifyOptions& options);

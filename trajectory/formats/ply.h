@@ -23,8 +23,8 @@
 
 namespace noli {
 
-/// Reads the bytes of a PLY file; `file` is what errors call them. `polygons`: what to do with those, and where they are
-/// noted. Throws InputError with line (header and ASCII) or byte (binary) for anything that is not as above: empty,
+/// Reads the bytes of a PLY file; `file` is what errors call them. `polygons`: what to do with those, and where they
+/// are noted. Throws InputError with line (header and ASCII) or byte (binary) for anything that is not as above: empty,
 /// truncated, NaN or infinite coordinates, indices out of range, trailing content, malformed headers. Counts are
 /// compared with the bytes that remain before anything is allocated for them.
 Frame parse_ply(std::string_view bytes, const std::string& file, Polygons* polygons = nullptr);
