@@ -37,9 +37,9 @@ std::string value_text(const Json& value) {
 Answer::Answer(const Json& result, const std::vector<std::string>& members)
     : verdict_(result.at("verdict").get<std::string>()) {
   for (const std::string& member : members) {
-    const std::size_t path = member.find('=') + 1;  // 0 without one
-    add({member.substr(0, path == 0 ? member.size() : path - 1),
-         value_text(result.at(Json::json_pointer("/" + member.substr(path))))});
+    const std::size_t at = member.find('=');
+    const std::string path = at == std::string::npos ? member : member.substr(at + 1);
+    add({member.substr(0, at), value_text(result.at(Json::json_pointer("/" + path)))});
   }
 }
 

@@ -172,7 +172,7 @@ class Verified {
     if (const Json numbers = input.value("numbers", Json()); numbers.is_string()) {
       words += ", " + numbers.get<std::string>();
     }
-    if (const Json hash = input.at("sha256"); hash.is_string()) words += ", SHA-256 " + hash.get<std::string>();
+    if (const Json& hash = input.at("sha256"); hash.is_string()) words += ", SHA-256 " + hash.get<std::string>();
     return words;
   }
 

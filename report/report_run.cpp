@@ -54,7 +54,7 @@ class Run {
     report.page["facts"] = facts();
     if (rows_.empty()) return;  // nothing moves
     report.page["plots"] = report_plots(rows_);
-    PackedFrames frames = packer_.pack();  // before the scene, which says how many it left
+    PackedFrames frames = packer_.pack();  // before scene(), which tells how many frames are left
     put_scene(scene(), std::move(frames), report);
   }
 

@@ -208,7 +208,7 @@ class Place {
   }
 
   std::string looked_at() const {
-    const std::string steps = fmt::format("{} {}", outcome_.steps_total, steps_word(outcome_.steps_total));
+    std::string steps = fmt::format("{} {}", outcome_.steps_total, steps_word(outcome_.steps_total));
     if (request_.constant_motion) return steps;
     if (!request_.run) return fmt::format("{} frames, {}", request_.frames.size(), steps);
     const RunEnding& ending = *outcome_.ending;
@@ -368,7 +368,7 @@ class Words {
   }
 
   std::string files() const {
-    const std::string first = on_one_line(request_.frames.front().string());
+    std::string first = on_one_line(request_.frames.front().string());
     if (request_.frames.size() == 1) return first;
     return fmt::format("{} frames, {} to {}", request_.frames.size(), first,
                        on_one_line(request_.frames.back().string()));

@@ -157,8 +157,10 @@ std::vector<StabilityRow> chosen_rows(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto row = std::ranges::find(all, name, &StabilityRow::name);
     if (row == all.end()) {
-      throw UsageError(fmt::format("--row: there is no row {}; there are {}", on_one_line(name),
-                                   fmt::join(all | std::views::transform(&StabilityRow::name), ", ")));
+      std::vector<std::string> known(all.size());
+      std::ranges::transform(all, known.begin(), &StabilityRow::name);
+      throw UsageError(
+          fmt::format("--row: there is no row {}; there are {}", on_one_line(name), fmt::join(known, ", ")));
     }
     chosen.push_back(*row);
   }

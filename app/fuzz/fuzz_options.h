@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that the fuzzers of motions, scenes and proofs have in common, in the same words, and their verdicts.
+// What the commands of all fuzzers share: options in the same words, how a run begins, how results and exit codes are
+// told.
 #pragma once
 
 #include <fmt/format.h>

@@ -148,7 +148,8 @@ Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport&
 
 std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases) {
   std::string text;
-  for (const auto& finding : report.findings) text += finding_line(finding, "mutant", finding.mutations + ": ");
+  for (const auto& finding : report.findings)
+    text += finding_line(finding, "mutant", finding.mutations.empty() ? "" : finding.mutations + ": ");
   for (const auto& [name, tally] : report.mutations) {
     text += fmt::format("  {:26} accepted {:7} refuted {:7} rejected {:7} failed {:7}\n", name, tally.accepted,
                         tally.refuted, tally.rejected, tally.failed);

@@ -14,7 +14,8 @@
 //                                               threads. Who has something to do for a whole block has make_block
 //              take(item, index)                counts it; then add_if_new, or is_kept and keep
 //              take_saved(name)                 the same of what is in the corpus; false when the user would not wait.
-//                                               Who does not go by names has run_corpus and count_corpus
+//                                               Where a corpus is no list of names, the subject has run_corpus and
+//                                               count_corpus instead
 //              items()                          how many were counted
 //
 // What this does not do: it knows nothing of what an item is.
@@ -77,7 +78,7 @@ struct FuzzFinding {
   std::string generator;        ///< or what it is called in the corpus
   std::uint64_t block = 0;      ///< of the seed
   std::size_t index = 0;        ///< within the block
-  std::string difference;       ///< in words, the first of which says what kind of difference it is
+  std::string difference;       ///< in words
   std::filesystem::path place;  ///< where it was saved, made smaller; empty when it was not
 };
 
@@ -190,7 +191,8 @@ class Fuzzing {
     return report_.findings.size() < options_.max_findings;
   }
 
-  /// Saves it with save(finding), which says where, if things are saved at all.
+  /// Saves it with save(finding), which sets its `place`, if things are saved at all. Where that fails, the place is
+  /// empty.
   template <class Finding, class Save>
   void keep(Finding finding, const Save& save) {
     if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.place.clear();

@@ -13,15 +13,15 @@
 
 namespace noli::audit {
 
-/// `Options` have `asked`, the library, and `first_only`; `Report` has `knows_times`. The subject has beside what
-/// Fuzzing asks for
+/// `Options` have `asked`, the library, and `first_only`; `Report` has `knows_times`. The subject needs, beside what
+/// Fuzzing asks for,
 ///   shrink_findings()    makes those of the report smaller
 template <class Subject, class Options, class Report, class Item, class Corpus = ShapeCorpus>
 class FuzzingLibrary : public Fuzzing<Subject, Options, Report, Item, Corpus> {
   using Base = Fuzzing<Subject, Options, Report, Item, Corpus>;
 
  public:
-  /// As that of Fuzzing.
+  /// Throws what the constructor of Fuzzing throws.
   explicit FuzzingLibrary(const Options& options) : Base(options), asked_(options.asked) {}
 
   /// Once. Throws InputError for a library that is not as it has to be, and what Fuzzing throws.
@@ -46,7 +46,8 @@ class FuzzingLibrary : public Fuzzing<Subject, Options, Report, Item, Corpus> {
   LibraryUnderTest asked_;  ///< to be asked until the time of the run is over
 };
 
-/// For what is made smaller. What hangs is waited for but a part of the limit, or it would take all day.
+/// The library as it is asked while a finding is made smaller. A query that may hang gets a part of its limit only;
+/// otherwise that would take all day.
 inline LibraryUnderTest asked_while_shrinking(LibraryUnderTest library, bool may_hang) {
   constexpr std::chrono::nanoseconds least = std::chrono::milliseconds(20);
   HostOptions& host = library.host;

@@ -42,7 +42,8 @@ struct IntegratorOptions {
   bool euler = true;
   const std::atomic<bool>* stop = nullptr;
   /// Called before each run.
-  std::function<void(const std::string& method, double factor)> begun = [](const std::string&, double) {};
+  std::function<void(const std::string& method, double factor)> begun = [](const std::string&, double) {
+  };  ///< not empty
 };
 
 struct IntegratorErrors {

@@ -38,6 +38,7 @@ struct MethodLook {
   const char *method, *colour, *words;
 };
 
+/// Precondition: the method is one of these four.
 const MethodLook& look_of(const MethodResult& result) {
   static constexpr MethodLook looks[] = {{"own", "#2e8b57", "a step for each force"},
                                          {"grouped", "#1b6ca8", "steps in groups"},
@@ -107,7 +108,8 @@ std::string integrator_svg(const IntegratorResults& results) {
     const double y = margin_top + static_cast<double>(rows * i) * (panel_size_y + gap_y);
     svg.text({margin_left, y - 8}, on_one_line(results[i].title));
     for (std::size_t k = 0; k < error_panels.size(); ++k) {
-      const auto column = static_cast<double>(k % panel_columns), row = static_cast<double>(k / panel_columns);
+      const std::size_t whole_rows = k / panel_columns;
+      const auto column = static_cast<double>(k % panel_columns), row = static_cast<double>(whole_rows);
       panel(svg, results[i], error_panels[k],
             {margin_left + column * (panel_size_x + gap_x), y + row * (panel_size_y + gap_y)});
     }

@@ -53,6 +53,7 @@ class MpfrNumber {
   /// The nearest double.
   explicit operator double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   bool finite() const { return mpfr_number_p(value_) != 0; }
+  bool is_nan() const { return mpfr_nan_p(value_) != 0; }
   bool negative() const { return mpfr_signbit(value_) != 0; }  ///< -0 and NaN have a sign too
 
   friend MpfrNumber operator+(const MpfrNumber& a, const MpfrNumber& b);

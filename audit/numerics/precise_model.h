@@ -71,8 +71,10 @@ integrator::Model<MpfrNumber, Dim> precise(const integrator::Model<double, Dim>&
   };
   const auto from = model.forces.lists();
   const auto to = result.forces.lists();
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (copy(std::get<I>(from), std::get<I>(to)), ...); }
-  (std::make_index_sequence<std::tuple_size_v<decltype(from)>>{});
+  const auto copy_all = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (copy(std::get<I>(from), std::get<I>(to)), ...);
+  };
+  copy_all(std::make_index_sequence<std::tuple_size_v<decltype(from)>>{});
   result.window_length = model.window_length;
   result.clocks = model.clocks;
   result.contact = model.contact;

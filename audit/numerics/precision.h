@@ -39,7 +39,7 @@ struct PrecisionRequest {
   int threads = 0;            ///< 0: all there are. They change nothing but the time it takes
   const std::atomic<bool>* stop = nullptr;
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  std::function<void(double)> progress = [](double) {};  ///< share of the windows
+  std::function<void(double)> progress = [](double) {};  ///< share of the windows; not empty
 };
 
 /// Double against another precision, at a window's end.

@@ -27,7 +27,7 @@ namespace noli::audit {
 
 /// Same bits; any NaN is as good as another.
 inline bool same_bits(double a, const MpfrNumber& b) {
-  if (a != a) return b != b;
+  if (std::isnan(a)) return b.is_nan();
   return b == MpfrNumber(a) && std::signbit(a) == b.negative();
 }
 
@@ -112,7 +112,7 @@ class Replay {
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  /// Runs the next window; after a stop this is of no more use. Throws integrator::ContactLimit.
+  /// Runs the next window; after a stop this must not be used again. Throws integrator::ContactLimit.
   void run_window(const EventLog<Dim>& log, const integrator::Stop& stop) {
     const MpfrScope scope(arithmetic_);
     comparison_.follow(log);

@@ -11,12 +11,11 @@
 // What this does not do: it compares nothing (integrator_audit.h does).
 #pragma once
 
-#include <time.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <vector>
 
 #include "audit/numerics/one_step.h"
@@ -181,7 +180,7 @@ bool plain_enough(const integrator::Model<double, Dim>& model) {
   return !damped && model.scripts.empty() && !model.contact;
 }
 
-/// The largest difference of energy from the beginning at the ends of windows, in parts of the beginning.
+/// The largest difference between the energy at the end of a window and at the beginning, relative to the latter.
 template <int Dim>
 double energy_error(const integrator::Model<double, Dim>& model, const SampledRun<Dim>& run) {
   const double begin = mechanics(model, run.samples.front()).energy();

@@ -30,7 +30,7 @@ Columns columns_of(const std::string& text) {
   Columns columns;
   std::vector<std::vector<double>*> in_order;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; std::getline(lines, line) && !lines.eof();) {  // a last line that was cut off does not count
     const bool names = in_order.empty();
     std::istringstream cells(line);
     std::string cell;
@@ -100,7 +100,7 @@ class Asking {
   ProgramEnd noli(std::vector<std::string> words) {
     words.insert(words.begin(), options_.program.string());
     const std::chrono::nanoseconds limit = 2 * options_.point_limit + std::chrono::seconds(10);
-    const ProgramEnd run = run_program(std::move(words), {limit, stop_by(options_.stop), 2 * time_to_end});
+    ProgramEnd run = run_program(std::move(words), {limit, stop_by(options_.stop), 2 * time_to_end});
     point_.seconds += run.seconds;
     return run;
   }
@@ -193,7 +193,9 @@ class Asking {
     const ProgramEnd run = noli({"export", path("run"), "--figure", figure, "-o", file, "--force"});
     if (!ended_well(run)) return std::nullopt;
     const Columns columns = columns_of(bytes_of(file));
-    if (run.code == 0 && !columns.empty() && !columns.begin()->second.empty()) return columns;
+    const std::size_t rows = columns.empty() ? 0 : columns.begin()->second.size();
+    const bool whole = std::ranges::all_of(columns, [&](const auto& column) { return column.second.size() == rows; });
+    if (run.code == 0 && rows > 0 && whole) return columns;
     broken("finite", fmt::format("there is no series of {}: {}", figure, line_of(run.err)));
     return std::nullopt;
   }
@@ -227,7 +229,8 @@ class Asking {
   void look_at_momentum(const Columns& momentum) {
     for (const std::string kind : {"momentum", "angular_momentum"}) {
       const std::string unit = kind == "momentum" ? " [N s]" : " [N m s]";
-      const std::array<std::string, 3> names = {kind + "_x" + unit, kind + "_y" + unit, kind + "_z" + unit};
+      std::array<std::string, 3> names;
+      for (std::size_t k = 0; k < 3; ++k) names[k] = fmt::format("{}_{}{}", kind, "xyz"[k], unit);
       double size = 0, worst = 0;
       for (const std::string& name : names) size = std::hypot(size, momentum.at(name)[0]);
       for (std::size_t i = 0; i < momentum.at(names[0]).size(); ++i) {

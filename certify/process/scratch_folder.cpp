@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path path_of(ScratchFolder::Place place) {
-  const fs::path memory = "/dev/shm";
+  fs::path memory = "/dev/shm";
   const bool there = place == ScratchFolder::Place::memory && ::access(memory.c_str(), W_OK | X_OK) == 0;
   if (there) return memory;
   try {

@@ -213,7 +213,7 @@ std::vector<std::string> fields_of(const Claim& claim) {
     if (key == "ring" && claim.distance == 0) continue;
     // Of a run the pairs are those of its scene, by default; they may be more than a command line takes.
     if (key == "excluded" && claim.motion == "run") continue;
-    fields.push_back(key + "=" + value);
+    fields.push_back(fmt::format("{}={}", key, value));
     if (fields.back().size() > longest_word) {
       throw InputError("the claim", key, "has more pairs of labels than a checker can be asked to leave out");
     }

@@ -42,8 +42,8 @@ std::string advice(const std::filesystem::path& path, const std::string& why) {
 
 }  // namespace
 
-SeriesFile::SeriesFile(const std::filesystem::path& path, SeriesProgram program)
-    : path_(path), part_(path), process_(std::move(program), part_.descriptor()) {
+SeriesFile::SeriesFile(const std::filesystem::path& path, const SeriesProgram& program)
+    : path_(path), part_(path), process_(program, part_.descriptor()) {
   std::string bytes;
   series::put_beginning(bytes);
   guarded([&] { process_.write(bytes); });

@@ -29,7 +29,7 @@ using SeriesShape = series::Shape;
 class SeriesFile {
  public:
   /// Throws InputError too: PartFile.
-  explicit SeriesFile(const std::filesystem::path& path, SeriesProgram program);
+  explicit SeriesFile(const std::filesystem::path& path, const SeriesProgram& program);
 
   /// Adds an array; a name "energy/kinetic" is an array in a group. `unit` is SI, "1" for a pure number. Without a
   /// shape it has one dimension. Preconditions: the name is new, and none of an array's group or the other way round;

@@ -32,7 +32,7 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
   }
   std::vector<Tick> ticks;
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
-  for (double i = first; i <= last && ticks.size() <= static_cast<std::size_t>(2 * most); ++i) {
+  for (double i = first; i <= last && ticks.size() <= 2 * static_cast<std::size_t>(most); ++i) {
     // In decimal digits, so that 3 * 0.1 is 0.3.
     const int digits = std::max(1, static_cast<int>(std::ceil(std::log10(std::abs(i) + 1))) + 1);
     ticks.push_back({i * step, i == 0 ? "0" : fmt::format("{:.{}g}", i * step, digits)});

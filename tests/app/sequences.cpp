@@ -102,7 +102,7 @@ Sequence falling_stack(const std::string& name, int count, int frames, double ga
       s.mesh.faces.push_back({face[0] + base, face[1] + base, face[2] + base});
     }
   }
-  s.mesh.vertex_count = static_cast<std::size_t>(8 * count);
+  s.mesh.vertex_count = 8 * static_cast<std::size_t>(count);
   for (int f = 0; f < frames; ++f) {
     Places frame;
     const double left = 1 - static_cast<double>(f) / (frames - 1);
@@ -146,7 +146,7 @@ Sequence in_the_plane(const std::string& name, int count, int frames) {
     const auto base = static_cast<VertexId>(4 * k);
     for (VertexId i = 0; i < 4; ++i) s.mesh.edges.push_back({base + i, base + (i + 1) % 4});
   }
-  s.mesh.vertex_count = static_cast<std::size_t>(4 * count);
+  s.mesh.vertex_count = 4 * static_cast<std::size_t>(count);
   for (int f = 0; f < frames; ++f) {
     Places frame;
     for (int k = 0; k < count; ++k) {
@@ -177,8 +177,9 @@ Sequence points_and_edges(const std::string& name, std::uint32_t n, int frames) 
       return Position{1.0 * i, 1.0 * j, wave(0.1 * i + 0.07 * j)};
     });
     for (std::uint32_t i = 0; i < n * n; ++i) {
+      const std::uint32_t row = i / n;
       frame.push_back(
-          {i % n + 0.3 + 0.05 * f, i / n + 0.6 - 0.03 * f, -2 + 4.0 * f / (frames - 1) + 0.1 * wave(0.3 * i)});
+          {i % n + 0.3 + 0.05 * f, row + 0.6 - 0.03 * f, -2 + 4.0 * f / (frames - 1) + 0.1 * wave(0.3 * i)});
     }
     s.frames.push_back(std::move(frame));
   }

@@ -87,7 +87,7 @@ int compare(std::uint64_t seed) {
     const std::vector<std::uint32_t> x(draw.one_in(2) ? 2 : 1, 0), y = {2};
     if (!quick.apart(n, part, x, y, distance)) continue;
     ++open;
-    const mpz_class least = exact.eta();
+    const mpz_class& least = exact.eta();
     const std::vector<Path> paths = {exact.path(0, part), exact.path(2, part)};
     EXPECT_TRUE(separated({n[0], n[1], n[2]}, part, distance ? mpz_class(least * least) : mpz_class(0), paths, 1))
         << "seed " << seed << ", question " << i;

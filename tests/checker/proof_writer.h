@@ -123,7 +123,7 @@ inline Fields own_claim(const std::string& proof) {
       fields.push_back("excluded=" + text_of(excluded));
       fields.push_back("cells=" + text_of(cells));
     }
-    Asked{fields};
+    const Asked valid{fields};
     return fields;
   } catch (const Rejected&) {
     return {};

@@ -115,7 +115,7 @@ TEST(ContactImpulse, FrictionLowersTheKineticEnergy) {
   Tally tally{};
   for_all_pairs([&](const auto& f, const auto& c, double d) {
     constexpr int Dim = std::remove_cvref_t<decltype(f.x[0])>::RowsAtCompileTime;
-    const double push = some_push(static_cast<std::uint64_t>(tally[0] + tally[1]));
+    const double push = some_push(static_cast<std::uint64_t>(tally[0]) + static_cast<std::uint64_t>(tally[1]));
     auto pushed = f;
     pushed.give(normal_impulses(c, d, push));
     const Slip<Dim> s = slip<Dim>(c, pushed.xs(), pushed.vs());
@@ -141,7 +141,7 @@ TEST(ContactImpulse, FrictionIsAtMostItsCoefficientTimesTheNormalImpulseAndAtMos
   for_all_pairs([&](const auto& f, const auto& c, double) {
     constexpr int Dim = std::remove_cvref_t<decltype(f.x[0])>::RowsAtCompileTime;
     if (c.slide_count == 0) return;
-    const double push = some_push(static_cast<std::uint64_t>(tally[0] + tally[1]));
+    const double push = some_push(static_cast<std::uint64_t>(tally[0]) + static_cast<std::uint64_t>(tally[1]));
     const Impulses<Dim> friction = slip_rate_friction<Dim>(f, c, 0.5 * push);
     Vec<double, Dim> on_a = Vec<double, Dim>::Zero();
     for (std::size_t i = 0; i < first_size(f.kind); ++i) on_a += friction[i];

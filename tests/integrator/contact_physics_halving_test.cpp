@@ -87,11 +87,12 @@ Slide slide_of(const Model<double, 2>& model, std::uint64_t settling, std::uint6
   Simulation<double, 2> simulation(model);
   test::run(simulation, settling);
   const double x0 = place(simulation, 0, 3);
-  test::run(simulation, windows / 2);
+  const std::uint64_t half_of_windows = windows / 2;
+  test::run(simulation, half_of_windows);
   const double x1 = place(simulation, 0, 3);
-  test::run(simulation, windows / 2);
+  test::run(simulation, half_of_windows);
   const double x2 = place(simulation, 0, 3);
-  const double half = static_cast<double>(windows / 2) * model.window_length;
+  const double half = static_cast<double>(half_of_windows) * model.window_length;
   return {(x2 - x0) / (2 * half), (x2 - 2 * x1 + x0) / (half * half)};
 }
 

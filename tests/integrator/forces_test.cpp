@@ -45,7 +45,8 @@ TEST(RestTest, NoForceWhereTheForceWasMade) {
   for (int i = 0; i < test::shape_count; ++i) {
     // Shapes that are not slivers: a scaled unit shape, disturbed.
     const auto r = test::random_stencil<4, 3>(random, 0.2);
-    const Vec<double, 3> x0 = r[0], x1 = r[1] + Vec<double, 3>(1, 0, 0), x2 = r[2] + Vec<double, 3>(0, 1, 0),
+    const Vec<double, 3>& x0 = r[0];
+    const Vec<double, 3> x1 = r[1] + Vec<double, 3>(1, 0, 0), x2 = r[2] + Vec<double, 3>(0, 1, 0),
                          x3 = r[3] + Vec<double, 3>(0.5, -1, 0.5);
     expect_no_force_at_rest(Membrane<double>::from_rest({0, 1, 2}, {x0, x1, x2}, {1, 0.3, 1}), {x0, x1, x2}, 10);
     expect_no_force_at_rest(Hinge<double>::from_rest({0, 1, 2, 3}, {x0, x1, x2, x3}, 1), {x0, x1, x2, x3}, 10);

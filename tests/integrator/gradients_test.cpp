@@ -129,7 +129,7 @@ std::vector<Big> strains(const Membrane<Big>& f, const VertexVectors<Big, 3, 3>&
 
 template <class F, int Dim, std::size_t N>
 std::vector<Big> strains(const F& f, const VertexVectors<Big, Dim, N>& x) {
-  const Big half_turn = boost::math::constants::pi<Big>();
+  const Big& half_turn = boost::math::constants::pi<Big>();
   Big delta = measures(f, x)[0] - arc_tangent(f.rest.sine, f.rest.cosine);
   if (delta > half_turn) delta -= 2 * half_turn;
   if (delta < -half_turn) delta += 2 * half_turn;

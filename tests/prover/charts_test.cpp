@@ -38,10 +38,11 @@ bool share_vertex(const Leaf& a, const Leaf& b) {
 /// n by n squares with a hole of a third of that in the middle.
 Surface holed(std::uint32_t n) {
   Surface surface = grid(n, n);
+  const std::uint32_t low = n / 3, high = 2 * n / 3;
   std::erase_if(surface.mesh.faces, [&](const auto& f) {
     return std::all_of(f.begin(), f.end(), [&](VertexId v) {
       const Position& x = surface.x[v];
-      return x[0] >= n / 3 && x[0] <= 2 * n / 3 && x[1] >= n / 3 && x[1] <= 2 * n / 3;
+      return x[0] >= low && x[0] <= high && x[1] >= low && x[1] <= high;
     });
   });
   return surface;

@@ -61,8 +61,8 @@ LineScene random_line_scene(std::uint64_t seed, const SoupSize& size, int dimens
     }
     return x;
   };
-  for (std::size_t v = 0; v < step.x_t0.size(); ++v) {
-    std::vector<Breakpoint> path = {{0, place(step.x_t0[v])}};
+  for (const Position& x_t0 : step.x_t0) {
+    std::vector<Breakpoint> path = {{0, place(x_t0)}};
     for (int t = 1; t <= steps; ++t) {
       const bool kept = t == steps || random.below(2) == 0;
       if (kept) path.push_back({static_cast<double>(t), random.below(4) == 0 ? path.back().x : place(step.x_t0[v])});

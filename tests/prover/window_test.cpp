@@ -27,7 +27,7 @@ WindowOptions in_2d() {
 }
 
 /// A face in the plane z = 0 over [0, 3], and a loose point above (1, 1) that goes through the given heights.
-LineScene point_over_face(std::vector<std::pair<double, double>> heights) {
+LineScene point_over_face(const std::vector<std::pair<double, double>>& heights) {
   LineScene scene;
   std::vector<Breakpoint> path;
   for (const auto& [t, z] : heights) path.push_back({t, {1, 1, z}});

@@ -65,7 +65,7 @@ const std::string ascii_header =
     "int "
     "vertex_indices\nend_header\n";
 
-std::string ascii(std::string type, const std::string& body) {
+std::string ascii(const std::string& type, const std::string& body) {
   std::string text = ascii_header;
   for (std::size_t at = 0; (at = text.find("TYPE")) != std::string::npos;) text.replace(at, 4, type);
   return text + body;

@@ -183,7 +183,7 @@ TEST(FolderLock, IsHadByOneAtATime) {
     const FolderLock lock(folder.path());
     EXPECT_TRUE(is_locked(folder.path()));
     try {
-      FolderLock(folder.path());
+      const FolderLock second(folder.path());
       ADD_FAILURE();
     } catch (const FolderLocked& locked) {
       const std::string by = folder.path().string() + ": is being written by ";

@@ -38,7 +38,7 @@ inline std::uint64_t resident_bytes() {
   return read ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
-/// Calls again() for half the time and for the other half, or until it says no, with a look at the memory before,
+/// Calls again() for half the time and for the other half, or until it returns false, with a look at the memory before,
 /// between and after.
 template <class Status, class Again>
 void repeat_in_halves(Status& e, const Again& again) {

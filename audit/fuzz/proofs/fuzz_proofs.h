@@ -38,7 +38,7 @@ struct ProofFuzzOptions : FuzzSettings {
       50;  ///< asked about one mutant of so many, and all that are accepted of a changed claim
 };
 
-/// Its generator is a case.
+/// `generator` is the name of the case.
 struct ProofFinding : FuzzFinding {
   std::string mutations;
   ProofFiles files;  ///< the mutant, made simpler: as much as possible is as in the case

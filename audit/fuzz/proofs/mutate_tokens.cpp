@@ -55,7 +55,7 @@ bool change_tokens(Mutating& m, std::size_t least, const Change& change) {
   return true;
 }
 
-/// Changes one of the tokens of a block, each that fits as likely. `change` is told all of them too.
+/// Changes one of the tokens of a block, each that fits as likely. `change` gets all of them as well.
 template <class Fits, class Change>
 bool change_token(Mutating& m, const Fits& fits, const Change& change) {
   return change_tokens(m, 1, [&](std::vector<std::string>& tokens) {

@@ -21,7 +21,7 @@ using AxisExponents = std::array<int, 3>;
 
 /// Sheared and turned (whole_query.h), its points renamed (the other edge first, the corners of the face in another
 /// order), and each axis multiplied by a power of two. Preconditions: what comes out is exactly a double;
-/// coordinates below 2^53 even after disguise. Throws std::logic_error when a whole number is too large.
+/// coordinates below 2^53 even after that. Throws std::logic_error when a whole number is too large.
 Generated finish(Made made, Random& random, const AxisExponents& exponents);
 
 /// The same with one power of two between 2^-40 and 1 for all axes.

@@ -88,8 +88,10 @@ void QueryCorpus::keep(const std::string& signature, const SavedQuery& saved, bo
 }
 
 void QueryCorpus::keep_new(const Reached& reached, NotSaved& not_saved) {
-  for (const auto& [signature, query] : reached) {
-    if (reached_.insert(signature).second) not_saved.attempt([&] { keep(signature, query.saved, query.contact); });
+  for (const auto& one : reached) {
+    const std::string& signature = one.first;
+    if (!reached_.insert(signature).second) continue;
+    not_saved.attempt([&] { keep(signature, one.second.saved, one.second.contact); });
   }
 }
 

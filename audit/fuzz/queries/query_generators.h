@@ -52,7 +52,7 @@ inline constexpr QueryType vertex_edge_3d = {FeaturePair::vertex_edge, 3};
 inline constexpr QueryType vertex_edge_2d = {FeaturePair::vertex_edge, 2};
 inline constexpr Flavour plain_flavour = {any_directions, 1 << 16, 1 << 16, any_time};
 inline std::vector<QueryType> every_type() { return {all_query_types.begin(), all_query_types.end()}; }
-inline std::vector<QueryType> solid_types() { return {vertex_face, edge_edge}; }  ///< four points
+inline std::vector<QueryType> solid_types() { return {vertex_face, edge_edge}; }  ///< of four points in space
 inline std::vector<QueryType> crossing_types() { return {vertex_face, edge_edge, vertex_edge_2d}; }
 inline std::vector<QueryType> types_with_edges() { return {vertex_face, edge_edge, vertex_edge_3d, vertex_edge_2d}; }
 inline std::vector<QueryType> types_with_edges_in_space() { return {vertex_face, edge_edge, vertex_edge_3d}; }

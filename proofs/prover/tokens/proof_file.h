@@ -60,7 +60,7 @@ class ProofFile {
   void tree(std::string_view payload) { blocks_.append(four_letters("TREE"), payload); }
   void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
   /// All tokens of a step.
-  void tokens(const JoinedTokens& tokens);
+  void tokens(const JoinedTokens& all);
   /// All tokens that `make` gives away, or, when it returns false or throws, no step.
   bool tokens(const std::function<bool(const std::function<void(std::string_view)>&)>& make);
   void witness(std::string_view payload) { blocks_.append(four_letters("WITN"), payload); }

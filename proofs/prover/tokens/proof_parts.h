@@ -308,6 +308,7 @@ class ProofParts {
     std::vector<Integer> denominators;
     for (const Integer& c : times) {
       std::vector<std::pair<IntegerVector, Integer>> at;  // numerators, denominator > 0
+      at.reserve(vertices.size());
       for (const Stretch& v : vertices) at.push_back(position(v, c, space, unit));
       for (std::size_t i = 0; i < of_a; ++i) {
         for (std::size_t j = of_a; j < vertices.size(); ++j) {

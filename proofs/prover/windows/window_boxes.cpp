@@ -133,7 +133,8 @@ void WindowBoxes<Dim>::make(const std::vector<std::size_t>& trees) {
     const std::vector<Group> level = top_groups(
         tree.root, [&](const std::vector<Group>& above) { inner.insert(inner.end(), above.begin(), above.end()); });
     parallel_for(level.size(), threads_, [&](std::size_t i) { fit(level[i], sheet); });
-    for (auto g = inner.rbegin(); g != inner.rend(); ++g) join(*g, sheet);
+    std::ranges::reverse(inner);  // children before parents
+    for (const Group g : inner) join(g, sheet);
   }
 }
 

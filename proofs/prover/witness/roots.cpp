@@ -12,7 +12,7 @@ namespace {
 std::vector<Integer> bernstein(const Polynomial& f, const Root& within) {
   // The coefficients of f((l + u z) / (2^e (1 + z))) (1 + z)^n, which are those of Bernstein times binomials.
   const Polynomial line({within.l, within.u}), one_more({Integer(1), Integer(1)});
-  const auto n = static_cast<std::size_t>(f.degree() + 1);
+  const auto n = static_cast<std::size_t>(f.degree()) + 1;
   Polynomial sum, power({Integer(1)});
   for (std::size_t k = 0; k < n; ++k) {
     Polynomial term = power * Polynomial({f[k] << (within.e * (n - 1 - k))});
@@ -21,7 +21,7 @@ std::vector<Integer> bernstein(const Polynomial& f, const Root& within) {
     power = power * line;
   }
   std::vector<Integer> all(n);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(sum.degree() + 1); ++i) all[i] = sum[i];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sum.degree()) + 1; ++i) all[i] = sum[i];
   return all;
 }
 

@@ -32,7 +32,7 @@ struct Found {
 };
 
 void put_polynomial(std::string& bytes, const Polynomial& f) {
-  const auto size = static_cast<std::size_t>(f.degree() + 1);
+  const auto size = static_cast<std::size_t>(f.degree()) + 1;
   put(bytes, static_cast<std::uint8_t>(std::max<std::size_t>(size, 1)));
   if (f.is_zero()) put_sint(bytes, Integer(0));
   for (std::size_t i = 0; i < size; ++i) put_sint(bytes, f[i]);
@@ -316,7 +316,8 @@ class Search {
 
   /// With the weights at the root of a t - b, as constants: however near other roots are.
   bool at_fraction(const Dependency& d, const Polynomial& g, const Root& root) {
-    const Integer b = -g[0], a = g[1];
+    const Integer b = -g[0];
+    const Integer& a = g[1];
     Dependency constant = d;
     int degree = 0;
     for (const Polynomial& weight : d.weights) degree = std::max(degree, weight.degree());

@@ -187,7 +187,7 @@ class FindingsKept : public testing::Test {
     EXPECT_GE(found, 1u) << process.out;
   }
 
-  const Folder folder;
+  const Folder folder{};
   const std::string out = folder.path("out"), corpus = folder.path("corpus");
   ProcessOptions options;
 };
@@ -273,8 +273,8 @@ TEST(FuzzPrograms, RefuseToReplayFramesWithAGapOrTwice) {
   const Folder folder;
   const std::vector<std::pair<const char*, std::string>> names = {{"proofs", "trajectory-"},
                                                                   {"trajectories", "frame-"}};
-  for (const auto& [command, frame] : names) {
-    const auto refusal = [&] {
+  for (const auto& [fuzzer, frame] : names) {
+    const auto refusal = [&folder, command = fuzzer] {
       const Process process = run_noli({"fuzz", command, "--replay", folder.path("")});
       EXPECT_EQ(process.exit_code, 3) << process.out;
       return process.err;
