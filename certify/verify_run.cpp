@@ -204,12 +204,13 @@ class SequenceVerification : private Verification {
   void prove(const StepResult& result) {
     const Stopwatch watch;
     begin_proof();
+    if (!result.touches() && outcome_.touches()) return;
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
     if (result.touches()) {
       refute(*proof_, step, result);
-    } else if (!outcome_.touches()) {
+    } else {
       prove_untouched(step, result);
     }
     outcome_.proof_seconds += watch.seconds();

@@ -190,7 +190,7 @@ class Contact {
     }
   }
   /// Precondition: it is active for a pair, or was.
-  const LayerTerms& terms_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].terms; }
+  LayerTerms terms_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].terms; }
   double step_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].clock.step; }
 
   const CertificateCounts& counts() const { return certificates_.counts(); }

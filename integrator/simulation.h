@@ -80,8 +80,8 @@ class Simulation {
   std::uint64_t windows() const;  ///< done
 
   /// Runs the next window. Records each vertex at both its ends and at each change of velocity between; books work and
-  /// impulses. Asks after every some ten thousand events whether to stop. False when it was told to: then this is
-  /// somewhere within the window, and of no more use.
+  /// impulses. Asks `stop` every ten thousand events or so. Returns false if it said so: the simulation is then
+  /// somewhere within the window, and must not be used again.
   bool run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop = never_stop);
   /// The same without a recording: the same numbers.
   void run_window(Books<S, Dim>& books);

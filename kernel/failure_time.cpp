@@ -97,7 +97,7 @@ double zero_rounded_down(const Line<Exact>& line, double from) {
   const auto probe = [&](std::int64_t order) {
     if (order > low && order < high) (sign(value_at(line, of_order(order))) >= 0 ? low : high) = order;
   };
-  // Near the zero; anything where that is not to be had in double.
+  // Near the zero; meaningless where doubles cannot hold it.
   const double guess = CGAL::to_double(line.offset) / CGAL::to_double(-line.slope);
   if (std::isfinite(guess)) {
     for (const std::int64_t step : {0, 1, -1, 64, -64}) probe(order_of(guess) + step);

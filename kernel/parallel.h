@@ -4,8 +4,8 @@
 // (NOLI_PARALLEL=STD, for ThreadSanitizer, which oneTBB is not instrumented for). Both give the same results because
 // tasks may only write what belongs to their own index.
 //
-// What this does not do: no reductions but in order (merged_over; else write to slot i and add up afterwards), no
-// priorities, no cancellation but by an exception.
+// What this does not do: no reductions except in order (merged_over; or write to slot i and add up afterwards), no
+// priorities, no cancellation except by an exception.
 #pragma once
 
 #include <algorithm>

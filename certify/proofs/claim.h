@@ -17,6 +17,7 @@ namespace noli {
 /// empty; `strict` is set before.
 void set_cells(Claim& claim, const Mesh& mesh, std::span<const std::uint32_t> labels, const LabelPairs& excluded);
 
+/// Its order is that of the claim's line, its types are those that CLAIM.json may have.
 Json claim_json(const Claim& claim);
 
 /// {"name": text, "version": text, "commit": text}

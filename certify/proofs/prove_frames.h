@@ -19,7 +19,7 @@ Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome
 inline bool verifier_proves(const VerifyRequest& request) { return request.min_distance == 0 && !request.ignore; }
 
 /// The proof of a claim, which goes to request.open_proof(claim). `mesh` is what is compared (after merging), which has
-/// to outlive it, `exclusions` or none what of it is not; the rest is what the claim says of it.
+/// to outlive it, `exclusions` what of it is not, or nullptr; the rest is what the claim says of it.
 std::unique_ptr<StepProofs> proof_of_frames(const VerifyRequest& request, const Claim& claim, const Mesh& mesh,
                                             const IdenticalVertices* classes, const Exclusions* exclusions);
 

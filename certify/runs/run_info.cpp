@@ -10,6 +10,7 @@
 #include "trajectory/stop.h"
 
 namespace noli {
+
 Json run_info(const std::filesystem::path& folder) {
   const LogFacts log = read_log(folder);
   SeriesReader reader = open_run(folder, log);

@@ -11,8 +11,8 @@
 
 namespace noli::series {
 
-/// Sets access to files up to use the driver; the name that the library is given then means nothing. Precondition: the
-/// descriptor is a regular file, open for reading and writing. `lost`: called with errno when it cannot be written or
+/// Sets access to files up to use the driver; the name that the library is given then means nothing. Precondition:
+/// `file` is a regular file, open for reading and writing. `on_loss`: called with errno when it cannot be written or
 /// read; must not return. One descriptor a process. Returns whether HDF5 took it.
 bool use_descriptor(hid_t access, int file, void (*on_loss)(int error));
 

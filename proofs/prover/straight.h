@@ -17,8 +17,8 @@ template <int Dim>
 class Straight {
  public:
   static constexpr int dim = Dim;
-  static constexpr bool straight = true;  ///< each vertex moves along one straight line, exactly
-  static constexpr std::uint32_t least_grain = 256;
+  static constexpr bool straight = true;             ///< each vertex moves along one straight line, exactly
+  static constexpr std::uint32_t least_grain = 256;  ///< cells of a task, at least
   using Cell = StepCell<Dim>;
   using Gathered = MovingCell<Dim>;
   using Tally = noli::Tally;

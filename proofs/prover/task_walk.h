@@ -69,11 +69,13 @@ class TaskWalk {
       : positions_(positions), options_(options), stop_(stop), none_(none), top_{none} {}
 
   /// Walks the top of the trees over so many cells, where there is little to do: top(traversal), false when it was not
-  /// finished. What is below becomes tasks about at most one of 256 cells, or Positions::least_grain.
+  /// finished. What is below becomes tasks about a 256th of the cells at most, a 128th for the proof of a window (whose
+  /// blocks end where tasks do), or Positions::least_grain if that is more.
   template <class Top>
   void cut(std::size_t cells, const Top& top) {
     Traversal<Positions, Out> traversal(positions_, options_, stop_, top_.tally, top_.out);
-    traversal.defer(std::max(static_cast<std::uint32_t>(cells / 256), Positions::least_grain), tasks_);
+    constexpr std::size_t share = Out::on && !Positions::straight ? 128 : 256;
+    traversal.defer(std::max(static_cast<std::uint32_t>(cells / share), Positions::least_grain), tasks_);
     top_.finished = !stop_.raised() && top(traversal);
     outcomes_.resize(tasks_.size());
   }

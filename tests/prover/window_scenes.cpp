@@ -65,7 +65,7 @@ LineScene random_line_scene(std::uint64_t seed, const SoupSize& size, int dimens
     std::vector<Breakpoint> path = {{0, place(x_t0)}};
     for (int t = 1; t <= steps; ++t) {
       const bool kept = t == steps || random.below(2) == 0;
-      if (kept) path.push_back({static_cast<double>(t), random.below(4) == 0 ? path.back().x : place(step.x_t0[v])});
+      if (kept) path.push_back({static_cast<double>(t), random.below(4) == 0 ? path.back().x : place(x_t0)});
     }
     scene.vertex(path);
   }

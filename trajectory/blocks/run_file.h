@@ -29,8 +29,8 @@ namespace noli {
 
 enum class RecordMode : std::uint32_t { full = 0, frames = 1 };
 
-/// A vertex label is a set of bits; more may come with later versions. This one refuses others, and whoever asks for
-/// scripted vertices takes the labels as they are.
+/// A vertex label is a set of bits; more may come with later versions. This version refuses all others, so
+/// that a label is 0 or 1 and can be taken for a flag.
 inline constexpr std::uint8_t scripted_vertex = 1;
 
 struct RunHeader {

@@ -29,7 +29,7 @@ class Chords {
  public:
   static constexpr int dim = Dim;
   static constexpr bool straight = false;
-  static constexpr std::uint32_t least_grain = 64;
+  static constexpr std::uint32_t least_grain = 64;  ///< cells of a task, at least
   using Cell = ChordCell<Dim>;
   using Gathered = WindowCell<Dim>;
   using Tally = WindowTally;

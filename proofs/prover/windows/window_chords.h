@@ -41,7 +41,7 @@ struct WindowChords {
   std::size_t restless = 0;          ///< number of restless vertices
 
   /// Whether the span is to be cut into halves: a vertex has on average more than 8 breakpoints inside, and more than
-  /// one of 16 is restless.
+  /// a sixteenth of the vertices are restless.
   bool worth_cutting() const { return inside > 8 * of.size() && restless * 16 > of.size(); }
 };
 
