@@ -15,7 +15,7 @@ enum class ExitCode {
   failure = 4     ///< an internal check failed, or the machine did
 };
 
-/// The exit code of a search for failures: `refuted` if there was one, else whether all holds or it is not known.
+/// The exit code of a search for failures: `refuted` if there is one, otherwise `holds` or undecided.
 inline ExitCode exit_code_of(bool refuted, bool holds) {
   if (refuted) return ExitCode::refuted;
   return holds ? ExitCode::holds : ExitCode::undecided;

@@ -25,7 +25,7 @@ std::string digits4(double number);
 /// replaced. Numbers that are not finite become null.
 std::string to_text(const Json& document);
 
-/// null for nothing.
+/// The value, or null.
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();

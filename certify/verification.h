@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the verifications of frames and of runs share: step by step they add what was found, in the end they conclude.
+// What the verifications of frames and of runs share: they add the findings of each step, then set the verdict.
 #pragma once
 
 #include <optional>
@@ -34,8 +34,8 @@ class Verification {
   /// Where there is no first contact yet. `time`: within the step, or of the run.
   void add_first(const FeatureContact& contact, ContactKind kind, double time, const Mesh& mesh);
 
-  /// Finds the proof of the step that was added last, in which nothing touches; where something is too near, a witness
-  /// and, of the first step alone, the largest least distance.
+  /// Finds the proof of the last step, in which nothing touches. If something is too near, it finds a witness instead,
+  /// and in the first step the largest least distance that holds.
   void search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,
                     const VerifyOptions& options);
   /// Writes a witness for a step in which something touches, if there is one.

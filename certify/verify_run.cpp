@@ -258,7 +258,7 @@ class SequenceVerification : private Verification {
   std::optional<Groups> groups_;  ///< with --ignore
   std::optional<SequenceVerifier> verifier_;
   std::unique_ptr<StepProofs> proof_;
-  std::optional<WindowVerifier> prover_;  ///< where the verifier's proofs do not do
+  std::optional<WindowVerifier> prover_;  ///< set if verify_step cannot prove the request
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
 };
 

@@ -383,8 +383,11 @@ class Engine {
     events_ += group.end - group.begin;
     now.record.reserve(group.vertices.size());
     Account<S, Dim>& account = books.of(F::kind);
-    division.damped ? fire_group_as<true>(now, division, group, h, account)
-                    : fire_group_as<false>(now, division, group, h, account);
+    if (division.damped) {
+      fire_group_as<true>(now, division, group, h, account);
+    } else {
+      fire_group_as<false>(now, division, group, h, account);
+    }
     look(now, group.vertices);
   }
 
@@ -411,7 +414,11 @@ class Engine {
     record.reserve(F::size * firing.size());
     const SingleBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record};
     Account<S, Dim>& account = books.of(F::kind);
-    division.damped ? fire_single_as<true>(blows, account) : fire_single_as<false>(blows, account);
+    if (division.damped) {
+      fire_single_as<true>(blows, account);
+    } else {
+      fire_single_as<false>(blows, account);
+    }
     if (!contact_ || !contact_->started()) return;
     for (const DueForce& due : firing) {
       look(Now<Recorder>{particles_, record, due.t}, division.list.forces[due.force].vertices);

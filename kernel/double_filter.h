@@ -164,7 +164,7 @@ struct InsideSigns {
   }
 };
 
-/// What is alike for both kinds of queries. `separation`: of the query; its normal tells the axis along which to look.
+/// The common part of both filters. `separation`: of the query; its normal tells the axis along which to look.
 /// Both must outlive the filter.
 template <class Query>
 class FourPoints {
@@ -177,7 +177,7 @@ class FourPoints {
 
   std::size_t axis() const { return largest_component(normal_); }
   Cubic coplanarity() const { return filter::coplanarity(d_[0], d_[1], d_[2]); }
-  /// Whether the error bounds hold: nothing overflows or underflows. False too for what is not a number.
+  /// Whether the error bounds hold: nothing overflows or underflows. False for NaN, too.
   bool usable() const {
     return std::min({m_[0], m_[1], m_[2]}) > least_size && std::max({m_[0], m_[1], m_[2]}) < greatest_size;
   }

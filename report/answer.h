@@ -35,9 +35,9 @@ class Answer {
   explicit Answer(std::string_view verdict, std::initializer_list<AnswerPair> pairs = {})
       : verdict_(verdict), pairs_(pairs) {}
 
-  /// The verdict and the pairs are members of the result, the JSON: numbers and words as it has them, the length of an
-  /// array, "none" for null and for an empty word. "accepted=codes/accepted" is the pair `accepted`, that member of
-  /// `codes`. Precondition: these members are there.
+  /// Takes the verdict and the pairs from members of the JSON `result`. An array gives its length; null and an empty
+  /// string give "none". "accepted=codes/accepted" is a pair `accepted` with the member `accepted` of `codes`.
+  /// Precondition: these members exist.
   Answer(const Json& result, const std::vector<std::string>& members);
 
   void add(AnswerPair pair) { pairs_.push_back(std::move(pair)); }

@@ -28,7 +28,7 @@ void drop_redundant_cells(Mesh& mesh);
 /// The vertices that no cell refers to, in ascending order.
 std::vector<VertexId> unreferenced_vertices(const Mesh& mesh);
 
-/// Removes those; the old numbers of the others, which keep their order.
+/// Removes unreferenced vertices. Returns the old numbers of the others, which keep their order.
 std::vector<VertexId> drop_unreferenced_vertices(Mesh& mesh);
 
 /// The first vertex of each cell all of whose vertices are held, in the order of cells. `held`: one per vertex, not 0

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the commands of all fuzzers share: options in the same words, how a run begins, how results and exit codes are
-// told.
+// What the commands of all fuzzers share: options, the start of a run, results and exit codes.
 #pragma once
 
 #include <fmt/format.h>
@@ -53,39 +52,39 @@ std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, c
 /// The files in a saved folder, which --json may not overwrite; none if it is not there.
 std::vector<std::filesystem::path> saved_files(const std::filesystem::path& folder);
 
-/// Before a run: makes limits of what was given, a minute if nothing was, and looks whether results and findings can be
-/// written. Throws UsageError.
+/// Settles the limits (one minute if none is given) and checks that results and findings can be written. Throws
+/// UsageError.
 Output begin_fuzzing(FuzzArgumentsInCommon& arguments, const std::vector<std::filesystem::path>& inputs);
 
 /// Copies the limits, --out and --corpus, whose folder is made if it is not there. Throws UsageError.
 void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments);
 
-/// Of a run, or of something that was judged again.
+/// The exit code of a run, or of a saved item that was judged again.
 inline ExitCode fuzz_exit_code(bool undecided, bool finding) {
   return undecided ? ExitCode::undecided : finding ? ExitCode::refuted : ExitCode::holds;
 }
 
-/// What came of something that was judged again.
+/// The result of judging a saved item again.
 struct JudgedAgain {
   bool unknown = false;                        ///< interrupted, or not decided
   std::optional<std::string> difference;       ///< what is wrong with it
-  std::optional<std::filesystem::path> saved;  ///< where it is, made smaller
-  Json facts;                                  ///< what else is known, an object
-  std::vector<std::string> pairs;              ///< those of the facts that the answer has
+  std::optional<std::filesystem::path> saved;  ///< where the smaller one is
+  Json facts;                                  ///< an object with further members
+  std::vector<std::string> pairs;              ///< members of `facts` that the answer shows
   std::string text = {}, about_saved = {};     ///< above the difference; behind the name of what was saved
 };
 
-/// Writes that as a result of the schema "fuzz-replay". `place`: the member that names what was saved.
+/// Writes it as a result of the schema "fuzz-replay". `place`: the JSON member with the path of what was saved.
 ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char* place = "folder");
 
 /// "finding: GENERATOR, block 3, scene 7: DIFFERENCE; saved as PLACE", one line; `item` is "scene", and `more` comes
 /// before the difference.
 std::string finding_line(const audit::FuzzFinding& finding, const char* item, const std::string& more = "");
 
-/// {"generator": "", "block": 3, ...}. `place`: the member that names it.
+/// {"generator": "", "block": 3, ...}. `place`: the JSON member with the path of the finding.
 Json finding_json(const audit::FuzzFinding& finding, const char* place);
 
-/// How the result of a fuzzer is told.
+/// What the result of a fuzzer is called.
 struct FuzzResultNames {
   const char* work;                ///< "fuzz scenes", for the progress
   const char* schema;              ///< of the JSON

@@ -46,7 +46,7 @@
 
 namespace noli::audit {
 
-/// When a fuzzer stops. At least one of count, time_limit and stop has to be given.
+/// When a fuzzer stops. Precondition: at least one of count, time_limit and stop is set.
 struct FuzzLimits {
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> count;                       ///< after so many items
@@ -57,7 +57,7 @@ struct FuzzLimits {
   std::function<void(double)> progress;
 };
 
-/// Differences are told as "KIND: what, exactly": a finding that is made smaller has to stay one of its kind.
+/// A difference reads "KIND: details". A finding keeps its kind while it is made smaller.
 inline std::string_view kind_of(std::string_view difference) { return difference.substr(0, difference.find(':')); }
 
 /// Whether there still is a difference, and of this kind.
@@ -75,15 +75,15 @@ struct FuzzSettings {
 
 /// What findings have in common.
 struct FuzzFinding {
-  std::string generator;        ///< or what it is called in the corpus
+  std::string generator;        ///< or the name of the item in the corpus
   std::uint64_t block = 0;      ///< of the seed
   std::size_t index = 0;        ///< within the block
   std::string difference;       ///< in words
-  std::filesystem::path place;  ///< where it was saved, made smaller; empty when it was not
+  std::filesystem::path place;  ///< where the smaller one was saved; empty if it was not saved
 };
 
-/// A finding that cannot be saved (a full disk) is told all the same: what went wrong is kept, and thrown when all that
-/// was found has been written.
+/// Keeps the first error of saving findings, such as a full disk. The report still lists the finding; the error is
+/// thrown after the report has been written.
 class NotSaved {
  public:
   /// Calls `save`, which may throw std::system_error. False if it did; the first of these is kept.
@@ -115,9 +115,9 @@ struct FuzzTotals {
   std::uint64_t findings_total = 0;
   std::size_t corpus_size = 0;  ///< items in the corpus, of before and new
 
-  /// Interrupted, whatever was found so far, or nothing was done.
+  /// The run was interrupted (even if it has findings), or did nothing.
   bool undecided() const { return interrupted || (findings_total == 0 && items == 0); }
-  /// "undecided", "finding", or what holds.
+  /// "undecided", "finding", or `holds`.
   const char* verdict(const char* holds = "no_finding") const {
     return undecided() ? "undecided" : findings_total > 0 ? "finding" : holds;
   }
@@ -191,8 +191,8 @@ class Fuzzing {
     return report_.findings.size() < options_.max_findings;
   }
 
-  /// Saves it with save(finding), which sets its `place`, if things are saved at all. Where that fails, the place is
-  /// empty.
+  /// Saves the finding with save(finding), which sets its `place`, if there is a folder for findings. If saving fails,
+  /// the place is empty.
   template <class Finding, class Save>
   void keep(Finding finding, const Save& save) {
     if (!options_.out.empty() && !report_.not_saved.attempt([&] { save(finding); })) finding.place.clear();
@@ -210,7 +210,7 @@ class Fuzzing {
   Report report_;
 
  private:
-  /// Several threads make blocks, which are taken over in their order, until a limit is reached or it is enough.
+  /// Several threads make blocks, which are taken in order, until a limit is reached or enough() returns true.
   void run_blocks() {
     const FuzzLimits& limits = options_.limits;
     if (!limits.count && !limits.time_limit && !limits.stop) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The harness of a fuzzer whose subject asks somebody else's library: what is found is kept as it is, and made smaller
-// when all is done.
+// The harness of a fuzzer that tests somebody else's library. Findings are saved as they are, and made smaller at the
+// end of the run.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class FuzzingLibrary : public Fuzzing<Subject, Options, Report, Item, Corpus> {
   /// Throws what the constructor of Fuzzing throws.
   explicit FuzzingLibrary(const Options& options) : Base(options), asked_(options.asked) {}
 
-  /// Once. Throws InputError for a library that is not as it has to be, and what Fuzzing throws.
+  /// Call it once. Throws InputError for a library that cannot be used, and what Fuzzing throws.
   Report run() {
     require_ccd_library(asked_.path, asked_.host);
     if (const auto& limit = options_.limits.time_limit) {
@@ -43,11 +43,11 @@ class FuzzingLibrary : public Fuzzing<Subject, Options, Report, Item, Corpus> {
  protected:
   using Base::options_, Base::report_;
 
-  LibraryUnderTest asked_;  ///< to be asked until the time of the run is over
+  LibraryUnderTest asked_;  ///< with the time limit of the run
 };
 
-/// The library as it is asked while a finding is made smaller. A query that may hang gets a part of its limit only;
-/// otherwise that would take all day.
+/// The library with the limits for making a finding smaller. A query that may hang gets only a part of its time limit;
+/// otherwise this could take hours.
 inline LibraryUnderTest asked_while_shrinking(LibraryUnderTest library, bool may_hang) {
   constexpr std::chrono::nanoseconds least = std::chrono::milliseconds(20);
   HostOptions& host = library.host;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How findings are saved. Their names tell where in a run they were found, so another run may find something else under
-// the same name: what an earlier one has saved is nobody's to overwrite. A folder of several files is saved whole or
-// not at all: a part of one (on a full disk) would look like a finding, and show something else or nothing.
+// How findings are saved. A name says where in a run the finding was made, so another run can use the same name for
+// another finding: existing files are never overwritten. A folder is saved whole or not at all, because a part of it
+// would look like a finding and show something else.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,8 +18,7 @@
 
 namespace noli::audit {
 
-/// `wanted`, or, where there is something of that name already, the first of "2-NAME", "3-NAME", ... that there is not.
-/// Who asks makes it before the next one asks.
+/// `wanted`, or the first of "2-NAME", "3-NAME", ... that does not exist. Create it before you call this again.
 inline std::filesystem::path unused(const std::filesystem::path& wanted) {
   std::filesystem::path name = wanted;
   for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(name)); ++number) {
@@ -28,9 +27,9 @@ inline std::filesystem::path unused(const std::filesystem::path& wanted) {
   return name;
 }
 
-/// Lets `write` put files into a folder beside this one, which takes its name when all are there, with a README: what
-/// is wrong, and the command that shows it again. What was saved under that name before goes then; if something throws,
-/// it stays, and nothing is left of the new one.
+/// `write` fills a temporary folder beside this one; a README with the difference and the command that reproduces it is
+/// added. Then the folder takes this name and replaces what was there. If anything throws, the old folder stays and the
+/// temporary one is removed.
 template <class Write>
 void save_whole(const std::filesystem::path& folder, const std::string& what, const std::vector<std::string>& command,
                 const Write& write) {

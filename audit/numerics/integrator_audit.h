@@ -41,9 +41,8 @@ struct IntegratorOptions {
   int windows = 20;  ///< at most those of the scene
   bool euler = true;
   const std::atomic<bool>* stop = nullptr;
-  /// Called before each run.
-  std::function<void(const std::string& method, double factor)> begun = [](const std::string&, double) {
-  };  ///< not empty
+  /// Called before each run; not empty.
+  std::function<void(const std::string& method, double factor)> begun = [](const std::string&, double) {};
 };
 
 struct IntegratorErrors {

@@ -107,7 +107,7 @@ bool is_finite(const Sample<Dim>& sample) {
 
 inline bool stopped(const std::atomic<bool>* stop) { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 
-/// What this thread has computed: other work on the machine disturbs that least.
+/// The CPU time of this thread: other work on the machine disturbs it least.
 inline double thread_seconds() {
   struct timespec time = {};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

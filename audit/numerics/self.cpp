@@ -215,7 +215,7 @@ class SelfAudit {
     });
   }
 
-  /// Holds if each checker says so of these steps: 0 accepted, 1 refuted.
+  /// Holds if each checker exits with these codes: 0 accepted, 1 refuted.
   void check(const std::vector<std::string>& files, int code, std::uint64_t steps, SelfPart& p) const {
     for (const CheckerProgram& checker : present_) {
       std::vector<std::string> words = {"check", "--porcelain"};

@@ -25,7 +25,7 @@ void save(const fs::path& scratch, const std::string& name, const StabilityOptio
   }
 }
 
-/// The sum of what `count` says of each point.
+/// The sum of count(point) over all points.
 template <class Count>
 std::size_t sum_over_points(const StabilityReport& report, const Count& count) {
   std::size_t sum = 0;

@@ -204,7 +204,8 @@ class Asking {
   void look_at_series(bool free, bool said) {
     const auto energy = series("energy"), momentum = series("momentum");
     if (!energy || !momentum) return;
-    if (!all_finite(*energy) || !all_finite(*momentum)) return broken("finite", "a series has what is no number");
+    if (!all_finite(*energy) || !all_finite(*momentum))
+      return broken("finite", "a series contains a value that is not finite");
     look_at_energy(*energy, said);
     if (free) look_at_momentum(*momentum);
   }

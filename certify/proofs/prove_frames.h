@@ -15,11 +15,11 @@ namespace noli {
 Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
                       const Exclusions* exclusions);
 
-/// Whether the verifier's proofs do for a request: those that know neither a least distance nor exclusions.
+/// Whether verify_step itself can prove the request: its proofs have neither a least distance nor exclusions.
 inline bool verifier_proves(const VerifyRequest& request) { return request.min_distance == 0 && !request.ignore; }
 
-/// The proof of a claim, which goes to request.open_proof(claim). `mesh` is what is compared (after merging), which has
-/// to outlive it, `exclusions` what of it is not, or nullptr; the rest is what the claim says of it.
+/// Begins the proof of a claim in request.open_proof(claim). `mesh`: the compared mesh after merging; it must outlive
+/// the proof. `exclusions`: pairs that are not compared, or nullptr.
 std::unique_ptr<StepProofs> proof_of_frames(const VerifyRequest& request, const Claim& claim, const Mesh& mesh,
                                             const IdenticalVertices* classes, const Exclusions* exclusions);
 

@@ -18,11 +18,11 @@ std::filesystem::path proof_path(const std::filesystem::path& run_folder);
 /// What of a scene's cells is claimed: their hash, and the pairs that are not compared. `claim.strict` is set before.
 void set_cells_of_run(Claim& claim, const RunScene& scene);
 
-/// Writes to an empty sink. Of the claim only strict, distance and ring count. The scene has to outlive the proof, here
-/// and below.
+/// Writes to an empty sink. Uses only strict, distance and ring of the claim. The scene must outlive the proof; this
+/// holds for the next function, too.
 std::unique_ptr<StepProofs> proof_of_run(std::unique_ptr<Sink> sink, const RunScene& scene, const Claim& claim = {});
-/// Goes on with the proof that `noli simulate` began, of a run of which so many windows are committed: cuts off what is
-/// about others, and proves those that it lacks. Throws InputError when the proof cannot be read.
+/// Continues the proof that `noli simulate` began, of a run with `windows` committed windows: cuts off later windows
+/// and proves the missing ones. Throws InputError if the proof cannot be read.
 std::unique_ptr<StepProofs> resumed_proof_of_run(const std::filesystem::path& run_folder, std::uint64_t windows,
                                                  const RunScene& scene, const WindowVerifier& verifier,
                                                  const VerifyOptions& options);

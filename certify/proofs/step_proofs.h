@@ -36,11 +36,11 @@ class StepProofs {
   StepProofs(const StepProofs&) = delete;
   StepProofs& operator=(const StepProofs&) = delete;
 
-  /// Finds and writes the proof of a step in which nothing touches; it does not count before commit(). `verifier`: of
-  /// the mesh, the same for all steps. False if it was stopped; that, and TooNear and NoProof, which it throws, leave
-  /// the file as it was.
+  /// Finds and writes the proof of a step in which nothing touches; call commit() to make it count. `verifier`: of the
+  /// mesh, the same for all steps. Returns false if it was stopped. Throws TooNear and NoProof. In all three cases the
+  /// file stays as it was.
   bool prove(const MotionStep& step, const WindowVerifier& verifier, const VerifyOptions& options);
-  /// Writes a proof that is there and commits it.
+  /// Writes a finished proof and commits it.
   void write(const MotionStep& step, const StepProof& proof);
   void commit() { file_.commit(); }
 

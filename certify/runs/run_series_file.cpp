@@ -94,7 +94,7 @@ std::string in_group(const char* group, std::size_t kind) {
   return std::string(group) + "/" + std::string(name(static_cast<ForceKind>(kind)));
 }
 
-/// Calls each(name, unit, values) for all that a row says of its window, except the shares of its steps.
+/// Calls each(name, unit, values) for each series of a row except the histogram of steps.
 template <class Each>
 void each_series(const SeriesRow& row, const Each& each) {
   const auto one = [&each](const std::string& name, const char* unit, double value) {

@@ -25,7 +25,7 @@ void put_values(std::string& bytes, std::span<const std::int64_t> values) {
 /// Whether one of the names is that of a group which the other is in.
 bool one_is_in(const std::string& a, const std::string& b) { return a.starts_with(b + "/") || b.starts_with(a + "/"); }
 
-/// How many values go in the piece that begins at `first`: whole rows, or what is left of one up to a part of it.
+/// How many values the piece that begins at `first` has: whole rows, or the rest of one row up to a limit.
 std::uint64_t piece_at(const SeriesShape& shape, std::uint64_t first) {
   constexpr std::uint64_t most = series::most_in_a_piece;
   const std::uint64_t row = series::product_from(shape, 1), inner = series::product_from(shape, 2);

@@ -19,7 +19,7 @@ enum class Ending : int {
 
 [[noreturn]] inline void end_with(Ending ending, std::string_view line) {
   for (const std::string_view text : {line, std::string_view("\n")}) {
-    // Nothing is left to do when not even this can be written.
+    // If even this cannot be written, there is nothing left to do.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   }
   ::_exit(static_cast<int>(ending));

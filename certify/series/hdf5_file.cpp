@@ -59,8 +59,8 @@ void Hdf5File::declare(const Array& array) {
   const hid_t links = require(H5Pcreate(H5P_LINK_CREATE), array.name);
   const hid_t properties = require(H5Pcreate(H5P_DATASET_CREATE), array.name);
   require(H5Pset_create_intermediate_group(links, 1), array.name);
-  // Contiguous; no zeros written before the values, which would take as long as the values, at once; no time of day in
-  // the file.
+  // Contiguous and allocated at once. No zeros first, which would take as long as the values. No time of day in the
+  // file.
   require(H5Pset_layout(properties, H5D_CONTIGUOUS), array.name);
   require(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), array.name);
   require(H5Pset_obj_track_times(properties, false), array.name);

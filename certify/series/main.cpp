@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   if (argc != 2 || std::string_view(argv[1]) != "write") {
     end_with(Ending::bad_stream, "usage: noli_series write <STREAM 1<>FILE.h5 (noli starts it by itself)");
   }
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is then an error of writing
+  std::signal(SIGXFSZ, SIG_IGN);  // so that write() fails at the size limit instead
   std::set_terminate([] { end_with(Ending::failure, "internal error"); });
   limit_memory();
   try {

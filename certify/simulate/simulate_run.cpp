@@ -73,7 +73,7 @@ StepResult as_step(WindowResult window) {
   return step;
 }
 
-/// What the run's files have of a scene.
+/// The parts of a scene that the run's files contain.
 template <int Dim>
 RunScene run_scene(const integrator::Scene& scene, const integrator::Model<double, Dim>& model) {
   const RecordMode record = scene.record == integrator::Record::full ? RecordMode::full : RecordMode::frames;

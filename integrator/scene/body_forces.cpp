@@ -55,7 +55,7 @@ struct Work {
   void add(const F& force, const std::array<VertexId, N>& cell) {
     std::get<Sourced<F>>(forces).add(force, {static_cast<std::uint32_t>(index), centre(mesh.start, cell)});
   }
-  /// A force of the shape at rest. Throws InputError at the mesh, which names this cell, if the force refuses it.
+  /// A force of the shape at rest. Throws InputError that names this cell of the mesh if the force refuses it.
   template <class F, class Stiffness, std::size_t N>
   void add_from_rest(const std::array<VertexId, F::size>& ids, const Stiffness& stiffness, double damping,
                      const std::array<VertexId, N>& cell, const char* name, std::size_t number) {

@@ -94,7 +94,7 @@ Parts parts_of(const BodyMesh& body, const BuiltBody& built, const std::vector<d
   const auto is_free = [&](VertexId i) { return inverse_mass[built.first + i] != 0; };
   bool any_free = false;
   for (VertexId i = 0; i < body.mass.size(); ++i) any_free |= is_free(i);
-  // What does not move meets others as one.
+  // A body without free vertices is one class.
   Parts parts = any_free ? classify(body) : Parts{std::vector<std::uint8_t>(body.mass.size(), 0), {{}}, {}, 0};
   const auto add = [&](VertexId of, const Free& part) {
     Free& all = parts.of_class[parts.classes[of]];
@@ -322,7 +322,7 @@ class Materials {
       for (std::size_t b = pair[0] == pair[1] ? a : 0; b < second.of_class.size(); ++b) {
         const Free &p = first.of_class[a], &q = second.of_class[b];
         Free part = p | q;
-        // Of two classes, not both the first, the lighter one is what is stopped.
+        // Classes after the first bound the mass by their own, so the lighter one decides.
         if (a > 0 && p.any()) part.greatest_mass = std::min(part.greatest_mass, p.greatest_mass);
         if (b > 0 && q.any()) part.greatest_mass = std::min(part.greatest_mass, q.greatest_mass);
         each(a, b, part);

@@ -149,7 +149,7 @@ void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation&
   }
 }
 
-/// Of bodies that have cells which only the scene moves, as verification knows them.
+/// Bodies with cells that only the scene moves.
 template <int Dim>
 void warn_of_what_is_not_compared(const BuiltScene<Dim>& built, Explanation& e) {
   std::vector<VertexId> cells = held_cells(built.model.mesh, held_vertices(built.model));
@@ -237,7 +237,11 @@ Explanation explain(const Scene& scene) {
   explanation.title = scene.title.empty() ? scene.path.stem().string() : scene.title;
   explanation.dimension = scene.dimension;
   explanation.defaults = scene.defaults;
-  scene.dimension == 2 ? explain<2>(scene, explanation) : explain<3>(scene, explanation);
+  if (scene.dimension == 2) {
+    explain<2>(scene, explanation);
+  } else {
+    explain<3>(scene, explanation);
+  }
   return explanation;
 }
 

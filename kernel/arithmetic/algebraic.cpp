@@ -204,7 +204,7 @@ int AlgebraicNumber::sign_of(const Polynomial& q) {
 
 namespace {
 
-/// Decides numbers of which one is dyadic, or whose intervals do not overlap; nothing otherwise.
+/// The order, if one number is dyadic or the intervals do not overlap.
 std::optional<std::strong_ordering> compare_intervals(const AlgebraicNumber& a, const AlgebraicNumber& b) {
   if (b.is_dyadic()) return a.compare(b.low()) <=> 0;
   if (a.is_dyadic()) return 0 <=> b.compare(a.low());
@@ -229,7 +229,7 @@ std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber
     return gap < 0 ? std::strong_ordering::less : std::strong_ordering::greater;
   }
   if (const auto order = compare_intervals(a, b)) return *order;
-  // The intervals overlap and neither is a point: a common root in both is the number itself.
+  // The intervals overlap and neither is a point, so a common root in both is the number itself.
   const bool equal = share_root(a.polynomial(), b.polynomial(), std::max(a.low_, b.low_), std::min(a.high_, b.high_));
   return equal ? std::strong_ordering::equal : compare_by_refinement(a, b);
 }

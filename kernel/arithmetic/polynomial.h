@@ -65,7 +65,7 @@ class Polynomial {
 /// c[0] s^n + c[1] s^(n-1) t + ... + c[n] t^n at s = 1 - t, as a polynomial in t.
 Polynomial from_form(std::vector<Integer> form);
 
-/// How often the sign changes along some numbers; zeros do not count.
+/// The number of sign changes in a sequence; zeros are skipped.
 int sign_changes(const std::vector<Integer>& numbers);
 
 /// True only if a and b have no common root, real or complex; false means "not known". Much cheaper than gcd: works

@@ -79,7 +79,7 @@ class EarliestOf {
  private:
   static constexpr std::size_t most_candidates = 256;
 
-  /// Thousands may begin in contact: where both times are one double, they need not be computed.
+  /// Whether both times are the same double. Then they are not computed: thousands of pairs may begin in contact.
   static bool at_one_double(const TimeEnclosure& a, const TimeEnclosure& b) {
     return a.begin == a.end && a.begin == b.begin && a.end == b.end;
   }

@@ -187,7 +187,7 @@ bool counted_here(PairSet set, const MovingCell<Dim>& a, const MovingCell<Dim>& 
   return leftovers.counted_at(vertex_edge_pair(v[0], {v[1], v[2]}), a.cell, b.cell);
 }
 
-/// Calls ask<Pair, Dim>() for a pair of features in so many dimensions.
+/// Calls ask<Pair, Dim>() with the kind of pair and the dimension.
 template <class Ask>
 auto with_pair(FeaturePair pair, int dimension, const Ask& ask) {
   using enum FeaturePair;

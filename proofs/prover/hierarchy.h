@@ -107,8 +107,8 @@ struct Group {
   Group right() const { return {node + 2 * (count / 2), begin + count / 2, count - count / 2}; }
 };
 
-/// The groups of one level below a root, of which there are enough for several threads. Calls at_level(groups) with
-/// those of each level above, from the root on, before it looks at their children.
+/// The first level below a root with enough groups for several threads. Calls at_level(groups) with each level above,
+/// from the root on, before it makes the next one.
 template <class AtLevel>
 std::vector<Group> top_groups(Group root, const AtLevel& at_level) {
   constexpr std::size_t enough = 64;

@@ -90,7 +90,7 @@ TEST_F(VerifyInProcess, AStopLeavesItUndecided) {
   EXPECT_TRUE(outcome.interrupted);
 }
 
-/// What the checker then says is about a part of the proof, and no word on it.
+/// A checker that got only a part of the proof gives no verdict.
 TEST_F(VerifyInProcess, AProofThatAStopHasCutIsNotJudged) {
   const VerifyRequest request = falling(1.5);
   std::atomic<bool> stop = false;

@@ -62,7 +62,7 @@ class Payload {
     }
     return all;
   }
-  /// The same, of all vertices and finite.
+  /// The same, and there is a finite position for each vertex.
   std::vector<Position> finite_vectors(std::uint32_t dimension, std::size_t vertex_count) {
     require(vertex_count, dimension * sizeof(double), "the vectors of all vertices");
     std::vector<Position> all = vectors(dimension);

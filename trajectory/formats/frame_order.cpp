@@ -149,7 +149,7 @@ class Parser {
   NumberedName name_;
 };
 
-/// A folder by the name that it was given first, however it is spelled later.
+/// Gives a folder the spelling under which it was seen first.
 class FolderNames {
  public:
   const fs::path& of(const fs::path& folder) {

@@ -354,7 +354,11 @@ class BodyReader {
     const PlyProperty* corners = &require_corners(file_, element);
     frame_.mesh.faces.reserve(element.count);
     const auto read_property = [&](const PlyProperty& property) {
-      &property == corners ? read_polygon(property) : skip(property);
+      if (&property == corners) {
+        read_polygon(property);
+      } else {
+        skip(property);
+      }
     };
     read_entries(element, read_property, [] {});
   }

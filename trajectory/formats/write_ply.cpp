@@ -48,7 +48,11 @@ void append_binary(std::string& bytes, const Frame& frame) {
 
 std::string format_ply(const Frame& frame, PlyEncoding encoding) {
   std::string bytes = header(frame.mesh, encoding);
-  encoding == PlyEncoding::ascii ? append_ascii(bytes, frame) : append_binary(bytes, frame);
+  if (encoding == PlyEncoding::ascii) {
+    append_ascii(bytes, frame);
+  } else {
+    append_binary(bytes, frame);
+  }
   return bytes;
 }
 

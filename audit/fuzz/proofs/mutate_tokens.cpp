@@ -39,7 +39,7 @@ std::size_t end_of_token(const std::string& payload, std::size_t at) {
   return at;
 }
 
-/// Changes the tokens of a block, if it has at least so many.
+/// Changes the tokens of a block that has at least `least` of them.
 template <class Change>
 bool change_tokens(Mutating& m, std::size_t least, const Change& change) {
   ProofBlock* const block = some_block(m, {mutating::tokens});
@@ -55,7 +55,7 @@ bool change_tokens(Mutating& m, std::size_t least, const Change& change) {
   return true;
 }
 
-/// Changes one of the tokens of a block, each that fits as likely. `change` gets all of them as well.
+/// Changes one random token of a block, all that fit equally likely. `change` also gets all tokens of the block.
 template <class Fits, class Change>
 bool change_token(Mutating& m, const Fits& fits, const Change& change) {
   return change_tokens(m, 1, [&](std::vector<std::string>& tokens) {

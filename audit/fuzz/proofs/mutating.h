@@ -37,7 +37,7 @@ inline std::vector<ProofBlock*> whole_steps(Mutating& m) {
   return found;
 }
 
-/// A block of one of these kinds, each as likely; nullptr if there is none.
+/// A random block of these kinds, all equally likely; nullptr if the proof has no such block.
 inline ProofBlock* some_block(Mutating& m, std::initializer_list<FourLetters> kinds) {
   const std::vector<ProofBlock*> found = blocks_of(m, kinds);
   return found.empty() ? nullptr : found[m.random.below(found.size())];

@@ -35,7 +35,7 @@ struct ProofAnswer {
   std::string words{};  ///< of the host: the first line of what it printed
 };
 
-/// A checker that one thread asks. It has a folder for its files, which vanishes with it.
+/// A checker for one thread, with a temporary folder for its files.
 class ProofChecker {
  public:
   ProofChecker() = default;

@@ -99,7 +99,7 @@ Item corpus_item(const QueryFuzzOptions& options, const CorpusQuery& one, std::s
   return {{query, {}}, probe, "corpus/" + one.name, number, one.index};
 }
 
-/// What is wrong with what the subject says.
+/// What is wrong with the subject's answer.
 std::optional<std::string> difference(const AnyQuery& query, const Decide& decide) {
   StageCounters ignored;
   return difference(query, truth_of(query), decide, ignored);

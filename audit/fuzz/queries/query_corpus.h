@@ -49,7 +49,7 @@ struct CorpusQuery {
   std::size_t index = 0;  ///< in its file, from 0
 };
 
-/// What some queries reached: for each signature one that has it, and whether it is in contact.
+/// Signatures that some queries reached, each with one such query and whether that query is in contact.
 struct ReachingQuery {
   SavedQuery saved;
   bool contact = false;
@@ -78,7 +78,7 @@ class QueryCorpus {
   /// Writes the query to SIGNATURE.csv, or SIGNATURE-2.csv if there is such a file. Throws std::system_error.
   void keep(const std::string& signature, const SavedQuery& saved, bool contact);
 
-  /// Keeps those of which nothing had this signature before.
+  /// Adds the queries with new signatures to the corpus.
   void keep_new(const Reached& reached, NotSaved& not_saved);
 
   std::uint64_t kept() const { return kept_; }

@@ -16,7 +16,7 @@ namespace noli::audit {
 
 namespace {
 
-/// What `parse` makes of the first line of which it makes something.
+/// The result of `parse` for the first line that it can parse.
 template <class Parse>
 auto first_parsed(std::string_view text, const Parse& parse) {
   Lines lines(text);

@@ -64,7 +64,7 @@ struct SceneJudgement {
 /// A scene that was saved. Throws InputError.
 SceneJson read_saved_scene(const std::filesystem::path& file);
 
-/// Simulates and so on, in a folder that vanishes.
+/// Simulates, verifies, checks and resumes the scene in a temporary folder.
 SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli);
 
 /// A scene for which `fails` holds and that is not simpler without one of its members, or with a shorter number. Stops

@@ -44,7 +44,7 @@ FrameFormat format_of(const fs::path& file) {
 
 constexpr std::string_view frame_prefix = "frame-";
 
-/// Frames that come after the last one that was read, behind a gap, or that are of the other format.
+/// Frames behind a gap in the numbers, or in the other format.
 void require_no_more(const fs::path& folder, const fs::path& missing) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const auto number = frame_number(entry.path(), frame_prefix);

@@ -47,7 +47,7 @@ enum class Numbers : std::uint8_t {
   offset,  ///< from 2^52 on: a unit is the last bit
 };
 
-/// 0, ..., size - 1 in any order, each as likely.
+/// 0, ..., size - 1 in random order, all orders equally likely.
 std::vector<VertexId> random_order(std::size_t size, Random& random);
 
 /// Adds triangles (edges, in 2D) that rest above all there is, each at a height of its own, so that they meet nothing.

@@ -28,7 +28,7 @@ Frame load_frame(const Scene& scene, const std::string& file, const Field& at);
 /// In the plane, throws InputError unless z = 0 at every vertex.
 void require_plane(const Scene& scene, const std::vector<Position>& x, const Field& at);
 
-/// Product of the factors, of this sort, of the patches that a point is in.
+/// The product of this factor over all patches that contain the point.
 double patch_factor(const Body& body, const Position& x, double Patch::*which);
 
 /// Middle of a cell at the start.

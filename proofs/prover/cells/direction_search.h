@@ -153,7 +153,7 @@ Vec<Dim> lowest(const PartPair<Dim>& pair, const std::array<double, 8>& q, doubl
 
 }  // namespace detail
 
-/// Rounds of a search for a direction: what paid on simulated cloth and solids.
+/// Rounds of a search for a direction. Chosen by measuring simulated cloth and solids.
 inline constexpr int search_rounds = 10;
 
 /// A direction n for which the first part is above the second by more than bound_of(n) over the interval, starting from

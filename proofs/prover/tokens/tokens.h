@@ -128,7 +128,7 @@ class Tokens {
   char* limit_ = nullptr;  ///< its end
 };
 
-/// What the walk calls in place of Tokens where none are wanted; does nothing.
+/// The walk calls this instead of Tokens if no proof is wanted; it does nothing.
 struct NoTokens {
   static constexpr bool on = false;
 

@@ -36,7 +36,7 @@ struct Counts {
 
 Counts merged(const Counts& a, const Counts& b) { return {a.inside + b.inside, a.restless + b.restless}; }
 
-/// The distance, with room for the rounding of the bounds that have it added.
+/// The distance, enlarged by the rounding of the bounds to which it is added.
 double farther(double distance, double x_t0, double x_t1) {
   return distance + 0x1p-50 * (std::abs(x_t0) + std::abs(x_t1) + distance);
 }

@@ -21,7 +21,7 @@ LinearPath<Dim> path_of(const WorldLine& line, std::size_t segment) {
   return path;
 }
 
-/// The first time at which two features meet, and how.
+/// The first time at which two features meet, and the kind of contact.
 struct TimeAndKind {
   Moment time;
   ContactKind kind;

@@ -149,7 +149,7 @@ class Search {
 
   bool compared(std::uint32_t i, std::uint32_t j) const { return (i != j || step_.strict) && step_.compares(i, j); }
 
-  /// Takes one pair of cells that are compared after another, until take(i, j), and says whether it did.
+  /// Calls take(i, j) for each pair of compared cells until it returns true; returns whether it did.
   template <class Take>
   bool any_cells(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q, const Take& take) {
     for (const std::uint32_t i : of_p) {

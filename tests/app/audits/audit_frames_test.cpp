@@ -87,7 +87,7 @@ TEST_F(AuditFrames, ASandboxKeepsALibraryFromOthers) {
   EXPECT_EQ(read_text(mine), "mine");
   EXPECT_EQ(read_text(inherited), "");
   const Process ended = run_noli(command(faulty("ends_as_without_sandbox"), {"--sandbox", "--json", "-"}));
-  EXPECT_EQ(ended.exit_code, 1) << ended.err;  // a library that says so is believed nothing
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;  // the code of the library is not trusted
   EXPECT_NE(Json::parse(ended.out)["audits"][0]["ending"], "finished");
   options.environment = {{"NOLI_TEST_FILE", folder.path("new")}};
   EXPECT_EQ(run_noli(command(faulty("attacks_others"), {"--sandbox"}), options).exit_code, 1);
