@@ -31,7 +31,7 @@ constexpr const char* integrator_footer =
     "windows, against a reference\n"
     "with much shorter steps, and what each run took. Without a scene: a uniform sheet and a graded one. "
     "audit/INTEGRATOR.md has a worked example.\n"
-    "Exit 0: measured; 1: a run came to what is no number; 2: interrupted.\n"
+    "Exit 0: measured; 1: the values of a run became infinite or NaN; 2: interrupted.\n"
     "Examples:\n"
     "  noli audit integrator --svg integrator.svg\n"
     "  noli audit integrator scenes/stiff_inset.json --short --windows 5 --json result.json";

@@ -68,8 +68,8 @@ Json point_json(const StabilityPoint& point) {
           {"holds", point.gives.empty()},
           {"gives", point.gives.empty() ? Json(nullptr) : Json(point.gives)},
           {"message", point.message},
-          {"energy_error", point.energy_error},
-          {"momentum_error", point.momentum_error},
+          {"energy_error", or_null(point.energy_error)},
+          {"momentum_error", or_null(point.momentum_error)},
           {"findings", point.findings},
           {"saved", point.saved.empty() ? Json(nullptr) : Json(point.saved.string())}};
 }
@@ -115,8 +115,8 @@ std::string table(const StabilityReport& report) {
     const bool gives = first < row.points.size();
     double energy = 0, momentum = 0;
     for (std::size_t i = 0; i < first; ++i) {
-      energy = std::max(energy, row.points[i].energy_error);
-      momentum = std::max(momentum, row.points[i].momentum_error);
+      energy = std::max(energy, row.points[i].energy_error.value_or(0));
+      momentum = std::max(momentum, row.points[i].momentum_error.value_or(0));
     }
     rows.push_back({row.name, row.varied, first > 0 ? fmt::format("{:g}", row.points[first - 1].value) : "-",
                     energy > 0 ? fmt::format("{:.1e}", energy) : "-",

@@ -122,7 +122,7 @@ Json run_json(const PrecisionRun& run, std::size_t windows) {
                {"corners", way_json(run.changes.corners)},
                {"parts", way_json(run.changes.parts)},
                {"sticks", way_json(run.changes.sticks)},
-               {"ended", run.ended ? Json(*run.ended) : Json(nullptr)},
+               {"ended", or_null(run.ended)},
                {"windows", Json::array()}};
   for (const Drift& drift : run.drifts) json["windows"].push_back(drift_json(drift));
   return json;
@@ -138,7 +138,7 @@ Json energy_json(const EnergyError& error) {
 
 Json order_json(const PrecisionOutcome& outcome) {
   const auto time = outcome.order_changes();
-  Json json = {{"changes_at", time ? Json(*time) : Json(nullptr)}, {"tie", nullptr}};
+  Json json = {{"changes_at", or_null(time)}, {"tie", nullptr}};
   if (outcome.tie) {
     json["tie"] = {{"time", outcome.tie->time}, {"first", outcome.tie->first}, {"second", outcome.tie->second}};
   }
@@ -193,7 +193,7 @@ Json precision_json(const PrecisionOutcome& outcome) {
                {"windows_total", outcome.windows_total},
                {"windows_in_order", outcome.windows_in_order()},
                {"complete", outcome.complete},
-               {"ended", outcome.ended ? Json(*outcome.ended) : Json(nullptr)},
+               {"ended", or_null(outcome.ended)},
                {"vertices", outcome.vertices},
                {"extent", outcome.extent},
                {"events", outcome.events},
@@ -201,7 +201,7 @@ Json precision_json(const PrecisionOutcome& outcome) {
                {"impulses", outcome.impulses},
                {"difference", nullptr},
                {"order", order_json(outcome)},
-               {"not_conserved", outcome.not_conserved ? Json(*outcome.not_conserved) : Json(nullptr)},
+               {"not_conserved", or_null(outcome.not_conserved)},
                {"energies", Json::array()},
                {"runs", Json::array()}};
   if (outcome.difference) json["difference"] = {{"time", outcome.difference->time}, {"what", outcome.difference->what}};

@@ -25,6 +25,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,11 +46,12 @@ struct StabilityOptions {
 
 struct StabilityPoint {
   double value = 0;
-  int exit_code = -1;         ///< of `noli simulate` or `noli verify`; -1: it did not exit by itself
-  std::string gives;          ///< the first promise that is not kept, and how; empty: all are
-  std::string message;        ///< what the program said of it, one line; empty if all are kept
-  double energy_error = 0;    ///< in parts of the energy at the beginning; of runs that got to their end
-  double momentum_error = 0;  ///< the larger of both, in parts
+  int exit_code = -1;   ///< of `noli simulate` or `noli verify`; -1: it did not exit by itself
+  std::string gives;    ///< the first promise that is not kept, and how; empty: all are
+  std::string message;  ///< what the program said of it, one line; empty if all are kept
+  /// In parts of the energy at the beginning; none of a run that did not get to its end, or began without energy.
+  std::optional<double> energy_error;
+  std::optional<double> momentum_error;  ///< the larger of both, in parts; none as above, and where forces act
   std::vector<std::string> findings;
   std::filesystem::path saved;  ///< input of the findings; empty if none
   double seconds = 0;           ///< wall clock, all programs together

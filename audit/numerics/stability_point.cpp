@@ -217,12 +217,13 @@ class Asking {
       if (name.starts_with("work_") || name.starts_with("damping_work_")) work += column[0];
     }
     const double begin = energy.at("kinetic [J]")[0] - work;
-    for (const double total : energy.at("total [J]")) {
-      point_.energy_error = std::max(point_.energy_error, std::abs(total - begin) / begin);
-    }
-    const bool stays = begin > 0 && point_.energy_error <= most_energy_error;
-    const std::string words = fmt::format("it was {:.3g} J, and goes astray by {:.2g} of that", begin,
-                                          begin > 0 ? point_.energy_error : INFINITY);
+    double worst = 0;
+    for (const double total : energy.at("total [J]")) worst = std::max(worst, std::abs(total - begin));
+    if (begin > 0) point_.energy_error = worst / begin;
+    const bool stays = begin > 0 && *point_.energy_error <= most_energy_error;
+    const std::string words =
+        begin > 0 ? fmt::format("it was {:.3g} J, and goes astray by {:.2g} of that", begin, *point_.energy_error)
+                  : fmt::format("it was {:.3g} J, and goes astray by {:.2g} J", begin, worst);
     if (said) return gives("energy", words);
     if (!stays) broken("energy", words);
   }
@@ -240,7 +241,7 @@ class Asking {
         worst = std::max(worst, off);
       }
       const double error = worst == 0 ? 0 : worst / size;
-      point_.momentum_error = std::max(point_.momentum_error, error);
+      point_.momentum_error = std::max(point_.momentum_error.value_or(0), error);
       if (!(error <= most_momentum_error)) broken(kind, fmt::format("{:.2g} of it is lost or won", error));
     }
   }

@@ -65,9 +65,13 @@ void FileSink::truncate(std::uint64_t size) {
   check(::lseek(descriptor_, static_cast<off_t>(size), SEEK_SET) >= 0);
 }
 
+int try_open_folder(const std::filesystem::path& folder) {
+  return ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
 int open_folder(const std::filesystem::path& folder) {
   const std::string name = folder.empty() ? "." : folder.string();
-  const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = try_open_folder(folder);
   if (descriptor < 0) throw_errno(name);
   return descriptor;
 }

@@ -81,7 +81,7 @@ FolderLock::FolderLock(const fs::path& folder) : descriptor_(lock_folder(folder)
 FolderLock::~FolderLock() { ::close(descriptor_); }
 
 bool is_locked(const fs::path& folder) {
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = try_open_folder(folder);
   if (descriptor < 0) return false;
   const bool locked = lock(descriptor, LOCK_SH) == Attempt::refused;
   ::close(descriptor);

@@ -232,7 +232,8 @@ TEST(ShortForm, PutsItsValuesInPlace) {
 TEST(ShortForm, PlacesMustBeThere) {
   const std::string expected =
       ": expected a JSON pointer to a place in this file, such as \"/duration\" or \"/bodies/0/mesh\"";
-  for (const char* pointer : {"duration", "/bodies/1", "/bodies/99999999999", "/bodies/-", "/no/such", "", "/~2"}) {
+  for (const char* pointer :
+       {"duration", "/bodies/1", "/bodies/99999999999", "/bodies/-", "/bodies/00/mesh", "/no/such", "", "/~2"}) {
     Json scene = sheet();
     scene["short"] = {{pointer, 1}};
     const Json::json_pointer place = Json::json_pointer("/short") / pointer;
