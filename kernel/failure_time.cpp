@@ -29,6 +29,7 @@ using Exact = CGAL::Mpzf;  // without allocation for moderate exponents
 using Exact = CGAL::Gmpzf;
 #endif
 using Interval = CGAL::Interval_nt<false>;
+using detail::dot;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -36,13 +37,6 @@ template <class T>
 struct Line {
   T offset, slope, scale;
 };
-
-template <class T, std::size_t Dim>
-T dot(const Point<Dim>& n, const Point<Dim>& x) {
-  T sum = T(n[0]) * T(x[0]);
-  for (std::size_t i = 1; i < Dim; ++i) sum = sum + T(n[i]) * T(x[i]);
-  return sum;
-}
 
 template <class T, int Dim>
 Line<T> seen_along(const Point<Dim>& n, const Ray<Dim>& p) {
@@ -91,14 +85,14 @@ double of_order(std::int64_t order) {
   return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order - 1);
 }
 
-/// The largest double that is not after the zero of a falling line, which is not before `from`.
-double zero_rounded_down(const Line<Exact>& line, double from) {
-  std::int64_t low = order_of(from), high = order_of(infinity);  // of_order(low) <= zero < of_order(high)
+/// The last double at which something holds that holds at `from` and, from some time on, no more. `guess`: near that
+/// time, or meaningless.
+template <class Holds>
+double last_time(const Holds& holds, double from, double guess) {
+  std::int64_t low = order_of(from), high = order_of(infinity);  // it holds at of_order(low), but not at of_order(high)
   const auto probe = [&](std::int64_t order) {
-    if (order > low && order < high) (sign(value_at(line, of_order(order))) >= 0 ? low : high) = order;
+    if (order > low && order < high) (holds(of_order(order)) ? low : high) = order;
   };
-  // Near the zero; meaningless where doubles cannot hold it.
-  const double guess = CGAL::to_double(line.offset) / CGAL::to_double(-line.slope);
   if (std::isfinite(guess)) {
     for (const std::int64_t step : {0, 1, -1, 64, -64}) probe(order_of(guess) + step);
   }
@@ -110,7 +104,41 @@ template <int Dim, class A, class B>
 double exact_failure_time(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
   const Line<Exact> line = margin<Exact, Dim>(a, b, n, g);
   if (sign(value_at(line, from)) <= 0) return from;
-  return sign(line.slope) >= 0 ? infinity : zero_rounded_down(line, from);
+  if (sign(line.slope) >= 0) return infinity;
+  const double guess = CGAL::to_double(line.offset) / CGAL::to_double(-line.slope);
+  return last_time([&](double t) { return sign(value_at(line, t)) >= 0; }, from, guess);
+}
+
+// --- Walls and balls ---
+
+/// Whether what holds at some time holds for ever after.
+template <int Dim>
+bool lasts(const Ray<Dim>& p, const MovingWall<Dim>& wall) {
+  const Exact rise = dot<Exact, Dim>(wall.n, p.v) - Exact(wall.rate);
+  return wall.above ? sign(rise) >= 0 : sign(rise) <= 0;
+}
+template <int Dim>
+bool lasts(const Ray<Dim>& p, const MovingBall<Dim>& ball) {
+  return p.v == ball.centre.v;
+}
+
+/// About when it ends to hold, if doubles can tell.
+template <int Dim>
+double end_guessed(const Ray<Dim>& p, const MovingWall<Dim>& wall, double from) {
+  const double closing = dot<double, Dim>(wall.n, p.v) - wall.rate;
+  return from + detail::room<double>(p, wall, from) / std::abs(closing);
+}
+template <int Dim>
+double end_guessed(const Ray<Dim>& p, const MovingBall<Dim>& ball, double from) {
+  double a = 0, b = 0;  // |d + tau w|^2 = |d|^2 + 2 b tau + a tau^2
+  for (std::size_t k = 0; k < Dim; ++k) {
+    const Ray<Dim>& c = ball.centre;
+    const double d = p.x[k] + p.v[k] * (from - p.t) - (c.x[k] + c.v[k] * (from - c.t)), w = p.v[k] - c.v[k];
+    a += w * w;
+    b += w * d;
+  }
+  const double left = detail::room<double>(p, ball, from), root = std::sqrt(b * b + a * left);
+  return from + (b > 0 ? left / (b + root) : (root - b) / a);
 }
 
 }  // namespace
@@ -124,6 +152,24 @@ double failure_time(const A& a, const B& b, const Point<A::dimension>& n, double
   return exact_failure_time<Dim>(a, b, n, g, from);
 }
 
+template <int Dim, class Certificate>
+bool detail::holds_exactly(const Ray<Dim>& p, const Certificate& certificate, double s) {
+  if (rounding_self_test().directed_ok) {
+    const Interval::Protector upward;
+    const Interval left = room<Interval>(p, certificate, s);
+    if (left.inf() >= 0) return true;
+    if (left.sup() < 0) return false;
+  }
+  return sign(room<Exact>(p, certificate, s)) >= 0;
+}
+
+template <int Dim, class Certificate>
+double failure_time(const Ray<Dim>& p, const Certificate& certificate, double from) {
+  if (!holds_at(p, certificate, from)) return from;
+  if (lasts(p, certificate)) return infinity;
+  return last_time([&](double t) { return holds_at(p, certificate, t); }, from, end_guessed(p, certificate, from));
+}
+
 template double failure_time(const Ray<2>&, const Ray<2>&, const Point2&, double, double);
 template double failure_time(const Ray<2>&, const MotionSegment<2>&, const Point2&, double, double);
 template double failure_time(const MotionSegment<2>&, const Ray<2>&, const Point2&, double, double);
@@ -132,5 +178,14 @@ template double failure_time(const Ray<3>&, const Ray<3>&, const Point3&, double
 template double failure_time(const Ray<3>&, const MotionSegment<3>&, const Point3&, double, double);
 template double failure_time(const MotionSegment<3>&, const Ray<3>&, const Point3&, double, double);
 template double failure_time(const MotionSegment<3>&, const MotionSegment<3>&, const Point3&, double, double);
+
+template bool detail::holds_exactly(const Ray<2>&, const MovingWall<2>&, double);
+template bool detail::holds_exactly(const Ray<2>&, const MovingBall<2>&, double);
+template bool detail::holds_exactly(const Ray<3>&, const MovingWall<3>&, double);
+template bool detail::holds_exactly(const Ray<3>&, const MovingBall<3>&, double);
+template double failure_time(const Ray<2>&, const MovingWall<2>&, double);
+template double failure_time(const Ray<2>&, const MovingBall<2>&, double);
+template double failure_time(const Ray<3>&, const MovingWall<3>&, double);
+template double failure_time(const Ray<3>&, const MovingBall<3>&, double);
 
 }  // namespace noli

@@ -142,5 +142,98 @@ TEST(FailureTime, ChordsMeetWhereTheyWereRecorded) {
   EXPECT_EQ(failure_time(down, up, Point3{1, 0, 0}, 0, 1), 0x1.aaaaaaaaaaaaap0);
 }
 
+// --- walls and balls, over the rationals
+
+template <int Dim>
+bool holds(const Ray<Dim>& p, const MovingWall<Dim>& wall, const mpq_class& t) {
+  mpq_class height = -(mpq_class(wall.offset) + mpq_class(wall.rate) * (t - mpq_class(wall.since)));
+  for (std::size_t k = 0; k < Dim; ++k) height += mpq_class(wall.n[k]) * coordinate<Dim>(p, k, t);
+  return wall.above ? height >= wall.half : height <= -mpq_class(wall.half);
+}
+template <int Dim>
+bool holds(const Ray<Dim>& p, const MovingBall<Dim>& ball, const mpq_class& t) {
+  mpq_class sum = 0;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    const mpq_class d = coordinate<Dim>(p, k, t) - coordinate<Dim>(ball.centre, k, t);
+    sum += d * d;
+  }
+  return sum <= mpq_class(ball.radius) * mpq_class(ball.radius);
+}
+
+template <int Dim, class Certificate>
+void check(const Ray<Dim>& p, const Certificate& certificate, double from, double later) {
+  const auto exactly = [&](double at) { return holds<Dim>(p, certificate, mpq_class(at)); };
+  ASSERT_EQ(holds_at(p, certificate, from), exactly(from));
+  ASSERT_EQ(holds_until(p, certificate, from, later), exactly(from) && exactly(later));
+  const double end = failure_time(p, certificate, from);
+  if (!exactly(from)) {
+    ASSERT_EQ(end, from);
+  } else if (end == infinity) {
+    ASSERT_TRUE(exactly(std::numeric_limits<double>::max())) << "late";
+  } else {
+    ASSERT_TRUE(exactly(end)) << "late";
+    const double next = std::nextafter(end, infinity);
+    ASSERT_TRUE(next == infinity || !exactly(next)) << "earlier than need be";
+    // Where decisions are hardest: at the end itself.
+    ASSERT_TRUE(holds_until(p, certificate, from, end));
+    ASSERT_TRUE(next == infinity || !holds_until(p, certificate, from, next));
+  }
+}
+
+template <int Dim>
+void check_walls_and_balls(std::uint64_t seed, int count) {
+  Random random(seed);
+  int ended = 0, inside = 0;
+  for (int i = 0; i < count; ++i) {
+    SCOPED_TRACE(i);
+    Numbers numbers{random, i % 4};
+    const Ray<Dim> p = numbers.ray<Dim>();
+    double from = numbers.value(), later = numbers.value();
+    if (later < from) std::swap(from, later);
+    const MovingWall<Dim> wall{numbers.point<Dim>(),        numbers.value(),          numbers.value(), numbers.value(),
+                               std::abs(numbers.value()), random.below(2) == 0};
+    ASSERT_NO_FATAL_FAILURE(check<Dim>(p, wall, from, later));
+    MovingBall<Dim> ball{numbers.ray<Dim>(), std::abs(numbers.value())};
+    if (random.below(2) == 0) {  // rather near
+      ball.centre = p;
+      for (double& v : ball.centre.v) v += numbers.value();
+    }
+    ASSERT_NO_FATAL_FAILURE(check<Dim>(p, ball, from, later));
+    inside += holds_at(p, ball, from) ? 1 : 0;
+    ended += failure_time(p, wall, from) < infinity ? 1 : 0;
+  }
+  EXPECT_GT(inside, count / 20);
+  EXPECT_LT(inside, count - count / 20);
+  EXPECT_GT(ended, count / 10);
+}
+
+TEST(FailureTime, WallsAndBallsInThePlane) { check_walls_and_balls<2>(5, 4000); }
+TEST(FailureTime, WallsAndBallsInSpace) { check_walls_and_balls<3>(6, 4000); }
+TEST(SlowFailureTime, WallsAndBallsManyTimes) {
+  check_walls_and_balls<2>(7, 125000);
+  check_walls_and_balls<3>(8, 125000);
+}
+
+TEST(FailureTime, OfAWallThatIsReached) {
+  const Ray<3> falling{0, {1, 0, 0}, {-3, 0, 0}};
+  const MovingWall<3> floor{{1, 0, 0}, 0, 0, 0, 0, true};
+  EXPECT_EQ(failure_time(falling, floor, 0), 0x1.5555555555555p-2);
+  EXPECT_TRUE(holds_until(falling, floor, 0, 0x1.5555555555555p-2));
+  EXPECT_FALSE(holds_until(falling, floor, 0, 0x1.5555555555556p-2));
+  const MovingWall<3> runs_ahead{{1, 0, 0}, 0, -3, 0, 0.5, true};
+  EXPECT_EQ(failure_time(falling, runs_ahead, 0), infinity);
+  const MovingWall<3> ceiling{{1, 0, 0}, 1, 0, 0, 0, false};
+  EXPECT_EQ(failure_time(falling, ceiling, 0), infinity) << "it begins on it, and leaves";
+}
+
+TEST(FailureTime, OfABallThatIsLeft) {
+  const MovingBall<2> unit{{0, {0, 0}, {0, 0}}, 1};
+  EXPECT_EQ(failure_time(Ray<2>{0, {0, 0}, {0.6, 0.8}}, unit, 0), 0.99999999999999988898) << "0.6 and 0.8 are rounded";
+  EXPECT_EQ(failure_time(Ray<2>{0, {-1, 0}, {1, 0}}, unit, 0), 2);
+  EXPECT_EQ(failure_time(Ray<2>{0, {-1, 0}, {0, 1}}, unit, 0), 0) << "along the border from a point on it";
+  EXPECT_EQ(failure_time(Ray<2>{0, {0.5, 0}, {0, 0}}, unit, 0), infinity);
+  EXPECT_EQ(failure_time(Ray<2>{0, {2, 0}, {-1, 0}}, unit, 0.5), 0.5) << "it is not inside yet";
+}
+
 }  // namespace
 }  // namespace noli
