@@ -188,10 +188,10 @@ Json resonance(bool contact, double step) {
                      {"velocity", {1e-6, 0}},
                      {"material", {{"edge_stiffness", 1}, {"mass_per_vertex", 1}}},
                      {"steps", {{"stretch", step}}},
-                     {"patches", {soft}},
+                     {"patches", Json::array({soft})},
                      {"pin", {"first", "last"}}};
   Json scene = {{"noli_scene", 1}, {"dimension", 2}, {"steps", "own"}, {"allow_unstable", true}};
-  scene["bodies"] = {body};
+  scene["bodies"] = Json::array({body});  // what {body} is depends on the compiler
   if (contact) {
     const double speed = 1e-6, thickness = 1e-3;
     scene["bodies"].push_back({{"name", "point"},

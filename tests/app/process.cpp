@@ -123,6 +123,11 @@ void read_all(const Pipe& out, const Pipe& err, Process& process) {
 
 }  // namespace
 
+void add_asan_options(const std::string& options) {
+  const char* const there = std::getenv("ASAN_OPTIONS");
+  ::setenv("ASAN_OPTIONS", (there != nullptr ? there + (":" + options) : options).c_str(), 1);
+}
+
 Process run_noli(const std::vector<std::string>& arguments, const ProcessOptions& options) {
   Pipe out, err;
   if (options.hang_up) out.close_read();

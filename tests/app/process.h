@@ -46,6 +46,9 @@ struct Process {
   }
 };
 
+/// For all programs of this process that follow. Without the address sanitizer they mean nothing.
+void add_asan_options(const std::string& options);
+
 /// Runs `noli` with these arguments and waits for it.
 Process run_noli(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
 

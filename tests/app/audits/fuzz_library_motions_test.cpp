@@ -185,6 +185,7 @@ TEST_F(FuzzLibraryMotions, JudgesASavedMotionAndMakesItSmaller) {
 }
 
 TEST_F(FuzzLibraryMotions, SaysWhereItCrashed) {
+  add_asan_options("handle_segv=0");
   const std::string falling = falling_triangle();
   const auto words = [&](const std::string& library) {
     return json_of({"fuzz", "trajectories", "--library", faulty(library), "--replay", falling}, 1)["difference"]

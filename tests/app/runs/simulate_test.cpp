@@ -298,9 +298,7 @@ TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {
   GTEST_SKIP() << "what the thread sanitizer remembers of memory grows too";
 #endif
   // Under the address sanitizer what is freed is kept, by default up to 256 MB; elsewhere this means nothing.
-  const char* const options = std::getenv("ASAN_OPTIONS");
-  const std::string keep_nothing = "quarantine_size_mb=0:thread_local_quarantine_size_kb=0";
-  ::setenv("ASAN_OPTIONS", (options != nullptr ? options + (":" + keep_nothing) : keep_nothing).c_str(), 1);
+  add_asan_options("quarantine_size_mb=0:thread_local_quarantine_size_kb=0");
   for (const char* record : {"frames", "full"}) {
     Json json = beam(2);
     json["record"] = record;
