@@ -110,6 +110,7 @@ TEST_F(FuzzLibraryMotions, FindsAMutantThatForgetsTheEndOfAStepSlow) {
 }
 
 TEST_F(FuzzLibraryMotions, GoesOnBehindCrashesAndHangs) {
+  add_asan_options("handle_segv=0");
   for (const auto& [library, fault] : {std::pair{"crashes", "crash"},
                                        {"ends_the_program", "crash"},
                                        {"crashes_when_searching", "crash"},
