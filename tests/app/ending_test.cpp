@@ -115,12 +115,7 @@ TEST(Ending, ATimeLimitGivesWhatWasSettledSoFar) {
 TEST(Ending, ATimeLimitAfterAContactLeavesTheContact) {
   const Folder folder;
   const auto a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(-1));
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  const std::string limit = "20s";
-#else
-  const std::string limit = "2s";
-#endif
-  std::vector<std::string> arguments = {"verify", "--keep-going", "--time-limit", limit};
+  std::vector<std::string> arguments = {"verify", "--keep-going", "--time-limit", sanitized ? "20s" : "2s"};
   for (int i = 0; i < 30000; ++i) arguments.push_back(i % 2 == 0 ? a : b);  // four times that long or so
   const Json json = json_of(arguments, 1);
   EXPECT_EQ(json["verdict"], "contact");
@@ -159,9 +154,7 @@ TEST(Ending, AClosedOutputIsNoSuccess) {
 }
 
 TEST(Ending, TooLittleMemoryIsNoSuccess) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers reserve address space of their own";
-#endif
+  if (sanitized) GTEST_SKIP() << "sanitizers reserve address space of their own";
   const Folder folder;
   // A sparse file: a mesh of 20 million vertices at the origin, in hardly a block on the disk.
   const std::string header =

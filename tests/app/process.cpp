@@ -64,7 +64,7 @@ void set_up_child(const ProcessOptions& options, const Pipe& out, const Pipe& er
     const struct rlimit limit = {*options.file_size, *options.file_size};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
-  if (options.address_space) {
+  if (options.address_space && !sanitized) {
     const struct rlimit limit = {*options.address_space, *options.address_space};
     ::setrlimit(RLIMIT_AS, &limit);
   }
@@ -123,9 +123,11 @@ void read_all(const Pipe& out, const Pipe& err, Process& process) {
 
 }  // namespace
 
-void add_asan_options(const std::string& options) {
-  const char* const there = std::getenv("ASAN_OPTIONS");
-  ::setenv("ASAN_OPTIONS", (there != nullptr ? there + (":" + options) : options).c_str(), 1);
+void add_sanitizer_options(const std::string& options) {
+  for (const char* const name : {"ASAN_OPTIONS", "TSAN_OPTIONS"}) {
+    const char* const there = std::getenv(name);
+    ::setenv(name, (there != nullptr ? there + (":" + options) : options).c_str(), 1);
+  }
 }
 
 Process run_noli(const std::vector<std::string>& arguments, const ProcessOptions& options) {

@@ -14,6 +14,13 @@
 
 namespace noli::app_tests {
 
+/// Whether a sanitizer sees to addresses or threads. It takes memory of its own, and more than a limit may leave.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
 struct ProcessOptions {
   std::string program = NOLI_COMMAND;
   /// Sent once the process is ready for it (it catches the signal) and this time has passed.
@@ -22,7 +29,7 @@ struct ProcessOptions {
   std::string standard_output;                 ///< a file to use as standard output instead of a pipe
   bool close_standard_output = false;          ///< start without one
   bool hang_up = false;                        ///< standard output is a pipe that nobody reads
-  std::optional<std::uint64_t> address_space;  ///< limit, in bytes
+  std::optional<std::uint64_t> address_space;  ///< limit, in bytes; none if sanitized
   std::optional<std::uint64_t> file_size;      ///< limit, in bytes: as if the disk were full
   bool obey_permissions = false;               ///< of files and folders, even when the tests are run by root
   std::vector<std::pair<std::string, std::string>> environment;  ///< variables beside those of the tests
@@ -46,8 +53,8 @@ struct Process {
   }
 };
 
-/// For all programs of this process that follow. Without the address sanitizer they mean nothing.
-void add_asan_options(const std::string& options);
+/// For all programs of this process that follow. Without a sanitizer they mean nothing.
+void add_sanitizer_options(const std::string& options);
 
 /// Runs `noli` with these arguments and waits for it.
 Process run_noli(const std::vector<std::string>& arguments, const ProcessOptions& options = {});

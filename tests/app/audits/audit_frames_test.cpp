@@ -57,7 +57,7 @@ TEST_F(AuditFrames, IsNotMisledByALibraryThatWritesBehindThePoints) {
 }
 
 TEST_F(AuditFrames, KeepsWhatALibrarySaysBeforeItCrashes) {
-  add_asan_options("handle_segv=0");
+  add_sanitizer_options("handle_segv=0");
   const Process process = run_noli(command(faulty("says_why")));
   EXPECT_EQ(process.exit_code, 1);
   EXPECT_NE(process.out.find("wrote to its standard error: no memory for the \\x1b[31mtree\n"), std::string::npos)

@@ -68,9 +68,7 @@ class RunMutations : public Simulate {
 
   static int expect_end(const std::vector<std::string>& command, const std::string& changes) {
     ProcessOptions options;
-#if !defined(__SANITIZE_ADDRESS__)
     options.address_space = 4'000'000'000;
-#endif
     const Process process = run_noli(command, options);
     EXPECT_TRUE(0 <= process.exit_code && process.exit_code <= 3)
         << command[0] << " ends with " << process.exit_code << " after the changes " << changes << "\n"

@@ -124,9 +124,7 @@ INSTANTIATE_TEST_SUITE_P(All, BadState, ::testing::ValuesIn(bad_numbers),
 TEST_P(BadState, IsRefusedByEveryCommand) {
   change_row(run_path("run"), 5, GetParam().change);  // the point is in contact
   ProcessOptions options;
-#if !defined(__SANITIZE_ADDRESS__)
   options.address_space = 4'000'000'000;
-#endif
   for (const auto& command : commands()) {
     const Process process = run_noli(command, options);
     EXPECT_EQ(process.exit_code, 3) << joined(command) << process.out << process.err;

@@ -254,6 +254,9 @@ class FileSizeLimit {
 };
 
 TEST_F(Series, AFullDiskIsNamed) {
+#if defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "here SIGXFSZ ends the program although it is ignored";
+#endif
   for (const rlim_t bytes : {0, 1, 100, 2048, 100'000, 1'000'000}) {
     const FileSizeLimit limit(bytes);
     const std::string said = failure(program());

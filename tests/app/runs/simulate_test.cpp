@@ -298,7 +298,7 @@ TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {
   GTEST_SKIP() << "what the thread sanitizer remembers of memory grows too";
 #endif
   // Under the address sanitizer what is freed is kept, by default up to 256 MB; elsewhere this means nothing.
-  add_asan_options("quarantine_size_mb=0:thread_local_quarantine_size_kb=0");
+  add_sanitizer_options("quarantine_size_mb=0:thread_local_quarantine_size_kb=0");
   for (const char* record : {"frames", "full"}) {
     Json json = beam(2);
     json["record"] = record;
