@@ -13,8 +13,8 @@
 //   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared with the
 //               guard alone, which takes a few operations; the walls are looked at when the guard is used up
 //   look        a vertex is looked at whenever its velocity changes, and at least every look_step(i) if that is finite.
-//               It must hold its guard until the next look; else it is planned anew, and if its walls are too near for
-//               that, an event is due when the guard ends
+//               It must hold its guard until the next look, or until the event that is due when the guard ends; else it
+//               is planned anew, and if its walls are too near for that, such an event is due
 //   repair      a wall that is used up: a new slab for the pair where it is now; or if it has no room, the next layer
 //
 // Activating a layer early does nothing to the motion, since its impulses are zero; so everything here may err to that
@@ -85,10 +85,9 @@ class Cells {
 
   /// To be called of a vertex at time t after its velocity may have changed, and as often as look_step says.
   void look(VertexId i, double t) {
-    const double ahead = std::min(t + host_.look_step(i), slice_end_);
+    const double ahead = std::min({t + host_.look_step(i), slice_end_, due_[i]});
     if (guards_[i].holds(host_.line(i), ahead) || slice_due_ <= t) return;  // or: the next slice begins at once
-    plan_soon(i);
-    settle(t);
+    if (!keep_guard(i, t)) plan_at_once(i, t);
   }
 
   /// Of the next event of a certificate.
@@ -99,13 +98,13 @@ class Cells {
 
   /// Precondition: nothing else happens before next_time().
   void run_next() {
+    ++counts_.events;
     const double t = next_time();
     if (t == slice_due_) return begin_slice(t);
     const VertexId i = events_.top().second;
     events_.pop();
     due_[i] = never;
-    plan_soon(i);
-    settle(t);
+    if (!keep_guard(i, t)) plan_at_once(i, t);
   }
 
   const CertificateCounts& counts() const { return counts_; }
@@ -353,6 +352,26 @@ class Cells {
   }
 
   // --- Vertices ------------------------------------------------------------------------------------------------------
+
+  /// Whether a vertex is still so far inside its guard that an event where it will leave it is enough. What shakes
+  /// changes its velocity time and again, but stays where it is.
+  bool keep_guard(VertexId i, double t) {
+    const Plan<Dim>& guard = guards_[i];
+    const Line<Dim> line = host_.line(i);
+    const Vector<Dim> e = line.at(t) - guard.line.at(t);
+    if (!(guard.until > t && e.squaredNorm() <= 0.5 * guard.radius * guard.radius)) return false;
+    const double leaves = t + 0.9 * time_to_leave<Dim>(e, line.v - guard.line.v, guard.radius);
+    const double end = std::min({leaves, guard.until, slice_end_});
+    if (!(end > t) || !guard.holds(line, end)) return false;
+    due_[i] = end;
+    events_.push({end, i});
+    return true;
+  }
+
+  void plan_at_once(VertexId i, double t) {
+    plan_soon(i);
+    settle(t);
+  }
 
   void plan_soon(VertexId i) {
     if (waiting_[i]) return;

@@ -29,6 +29,7 @@ Json certificates_json(const CertificateCounts& counts) {
           {"plans", counts.plans},
           {"penned", counts.penned},
           {"repairs", counts.repairs},
+          {"events", counts.events},
           {"activations", counts.activations},
           {"deactivations", counts.deactivations},
           {"most_near", counts.most_near},

@@ -140,12 +140,15 @@ std::string certificates_text(const RunExplanation& e) {
   if (!e.log.has_contact) return "";
   const CertificateCounts& c = e.log.certificates;
   const auto in_a_second = [&](std::uint64_t n) { return rate(static_cast<double>(n), e.time); };
-  return fmt::format(
+  std::string text = fmt::format(
       "Certificates, a second of simulated time: {:.4g} slices, {:.4g} tubes left, {:.4g} plans, {:.4g} repairs, "
-      "{:.4g} "
-      "activations, {:.4g} deactivations; at most {} near pairs at a time.\n",
+      "{:.4g} activations, {:.4g} deactivations; at most {} near pairs at a time.\n",
       in_a_second(c.slices), in_a_second(c.tubes), in_a_second(c.plans), in_a_second(c.repairs),
       in_a_second(c.activations), in_a_second(c.deactivations), c.most_near);
+  if (c.activations == 0) return text;
+  const auto in_each = [&](std::uint64_t n) { return static_cast<double>(n) / static_cast<double>(c.activations); };
+  return text + fmt::format("For each layer that was activated: {:.3g} plans, {:.3g} repairs, {:.3g} events.\n",
+                            in_each(c.plans), in_each(c.repairs), in_each(c.events));
 }
 
 std::string time_text(const RunExplanation& e) {

@@ -118,6 +118,7 @@ class Reader {
     more.tubes = number<std::uint64_t>(counts, "tubes");
     more.plans = number<std::uint64_t>(counts, "plans");
     more.repairs = number<std::uint64_t>(counts, "repairs");
+    more.events = number<std::uint64_t>(counts, "events");
     more.activations = number<std::uint64_t>(counts, "activations");
     more.deactivations = number<std::uint64_t>(counts, "deactivations");
     more.most_near = number<std::uint64_t>(counts, "most_near");

@@ -134,6 +134,7 @@ struct CertificateCounts {
   std::uint64_t plans = 0;                           ///< guards made
   std::uint64_t penned = 0;                          ///< of these, those inside a pen
   std::uint64_t repairs = 0;                         ///< slabs
+  std::uint64_t events = 0;                          ///< of slices and vertices
   std::uint64_t activations = 0, deactivations = 0;  ///< of layers
   std::uint64_t most_near = 0;                       ///< near pairs at a time
   std::uint32_t deepest = 0;                         ///< layer
@@ -144,6 +145,7 @@ struct CertificateCounts {
     plans += other.plans;
     penned += other.penned;
     repairs += other.repairs;
+    events += other.events;
     activations += other.activations;
     deactivations += other.deactivations;
     most_near = std::max(most_near, other.most_near);

@@ -52,6 +52,7 @@ class EveryPair {
   double next_time() const { return queue_.empty() ? never : queue_.begin()->first; }
 
   void run_next() {
+    ++counts_.events;
     const auto [t, p] = *queue_.begin();
     if (t > instant_) {
       instant_ = t;
