@@ -147,8 +147,10 @@ std::string certificates_text(const RunExplanation& e) {
       in_a_second(c.activations), in_a_second(c.deactivations), c.most_near);
   if (c.activations == 0) return text;
   const auto in_each = [&](std::uint64_t n) { return static_cast<double>(n) / static_cast<double>(c.activations); };
-  return text + fmt::format("For each layer that was activated: {:.3g} plans, {:.3g} repairs, {:.3g} events.\n",
-                            in_each(c.plans), in_each(c.repairs), in_each(c.events));
+  text += fmt::format("For each layer that was activated: {:.3g} plans, {:.3g} repairs", in_each(c.plans),
+                      in_each(c.repairs));
+  if (c.events > 0) text += fmt::format(", {:.3g} events", in_each(c.events));  // not logged by earlier versions
+  return text + ".\n";
 }
 
 std::string time_text(const RunExplanation& e) {

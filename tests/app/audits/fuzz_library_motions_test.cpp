@@ -18,6 +18,12 @@ using Json = nlohmann::json;
 
 class FuzzLibraryMotions : public testing::Test {
  protected:
+  void SetUp() override {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "memory of the thread sanitizer grows, which looks like a leak of the library";
+#endif
+  }
+
   Words command(const std::string& library, const Words& more) const {
     return Words{"fuzz", "trajectories", "--library", library, "--seed", "1", "--out", folder.path("out")} + more;
   }
@@ -58,9 +64,6 @@ TEST_F(FuzzLibraryMotions, FindsNothingInAnExactPipeline) {
 }
 
 TEST_F(FuzzLibraryMotions, AsksTheFamiliesThatAreNamed) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "memory of the thread sanitizer grows, which looks like a leak of the library";
-#endif
   const Json document = json(plugin("noli"), 0, {"--family", "huge", "--family", "last_ulp", "--count", "6"});
   ASSERT_EQ(document["generators"].size(), 2U);
   for (const auto& generator : document["generators"]) EXPECT_EQ(generator["motions"], 3);
@@ -148,9 +151,6 @@ TEST_F(FuzzLibraryMotions, FindsOtherFaultsSlow) {
 }
 
 TEST_F(FuzzLibraryMotions, TellsFalsePositivesAndEarlyTimesOnlyOfWhatClaimsToBeExact) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "memory of the thread sanitizer grows, which looks like a leak of the library";
-#endif
   const Json careful = json(faulty("always_hits"), 0, {"--count", "28"});
   EXPECT_GT(careful["false_positives"], 100);
   const Json exact = json(faulty("always_hits"), 1, {"--count", "28", "--exact", "--max-findings", "0"});
@@ -260,9 +260,6 @@ TEST_F(FuzzLibraryMotions, RefusesWhatCannotBe) {
 }
 
 TEST_F(FuzzLibraryMotions, TheWorkedExampleIsTrue) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "memory of the thread sanitizer grows, which looks like a leak of the library";
-#endif
   const auto commands = worked_example("audit/FUZZ-TRAJECTORIES.md", "## Somebody else's library");
   ASSERT_GE(commands.size(), 3u);
   expect_worked_example(commands, {{"build/release/app/noli", NOLI_COMMAND},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `noli explain RUN`: what happened, from the files of a run alone.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,7 +68,15 @@ TEST_F(Simulate, ExplainAddsUpPhasesOfAllParts) {
   EXPECT_GT(phases["certificate"].get<double>() + phases["layer"].get<double>(), 0);
   EXPECT_GT(phases["force"].get<double>() + phases["kick"].get<double>(), 0);
   EXPECT_GT(phases["writing"], 0);
-  EXPECT_GT(json["timing"]["certificates"]["plans"], 0);
+  const Json& certificates = json["timing"]["certificates"];
+  EXPECT_GT(certificates["plans"], 0);
+  EXPECT_GT(certificates["events"], 0);
+  const double activations = certificates["activations"];
+  const std::string said = fmt::format(
+      "For each layer that was activated: {:.3g} plans, {:.3g} repairs, {:.3g} events.",
+      certificates["plans"].get<double>() / activations, certificates["repairs"].get<double>() / activations,
+      certificates["events"].get<double>() / activations);
+  EXPECT_NE(run_noli({"explain", run_path("run")}).out.find(said), std::string::npos) << said;
   EXPECT_EQ(json["timing"]["windows_logged"], 200);
 }
 
