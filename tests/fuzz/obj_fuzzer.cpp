@@ -4,5 +4,5 @@
 #include "check_frame.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return noli::fuzz::check_reader(data, size, noli::parse_obj);
+  return noli::fuzz::check_reader(data, size, [](auto bytes, auto name) { return noli::parse_obj(bytes, name); });
 }

@@ -2,5 +2,5 @@
 #include "check_frame.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return noli::fuzz::check_reader(data, size, noli::parse_ply);
+  return noli::fuzz::check_reader(data, size, [](auto bytes, auto name) { return noli::parse_ply(bytes, name); });
 }

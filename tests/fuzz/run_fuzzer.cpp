@@ -104,7 +104,8 @@ void all_commands(const Runs& runs) {
   ends([&] { verify(run); });
   ends([&] {
     const RunExplanation explanation = explain_run(run);
-    noli::fuzz::require(!answer_of(explanation).text.empty() && to_json(explanation).is_object());
+    const Json json = to_json(explanation);
+    noli::fuzz::require(json.is_object() && !answer_of(json, explanation).text.empty());
   });
   if (has_report_page()) ends([&] { report_page(run); });
   ends([&] { run_export({run, 20, (runs.folder / "frame%d.obj").string(), true}); });
