@@ -13,8 +13,9 @@
 //   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared with the
 //               guard alone, which takes a few operations; the walls are looked at when the guard is used up
 //   look        a vertex is looked at whenever its velocity changes, and at least every look_step(i) if that is finite.
-//               It must hold its guard until the next look, or until the event that is due when the guard ends; else it
-//               is planned anew, and if its walls are too near for that, such an event is due
+//               It must hold its guard until the next look, or until the event that is due for it. Otherwise an event is
+//               due where it will leave the guard; or if it is near the border, it is planned anew, and if its walls are
+//               too near for that, an event is due when the new guard ends
 //   repair      a wall that is used up: a new slab for the pair where it is now; or if it has no room, the next layer
 //
 // Activating a layer early does nothing to the motion, since its impulses are zero; so everything here may err to that
@@ -127,6 +128,10 @@ class Cells {
   static constexpr double worn = 0.3;
   /// Of the time to a wall: a plan ends there.
   static constexpr double reach = 0.75;
+  /// Of a guard's radius, squared: farther out, a vertex is planned anew.
+  static constexpr double well_inside = 0.5;
+  /// Of the time in which a vertex leaves its guard: then it is looked at, and with this much it is not well inside.
+  static constexpr double way_out = 0.9;
 
   using Event = std::pair<double, VertexId>;
 
@@ -353,14 +358,14 @@ class Cells {
 
   // --- Vertices ------------------------------------------------------------------------------------------------------
 
-  /// Whether a vertex is still so far inside its guard that an event where it will leave it is enough. What shakes
-  /// changes its velocity time and again, but stays where it is.
+  /// If a vertex is still well inside its guard, queues an event for when it will leave it, and returns true. What
+  /// shakes changes its velocity again and again but hardly moves.
   bool keep_guard(VertexId i, double t) {
     const Plan<Dim>& guard = guards_[i];
     const Line<Dim> line = host_.line(i);
     const Vector<Dim> e = line.at(t) - guard.line.at(t);
-    if (!(guard.until > t && e.squaredNorm() <= 0.5 * guard.radius * guard.radius)) return false;
-    const double leaves = t + 0.9 * time_to_leave<Dim>(e, line.v - guard.line.v, guard.radius);
+    if (!(guard.until > t && e.squaredNorm() <= well_inside * guard.radius * guard.radius)) return false;
+    const double leaves = t + way_out * time_to_leave<Dim>(e, line.v - guard.line.v, guard.radius);
     const double end = std::min({leaves, guard.until, slice_end_});
     if (!(end > t) || !guard.holds(line, end)) return false;
     due_[i] = end;

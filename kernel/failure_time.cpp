@@ -3,7 +3,7 @@
 // Notation: a line, seen along n, is (offset + slope t) / scale with scale > 0. The certificate fails where the line of
 // n . (a - b) - g is not positive.
 //
-// Stages: intervals say that it has failed or that it never will; the quotient needs an exact ring, as it is rounded
+// Stages of two points: intervals say that it has failed or that it never will; the quotient needs an exact ring, as it is rounded
 // exactly.
 #include "kernel/failure_time.h"
 
@@ -85,8 +85,8 @@ double of_order(std::int64_t order) {
   return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order - 1);
 }
 
-/// The last double at which something holds that holds at `from` and, from some time on, no more. `guess`: near that
-/// time, or meaningless.
+/// The last double at which `holds` is true; it is true at `from`, and from some later time on false for good. `guess`:
+/// near that time, or meaningless.
 template <class Holds>
 double last_time(const Holds& holds, double from, double guess) {
   std::int64_t low = order_of(from), high = order_of(infinity);  // it holds at of_order(low), but not at of_order(high)
@@ -122,7 +122,7 @@ bool lasts(const Ray<Dim>& p, const MovingBall<Dim>& ball) {
   return p.v == ball.centre.v;
 }
 
-/// About when it ends to hold, if doubles can tell.
+/// Roughly when it stops holding, if doubles can tell.
 template <int Dim>
 double end_guessed(const Ray<Dim>& p, const MovingWall<Dim>& wall, double from) {
   const double closing = dot<double, Dim>(wall.n, p.v) - wall.rate;

@@ -149,7 +149,8 @@ std::string certificates_text(const RunExplanation& e) {
   const auto in_each = [&](std::uint64_t n) { return static_cast<double>(n) / static_cast<double>(c.activations); };
   text += fmt::format("For each layer that was activated: {:.3g} plans, {:.3g} repairs", in_each(c.plans),
                       in_each(c.repairs));
-  if (c.events > 0) text += fmt::format(", {:.3g} events", in_each(c.events));  // not logged by earlier versions
+  if (c.events > 0)
+    text += fmt::format(", {:.3g} events of certificates", in_each(c.events));  // not logged by earlier versions
   return text + ".\n";
 }
 

@@ -134,7 +134,7 @@ struct CertificateCounts {
   std::uint64_t plans = 0;                           ///< guards made
   std::uint64_t penned = 0;                          ///< of these, those inside a pen
   std::uint64_t repairs = 0;                         ///< slabs
-  std::uint64_t events = 0;                          ///< of slices and vertices
+  std::uint64_t events = 0;                          ///< slices after the first, and times due for a vertex
   std::uint64_t activations = 0, deactivations = 0;  ///< of layers
   std::uint64_t most_near = 0;                       ///< near pairs at a time
   std::uint32_t deepest = 0;                         ///< layer

@@ -73,7 +73,7 @@ TEST_F(Simulate, ExplainAddsUpPhasesOfAllParts) {
   EXPECT_GT(certificates["events"], 0);
   const double activations = certificates["activations"];
   const std::string said = fmt::format(
-      "For each layer that was activated: {:.3g} plans, {:.3g} repairs, {:.3g} events.",
+      "For each layer that was activated: {:.3g} plans, {:.3g} repairs, {:.3g} events of certificates.",
       certificates["plans"].get<double>() / activations, certificates["repairs"].get<double>() / activations,
       certificates["events"].get<double>() / activations);
   EXPECT_NE(run_noli({"explain", run_path("run")}).out.find(said), std::string::npos) << said;
