@@ -13,9 +13,9 @@
 //   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared with the
 //               guard alone, which takes a few operations; the walls are looked at when the guard is used up
 //   look        a vertex is looked at whenever its velocity changes, and at least every look_step(i) if that is finite.
-//               It must hold its guard until the next look, or until the event that is due for it. Otherwise an event is
-//               due where it will leave the guard; or if it is near the border, it is planned anew, and if its walls are
-//               too near for that, an event is due when the new guard ends
+//               It must hold its guard until the next look, or until the event that is due for it. Otherwise an event
+//               is due where it will leave the guard; or if it is near the border, it is planned anew, and if its
+//               walls are too near for that, an event is due when the new guard ends
 //   repair      a wall that is used up: a new slab for the pair where it is now; or if it has no room, the next layer
 //
 // Activating a layer early does nothing to the motion, since its impulses are zero; so everything here may err to that

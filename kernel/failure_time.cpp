@@ -3,8 +3,8 @@
 // Notation: a line, seen along n, is (offset + slope t) / scale with scale > 0. The certificate fails where the line of
 // n . (a - b) - g is not positive.
 //
-// Stages of two points: intervals say that it has failed or that it never will; the quotient needs an exact ring, as it is rounded
-// exactly.
+// Stages of two points: intervals say that it has failed or that it never will; the quotient needs an exact ring, as it
+// is rounded exactly.
 #include "kernel/failure_time.h"
 
 #include <CGAL/Gmpzf.h>

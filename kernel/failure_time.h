@@ -9,8 +9,8 @@
 //   wall            n . x = s(t) +- half, s(t) = offset + rate (t - since), as in certificates/near_pair.h; |n| may be
 //                   anything
 //   ball            of a radius about a centre that moves as a ray
-// Points and centres move on lines over the reals, without rounding. The failure time is rounded down: an event may come early,
-// never late.
+// Points and centres move on lines over the reals, without rounding. The failure time is rounded down: an event may
+// come early, never late.
 //
 // What is beyond a wall at two times is so between them, as that is a linear condition; the same is true of a ball, as
 // the distance from its centre is a convex function of time.

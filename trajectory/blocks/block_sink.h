@@ -48,7 +48,8 @@ class FileSink : public Sink {
   int descriptor_;
 };
 
-/// A descriptor of the folder, the current one where the name is empty; negative, with errno, where it cannot be opened.
+/// A descriptor of the folder, the current one where the name is empty; negative, with errno, where it cannot be
+/// opened.
 int try_open_folder(const std::filesystem::path& folder);
 /// The same, but throws std::system_error.
 int open_folder(const std::filesystem::path& folder);
