@@ -190,8 +190,8 @@ void check_walls_and_balls(std::uint64_t seed, int count) {
     const Ray<Dim> p = numbers.ray<Dim>();
     double from = numbers.value(), later = numbers.value();
     if (later < from) std::swap(from, later);
-    const MovingWall<Dim> wall{numbers.point<Dim>(),        numbers.value(),          numbers.value(), numbers.value(),
-                               std::abs(numbers.value()), random.below(2) == 0};
+    const MovingWall<Dim> wall{numbers.point<Dim>(), numbers.value(),           numbers.value(),
+                               numbers.value(),      std::abs(numbers.value()), random.below(2) == 0};
     ASSERT_NO_FATAL_FAILURE(check<Dim>(p, wall, from, later));
     MovingBall<Dim> ball{numbers.ray<Dim>(), std::abs(numbers.value())};
     if (random.below(2) == 0) {  // rather near
