@@ -149,9 +149,14 @@ std::string certificates_text(const RunExplanation& e) {
   const auto in_each = [&](std::uint64_t n) { return static_cast<double>(n) / static_cast<double>(c.activations); };
   text += fmt::format("For each layer that was activated: {:.3g} plans, {:.3g} repairs", in_each(c.plans),
                       in_each(c.repairs));
-  if (c.events > 0)
-    text += fmt::format(", {:.3g} events of certificates", in_each(c.events));  // not logged by earlier versions
+  if (!e.log.not_logged.contains("events")) text += fmt::format(", {:.3g} events of certificates", in_each(c.events));
   return text + ".\n";
+}
+
+Json logged_certificates_json(const LogFacts& log) {
+  Json json = certificates_json(log.certificates);
+  for (const std::string& member : log.not_logged) json[member] = nullptr;
+  return json;
 }
 
 std::string time_text(const RunExplanation& e) {
@@ -187,7 +192,7 @@ Json to_json(const RunExplanation& e) {
   json["energy"] = energy_json(e.energy);
   json["timing"] = {{"phases", phases_json(e.log.phases)},
                     {"verifying_seconds", e.log.verifying_seconds},
-                    {"certificates", certificates_json(e.log.certificates)},
+                    {"certificates", logged_certificates_json(e.log)},
                     {"deepest_active", e.log.deepest},
                     {"bound", or_null(e.bound())},
                     {"end", e.log.end()},

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <noli/errors.h>
+#include "certify/contact_report.h"
 #include "trajectory/blocks/run_log.h"
 #include "trajectory/blocks/run_manifest.h"
 #include "trajectory/formats/frame_look.h"
@@ -112,11 +113,19 @@ class Reader {
       const std::string phase(name(static_cast<integrator::Phase>(i)));
       facts_.phases[i] += number<double>(member(timing, "phases"), phase.c_str());
     }
-    const Json& counts = member(timing, "certificates");
+    if (facts_.has_contact) certificates(member(timing, "certificates"));
+  }
+
+  void certificates(const Json& counts) {
+    const Json all = certificates_json({});
+    for (const auto& told : all.items()) {
+      if (!member(counts, told.key().c_str()).is_number()) facts_.not_logged.insert(told.key());
+    }
     CertificateCounts more;
     more.slices = number<std::uint64_t>(counts, "slices");
     more.tubes = number<std::uint64_t>(counts, "tubes");
     more.plans = number<std::uint64_t>(counts, "plans");
+    more.penned = number<std::uint64_t>(counts, "penned");
     more.repairs = number<std::uint64_t>(counts, "repairs");
     more.events = number<std::uint64_t>(counts, "events");
     more.activations = number<std::uint64_t>(counts, "activations");

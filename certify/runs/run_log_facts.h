@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct LogFacts {
   PhaseSeconds phases{};
   double verifying_seconds = 0;
   CertificateCounts certificates;
+  std::set<std::string> not_logged;  ///< members of certificates_json() that a part does not tell: not known, not 0
 
   /// How the run ended, as far as is known: nothing when its last part goes on still, or was killed.
   std::string end() const { return going_on ? "" : last_end; }

@@ -60,10 +60,7 @@ void set_up_child(const ProcessOptions& options, const Pipe& out, const Pipe& er
   }
   if (options.close_standard_output) ::close(STDOUT_FILENO);
   for (const auto& [name, value] : options.environment) ::setenv(name.c_str(), value.c_str(), 1);
-  if (options.file_size) {
-    const struct rlimit limit = {*options.file_size, *options.file_size};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
+  if (options.file_size) limit_file_size(*options.file_size);
   if (options.address_space && !sanitized) {
     const struct rlimit limit = {*options.address_space, *options.address_space};
     ::setrlimit(RLIMIT_AS, &limit);
@@ -128,6 +125,16 @@ void add_sanitizer_options(const std::string& options) {
     const char* const there = std::getenv(name);
     ::setenv(name, (there != nullptr ? there + (":" + options) : options).c_str(), 1);
   }
+}
+
+void limit_file_size(std::uint64_t bytes) {
+#if defined(__SANITIZE_THREAD__)
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
+  struct rlimit limit = {};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = bytes;
+  ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
 Process run_noli(const std::vector<std::string>& arguments, const ProcessOptions& options) {

@@ -56,6 +56,10 @@ struct Process {
 /// For all programs of this process that follow. Without a sanitizer they mean nothing.
 void add_sanitizer_options(const std::string& options);
 
+/// As if the disk were full, for this process and those that it starts. The thread sanitizer writes a file of its own
+/// before a program begins, so with it they start with SIGXFSZ ignored.
+void limit_file_size(std::uint64_t bytes);
+
 /// Runs `noli` with these arguments and waits for it.
 Process run_noli(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
 

@@ -77,7 +77,24 @@ TEST_F(Simulate, ExplainAddsUpPhasesOfAllParts) {
       certificates["plans"].get<double>() / activations, certificates["repairs"].get<double>() / activations,
       certificates["events"].get<double>() / activations);
   EXPECT_NE(run_noli({"explain", run_path("run")}).out.find(said), std::string::npos) << said;
+  EXPECT_EQ(certificates["penned"], first["timing"]["certificates"]["penned"].get<std::uint64_t>() +
+                                        second["timing"]["certificates"]["penned"].get<std::uint64_t>());
   EXPECT_EQ(json["timing"]["windows_logged"], 200);
+}
+
+TEST_F(Simulate, ExplainDoesNotKnowWhatAPartOfTheLogDoesNotTell) {
+  ASSERT_EQ(run_noli({"simulate", scene(two_cloths()), "-o", run_path("run")}).exit_code, 0);
+  ASSERT_NE(run_noli({"explain", run_path("run")}).out.find("events of certificates"), std::string::npos);
+  std::string lines;
+  read_log_lines(run_path("run"), [&](Json entry) {
+    if (entry["event"] == "end") entry["timing"]["certificates"].erase("events");  // as earlier versions wrote it
+    lines += log_line(entry);
+  });
+  folder.write("run/log.jsonl", lines);
+  const Json certificates = json_of({"explain", run_path("run")}, 0)["timing"]["certificates"];
+  EXPECT_TRUE(certificates["events"].is_null()) << certificates;
+  EXPECT_GT(certificates["plans"], 0);
+  EXPECT_EQ(run_noli({"explain", run_path("run")}).out.find("events of certificates"), std::string::npos);
 }
 
 TEST_F(Simulate, ExplainSaysTheSameHoweverTheRunWasMade) {
