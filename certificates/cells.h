@@ -19,9 +19,8 @@
 //   repair      a wall that is used up: a new slab for the pair where it is now; or if it has no room, the next layer
 //
 // Activating a layer early does nothing to the motion, since its impulses are zero; so everything here may err to that
-// side, and does: thresholds for activation lie a quarter of a layer's width outside, and `margin` stands for all
-// rounding between what is extrapolated here and what is recorded: 2^-44 of the largest coordinate within reach, and
-// the way that the fastest vertex goes in 2^-50 of the time.
+// side, and does: thresholds for activation lie a quarter of a layer's width outside. Times are chosen in double; whether
+// a guard or a wall holds until then is decided exactly (certificates/decisions.h).
 //
 // Host, the dynamics:
 //   Line<Dim> line(v)                 how a vertex moves now
@@ -45,6 +44,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificates/decisions.h"
 #include "certificates/features.h"
 #include "certificates/hierarchy.h"
 #include "certificates/near_pair.h"
@@ -60,6 +60,7 @@ class Cells {
   /// `longest_slice`: in the unit of time. Nothing is certified before start().
   Cells(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> x, double longest_slice)
       : host_(host),
+        decisions_(host),
         features_(mesh, Dim),
         longest_(longest_slice),
         length_(longest_slice / 8),
@@ -87,7 +88,8 @@ class Cells {
   /// To be called of a vertex at time t after its velocity may have changed, and as often as look_step says.
   void look(VertexId i, double t) {
     const double ahead = std::min({t + host_.look_step(i), slice_end_, due_[i]});
-    if (guards_[i].holds(host_.line(i), ahead) || slice_due_ <= t) return;  // or: the next slice begins at once
+    if (decisions_.holds(guards_[i], host_.line(i), ahead) || slice_due_ <= t)
+      return;  // or: the next slice begins at once
     if (!keep_guard(i, t)) plan_at_once(i, t);
   }
 
@@ -113,7 +115,7 @@ class Cells {
   /// Layer l of this pair gives no impulse at this distance: if it is the deepest and not needed soon, it goes.
   /// Precondition: the pair has it.
   void drop_if_clear(const Stencil& s, std::uint16_t material, std::uint32_t l, double distance, double t) {
-    if (!is_clear(host_, material, l, distance, margin_)) return;
+    if (!is_clear(host_, material, l, distance, decisions_.recording())) return;
     const std::uint32_t near = nears_.number(s);
     if (nears_[near].layers != l) return;
     lose_layer(host_, nears_[near], counts_);
@@ -179,7 +181,7 @@ class Cells {
     slice_begin_ = t;
     slice_end_ = slice_due_ = t + length_;
     retubed_ = 0;
-    margin_ = 0;
+    decisions_.forget_reach();
     for (std::size_t i = 0; i < tubes_.size(); ++i) {
       end_if_stopped();
       begin_tube(static_cast<VertexId>(i), before, t);
@@ -233,17 +235,19 @@ class Cells {
     const double look = std::min(host_.look_step(i), slice_end_ - now.t);
     if (!((line.v - now.v).squaredNorm() * look * look <= 0.25 * sizes_[i] * sizes_[i])) line.v = now.v;
     tubes_[i] = {line, sizes_[i], slice_end_};
-    raise_margin(line);
-    raise_margin(now);
+    decisions_.reach_out(tubes_[i]);
+    decisions_.reach_out(now, slice_end_);
   }
 
-  void raise_margin(const Line<Dim>& line) { margin_ = std::max(margin_, margin_of(line, slice_end_)); }
+  /// What directions and boxes that settle pairs keep clear on each side.
+  double margin() const { return decisions_.recording() + decisions_.rounding(); }
 
   MovingBox<Dim> box_of(std::uint32_t cell) const {
+    const double room_of_cell = halves_[cell] + margin();
     MovingBox<Dim> box = MovingBox<Dim>::empty();
     for (const VertexId v : features_.cells()[cell].all()) {
       const Plan<Dim>& tube = tubes_[v];
-      const Vector<Dim> room = Vector<Dim>::Constant(tube.radius + halves_[cell] + 4 * margin_);
+      const Vector<Dim> room = Vector<Dim>::Constant(tube.radius + room_of_cell);
       const Vector<Dim> begin = tube.line.at(slice_begin_), end = tube.line.at(slice_end_);
       box.add({{begin - room, end - room}, {begin + room, end + room}});
     }
@@ -290,7 +294,7 @@ class Cells {
 
   /// Whether some direction keeps the tubes apart until the slice's end.
   bool settled(const Stencil& s, std::uint16_t material, double t) const {
-    const double eta = host_.thickness(material, 1) + 8 * margin_;
+    const double eta = host_.thickness(material, 1) + 2 * margin();
     const std::span<const VertexId> a(s.vertices.data(), s.first()),
         b(s.vertices.data() + s.first(), s.size() - s.first());
     for (const double when : {t, slice_end_, 0.5 * (t + slice_end_)}) {
@@ -299,7 +303,7 @@ class Cells {
       const Closest<Dim> c = closest<Dim>(s.kind, std::span<const Vector<Dim>>(x.data(), s.size()));
       const double d = c.distance();
       if (!(d > eta)) return false;
-      if (keeps_apart(a, b, c.r / d, eta, t)) return true;
+      if (keeps_apart(a, b, direction<Dim>(c), eta, t)) return true;
     }
     return false;
   }
@@ -311,7 +315,7 @@ class Cells {
     if (std::ranges::find_first_of(p, q) != p.end()) return false;
     Vector<Dim> n = centre(p, t) - centre(q, t);
     const double length = std::sqrt(n.squaredNorm());
-    return length > 0 && keeps_apart(p, q, n / length, halves_[a] + halves_[b] + 8 * margin_, t);
+    return length > 0 && keeps_apart(p, q, n / (length * (1 + 0x1p-48)), halves_[a] + halves_[b] + 2 * margin(), t);
   }
 
   Vector<Dim> centre(std::span<const VertexId> vertices, double t) const {
@@ -336,8 +340,11 @@ class Cells {
   double put_up_slab(std::uint32_t near, double t, bool thinner = false) {
     NearPair<Dim>& pair = nears_[near];
     const bool had_layers = pair.layers > 0;
+    for (std::size_t k = 0; k < pair.stencil.size(); ++k) {
+      decisions_.reach_out(line_at(pair.stencil.vertices[k], t), slice_end_);
+    }
     if (thinner) gain_layer(host_, pair, t, counts_);
-    const double distance = fit_slab(host_, pair, t, margin_, counts_);
+    const double distance = fit_slab(host_, pair, t, decisions_.recording(), counts_);
     const Stencil& s = pair.stencil;
     nears_.note_layers(near, had_layers);
     for (std::size_t k = 0; k < s.size(); ++k) {
@@ -349,11 +356,8 @@ class Cells {
     return distance;
   }
 
-  bool respects(const Plan<Dim>& guard, const Slab<Dim>& slab, bool of_a, double t) const {
-    if (guard.until < t) return false;
-    const double need = guard.radius + 4 * margin_;
-    return slab.clearance(of_a, guard.line.at(t), t) >= need &&
-           slab.clearance(of_a, guard.line.at(guard.until), guard.until) >= need;
+  bool respects(const Plan<Dim>& plan, const Slab<Dim>& slab, bool of_a, double t) const {
+    return plan.until >= t && decisions_.stays_beyond(plan, slab, of_a, t);
   }
 
   // --- Vertices ------------------------------------------------------------------------------------------------------
@@ -367,7 +371,7 @@ class Cells {
     if (!(guard.until > t && e.squaredNorm() <= well_inside * guard.radius * guard.radius)) return false;
     const double leaves = t + way_out * time_to_leave<Dim>(e, line.v - guard.line.v, guard.radius);
     const double end = std::min({leaves, guard.until, slice_end_});
-    if (!(end > t) || !guard.holds(line, end)) return false;
+    if (!(end > t) || !decisions_.holds(guard, line, end)) return false;
     due_[i] = end;
     events_.push({end, i});
     return true;
@@ -398,19 +402,19 @@ class Cells {
   void plan(VertexId i, double t) {
     ++counts_.plans;
     const Line<Dim> now = line_at(i, t);
-    raise_margin(now);
+    decisions_.reach_out(now, slice_end_);
     const double ahead = std::min(t + host_.look_step(i), slice_end_);
     if (must_leave_tube(i, now, ahead)) leave_tube(i, now);
     Plan<Dim>& guard = guards_[i];
     guard = nears_.of(i).empty() ? tubes_[i] : plan_within(i, now);
-    due_[i] = guard.holds(now, ahead) ? never : guard.until;
+    due_[i] = decisions_.holds(guard, now, ahead) ? never : guard.until;
     if (due_[i] != never) events_.push({due_[i], i});
   }
 
   /// Free ones follow their tube until they are looked at; those with walls want some room in it.
   bool must_leave_tube(VertexId i, const Line<Dim>& now, double ahead) const {
     const Plan<Dim>& tube = tubes_[i];
-    if (nears_.of(i).empty()) return !tube.holds(now, ahead);
+    if (nears_.of(i).empty()) return !decisions_.holds(tube, now, ahead);
     return (now.x - tube.line.at(now.t)).squaredNorm() > 0.5 * tube.radius * tube.radius;
   }
 
@@ -469,6 +473,7 @@ class Cells {
   void put_up_pen(VertexId i, const Line<Dim>& now, double until) {
     const Plan<Dim>& tube = tubes_[i];
     const double end = std::min(slice_end_, now.t + pens_[i].plans() * (until - now.t));
+    const double rounding = 2 * decisions_.rounding();
     clearances_.clear();
     for (const Side side : nears_.of(i)) {
       const Slab<Dim>& slab = nears_[side.near()].slab;
@@ -478,7 +483,8 @@ class Cells {
     }
     const double off_now = (now.x - tube.line.at(now.t)).squaredNorm();
     const double off_end = (now.at(end) - tube.line.at(end)).squaredNorm();
-    pens_[i].put_up(now, end, tube.radius - std::sqrt(std::max(off_now, off_end)), clearances_, 8 * margin_);
+    pens_[i].put_up(now, end, tube.radius - std::sqrt(std::max(off_now, off_end)) - rounding, clearances_,
+                    rounding + decisions_.recording());
   }
 
   /// Along the vertex's own motion inside `outer`, until it has used up part of the way to one of these walls.
@@ -486,7 +492,7 @@ class Cells {
     const Vector<Dim> e = now.x - outer.line.at(now.t), w = now.v - outer.line.v;
     const double edge = 0.5 * (outer.radius + std::sqrt(e.squaredNorm()));
     double until = std::min(outer.until, now.t + time_to_leave<Dim>(e, w, edge));
-    double radius = outer.radius - edge;
+    double room = outer.radius - edge;
     for (const Side side : walls) {
       const auto [clearance, closing] = wall(side, now);
       if (closing > 0) until = std::min(until, now.t + reach * (clearance / closing));
@@ -494,11 +500,25 @@ class Cells {
     for (const Side side : walls) {
       const Slab<Dim>& slab = nears_[side.near()].slab;
       const bool of_a = side.of_a();
-      const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
-      radius = std::min(radius, clearance - std::max(0.0, slab.closing(of_a, now.v)) * (until - now.t));
+      const double clearance = slab.clearance(of_a, now.x, now.t) - decisions_.recording();
+      room = std::min(room, clearance - std::max(0.0, slab.closing(of_a, now.v)) * (until - now.t));
     }
-    if (!(until > now.t)) throw std::runtime_error("certificates: a wall fails again at once");
-    return {now, std::max(0.0, radius - 4 * margin_), until};
+    const double radius = room - 2 * decisions_.rounding();
+    if (!(radius > 0)) return without_room(outer, walls, now, until);
+    return {now, radius, until};  // beyond all walls by more than rounding: nothing is left to be decided
+  }
+
+  /// A plan for what is so near to a wall that doubles do not tell whether it stays beyond it: no wider than its line.
+  Plan<Dim> without_room(const Plan<Dim>& outer, std::span<const Side> walls, const Line<Dim>& now,
+                         double until) const {
+    for (;; until = now.t + 0.5 * (until - now.t)) {
+      if (!(until > now.t)) throw std::runtime_error("certificates: a wall fails again at once");
+      const Plan<Dim> plan{now, 0, until};
+      const bool beyond_all = std::ranges::all_of(walls, [&](Side side) {
+        return decisions_.stays_beyond(plan, nears_[side.near()].slab, side.of_a(), now.t);
+      });
+      if (beyond_all && decisions_.holds(outer, now, until)) return plan;
+    }
   }
 
   struct Wall {
@@ -511,19 +531,19 @@ class Cells {
     const bool of_a = side.of_a();
     for (;;) {
       const Slab<Dim>& slab = nears_[near].slab;
-      const double clearance = slab.clearance(of_a, now.x, now.t) - 4 * margin_;
+      const double clearance = slab.clearance(of_a, now.x, now.t);
       if (clearance > worn * slab.slack) return {clearance, slab.closing(of_a, now.v)};
       put_up_slab(near, now.t, slab.since == now.t);  // just put up and worn already: only a thinner one can help
     }
   }
 
   Host& host_;
+  Decisions<Dim, Host> decisions_;
   Features features_;
   Hierarchy<Dim> hierarchy_;
   double longest_, length_;
   double slice_begin_ = 0, slice_end_ = 0, length_before_ = 0;
   double slice_due_ = 0;  ///< when the next one begins: earlier than the end if too many have left their tubes
-  double margin_ = 0;
   std::size_t retubed_ = 0;
   std::size_t nears_at_begin_ = 0;  ///< near pairs when the slice began
   std::size_t swept_ = 0;           ///< of them, those that were far apart then

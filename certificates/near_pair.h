@@ -4,11 +4,11 @@
 // whose vertices one side of it is a wall.
 //
 // Notation (Harmon et al. 2009, section 5): that of certificates/cells.h, and
-//   slab        n . x = s(t) +- half, s(t) = offset + rate (t - since), |n| = 1: A stays above, B below, so they are at
-//               least 2 half apart. The slab moves with what it separates
+//   slab        n . x = s(t) +- half, s(t) = offset + rate (t - since), |n| <= 1 and nearly 1: A stays above, B below, so
+//               they are at least 2 half apart. The slab moves with what it separates
 //   clearance   of a vertex: how far it is on its side of its wall; linear in time between changes of velocity
 //   slack       the least clearance when the slab was put up
-//   margin      stands for all rounding between what is extrapolated here and what is recorded
+//   recording   how far what is recorded may be off (certificates/decisions.h)
 //
 // What this does not do: it says nothing about when a slab fails. Vertices compare their motion with all their walls at
 // once (certificates/cells.h).
@@ -44,6 +44,12 @@ struct Slab {
   }
 };
 
+/// From B to A; no longer than 1, whatever is rounded. Precondition: the distance is positive.
+template <int Dim>
+Vector<Dim> direction(const Closest<Dim>& closest) {
+  return closest.r / (closest.distance() * (1 + 0x1p-48));
+}
+
 /// Half way between the closest points, and moving as they do on average. Precondition: the distance is positive. The
 /// slack may come out negative: when the distance is less than 2 half, or not known well enough because the features
 /// are thin. Then the slab certifies nothing.
@@ -51,7 +57,7 @@ template <int Dim>
 Slab<Dim> slab_between(const Stencil& pair, const Closest<Dim>& closest, std::span<const Vector<Dim>> x,
                        std::span<const Vector<Dim>> v, double t, double half) {
   Slab<Dim> slab;
-  slab.normal = closest.r / closest.distance();
+  slab.normal = direction<Dim>(closest);
   slab.since = t;
   slab.half = half;
   for (std::size_t i = 0; i < pair.size(); ++i) {
@@ -104,15 +110,6 @@ inline void require_progress(std::size_t repairs_at_once, std::size_t things) {
   throw std::runtime_error("certificates: no end of repairs at one instant");
 }
 
-/// For all rounding of where a vertex is until `end`: of a coordinate some hundred units in the last place, of a time
-/// some four.
-template <int Dim>
-double margin_of(const Line<Dim>& line, double end) {
-  const double speed = line.v.cwiseAbs().maxCoeff();
-  const double reach_out = line.x.cwiseAbs().maxCoeff() + speed * (end - line.t);
-  return 0x1p-44 * reach_out + 0x1p-50 * speed * end;
-}
-
 /// Of a pair, or no_material if it is none to contact.
 template <class Host>
 std::uint16_t material_of(const Host& host, const Stencil& s) {
@@ -139,7 +136,7 @@ void lose_layer(Host& host, LayeredPair& pair, CertificateCounts& counts) {
 /// Puts up a slab of thickness eta(L + 1) where the pair is at time t, after as many more layers as that takes. A layer
 /// is taken when the room that is left is less than a quarter of the next one's width. Returns the distance.
 template <int Dim, class Host>
-double fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, CertificateCounts& counts) {
+double fit_slab(Host& host, NearPair<Dim>& pair, double t, double recording, CertificateCounts& counts) {
   const Stencil& s = pair.stencil;
   std::array<Vector<Dim>, 4> x, v;
   for (std::size_t k = 0; k < s.size(); ++k) {
@@ -153,7 +150,7 @@ double fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, Certif
   while (pair.layers < host.least_layers()) gain_layer(host, pair, t, counts);
   for (;; gain_layer(host, pair, t, counts)) {
     const double eta = host.thickness(pair.material, pair.layers + 1);
-    const double room = 0.25 * (eta - host.thickness(pair.material, pair.layers + 2)) + 64 * margin;
+    const double room = 0.25 * (eta - host.thickness(pair.material, pair.layers + 2)) + 64 * recording;
     if (!(c.distance() - eta > room)) continue;
     pair.slab = slab_between<Dim>(s, c, xs, vs, t, 0.5 * eta);
     if (pair.slab.slack > 0.25 * room) return c.distance();
@@ -163,9 +160,9 @@ double fit_slab(Host& host, NearPair<Dim>& pair, double t, double margin, Certif
 /// Whether a pair is so far out that layer l, if it is the deepest, may go: twice as far as where it would be taken
 /// again.
 template <class Host>
-bool is_clear(const Host& host, std::uint16_t material, std::uint32_t l, double distance, double margin) {
+bool is_clear(const Host& host, std::uint16_t material, std::uint32_t l, double distance, double recording) {
   const double eta = host.thickness(material, l);
-  return l > host.least_layers() && distance > eta + 0.5 * (eta - host.thickness(material, l + 1)) + 128 * margin;
+  return l > host.least_layers() && distance > eta + 0.5 * (eta - host.thickness(material, l + 1)) + 128 * recording;
 }
 
 }  // namespace noli::certificates

@@ -32,10 +32,6 @@ struct Plan {
   Line<Dim> line;
   double radius = 0;
   double until = 0;
-
-  bool holds(const Line<Dim>& motion, double time) const {
-    return time <= until && (motion.at(time) - line.at(time)).squaredNorm() <= radius * radius;
-  }
 };
 
 /// The least tau >= 0 at which |e + tau w| = radius; infinity if it never is. Precondition: |e| <= radius.

@@ -94,42 +94,44 @@ double last_time(const Holds& holds, double from, double guess) {
     if (order > low && order < high) (holds(of_order(order)) ? low : high) = order;
   };
   if (std::isfinite(guess)) {
-    for (const std::int64_t step : {0, 1, -1, 64, -64}) probe(order_of(guess) + step);
+    const std::int64_t about = order_of(guess);
+    probe(about);
+    for (int shift = 0; shift < 48; shift += 4) {
+      probe(about + (std::int64_t{1} << shift));
+      probe(about - (std::int64_t{1} << shift));
+    }
   }
   while (low + 1 < high) probe(std::midpoint(low, high));  // their difference might overflow
   return of_order(low);
 }
 
-template <int Dim, class A, class B>
-double exact_failure_time(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
-  const Line<Exact> line = margin<Exact, Dim>(a, b, n, g);
-  if (sign(value_at(line, from)) <= 0) return from;
+/// Until when a line is not negative, rounded down. Precondition: at `from` it is not.
+double last_time(const Line<Exact>& line, double from) {
   if (sign(line.slope) >= 0) return infinity;
   const double guess = CGAL::to_double(line.offset) / CGAL::to_double(-line.slope);
   return last_time([&](double t) { return sign(value_at(line, t)) >= 0; }, from, guess);
 }
 
+template <int Dim, class A, class B>
+double exact_failure_time(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
+  const Line<Exact> line = margin<Exact, Dim>(a, b, n, g);
+  return sign(value_at(line, from)) <= 0 ? from : last_time(line, from);
+}
+
 // --- Walls and balls ---
 
-/// Whether what holds at some time holds for ever after.
 template <int Dim>
-bool lasts(const Ray<Dim>& p, const MovingWall<Dim>& wall) {
-  const Exact rise = dot<Exact, Dim>(wall.n, p.v) - Exact(wall.rate);
-  return wall.above ? sign(rise) >= 0 : sign(rise) <= 0;
-}
-template <int Dim>
-bool lasts(const Ray<Dim>& p, const MovingBall<Dim>& ball) {
-  return p.v == ball.centre.v;
+double end_of(const Ray<Dim>& p, const MovingWall<Dim>& wall, double from) {
+  const double side = wall.above ? 1 : -1, rise = side * (dot<double, Dim>(wall.n, p.v) - wall.rate);
+  const auto size = dot<detail::Magnitude, Dim>(wall.n, p.v) + detail::Magnitude(wall.rate);
+  if (rise > 0x1p-48 * size.size && rounding_self_test().nearest_ok) return infinity;
+  const Exact slope = Exact(side) * (dot<Exact, Dim>(wall.n, p.v) - Exact(wall.rate));
+  return last_time(Line<Exact>{detail::room<Exact>(p, wall, 0), slope, Exact(1)}, from);
 }
 
-/// Roughly when it stops holding, if doubles can tell.
 template <int Dim>
-double end_guessed(const Ray<Dim>& p, const MovingWall<Dim>& wall, double from) {
-  const double closing = dot<double, Dim>(wall.n, p.v) - wall.rate;
-  return from + detail::room<double>(p, wall, from) / std::abs(closing);
-}
-template <int Dim>
-double end_guessed(const Ray<Dim>& p, const MovingBall<Dim>& ball, double from) {
+double end_of(const Ray<Dim>& p, const MovingBall<Dim>& ball, double from) {
+  if (p.v == ball.centre.v) return infinity;
   double a = 0, b = 0;  // |d + tau w|^2 = |d|^2 + 2 b tau + a tau^2
   for (std::size_t k = 0; k < Dim; ++k) {
     const Ray<Dim>& c = ball.centre;
@@ -138,7 +140,8 @@ double end_guessed(const Ray<Dim>& p, const MovingBall<Dim>& ball, double from) 
     b += w * d;
   }
   const double left = detail::room<double>(p, ball, from), root = std::sqrt(b * b + a * left);
-  return from + (b > 0 ? left / (b + root) : (root - b) / a);
+  const double guess = from + (b > 0 ? left / (b + root) : (root - b) / a);
+  return last_time([&](double t) { return holds_at(p, ball, t); }, from, guess);
 }
 
 }  // namespace
@@ -165,9 +168,7 @@ bool detail::holds_exactly(const Ray<Dim>& p, const Certificate& certificate, do
 
 template <int Dim, class Certificate>
 double failure_time(const Ray<Dim>& p, const Certificate& certificate, double from) {
-  if (!holds_at(p, certificate, from)) return from;
-  if (lasts(p, certificate)) return infinity;
-  return last_time([&](double t) { return holds_at(p, certificate, t); }, from, end_guessed(p, certificate, from));
+  return holds_at(p, certificate, from) ? end_of(p, certificate, from) : from;
 }
 
 template double failure_time(const Ray<2>&, const Ray<2>&, const Point2&, double, double);

@@ -21,7 +21,7 @@
 // sum and a difference; its square twice that and 2 of its own; and there are 3 sums. 32 - 15 = 17 u are left for the
 // bound's own rounding, which is about 1 u.
 //
-// Nothing but tests asks for walls and balls yet: the certificates still decide in double, with a margin.
+// Who asks: certificates/decisions.h, for walls and balls, behind a static bound of its own.
 //
 // What this does not do: it does not know that a ray ends at the next event or a segment at its last breakpoint.
 #pragma once

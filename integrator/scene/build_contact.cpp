@@ -358,8 +358,8 @@ void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
   for (const Parts& p : parts) settings.classes.insert(settings.classes.end(), p.classes.begin(), p.classes.end());
 }
 
-/// Lengths of contact have enough digits and range. What certificates keep clear for rounding
-/// (certificates/near_pair.h, margin_of, 64 times) is less than any layer. Closest points are found with products of
+/// Lengths of contact have enough digits and range. What certificates keep clear for what is recorded
+/// (certificates/decisions.h, 64 times) is less than any layer. Closest points are found with products of
 /// four lengths (certificates/closest.h), which have to stay within the range of double, with some room for what moves
 /// away and for layers that are thinner than the first.
 template <int Dim>

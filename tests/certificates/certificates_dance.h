@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -26,6 +27,7 @@
 #include "certificates_bodies.h"
 #include "certificates_replay.h"
 #include "tests/kernel/random_numbers.h"
+#include "tests/kernel/rational_motion.h"
 
 namespace noli::certificates::test {
 
@@ -34,6 +36,7 @@ enum class Fault {
   late,       ///< a layer is active a little later than it was asked for
   thin,       ///< layers are two in a hundred thinner than said
   forgetful,  ///< one look in eight is left out
+  ulp_late,   ///< decisions are compared with what holds until the next double after the time they are about
 };
 
 /// eta(l) = eta(1) l^(-1/4).
@@ -66,7 +69,8 @@ struct Followed {
   Vector<Dim> n = Vector<Dim>::Zero();
 };
 
-template <int Dim, template <int, class> class Certificates>
+/// `Checked`: each decision of the certificates is compared with the rationals.
+template <int Dim, template <int, class> class Certificates, bool Checked = false>
 class Dance {
  public:
   explicit Dance(const DanceOptions& o) : options_(o), random_(o.seed) {
@@ -122,6 +126,8 @@ class Dance {
     return late;
   }
 
+  std::uint64_t decisions() const { return decisions_; }
+  std::uint64_t wrong_decisions() const { return wrong_decisions_; }
   std::uint64_t kicks() const { return kicks_; }
   const ReplayCounts& replayed() const { return counts_; }
   const CertificateCounts& certificates() const { return certificates_->counts(); }
@@ -149,6 +155,16 @@ class Dance {
     change(s, l, options_.fault == Fault::late ? t + 0.02 * options_.beat : t);
   }
   void deactivate(const Stencil& s, std::uint16_t, std::uint32_t l) { change(s, l - 1, t_); }
+
+  template <class Certificate>
+  void decided(const Ray<Dim>& p, const Certificate& certificate, double from, double until,
+               bool holds) requires Checked {
+    if (options_.fault == Fault::ulp_late) until = std::nextafter(until, never);
+    until = std::min(until, std::numeric_limits<double>::max());
+    const auto exactly = [&](double t) { return noli::test::holds<Dim>(p, certificate, mpq_class(t)); };
+    ++decisions_;
+    if (holds != (exactly(until) && (from == until || exactly(from)))) ++wrong_decisions_;
+  }
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -330,7 +346,7 @@ class Dance {
   std::set<std::size_t> active_;  ///< pairs with layers
   std::vector<Track<Dim>> tracks_;
   std::optional<Certificates<Dim, Dance>> certificates_;
-  std::uint64_t kicks_ = 0;
+  std::uint64_t kicks_ = 0, decisions_ = 0, wrong_decisions_ = 0;
   ReplayCounts counts_;
 };
 

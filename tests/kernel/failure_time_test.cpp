@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmpxx.h>
+#include "kernel/failure_time.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "kernel/failure_time.h"
 #include "tests/kernel/random_numbers.h"
+#include "tests/kernel/rational_motion.h"
 
 namespace noli {
 namespace {
 
+using test::coordinate;
+using test::holds;
 using test::Random;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // --- replay over the rationals
-
-template <int Dim>
-mpq_class coordinate(const Ray<Dim>& p, std::size_t i, const mpq_class& t) {
-  return mpq_class(p.x[i]) + (t - mpq_class(p.t)) * mpq_class(p.v[i]);
-}
-template <int Dim>
-mpq_class coordinate(const MotionSegment<Dim>& p, std::size_t i, const mpq_class& t) {
-  const mpq_class part = (t - mpq_class(p.t0)) / (mpq_class(p.t1) - mpq_class(p.t0));
-  return (1 - part) * mpq_class(p.x0[i]) + part * mpq_class(p.x1[i]);
-}
 
 template <int Dim, class A, class B>
 bool fails_at(const A& a, const B& b, const Point<Dim>& n, double g, const mpq_class& t) {
@@ -143,22 +136,6 @@ TEST(FailureTime, ChordsMeetWhereTheyWereRecorded) {
 }
 
 // --- walls and balls, over the rationals
-
-template <int Dim>
-bool holds(const Ray<Dim>& p, const MovingWall<Dim>& wall, const mpq_class& t) {
-  mpq_class height = -(mpq_class(wall.offset) + mpq_class(wall.rate) * (t - mpq_class(wall.since)));
-  for (std::size_t k = 0; k < Dim; ++k) height += mpq_class(wall.n[k]) * coordinate<Dim>(p, k, t);
-  return wall.above ? height >= wall.half : height <= -mpq_class(wall.half);
-}
-template <int Dim>
-bool holds(const Ray<Dim>& p, const MovingBall<Dim>& ball, const mpq_class& t) {
-  mpq_class sum = 0;
-  for (std::size_t k = 0; k < Dim; ++k) {
-    const mpq_class d = coordinate<Dim>(p, k, t) - coordinate<Dim>(ball.centre, k, t);
-    sum += d * d;
-  }
-  return sum <= mpq_class(ball.radius) * mpq_class(ball.radius);
-}
 
 template <int Dim, class Certificate>
 void check(const Ray<Dim>& p, const Certificate& certificate, double from, double later) {

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificates/decisions.h"
 #include "certificates/features.h"
 #include "certificates/near_pair.h"
 
@@ -28,7 +29,7 @@ class EveryPair {
  public:
   /// Host: as in certificates/cells.h. What follows the mesh is for Cells.
   explicit EveryPair(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> = {}, double = 0)
-      : host_(host), contingent_(mesh.vertex_count) {
+      : host_(host), decisions_(host), contingent_(mesh.vertex_count) {
     const Features features(mesh, Dim);
     const auto cells = static_cast<std::uint32_t>(features.cells().size());
     for (std::uint32_t a = 0; a < cells; ++a) {
@@ -40,12 +41,12 @@ class EveryPair {
   }
 
   void start(double t) {
-    for (std::size_t i = 0; i < contingent_.size(); ++i) raise_margin(static_cast<VertexId>(i), t);
+    for (std::size_t i = 0; i < contingent_.size(); ++i) reach_out(static_cast<VertexId>(i), t);
     for (std::uint32_t p = 0; p < pairs_.size(); ++p) repair(p, t);
   }
 
   void look(VertexId i, double t) {
-    raise_margin(i, t);
+    reach_out(i, t);
     for (const std::uint32_t p : contingent_[i]) reschedule(p, t);
   }
 
@@ -63,7 +64,7 @@ class EveryPair {
   }
 
   void drop_if_clear(const Stencil& s, std::uint16_t material, std::uint32_t l, double distance, double t) {
-    if (!is_clear(host_, material, l, distance, margin_)) return;
+    if (!is_clear(host_, material, l, distance, decisions_.recording())) return;
     const std::uint32_t p = index_.at(s.key);
     if (pairs_[p].layers != l) return;
     lose_layer(host_, pairs_[p], counts_);
@@ -85,10 +86,10 @@ class EveryPair {
     counts_.most_near = pairs_.size();
   }
 
-  void raise_margin(VertexId i, double t) { margin_ = std::max(margin_, margin_of(host_.line(i), t)); }
+  void reach_out(VertexId i, double t) { decisions_.reach_out(host_.line(i), t); }
 
   void repair(std::uint32_t p, double t) {
-    fit_slab(host_, pairs_[p], t, margin_, counts_);
+    fit_slab(host_, pairs_[p], t, decisions_.recording(), counts_);
     reschedule(p, t);
   }
 
@@ -101,27 +102,23 @@ class EveryPair {
     if (s != never) queue_.insert({s, p});
   }
 
-  /// Not before t. A clearance that is used up fails at once.
+  /// Not before t.
   double failure_time(const NearPair<Dim>& pair, double t) const {
     double failure = never;
     for (std::size_t k = 0; k < pair.stencil.size(); ++k) {
       const Line<Dim> line = host_.line(pair.stencil.vertices[k]);
-      const bool of_a = k < pair.stencil.first();
-      const double clearance = pair.slab.clearance(of_a, line.at(t), t) - 4 * margin_;
-      const double closing = pair.slab.closing(of_a, line.v);
-      if (!(clearance > 0)) return t;
-      if (closing > 0) failure = std::min(failure, t + clearance / closing);
+      failure = decisions_.time_of_failure(line, pair.slab, k < pair.stencil.first(), t, failure);
     }
     return failure;
   }
 
   Host& host_;
+  Decisions<Dim, Host> decisions_;
   std::vector<NearPair<Dim>> pairs_;
   std::unordered_map<PairKey, std::uint32_t> index_;
   std::vector<std::vector<std::uint32_t>> contingent_;
   std::vector<double> failures_;
   std::set<std::pair<double, std::uint32_t>> queue_;
-  double margin_ = 0;
   double instant_ = -never;  ///< of the last event, and how many there were at it
   std::size_t at_once_ = 0;
   CertificateCounts counts_;
