@@ -19,8 +19,8 @@
 //   repair      a wall that is used up: a new slab for the pair where it is now; or if it has no room, the next layer
 //
 // Activating a layer early does nothing to the motion, since its impulses are zero; so everything here may err to that
-// side, and does: thresholds for activation lie a quarter of a layer's width outside. Times are chosen in double; whether
-// a guard or a wall holds until then is decided exactly (certificates/decisions.h).
+// side, and does: thresholds for activation lie a quarter of a layer's width outside. Times are chosen in double;
+// whether a guard or a wall holds until then is decided exactly (certificates/decisions.h).
 //
 // Host, the dynamics:
 //   Line<Dim> line(v)                 how a vertex moves now

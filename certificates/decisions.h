@@ -6,9 +6,10 @@
 //
 // Notation: that of certificates/cells.h and of kernel/failure_time.h, and
 //   reach       no coordinate of a vertex is larger in this slice, nor is one of a plan that it has
-//   rounding    2^-44 reach: more than what rounding does to a clearance, a deviation or a gap that is computed in double
-//   recording   2^-47 reach: by how much what is recorded and what a layer computes may differ from what is extrapolated,
-//               for each side of a pair (proofs/theory.md, C1). Walls keep it clear; it is part of what is certified
+//   rounding    2^-44 reach: more than what rounding does to a clearance, a deviation or a gap computed in double
+//   recording   2^-47 reach: by how much what is recorded and what a layer computes may differ from what is
+//               extrapolated, for each side of a pair (proofs/theory.md, C1). Walls keep it clear; it is part of what
+//               is certified
 //
 // The static bound only says yes. Of a ball: a vertex that was within it at its last breakpoint, and whose deviation
 // comes out less than the radius, has gone no farther than twice the reach, whatever its velocity; so its deviation is

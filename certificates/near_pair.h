@@ -4,8 +4,8 @@
 // whose vertices one side of it is a wall.
 //
 // Notation (Harmon et al. 2009, section 5): that of certificates/cells.h, and
-//   slab        n . x = s(t) +- half, s(t) = offset + rate (t - since), |n| <= 1 and nearly 1: A stays above, B below, so
-//               they are at least 2 half apart. The slab moves with what it separates
+//   slab        n . x = s(t) +- half, s(t) = offset + rate (t - since), |n| <= 1 and nearly 1: A stays above, B below,
+//               so they are at least 2 half apart. The slab moves with what it separates
 //   clearance   of a vertex: how far it is on its side of its wall; linear in time between changes of velocity
 //   slack       the least clearance when the slab was put up
 //   recording   how far what is recorded may be off (certificates/decisions.h)
