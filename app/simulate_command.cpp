@@ -28,7 +28,8 @@ ExitCode exit_code(const SimulateOutcome& outcome) {
     case RunEnd::not_finite:
     case RunEnd::unstable: return ExitCode::refuted;
     case RunEnd::interrupted:
-    case RunEnd::out_of_time: return ExitCode::undecided;
+    case RunEnd::out_of_time:
+    case RunEnd::out_of_memory: return ExitCode::undecided;
   }
   return ExitCode::failure;
 }

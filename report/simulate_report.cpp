@@ -23,7 +23,8 @@ const char* verdict(const SimulateOutcome& outcome) {
     case RunEnd::not_finite:
     case RunEnd::unstable: return name(outcome.end);
     case RunEnd::interrupted:
-    case RunEnd::out_of_time: return "undecided";
+    case RunEnd::out_of_time:
+    case RunEnd::out_of_memory: return "undecided";
   }
   return "";
 }
@@ -103,6 +104,13 @@ std::string going_on_text(const SimulateOutcome& outcome) {
   return outcome.begun ? "; `--resume` goes on behind the last window." : " before the run began; nothing was written.";
 }
 
+std::string out_of_memory_text(const SimulateOutcome& outcome) {
+  return fmt::format(
+      "Out of memory in window {}, after the committed ones{} A window takes memory for its breakpoints and for the "
+      "layers of contact that pairs have: a shorter \"window\" of the scene needs less.",
+      outcome.windows + 1, going_on_text(outcome));
+}
+
 std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done:
@@ -130,6 +138,7 @@ std::string end_text(const SimulateOutcome& outcome) {
     case RunEnd::unstable: return unstable_text(outcome);
     case RunEnd::interrupted: return "Interrupted" + going_on_text(outcome);
     case RunEnd::out_of_time: return "Out of time" + going_on_text(outcome);
+    case RunEnd::out_of_memory: return out_of_memory_text(outcome);
   }
   return "";
 }
@@ -171,6 +180,7 @@ std::string place(const SimulateOutcome& outcome) {
     case RunEnd::unstable: return committed + ": nothing touches, but the energy goes astray";
     case RunEnd::interrupted: return committed + " (interrupted)";
     case RunEnd::out_of_time: return committed + " (time limit)";
+    case RunEnd::out_of_memory: return committed + " (out of memory)";
   }
   return "";
 }
@@ -185,6 +195,7 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
     case RunEnd::too_near: return fmt::format("noli explain {} tells how deep the layers went.", run);
     case RunEnd::interrupted:
     case RunEnd::out_of_time:
+    case RunEnd::out_of_memory:
       return fmt::format("noli simulate {}{} -o {}{}", scene, request.brief ? " --short" : "", run,
                          outcome.begun   ? " --resume"
                          : request.force ? " --force"

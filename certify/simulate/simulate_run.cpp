@@ -7,6 +7,7 @@
 #include <exception>
 #include <future>
 #include <memory>
+#include <new>
 #include <stdexcept>
 
 #include <noli/errors.h>
@@ -112,15 +113,9 @@ class CertifiedRun {
   SimulateOutcome operator()() {
     const Stopwatch watch;
     PhaseClock clock(activity_);
-    while (!stopped()) {
-      std::optional<Candidate<Dim>> next;
-      if (simulation_->windows() < outcome_.windows_total) next = integrate();
-      if (settle() == Settled::rolled_back) continue;
-      if (outcome_.end != RunEnd::done || !next) break;
-      verify(std::move(*next));
-      tell("simulate", static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
-    }
-    settle();
+    bool goes_on = true;
+    while (goes_on && !stopped()) goes_on = with_memory([this] { return run_window(); });
+    with_memory([this] { return settle() == Settled::yes; });
     // Whoever stopped a run of which nothing was left to do has stopped nothing.
     if (writer_->windows() == outcome_.windows_total && stopped_from_outside()) outcome_.end = RunEnd::done;
     find_end();
@@ -288,6 +283,34 @@ class CertifiedRun {
 
   // --- Windows -------------------------------------------------------------------------------------------------------
 
+  /// Integrates a window while the one before it is verified. False at the end of the run.
+  bool run_window() {
+    std::optional<Candidate<Dim>> next;
+    if (simulation_->windows() < outcome_.windows_total) next = integrate();
+    if (settle() == Settled::rolled_back) return true;
+    if (outcome_.end != RunEnd::done || !next) return false;
+    verify(std::move(*next));
+    tell("simulate", static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
+    return true;
+  }
+
+  /// What it returns. Where memory runs out, the run ends behind its last committed window, whatever was at work; what
+  /// takes most of the memory is given back, so that this can be said.
+  template <class Work>
+  bool with_memory(Work&& work) {
+    try {
+      return work();
+    } catch (const std::bad_alloc&) {
+      outcome_.end = RunEnd::out_of_memory;
+      recording_ = {};
+      if (simulation_) outcome_.certificates += simulation_->certificates();
+      simulation_.reset();
+      if (candidate_ && !candidate_->verdict.valid()) candidate_.reset();  // it was still being written
+      if (!candidate_) writer_->discard_window();
+      return false;
+    }
+  }
+
   /// The next window; nothing when the run ends within it.
   std::optional<Candidate<Dim>> integrate() {
     const Stopwatch watch;
@@ -338,7 +361,11 @@ class CertifiedRun {
       return result;
     };
     const bool aside = (request_.threads == 0 ? hardware_threads() : request_.threads) > 1;
-    candidate_->verdict = std::async(aside ? std::launch::async : std::launch::deferred, look);
+    try {
+      candidate_->verdict = std::async(aside ? std::launch::async : std::launch::deferred, look);
+    } catch (const std::system_error&) {  // no memory for another thread
+      candidate_->verdict = std::async(std::launch::deferred, look);
+    }
   }
 
   /// A window in which nothing touches is one also if no proof of it is found; the proof of the run then ends before
@@ -474,7 +501,7 @@ class CertifiedRun {
 
   void conclude(PhaseClock& clock) {
     outcome_.windows = writer_->windows();
-    outcome_.certificates += simulation_->certificates();
+    if (simulation_) outcome_.certificates += simulation_->certificates();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
     const std::exception_ptr lost = write_series();
     outcome_.phases = clock.seconds();
@@ -572,6 +599,7 @@ const char* name(RunEnd end) {
     case RunEnd::unstable: return "unstable";
     case RunEnd::interrupted: return "interrupted";
     case RunEnd::out_of_time: return "time_limit";
+    case RunEnd::out_of_memory: return "out_of_memory";
   }
   return "";
 }

@@ -75,7 +75,8 @@ enum class RunEnd {
   not_finite,   ///< a number of the next one is none
   unstable,     ///< all windows are committed, but steps that the program has warned of have led the energy astray
   interrupted,  ///< by the user
-  out_of_time
+  out_of_time,
+  out_of_memory
 };
 
 /// As in the JSON and the log.

@@ -44,6 +44,56 @@ TEST_F(SimulateStop, TimeLimitsWithinWindowsChangeNoByte) {
   EXPECT_TRUE(blocks("parts") == blocks("whole"));
 }
 
+/// A sheet that falls onto a pinned one, whose layers are soft: they go deep, and take memory for it.
+Json soft_landing() {
+  const auto sheet = [](double size) -> Json { return {{"grid", {{"size", {size, size}}, {"cells", {40, 40}}}}}; };
+  return {{"noli_scene", 1},
+          {"duration", 1},
+          {"window", 0.01},
+          {"bodies",
+           {{{"name", "falling"},
+             {"mesh", sheet(1)},
+             {"transform", {{"translate", {0.003, 0.004, 0.0301}}}},
+             {"velocity", {0, 0, -1}},
+             {"material", {{"edge_stiffness", 1}, {"mass_per_area", 1}}}},
+            {{"name", "floor"},
+             {"mesh", sheet(1.2)},
+             {"material", {{"edge_stiffness", 0}, {"mass_per_area", 1}}},
+             {"pin", {"all"}}}}},
+          {"contact", {{"thickness", 0.008}, {"stiffness", 0.001}, {"step", 1e-5}}}};
+}
+
+TEST_F(SimulateStop, TooLittleMemoryKeepsWhatIsCommitted) {
+  if (sanitized) GTEST_SKIP() << "sanitizers reserve address space of their own";
+  const std::string file = scene(soft_landing());
+  std::uint64_t most = 0;
+  for (const std::uint64_t bytes : {230'000'000, 260'000'000, 320'000'000, 400'000'000}) {
+    SCOPED_TRACE(bytes);
+    const std::string run = run_path(std::to_string(bytes));
+    ProcessOptions limit;
+    limit.address_space = bytes;
+    const Process process = run_noli({"simulate", file, "-o", run, "--threads", "2"}, limit);
+    EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+    EXPECT_NE(process.out.find("Out of memory in window "), std::string::npos) << process.out;
+    EXPECT_NE(process.verdict_line().find("(out of memory)"), std::string::npos) << process.out;
+    const Json end = last_entry(run);
+    EXPECT_EQ(end["end"], "out_of_memory");
+    const std::uint64_t windows = end["windows"];
+    most = std::max(most, windows);
+    const Json verified = json_of({"verify", run}, windows > 0 ? 0 : 2);
+    EXPECT_EQ(verified["steps"], windows);
+    EXPECT_EQ(verified["steps_total"], windows);
+  }
+  ASSERT_GT(most, 1U);
+  ASSERT_LT(most, 100U);
+  // What ran out of memory goes on where there is some, to the same bytes.
+  const std::string until = std::to_string(0.01 * static_cast<double>(most));
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole"), "--until", until}).exit_code, 0);
+  const std::string first = "230000000";
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path(first), "--until", until, "--resume"}).exit_code, 0);
+  EXPECT_TRUE(blocks(first) == blocks("whole"));
+}
+
 TEST_F(SimulateStop, WritingTheSeriesCanBeInterrupted) {
   Json json = resting_bar(1, 1);
   json["frame_rate"] = 1e9;  // hours
