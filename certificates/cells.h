@@ -88,8 +88,8 @@ class Cells {
   /// To be called of a vertex at time t after its velocity may have changed, and as often as look_step says.
   void look(VertexId i, double t) {
     const double ahead = std::min({t + host_.look_step(i), slice_end_, due_[i]});
-    if (decisions_.holds(guards_[i], host_.line(i), ahead) || slice_due_ <= t)
-      return;  // or: the next slice begins at once
+    // When the next slice begins at once, all is looked at then.
+    if (slice_due_ <= t || decisions_.holds(guards_[i], host_.line(i), ahead)) return;
     if (!keep_guard(i, t)) plan_at_once(i, t);
   }
 
@@ -303,7 +303,7 @@ class Cells {
       const Closest<Dim> c = closest<Dim>(s.kind, std::span<const Vector<Dim>>(x.data(), s.size()));
       const double d = c.distance();
       if (!(d > eta)) return false;
-      if (keeps_apart(a, b, direction<Dim>(c), eta, t)) return true;
+      if (keeps_apart(a, b, direction<Dim>(c.r, d), eta, t)) return true;
     }
     return false;
   }
@@ -315,7 +315,7 @@ class Cells {
     if (std::ranges::find_first_of(p, q) != p.end()) return false;
     Vector<Dim> n = centre(p, t) - centre(q, t);
     const double length = std::sqrt(n.squaredNorm());
-    return length > 0 && keeps_apart(p, q, n / (length * (1 + 0x1p-48)), halves_[a] + halves_[b] + 2 * margin(), t);
+    return length > 0 && keeps_apart(p, q, direction<Dim>(n, length), halves_[a] + halves_[b] + 2 * margin(), t);
   }
 
   Vector<Dim> centre(std::span<const VertexId> vertices, double t) const {
@@ -504,7 +504,7 @@ class Cells {
       room = std::min(room, clearance - std::max(0.0, slab.closing(of_a, now.v)) * (until - now.t));
     }
     const double radius = room - 2 * decisions_.rounding();
-    if (!(radius > 0)) return without_room(outer, walls, now, until);
+    if (!(radius > 0 && until > now.t)) return without_room(outer, walls, now, until);
     return {now, radius, until};  // beyond all walls by more than rounding: nothing is left to be decided
   }
 

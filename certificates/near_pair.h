@@ -44,10 +44,10 @@ struct Slab {
   }
 };
 
-/// From B to A; no longer than 1, whatever is rounded. Precondition: the distance is positive.
+/// Of a vector that is so long, not 0; no longer than 1, whatever is rounded.
 template <int Dim>
-Vector<Dim> direction(const Closest<Dim>& closest) {
-  return closest.r / (closest.distance() * (1 + 0x1p-48));
+Vector<Dim> direction(const Vector<Dim>& r, double length) {
+  return r / (length * (1 + 0x1p-48));
 }
 
 /// Half way between the closest points, and moving as they do on average. Precondition: the distance is positive. The
@@ -57,7 +57,7 @@ template <int Dim>
 Slab<Dim> slab_between(const Stencil& pair, const Closest<Dim>& closest, std::span<const Vector<Dim>> x,
                        std::span<const Vector<Dim>> v, double t, double half) {
   Slab<Dim> slab;
-  slab.normal = direction<Dim>(closest);
+  slab.normal = direction<Dim>(closest.r, closest.distance());
   slab.since = t;
   slab.half = half;
   for (std::size_t i = 0; i < pair.size(); ++i) {

@@ -38,8 +38,8 @@ class Things {
   /// Beside a line, moving more or less with it: the line comes to it if it does not lead away.
   Slab<Dim> slab(const Line<Dim>& line, bool of_a) {
     Slab<Dim> slab;
-    slab.normal = vector();
-    slab.normal /= std::sqrt(slab.normal.squaredNorm()) * (1 + 0x1p-48);
+    const Vector<Dim> n = vector();
+    slab.normal = direction<Dim>(n, std::sqrt(n.squaredNorm()));
     slab.since = line.t;
     slab.half = 0.01 * random_.unit();
     const double side = of_a ? 1 : -1;
