@@ -3,18 +3,31 @@
 // Who did how much work: the energy and momentum books of a window.
 //
 // Notation
-//   J      an impulse on a particle [N s]; v, v' its velocities before and after
-//   work   J . (v + v') / 2, which is the change of kinetic energy, whatever the size of J; it is never a difference
-//          of energies, which would lose the digits that matter
+//   event  one force that fires, or one layer of contact for one pair: all its impulses, those of a potential and those
+//          that take energy
+//   J      an impulse of an event on a particle [N s]; v, v' the particle's velocities before and after the event
+//   work   J . (v + v') / 2. That of all impulses of an event is the change of kinetic energy, whatever their size; it
+//          is never a difference of energies, which would lose the digits that matter
 //
-// The works of a window add up to the change of kinetic energy between its ends, that of pinned and scripted particles
-// not being part of it. The impulses of an elastic force add up to zero (and so do their moments); what is booked is
-// what pinned and scripted particles take out of the momentum of the others.
+// Impulses on pinned and scripted particles do work too, with the velocity that the scene gives; its negative is what
+// the hand that holds them puts in, which is booked by script. The kinetic energy is that of free particles, so the
+// works of a window, the scripts' included, add up to its change between the window's ends: the books are closed.
+//
+// Where a layer of contact parts, restitution withholds a part of the impulse that the layer's potential gives. The
+// potential's work is booked in full, and that of what was withheld, with its sign turned, as restitution's.
+//
+// The impulses of an elastic force add up to zero (and so do their moments); what is booked is what pinned and scripted
+// particles take out of the momentum of the others.
 //
 // What this does not do: it knows no potential energies (integrator/energy.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "integrator/force.h"
 #include "integrator/vector.h"
@@ -34,11 +47,13 @@ Moment<S, Dim> moment(const Vec<S, Dim>& x, const Vec<S, Dim>& p) {
   }
 }
 
-/// One kind of force.
+/// One kind of force, or one material of contact.
 template <class S, int Dim>
 struct Account {
-  S work{};                                                 ///< of the conservative impulses [J]
-  S damping_work{};                                         ///< of the damping impulses; never positive [J]
+  S work{};                                                 ///< of the impulses that potentials give [J]
+  S damping_work{};                                         ///< of damping and friction [J]
+  S restitution_work{};                                     ///< of what restitution withholds [J]
+  S held_work{};                                            ///< of those who hold particles, all scripts [J]
   Vec<S, Dim> impulse = Vec<S, Dim>::Zero();                ///< on the momentum of free particles [N s]
   Moment<S, Dim> angular_impulse = Moment<S, Dim>::Zero();  ///< the same of x cross J, about the origin [N m s]
   std::uint64_t events = 0;                                 ///< forces fired
@@ -46,6 +61,8 @@ struct Account {
   Account& operator+=(const Account& other) {
     work += other.work;
     damping_work += other.damping_work;
+    restitution_work += other.restitution_work;
+    held_work += other.held_work;
     impulse += other.impulse;
     angular_impulse += other.angular_impulse;
     events += other.events;
@@ -53,17 +70,73 @@ struct Account {
   }
 };
 
+/// Whose hand moves the scripted particles, and what is booked for it.
+template <class S, int Dim>
+class ScriptBook {
+ public:
+  /// What holds a vertex.
+  struct Hand {
+    std::uint32_t script = none;
+    double turned = -1;  ///< when its velocity changed last [s]
+    Vec<S, Dim> before;  ///< its velocity up to then
+  };
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  ScriptBook() = default;
+  /// `hands`: one for each vertex, or nothing: there are no scripts. `works`: by script [J].
+  ScriptBook(std::span<Hand> hands, std::span<S> works) : hands_(hands), works_(works) {}
+
+  /// Before a scripted vertex changes its velocity, which is `before` up to now.
+  void turn(VertexId vertex, double t, const Vec<S, Dim>& before) {
+    if (hands_.empty()) return;
+    hands_[vertex].turned = t;
+    hands_[vertex].before = before;
+  }
+
+  /// The mean velocity of a vertex that is held and moves with v from t on. At time 0 nothing was before.
+  Vec<S, Dim> velocity(VertexId vertex, double t, const Vec<S, Dim>& v) const {
+    if (hands_.empty() || t <= 0 || hands_[vertex].turned != t) return v;
+    return S(0.5) * (hands_[vertex].before + v);
+  }
+
+  void add(VertexId vertex, const S& work) {
+    if (!hands_.empty() && hands_[vertex].script != none) works_[hands_[vertex].script] += work;
+  }
+
+ private:
+  std::span<Hand> hands_;
+  std::span<S> works_;
+};
+
 template <class S, int Dim>
 struct Books {
   std::array<Account<S, Dim>, force_kinds> accounts;
+  std::vector<Account<S, Dim>> contact;  ///< that of contact, by material; as many as had a layer that fired
+  std::vector<S> scripts;                ///< work by script [J]
 
   Account<S, Dim>& of(ForceKind kind) { return accounts[static_cast<std::size_t>(kind)]; }
   const Account<S, Dim>& of(ForceKind kind) const { return accounts[static_cast<std::size_t>(kind)]; }
 
   S work() const {
     S sum{};
-    for (const auto& account : accounts) sum += account.work + account.damping_work;
+    for (const auto& a : accounts) sum += a.work + a.damping_work + a.restitution_work + a.held_work;
     return sum;
+  }
+
+  Books& operator+=(const Books& other) {
+    for (std::size_t k = 0; k < accounts.size(); ++k) accounts[k] += other.accounts[k];
+    contact.resize(std::max(contact.size(), other.contact.size()));
+    for (std::size_t m = 0; m < other.contact.size(); ++m) contact[m] += other.contact[m];
+    scripts.resize(std::max(scripts.size(), other.scripts.size()));
+    for (std::size_t s = 0; s < other.scripts.size(); ++s) scripts[s] += other.scripts[s];
+    return *this;
+  }
+
+  /// What a layer of contact did: for its material, and for all contact.
+  void add_contact(std::size_t material, const Account<S, Dim>& account) {
+    of(ForceKind::contact) += account;
+    if (contact.size() <= material) contact.resize(material + 1);
+    contact[material] += account;
   }
 };
 

@@ -146,22 +146,22 @@ class Contact {
 
   /// Fires the next layer; returns how many pairs it acted on. (How many it fired for is no property of the motion.)
   template <class Recorder>
-  std::size_t fire_next(Recorder& record, Account<double, Dim>& account) {
+  std::size_t fire_next(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts) {
     const auto [t, material, l] = *agenda_.begin();
     Layer& layer = layers_[material][l - 1];
     agenda_.erase(agenda_.begin());
     ++layer.clock.next;
     agenda_.insert({layer.clock.time(), material, l});
-    return fire(record, account, material, l, t, layer.clock.step);
+    return fire(Kicked<double, Dim, Recorder>{particles_, record, t, &scripts}, books, material, l, layer.clock.step);
   }
 
   /// The half kicks with which a run begins.
   template <class Recorder>
-  void fire_halves(Recorder& record, Account<double, Dim>& account) {
+  void fire_halves(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts) {
     for (std::size_t m = 0; m < layers_.size(); ++m) {
       for (std::size_t l = 1; l <= layers_[m].size(); ++l) {
-        fire(record, account, static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l), 0,
-             0.5 * layers_[m][l - 1].clock.step);
+        fire(Kicked<double, Dim, Recorder>{particles_, record, 0, &scripts}, books, static_cast<std::uint16_t>(m),
+             static_cast<std::uint32_t>(l), 0.5 * layers_[m][l - 1].clock.step);
       }
     }
   }
@@ -275,21 +275,22 @@ class Contact {
   }
 
   template <class Recorder>
-  std::size_t fire(Recorder& record, Account<double, Dim>& account, std::uint16_t material, std::uint32_t l, double t,
-                   double h) {
+  std::size_t fire(const Kicked<double, Dim, Recorder>& now, Books<double, Dim>& books, std::uint16_t material,
+                   std::uint32_t l, double h) {
+    const double t = now.t;
     const PhaseScope busy(*activity_, Phase::layer);
     if (l > settings_.most_layers) {
       watch(material, l, t);
       return 0;
     }
     const auto firing = layers_[material][l - 1].pairs.in_order();  // as they are now, whatever happens meanwhile
-    record.reserve(4 * firing.size());
-    const Kicked<double, Dim, Recorder> now{particles_, record, t};
+    now.record.reserve(4 * firing.size());
     const LayerTerms terms = terms_of(material, l);
-    if constexpr (requires { record.layer_fires(Firing{t, h, material, l, terms}); }) {
-      record.layer_fires(Firing{t, h, material, l, terms});
+    if constexpr (requires { now.record.layer_fires(Firing{t, h, material, l, terms}); }) {
+      now.record.layer_fires(Firing{t, h, material, l, terms});
     }
     std::size_t acted = 0;
+    Account<double, Dim> account;
     for (const certificates::Stencil& pair : firing) {
       const double d = fire_pair(now, account, pair, terms, h);
       const double eta = terms.thickness;
@@ -299,7 +300,8 @@ class Contact {
       }
       if (d > eta) drop_if_clear(pair, material, l, d, t);
     }
-    account.events += acted;
+    account.events = acted;
+    if (acted > 0) books.add_contact(material, account);
     return acted;
   }
 

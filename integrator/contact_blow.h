@@ -71,20 +71,25 @@ class PairState {
   std::span<const Vec<S, Dim>> vs() const { return {v_.data(), size_}; }
   std::span<const S> inverse_masses() const { return {inverse_mass_.data(), size_}; }
 
-  /// Gives impulses and books them.
-  template <bool Conservative>
-  void give(const Impulses<Dim, S>& impulses, Account<S, Dim>& account) {
-    S twice_work(0);
+  void give(const Impulses<Dim, S>& impulses) {
     for (std::size_t i = 0; i < size_; ++i) {
-      if (inverse_mass_[i] == S(0)) {
-        book_support<S, Dim>(account, x_[i], impulses[i]);
-        continue;
-      }
-      const Vec<S, Dim> before = v_[i];
-      v_[i] += inverse_mass_[i] * impulses[i];
-      twice_work += impulses[i].dot(before + v_[i]);
+      if (inverse_mass_[i] != S(0)) v_[i] += inverse_mass_[i] * impulses[i];
     }
-    (Conservative ? account.work : account.damping_work) += S(0.5) * twice_work;
+  }
+
+  /// Twice the mean velocities of an event that has given all its impulses; `before`: as it was. Books what is held.
+  template <class Recorder>
+  std::array<Vec<S, Dim>, 4> twice_mean(const PairState& before, const Kicked<S, Dim, Recorder>& now,
+                                        const certificates::Stencil& pair, const Impulses<Dim, S>& impulses,
+                                        Account<S, Dim>& account) const {
+    std::array<Vec<S, Dim>, 4> twice;
+    for (std::size_t i = 0; i < size_; ++i) {
+      twice[i] = before.v_[i] + v_[i];
+      if (inverse_mass_[i] != S(0)) continue;
+      const Held<S, Dim> held{pair.vertices[i], now.t, x_[i], v_[i]};
+      twice[i] = S(2) * book_support<S, Dim>(account, *now.scripts, held, impulses[i]);
+    }
+    return twice;
   }
 
   template <class Recorder>
@@ -102,16 +107,34 @@ class PairState {
   std::array<S, 4> inverse_mass_{};
 };
 
-/// Friction of a magnitude up to `most`; whether it stops all slip.
+/// Of friction up to a magnitude `most`: the impulses, all zero if nothing slips.
 template <class S, int Dim>
-bool rub(PairState<S, Dim>& state, const certificates::Closest<Dim, S>& c, const S& most, Account<S, Dim>& account) {
-  Slip<Dim, S> s = slip<Dim, S>(c, state.xs(), state.vs());
+struct Friction {
+  Impulses<Dim, S> impulses;
+  bool sticks = true;  ///< it stops all slip
+};
+
+template <class S, int Dim>
+Friction<S, Dim> rub(PairState<S, Dim>& state, const certificates::Closest<Dim, S>& c, const S& most) {
+  const Slip<Dim, S> s = slip<Dim, S>(c, state.xs(), state.vs());
+  Friction<S, Dim> friction{s.against};
   const S yield = yielding<Dim, S>(s, state.inverse_masses());
-  if (!(s.speed > S(0)) || !(yield > S(0))) return true;
+  if (!(s.speed > S(0)) || !(yield > S(0))) {
+    for (auto& impulse : friction.impulses) impulse.setZero();
+    return friction;
+  }
   const S stop = s.speed / yield, magnitude = std::min(most, stop);
-  for (auto& impulse : s.against) impulse *= magnitude;
-  state.template give<false>(s.against, account);
-  return !(most < stop);
+  for (auto& impulse : friction.impulses) impulse *= magnitude;
+  state.give(friction.impulses);
+  friction.sticks = !(most < stop);
+  return friction;
+}
+
+template <int Dim, class S>
+S work_of(const Impulses<Dim, S>& impulses, const std::array<Vec<S, Dim>, 4>& twice_mean, std::size_t size) {
+  S twice(0);
+  for (std::size_t i = 0; i < size; ++i) twice += impulses[i].dot(twice_mean[i]);
+  return S(0.5) * twice;
 }
 
 /// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Room in the recording is the caller's
@@ -130,11 +153,33 @@ Blow<S, Dim> strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates
   blow.course.parts = opening_speed<Dim, S>(blow.closest, blow.distance, state.vs()) > S(0);
   const double share = blow.course.parts ? layer.restitution : 1;
   const S push = S(-share) * S(h) * S(layer.stiffness) * g;
-  if (push == S(0)) return blow;
-  blow.struck = true;
-  state.template give<true>(normal_impulses<Dim, S>(blow.closest, blow.distance, push), account);
-  if (layer.friction > 0) blow.course.sticks = rub<S, Dim>(state, blow.closest, S(layer.friction) * push, account);
-  state.settle(now, pair);
+  const PairState<S, Dim> before = state;
+  Impulses<Dim, S> given = normal_impulses<Dim, S>(blow.closest, blow.distance, push);
+  const Impulses<Dim, S> normal = given;
+  if (push != S(0)) {
+    blow.struck = true;
+    state.give(normal);
+  }
+  Friction<S, Dim> friction;
+  const bool rubs = blow.struck && layer.friction > 0;
+  if (rubs) {
+    friction = rub<S, Dim>(state, blow.closest, S(layer.friction) * push);
+    blow.course.sticks = friction.sticks;
+    for (std::size_t i = 0; i < pair.size(); ++i) given[i] += friction.impulses[i];
+  }
+  const auto twice_mean = state.twice_mean(before, now, pair, given, account);
+  const S work = work_of<Dim, S>(normal, twice_mean, pair.size());
+  if (rubs) account.damping_work += work_of<Dim, S>(friction.impulses, twice_mean, pair.size());
+  if (share == 1) {
+    account.work += work;
+  } else {
+    const S whole_push = S(-1) * S(h) * S(layer.stiffness) * g;
+    const S whole =
+        work_of<Dim, S>(normal_impulses<Dim, S>(blow.closest, blow.distance, whole_push), twice_mean, pair.size());
+    account.work += whole;
+    account.restitution_work += work - whole;
+  }
+  if (blow.struck) state.settle(now, pair);
   return blow;
 }
 

@@ -10,7 +10,8 @@
 // 2009 leave it open; see also Hairer, Lubich, Wanner, "Geometric numerical integration illustrated by the
 // Stormer-Verlet method", 2003, section 1.4).
 //
-// What this does not do: damping impulses, restitution and friction count as if they were none in v_mean.
+// What damping, friction and restitution have taken up to this time is in v_mean in full, as it is in the books. The
+// work of scripts is booked for whole kicks; the half of it that is still to come is held_ahead.
 #pragma once
 
 #include <cmath>
@@ -53,7 +54,9 @@ class Ledger {
       const S half_step = S(0.5) * S(h);
       for (std::size_t i = 0; i < F::size; ++i) {
         const VertexId v = force.vertices[i];
-        v_mean_[v] += (half_step * engine_.particles()[v].inverse_mass) * gradient[i];
+        const Particle<S, Dim>& p = engine_.particles()[v];
+        v_mean_[v] += (half_step * p.inverse_mass) * gradient[i];
+        if (p.inverse_mass == S(0)) state_.held_ahead += half_step * gradient[i].dot(p.v);
       }
     }
     state_.potential[static_cast<std::size_t>(F::kind)] = potential;
@@ -82,7 +85,9 @@ class Ledger {
         const auto impulses = normal_impulses<Dim, S>(c, c.distance(), S(-0.5) * S(h) * S(r) * g);
         for (std::size_t i = 0; i < pair.size(); ++i) {
           const VertexId v = pair.vertices[i];
-          v_mean_[v] -= engine_.particles()[v].inverse_mass * impulses[i];
+          const Particle<S, Dim>& p = engine_.particles()[v];
+          v_mean_[v] -= p.inverse_mass * impulses[i];
+          if (p.inverse_mass == S(0)) state_.held_ahead -= impulses[i].dot(p.v);
         }
       });
       state_.potential[static_cast<std::size_t>(ForceKind::contact)] = potential;

@@ -54,6 +54,7 @@ class Engine {
       : window_length_(model.window_length), clocks_(model.clocks), gravity_(model.gravity), timeline_(model.scripts) {
     check(model);
     make_particles(model);
+    make_hands(model);
     take_forces(model);
     if (gravity_) slots_.insert(slots_.begin(), {ForceKind::gravity, {gravity_->step, 1}, 0, particles_.size(), {}});
     make_contact(model);
@@ -100,6 +101,8 @@ class Engine {
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
     open(record);
+    books.scripts.resize(std::max(books.scripts.size(), script_count_));
+    script_book_ = {hands_, books.scripts};
     const PhaseScope queueing(*activity_, Phase::queue);
     if (windows_ == 0) start(record, books);
     start_contact(record, books);
@@ -188,6 +191,15 @@ class Engine {
     }
   }
 
+  void make_hands(const Model<S, Dim>& model) {
+    if (model.scripts.empty()) return;
+    hands_.resize(particles_.size());
+    for (const auto& script : model.scripts) {
+      hands_[script.vertex].script = script.number;
+      script_count_ = std::max<std::size_t>(script_count_, script.number + std::size_t{1});
+    }
+  }
+
   void take_forces(Model<S, Dim>& model) {
     auto lists = model.forces.lists();
     [&]<std::size_t... I>(std::index_sequence<I...>) { (take_list(std::get<I>(divisions_), std::get<I>(lists)), ...); }
@@ -245,8 +257,13 @@ class Engine {
   // --- The loop ------------------------------------------------------------------------------------------------------
 
   template <class Recorder>
+  Now<Recorder> at(double t, Recorder& record) {
+    return {particles_, record, t, &script_book_};
+  }
+
+  template <class Recorder>
   void start(Recorder& record, Books<S, Dim>& books) {
-    const Now<Recorder> now{particles_, record, 0};
+    const Now<Recorder> now = at<Recorder>(0, record);
     while (timeline_.next_time() <= 0) turn(now);
     if (gravity_) fall(now, S(0.5) * S(gravity_->step), books);
     std::apply([&](auto&... division) { (start_division(now, division, books), ...); }, divisions_);
@@ -258,7 +275,7 @@ class Engine {
     if constexpr (has_contact) {
       if (!contact_ || contact_->started()) return;
       contact_->start(time());
-      if (windows_ == 0) contact_->fire_halves(record, books.of(ForceKind::contact));
+      if (windows_ == 0) contact_->fire_halves(record, books, script_book_);
     }
   }
 
@@ -280,7 +297,7 @@ class Engine {
     const double own_time = own_.empty() ? std::numeric_limits<double>::infinity() : own_.next_time();
     const double force_time = std::min(slot_time, own_time);
     if (turn_time <= end && turn_time <= force_time && !contact_before(turn_time)) {
-      turn(Now<Recorder>{particles_, record, turn_time});
+      turn(at<Recorder>(turn_time, record));
       return true;
     }
     if (contact_ && run_contact(end, force_time, record, books)) return true;
@@ -290,7 +307,7 @@ class Engine {
     }
     if (slot_time > end) return false;
     ++slot->clock.next;
-    fire_slot(Now<Recorder>{particles_, record, slot_time}, *slot, books);
+    fire_slot(at<Recorder>(slot_time, record), *slot, books);
     return true;
   }
 
@@ -309,7 +326,7 @@ class Engine {
         return true;
       }
       if (layer <= end && layer < force_time) {
-        events_ += contact_->fire_next(record, books.of(ForceKind::contact));
+        events_ += contact_->fire_next(record, books, script_book_);
         return true;
       }
     }
@@ -343,6 +360,7 @@ class Engine {
   void turn(const Now<Recorder>& now) {
     const Turn<S, Dim>& turn = timeline_.take();
     now.record.reserve(1);
+    script_book_.turn(turn.vertex, now.t, particles_[turn.vertex].v);
     set_velocity(now, turn.vertex, turn.x, turn.v);
     if (contact_ && contact_->started()) contact_->look(turn.vertex, now.t);
   }
@@ -412,7 +430,7 @@ class Engine {
     const PhaseScope striking(*activity_, Phase::force);
     events_ += firing.size();
     record.reserve(F::size * firing.size());
-    const SingleBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record};
+    const SingleBlows<F, S, Dim, Recorder> blows{division.list.forces, firing, particles_, record, &script_book_};
     Account<S, Dim>& account = books.of(F::kind);
     if (division.damped) {
       fire_single_as<true>(blows, account);
@@ -421,7 +439,7 @@ class Engine {
     }
     if (!contact_ || !contact_->started()) return;
     for (const DueForce& due : firing) {
-      look(Now<Recorder>{particles_, record, due.t}, division.list.forces[due.force].vertices);
+      look(at<Recorder>(due.t, record), division.list.forces[due.force].vertices);
     }
   }
 
@@ -430,7 +448,7 @@ class Engine {
     strike<Damped, F, S, Dim>(blows, account, *activity_);
     if constexpr (std::is_same_v<Recorder, detail::Watch>) {
       for (const DueForce& due : blows.firing) {
-        watch(Now<Recorder>{particles_, blows.record, due.t}, blows.forces[due.force]);
+        watch(at<Recorder>(due.t, blows.record), blows.forces[due.force]);
       }
     }
   }
@@ -498,6 +516,9 @@ class Engine {
   Timeline<S, Dim> timeline_;
   std::vector<S> masses_;
   std::vector<Particle<S, Dim>> particles_;
+  std::vector<typename ScriptBook<S, Dim>::Hand> hands_;  ///< by vertex; none without scripts
+  std::size_t script_count_ = 0;
+  ScriptBook<S, Dim> script_book_;  ///< of the window that runs
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;
   std::vector<Group> slots_;

@@ -58,30 +58,30 @@ struct alignas(particle_alignment<S, Dim>) Particle {
   bool finite() const { return x.allFinite() && v.allFinite(); }
 };
 
-/// Damps the velocities v of a force's vertices at the positions x for an event of step h [s]. Returns the work on the
-/// vertices of finite mass, impulse times the mean of the velocities before and after, which is never positive if the
-/// others are at rest.
+/// Damps the velocities v of a force's vertices at the positions x for an event of step h [s]. Returns the impulse on
+/// each; its work with the mean of the velocities before and after is never positive.
 template <class F, class S, int Dim, std::size_t N>
-S damp(const F& force, const VertexVectors<S, Dim, N>& x, VertexVectors<S, Dim, N>& v,
-       const std::array<S, N>& inverse_mass, const S& h) {
+VertexVectors<S, Dim, N> damp(const F& force, const VertexVectors<S, Dim, N>& x, VertexVectors<S, Dim, N>& v,
+                              const std::array<S, N>& inverse_mass, const S& h) {
   static_assert(N == F::size && Dim == F::dimension);
   const auto gradients = force.measure_gradients(x);
   const auto stiffness = force.stiffness();
-  S work(0);
+  VertexVectors<S, Dim, N> impulses;
+  for (auto& impulse : impulses) impulse.setZero();
   for (std::size_t j = 0; j < F::measures; ++j) {
     const auto& g = gradients[j];
-    S rate(0), free_rate(0), a(0);
+    S rate(0), a(0);
     for (std::size_t i = 0; i < N; ++i) {
-      const S part = g[i].dot(v[i]);
-      rate += part;
-      if (inverse_mass[i] != S(0)) free_rate += part;
+      rate += g[i].dot(v[i]);
       a += inverse_mass[i] * g[i].squaredNorm();
     }
     const S hb = h * force.damping * stiffness[j], J = hb * rate / (S(1) + hb * a);
-    for (std::size_t i = 0; i < N; ++i) v[i] -= (inverse_mass[i] * J) * g[i];
-    work -= J * (free_rate - S(0.5) * J * a);
+    for (std::size_t i = 0; i < N; ++i) {
+      v[i] -= (inverse_mass[i] * J) * g[i];
+      impulses[i] -= J * g[i];
+    }
   }
-  return work;
+  return impulses;
 }
 
 /// What a kick needs beside the force.
@@ -89,7 +89,8 @@ template <class S, int Dim, class Recorder>
 struct Kicked {
   std::span<Particle<S, Dim>> particles;
   Recorder& record;
-  double t;  ///< now
+  double t;                     ///< now
+  ScriptBook<S, Dim>* scripts;  ///< is told what those who hold particles do
 };
 
 /// Gives a particle that is at x now another velocity. Room in the recording is the caller's business.
@@ -134,6 +135,8 @@ struct GroupBlows {
   const Vec<S, Dim>& velocity(VertexId v) const { return now.particles[v].v; }
   const S& inverse_mass(VertexId v) const { return here[v].inverse_mass; }
   Vec<S, Dim> position(std::size_t, VertexId v) const { return here[v].x; }
+  double time(std::size_t) const { return now.t; }
+  ScriptBook<S, Dim>& scripts() const { return *now.scripts; }
   void settle(std::size_t, VertexId i, const Vec<S, Dim>& v) const {
     if (differ<S, Dim>(v, now.particles[i].v)) here[i].changed = true;
     now.particles[i].v = v;
@@ -153,6 +156,7 @@ struct SingleBlows {
   std::span<const DueForce> firing;
   std::span<Particle<S, Dim>> particles;
   Recorder& record;
+  ScriptBook<S, Dim>* script_book;
 
   std::size_t size() const { return firing.size(); }
   const F& force(std::size_t k) const { return forces[firing[k].force]; }
@@ -160,17 +164,35 @@ struct SingleBlows {
   const Vec<S, Dim>& velocity(VertexId v) const { return particles[v].v; }
   const S& inverse_mass(VertexId v) const { return particles[v].inverse_mass; }
   Vec<S, Dim> position(std::size_t k, VertexId v) const { return particles[v].at(firing[k].t); }
+  double time(std::size_t k) const { return firing[k].t; }
+  ScriptBook<S, Dim>& scripts() const { return *script_book; }
   void settle(std::size_t k, VertexId i, const Vec<S, Dim>& v) const {
     if (!differ<S, Dim>(v, particles[i].v)) return;
-    set_velocity(Kicked<S, Dim, Recorder>{particles, record, firing[k].t}, i, position(k, i), v);
+    set_velocity(Kicked<S, Dim, Recorder>{particles, record, firing[k].t, script_book}, i, position(k, i), v);
   }
 };
 
-/// Books what a particle that is not free takes out of the momentum of all others.
+/// A particle that is not free, when an event strikes it.
 template <class S, int Dim>
-[[gnu::noinline]] void book_support(Account<S, Dim>& account, const Vec<S, Dim>& x, const Vec<S, Dim>& impulse) {
+struct Held {
+  VertexId vertex;
+  double t;       ///< of the event [s]
+  Vec<S, Dim> x;  ///< where it is then
+  Vec<S, Dim> v;  ///< from then on
+};
+
+/// Books what a particle that is not free takes out of the momentum of all others, and the work of what holds it.
+/// `impulse`: the whole of the event's. Returns the velocity with which that works.
+template <class S, int Dim>
+[[gnu::noinline]] Vec<S, Dim> book_support(Account<S, Dim>& account, ScriptBook<S, Dim>& scripts,
+                                           const Held<S, Dim>& held, const Vec<S, Dim>& impulse) {
   account.impulse -= impulse;
-  account.angular_impulse -= moment<S, Dim>(x, impulse);
+  account.angular_impulse -= moment<S, Dim>(held.x, impulse);
+  const Vec<S, Dim> v = scripts.velocity(held.vertex, held.t, held.v);
+  const S work = -impulse.dot(v);
+  account.held_work += work;
+  scripts.add(held.vertex, work);
+  return v;
 }
 
 /// The impulses of blow k. Written in place, number by number: copying what has just been written in smaller pieces
@@ -191,19 +213,10 @@ void find_impulses(const Blows& blows, std::size_t k, VertexVectors<S, Dim, F::s
 template <bool Damped, class S, int Dim, std::size_t N, class Blows>
 void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& impulses, Account<S, Dim>& account) {
   const auto& force = blows.force(k);
-  VertexVectors<S, Dim, N> v;
-  S twice_work(0);
+  VertexVectors<S, Dim, N> v, damping;
   for (std::size_t i = 0; i < N; ++i) {
-    const Vec<S, Dim>& before = blows.velocity(force.vertices[i]);
-    const S& inverse_mass = blows.inverse_mass(force.vertices[i]);
-    v[i] = before + inverse_mass * impulses[i];
-    if (inverse_mass == S(0)) [[unlikely]] {
-      book_support<S, Dim>(account, blows.position(k, force.vertices[i]), impulses[i]);
-    } else {
-      twice_work += impulses[i].dot(before + v[i]);
-    }
+    v[i] = blows.velocity(force.vertices[i]) + blows.inverse_mass(force.vertices[i]) * impulses[i];
   }
-  account.work += S(0.5) * twice_work;
   if constexpr (Damped) {
     VertexVectors<S, Dim, N> x;
     std::array<S, N> inverse_mass;
@@ -211,8 +224,23 @@ void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& im
       x[i] = blows.position(k, force.vertices[i]);
       inverse_mass[i] = blows.inverse_mass(force.vertices[i]);
     }
-    account.damping_work += damp(force, x, v, inverse_mass, blows.step(k));
+    damping = damp(force, x, v, inverse_mass, blows.step(k));
   }
+  S twice_work(0), twice_damping(0);
+  for (std::size_t i = 0; i < N; ++i) {
+    const VertexId vertex = force.vertices[i];
+    Vec<S, Dim> twice_mean = blows.velocity(vertex) + v[i];
+    if (blows.inverse_mass(vertex) == S(0)) [[unlikely]] {
+      Vec<S, Dim> impulse = impulses[i];
+      if constexpr (Damped) impulse += damping[i];
+      const Held<S, Dim> held{vertex, blows.time(k), blows.position(k, vertex), v[i]};
+      twice_mean = S(2) * book_support<S, Dim>(account, blows.scripts(), held, impulse);
+    }
+    twice_work += impulses[i].dot(twice_mean);
+    if constexpr (Damped) twice_damping += damping[i].dot(twice_mean);
+  }
+  account.work += S(0.5) * twice_work;
+  if constexpr (Damped) account.damping_work += S(0.5) * twice_damping;
   for (std::size_t i = 0; i < N; ++i) blows.settle(k, force.vertices[i], v[i]);
 }
 

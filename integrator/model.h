@@ -46,6 +46,7 @@ struct Script {
   VertexId vertex = 0;
   std::vector<double> times;           ///< strictly ascending, not negative [s]
   std::vector<Vec<S, Dim>> positions;  ///< one for each time
+  std::uint32_t number = 0;            ///< of the scene's scripts, one of which may move many vertices
 };
 
 /// A constant acceleration of all particles that are not scripted, with a clock of its own.

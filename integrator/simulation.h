@@ -44,6 +44,7 @@ struct State {
   S kinetic{};       ///< of the velocities as they are, which is what the books add up to [J]
   S kinetic_mean{};  ///< of the velocities half way through the kicks of this time: the one to plot [J]
   std::array<S, force_kinds> potential{};  ///< by ForceKind; gravity's is measured from the origin [J]
+  S held_ahead{};  ///< of the work of scripts in the books, what belongs to the time after this [J]
   Vec<S, Dim> momentum = Vec<S, Dim>::Zero();
   Moment<S, Dim> angular_momentum = Moment<S, Dim>::Zero();  ///< about the origin
   S speeds{};                                                ///< sum of m |v|, to measure drift of the momentum against
@@ -54,6 +55,10 @@ struct State {
     for (const S& p : potential) sum += p;
     return sum;
   }
+
+  /// K + V, and what scripts have been booked in advance: it changes by the works of damping, friction, restitution and
+  /// scripts, and by what finite steps do.
+  S energy() const { return kinetic_mean + potential_sum() + held_ahead; }
 };
 
 /// Whether to stop.

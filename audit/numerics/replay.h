@@ -92,11 +92,11 @@ class Comparison {
   CourseChanges changes_;
 };
 
-/// The work of damping, friction and so on [J].
+/// The work of damping, friction, restitution and scripts [J].
 template <class S, int Dim>
 S damping_work(const integrator::Books<S, Dim>& books) {
   S sum(0);
-  for (const auto& account : books.accounts) sum += account.damping_work;
+  for (const auto& account : books.accounts) sum += account.damping_work + account.restitution_work + account.held_work;
   return sum;
 }
 

@@ -50,26 +50,26 @@ class ReplayedContact {
   double next_layer() const { return next_ < log_->firings().size() ? log_->firings()[next_].firing.time : never; }
 
   template <class Recorder>
-  std::size_t fire_next(Recorder& record, integrator::Account<S, Dim>& account) {
+  std::size_t fire_next(Recorder& record, integrator::Books<S, Dim>& books, integrator::ScriptBook<S, Dim>& scripts) {
     const LoggedFiring& logged = log_->firings()[next_++];
     const integrator::Firing& firing = logged.firing;
-    const integrator::Kicked<S, Dim, Recorder> now{particles_, record, firing.time};
+    const integrator::Kicked<S, Dim, Recorder> now{particles_, record, firing.time, &scripts};
     record.layer_fires(firing);
     record.reserve(4 * (logged.end - logged.begin));
-    std::size_t acted = 0;
+    integrator::Account<S, Dim> account;
     for (const Examined& examined : log_->examined().subspan(logged.begin, logged.end - logged.begin)) {
       const auto blow = integrator::strike_pair(now, examined.pair, firing.terms, firing.h, account);
       record.examined(examined.pair, blow.whole_course());
-      if (blow.course.acts) ++acted;
+      if (blow.course.acts) ++account.events;
     }
-    account.events += acted;
-    return acted;
+    if (account.events > 0) books.add_contact(firing.material, account);
+    return account.events;
   }
 
   /// The firings of time 0: nothing else happens then.
   template <class Recorder>
-  void fire_halves(Recorder& record, integrator::Account<S, Dim>& account) {
-    while (next_layer() <= 0) fire_next(record, account);
+  void fire_halves(Recorder& record, integrator::Books<S, Dim>& books, integrator::ScriptBook<S, Dim>& scripts) {
+    while (next_layer() <= 0) fire_next(record, books, scripts);
   }
 
   /// As Contact has it; of the pairs that are active there.

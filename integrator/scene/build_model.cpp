@@ -186,7 +186,8 @@ void follow(const Scene& scene, std::size_t index, const BodyMesh& body, VertexI
             const std::vector<VertexId>& chosen, Model<double, Dim>& model) {
   const auto add = [&](const std::vector<double>& times, const auto& position) {
     for (const VertexId i : chosen) {
-      Script<double, Dim>& script = model.scripts.emplace_back(Script<double, Dim>{first + i, times, {}});
+      Script<double, Dim>& script =
+          model.scripts.emplace_back(Script<double, Dim>{first + i, times, {}, static_cast<std::uint32_t>(index)});
       for (std::size_t k = 0; k < times.size(); ++k) script.positions.push_back(position(i, k));
     }
   };

@@ -65,7 +65,8 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
   Activity activity;
   contact.show(activity);
   NoRecording nothing;
-  Account<double, 3> account;
+  Books<double, 3> books;
+  ScriptBook<double, 3> scripts;
   contact.start(0);
   InstantSet failures, plans, fired;
   for (;;) {
@@ -77,16 +78,16 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
       contact.run_certificate();
       failures.add(t, 1);
     } else {
-      contact.fire_next(nothing, account);
+      contact.fire_next(nothing, books, scripts);
       fired.add(t, 1);
     }
     plans.add(t, work_of(contact.counts()) - before);
   }
   std::printf(
       "%d impulses, %d activations; in one instant at most %d failures, %d repairs, plans and tubes, %d layers\n",
-      static_cast<int>(account.events), static_cast<int>(contact.counts().activations),
+      static_cast<int>(books.of(ForceKind::contact).events), static_cast<int>(contact.counts().activations),
       static_cast<int>(failures.most()), static_cast<int>(plans.most()), static_cast<int>(fired.most()));
-  EXPECT_GT(account.events, 10000U);
+  EXPECT_GT(books.of(ForceKind::contact).events, 10000U);
   // When a slice begins, each vertex is planned and each near pair gets its slab.
   EXPECT_LE(plans.most(), 20 * particles.size());
   // A vertex has one event, which is over when it has happened; and there is the next slice.

@@ -33,6 +33,19 @@ Big kinetic_energy(const VertexVectors<double, Dim, N>& v, const std::array<doub
   return sum;
 }
 
+/// Damps, and tells the work on the vertices of finite mass: impulses with the means of the velocities before and after.
+template <class F, class S, int Dim, std::size_t N>
+S work_of_damping(const F& force, const VertexVectors<S, Dim, N>& x, VertexVectors<S, Dim, N>& v,
+                  const std::array<S, N>& inverse_mass, const S& h) {
+  const auto before = v;
+  const auto impulses = damp(force, x, v, inverse_mass, h);
+  S work(0);
+  for (std::size_t i = 0; i < N; ++i) {
+    if (inverse_mass[i] != S(0)) work += S(0.5) * impulses[i].dot(before[i] + v[i]);
+  }
+  return work;
+}
+
 /// ds/dt of each measure.
 template <class F, class X>
 std::vector<double> rates(const F& force, const X& x, const X& v) {
@@ -71,7 +84,7 @@ using AllForces =
     testing::Types<EdgeSpring<double, 2>, EdgeSpring<double, 3>, Membrane<double>, Hinge<double>, Turning<double>>;
 TYPED_TEST_SUITE(Damping, AllForces);
 
-TYPED_TEST(Damping, LowersKineticEnergyByTheWorkItReturns) {
+TYPED_TEST(Damping, LowersKineticEnergyByItsWork) {
   for (int k = 0; k < states; ++k) {
     this->draw();
     if (k % 2 == 1) {  // one vertex pinned
@@ -79,7 +92,7 @@ TYPED_TEST(Damping, LowersKineticEnergyByTheWorkItReturns) {
       this->v[0].setZero();
     }
     const Big before = kinetic_energy(this->v, this->inverse_mass);
-    const double work = damp(this->force, this->x, this->v, this->inverse_mass, 0.01);
+    const double work = work_of_damping(this->force, this->x, this->v, this->inverse_mass, 0.01);
     const Big after = kinetic_energy(this->v, this->inverse_mass);
     EXPECT_LT(work, 0);
     EXPECT_LE(after, before * (1 + Big("1e-15")));
@@ -118,9 +131,13 @@ TYPED_TEST(Damping, LeavesRigidMotionAlone) {
       this->v[i][1] += 2 * this->x[i][0];
     }
     const auto before = this->v;
-    const double work = damp(this->force, this->x, this->v, this->inverse_mass, 0.01);
-    EXPECT_LE(work, 0);
-    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LE((this->v[i] - before[i]).norm(), 1e-12);
+    const double work = work_of_damping(this->force, this->x, this->v, this->inverse_mass, 0.01);
+    double most = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_LE((this->v[i] - before[i]).norm(), 1e-12);
+      most = std::max(most, before[i].squaredNorm());
+    }
+    EXPECT_LE(std::abs(work), 1e-24 * most) << "the square of what rounding leaves of the velocities";
   }
 }
 
@@ -128,7 +145,7 @@ TYPED_TEST(Damping, NoneWithoutDamping) {
   this->draw();
   this->force.damping = 0;
   const auto before = this->v;
-  EXPECT_EQ(damp(this->force, this->x, this->v, this->inverse_mass, 0.01), 0);
+  EXPECT_EQ(work_of_damping(this->force, this->x, this->v, this->inverse_mass, 0.01), 0);
   EXPECT_EQ(this->v, before);
 }
 
@@ -165,7 +182,9 @@ TEST(MembraneDampingTest, TheLastMeasureIsDampedLast) {
 TEST(ScriptedDampingTest, WorkOnTheFreeOnes) {
   const EdgeSpring<double, 2> spring{{0, 1}, 3, 1, 100};
   VertexVectors<double, 2, 2> v = {Vec<double, 2>(-5, 1), {0, 0}};
-  const double work = damp(spring, {Vec<double, 2>(0, 0), {2, 0}}, v, {0, 0.5}, 0.01);
+  const VertexVectors<double, 2, 2> x = {Vec<double, 2>(0, 0), {2, 0}};
+  const std::array<double, 2> inverse_mass = {0, 0.5};
+  const double work = work_of_damping(spring, x, v, inverse_mass, 0.01);
   EXPECT_EQ(v[0], (Vec<double, 2>(-5, 1)));
   EXPECT_LT(v[1][0], 0);
   EXPECT_GT(v[1][0], -5);
@@ -178,7 +197,8 @@ TEST(DegenerateDampingTest, NoDirectionNoImpulse) {
   const auto hinge = test::random_force<Hinge<double>>(random);
   auto v = test::random_stencil<4, 3>(random, 1);
   const auto before = v;
-  EXPECT_EQ(damp(hinge, test::random_stencil<4, 3>(random, 0), v, {1, 1, 1, 1}, 0.01), 0);
+  const std::array<double, 4> inverse_mass = {1, 1, 1, 1};
+  EXPECT_EQ(work_of_damping(hinge, test::random_stencil<4, 3>(random, 0), v, inverse_mass, 0.01), 0);
   EXPECT_EQ(v, before);
 }
 
