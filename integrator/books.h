@@ -3,11 +3,14 @@
 // Who did how much work: the energy and momentum books of a window.
 //
 // Notation
-//   event  one force that fires, or one layer of contact for one pair: all its impulses, those of a potential and those
-//          that take energy
+//   event  all groups of forces that strike at one time (integrator/instant.h); a force with a clock of its own; or a
+//          layer of contact, for one pair: all its impulses, those of a potential and those that take energy
 //   J      an impulse of an event on a particle [N s]; v, v' the particle's velocities before and after the event
 //   work   J . (v + v') / 2. That of all impulses of an event is the change of kinetic energy, whatever their size; it
 //          is never a difference of energies, which would lose the digits that matter
+//
+// What happens at one time is one event as far as it can be: while forces that nearly balance strike one after another,
+// a particle has velocities that no motion has.
 //
 // Impulses on pinned and scripted particles do work too, with the velocity that the scene gives; its negative is what
 // the hand that holds them puts in, which is booked by script. The kinetic energy is that of free particles, so the

@@ -88,6 +88,7 @@ class Engine {
   std::uint64_t events() const { return events_; }
   const std::vector<Particle<S, Dim>>& particles() const { return particles_; }
   const std::vector<S>& masses() const { return masses_; }
+  const S& contact_at_start() const { return contact_at_start_; }
   const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
   const ContactType* contact() const { return contact_.get(); }
   ContactType* contact() { return contact_.get(); }
@@ -109,7 +110,10 @@ class Engine {
     std::uint64_t turns = 0, last = events_;
     while (run_next(end, record, books)) {
       if (events_ + ++turns - last < events_between_questions) continue;
-      if (stop()) return false;
+      if (stop()) {
+        instant_.close(particles_, books);
+        return false;
+      }
       last = events_ + turns;
     }
     close(end, record);
@@ -182,6 +186,9 @@ class Engine {
     masses_ = model.mass;
     particles_.resize(model.x.size());
     here_.resize(model.x.size());
+    instant_ = Instant<S, Dim>(model.x.size());
+    all_.resize(model.x.size());
+    std::iota(all_.begin(), all_.end(), VertexId{0});
     const std::vector<std::uint8_t> held = held_vertices(model);
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       particles_[i] = {model.x[i], 0, model.v[i], S(1) / model.mass[i]};
@@ -265,8 +272,10 @@ class Engine {
   void start(Recorder& record, Books<S, Dim>& books) {
     const Now<Recorder> now = at<Recorder>(0, record);
     while (timeline_.next_time() <= 0) turn(now);
-    if (gravity_) fall(now, S(0.5) * S(gravity_->step), books);
-    std::apply([&](auto&... division) { (start_division(now, division, books), ...); }, divisions_);
+    for (const Group& slot : slots_) fire_slot(now, slot, S(0.5) * S(slot.clock.step), books);
+    instant_.close(particles_, books);
+    if (clocks_ != Clocks::own) return;
+    for_each_division([&](auto& division) { start_own(now, division, books); });
   }
 
   /// Certificates begin with what is there; layers that act at time 0 do half of what they do later.
@@ -275,12 +284,16 @@ class Engine {
     if constexpr (has_contact) {
       if (!contact_ || contact_->started()) return;
       contact_->start(time());
-      if (windows_ == 0) contact_->fire_halves(record, books, script_book_);
+      if (windows_ > 0) return;
+      contact_->for_each_acting([this](const auto&, const auto&, const S& g, double r, double) {
+        contact_at_start_ += S(0.5) * S(r) * g * g;
+      });
+      contact_->fire_halves(record, books, script_book_);
     }
   }
 
   template <class Recorder, class F>
-  void start_division(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
+  void start_own(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
     for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
       const DueForce half{now.t, 0.5 * division.list.steps[i], i};
       fire_single(now.record, division, std::span(&half, 1), books);
@@ -307,7 +320,8 @@ class Engine {
     }
     if (slot_time > end) return false;
     ++slot->clock.next;
-    fire_slot(at<Recorder>(slot_time, record), *slot, books);
+    fire_slot(at<Recorder>(slot_time, record), *slot, S(slot->clock.step), books);
+    if (last_of(slot_time)) instant_.close(particles_, books);
     return true;
   }
 
@@ -366,8 +380,7 @@ class Engine {
   }
 
   template <class Recorder>
-  void fire_slot(const Now<Recorder>& now, const Group& slot, Books<S, Dim>& books) {
-    const S h(slot.clock.step);
+  void fire_slot(const Now<Recorder>& now, const Group& slot, const S& h, Books<S, Dim>& books) {
     if (slot.kind == ForceKind::gravity) return fall(now, h, books);
     const auto fire_if = [&](const auto& division) {
       using F = typename std::remove_cvref_t<decltype(division.list.forces)>::value_type;
@@ -375,6 +388,9 @@ class Engine {
     };
     for_each_division(fire_if);
   }
+
+  /// Whether the group that fires at t is the last one of this time; at time 0, where all do, it is not said.
+  bool last_of(double t) { return t > 0 && next_slot()->clock.time() != t; }
 
   /// Forces with clocks of their own, up to `end` and before `other`; some rows of them.
   template <class Recorder>
@@ -416,7 +432,8 @@ class Engine {
                                       const S& h, Account<S, Dim>& account) {
     const std::span<const F> forces(division.list.forces.data() + group.begin, group.end - group.begin);
     Account<S, Dim> sum;
-    kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, sum, *activity_);
+    instant_.begin(F::kind, Damped, last_of(now.t), group.vertices);
+    kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, instant_, sum, *activity_);
     account += sum;
     if constexpr (std::is_same_v<Recorder, detail::Watch>) {
       for (const F& force : forces) watch(now, force);
@@ -458,16 +475,20 @@ class Engine {
     const PhaseScope falling(*activity_, Phase::kick);
     Account<S, Dim> sum;
     const Vec<S, Dim> dv = h * gravity_->acceleration;
+    if (dv == Vec<S, Dim>::Zero()) return;
     now.record.reserve(particles_.size());
+    instant_.begin(ForceKind::gravity, /*damped=*/false, last_of(now.t), all_);
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       const Particle<S, Dim>& p = particles_[i];
-      if (p.inverse_mass == S(0) || dv == Vec<S, Dim>::Zero()) continue;
+      const auto vertex = static_cast<VertexId>(i);
+      instant_.before(vertex, p.v);
+      if (p.inverse_mass == S(0)) continue;
       const Vec<S, Dim> x = p.at(now.t), v = p.v + dv;
       const Vec<S, Dim> impulse = masses_[i] * dv;
-      sum.work += S(0.5) * impulse.dot(p.v + v);
       sum.impulse += impulse;
       sum.angular_impulse += moment<S, Dim>(x, impulse);
-      set_velocity(now, static_cast<VertexId>(i), x, v);
+      set_velocity(now, vertex, x, v);
+      instant_.after(i, vertex, v, p.inverse_mass);
       ++sum.events;
     }
     events_ += sum.events;
@@ -519,11 +540,14 @@ class Engine {
   std::vector<typename ScriptBook<S, Dim>::Hand> hands_;  ///< by vertex; none without scripts
   std::size_t script_count_ = 0;
   ScriptBook<S, Dim> script_book_;  ///< of the window that runs
+  Instant<S, Dim> instant_;         ///< of the groups that strike now
+  std::vector<VertexId> all_;       ///< vertices
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;
   std::vector<Group> slots_;
   OwnClocks<kinds> own_;
   std::unique_ptr<ContactType> contact_;  ///< of the particles above; nothing in scenes without contact
+  S contact_at_start_{};                  ///< its potential at time 0 [J], when that has been run from
   std::uint64_t windows_ = 0;
   std::uint64_t events_ = 0;
   Activity unseen_;

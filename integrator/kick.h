@@ -33,6 +33,7 @@
 
 #include "integrator/books.h"
 #include "integrator/force.h"
+#include "integrator/instant.h"
 #include "integrator/phase.h"
 #include "integrator/vector.h"
 
@@ -124,10 +125,12 @@ struct Here {
 /// Forces of equal step that strike at one time. `here` has been filled for all their vertices.
 template <class F, class S, int Dim, class Recorder>
 struct GroupBlows {
+  static constexpr bool are_events = false;  ///< their works are booked elsewhere (integrator/instant.h)
   std::span<const F> forces;
   S h;
   Kicked<S, Dim, Recorder> now;
   std::span<Here<S, Dim>> here;
+  std::span<Vec<S, Dim>> damping;  ///< by particle: of these blows
 
   std::size_t size() const { return forces.size(); }
   const F& force(std::size_t k) const { return forces[k]; }
@@ -152,6 +155,7 @@ struct DueForce {
 /// Forces without a vertex in common.
 template <class F, class S, int Dim, class Recorder>
 struct SingleBlows {
+  static constexpr bool are_events = true;
   std::span<const F> forces;  ///< of which some fire
   std::span<const DueForce> firing;
   std::span<Particle<S, Dim>> particles;
@@ -209,7 +213,8 @@ void find_impulses(const Blows& blows, std::size_t k, VertexVectors<S, Dim, F::s
   }
 }
 
-/// Gives the vertices of blow k their velocities; books what that does.
+/// Gives the vertices of blow k their velocities. Books what that does to those who hold particles, and all of it where
+/// the blow is an event.
 template <bool Damped, class S, int Dim, std::size_t N, class Blows>
 void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& impulses, Account<S, Dim>& account) {
   const auto& force = blows.force(k);
@@ -229,12 +234,17 @@ void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& im
   S twice_work(0), twice_damping(0);
   for (std::size_t i = 0; i < N; ++i) {
     const VertexId vertex = force.vertices[i];
+    const bool held = blows.inverse_mass(vertex) == S(0);
+    if constexpr (!Blows::are_events) {
+      if constexpr (Damped) blows.damping[vertex] += damping[i];
+      if (!held) continue;
+    }
     Vec<S, Dim> twice_mean = blows.velocity(vertex) + v[i];
-    if (blows.inverse_mass(vertex) == S(0)) [[unlikely]] {
+    if (held) [[unlikely]] {
       Vec<S, Dim> impulse = impulses[i];
       if constexpr (Damped) impulse += damping[i];
-      const Held<S, Dim> held{vertex, blows.time(k), blows.position(k, vertex), v[i]};
-      twice_mean = S(2) * book_support<S, Dim>(account, blows.scripts(), held, impulse);
+      const Held<S, Dim> there{vertex, blows.time(k), blows.position(k, vertex), v[i]};
+      twice_mean = S(2) * book_support<S, Dim>(account, blows.scripts(), there, impulse);
     }
     twice_work += impulses[i].dot(twice_mean);
     if constexpr (Damped) twice_damping += damping[i].dot(twice_mean);
@@ -260,15 +270,24 @@ void strike(const Blows& blows, Account<S, Dim>& account, Activity& activity) {
 }
 
 /// Fires forces of equal step that strike at one time. `vertices`: all of theirs, each once; `here` has room for every
-/// particle.
+/// particle; with `instant` they have begun.
 template <bool Damped, class F, class S, int Dim, class Recorder>
 void kick_all(const Kicked<S, Dim, Recorder>& now, std::span<const F> forces, std::span<const VertexId> vertices,
-              std::span<Here<S, Dim>> here, const S& h, Account<S, Dim>& account, Activity& activity) {
+              std::span<Here<S, Dim>> here, const S& h, Instant<S, Dim>& instant, Account<S, Dim>& account,
+              Activity& activity) {
   activity.set(Phase::force);
-  for (const VertexId i : vertices) here[i] = {now.particles[i].at(now.t), now.particles[i].inverse_mass, false};
-  strike<Damped, F, S, Dim>(GroupBlows<F, S, Dim, Recorder>{forces, h, now, here}, account, activity);
   for (const VertexId i : vertices) {
-    if (here[i].changed) set_velocity(now, i, here[i].x, Vec<S, Dim>(now.particles[i].v));
+    const Particle<S, Dim>& p = now.particles[i];
+    here[i] = {p.at(now.t), p.inverse_mass, false};
+    instant.before(i, p.v);
+  }
+  const GroupBlows<F, S, Dim, Recorder> blows{forces, h, now, here, instant.damping()};
+  strike<Damped, F, S, Dim>(blows, account, activity);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const VertexId i = vertices[k];
+    const Vec<S, Dim> v = now.particles[i].v;
+    instant.after(k, i, v, here[i].inverse_mass);
+    if (here[i].changed) set_velocity(now, i, here[i].x, v);
   }
 }
 

@@ -55,6 +55,11 @@ State<S, Dim> Simulation<S, Dim>::state() const {
 }
 
 template <class S, int Dim>
+S Simulation<S, Dim>::contact_at_start() const {
+  return engine_->contact_at_start();
+}
+
+template <class S, int Dim>
 std::vector<Vec<S, Dim>> Simulation<S, Dim>::mean_velocities() const {
   return Ledger<S, Dim>(*engine_).mean_velocities();
 }
