@@ -68,14 +68,36 @@ class Explaining {
   void add_energy(const SeriesRow& row) {
     const double total = row.kinetic_mean + row.potential_in_all();
     if (!result_.energy) {
-      result_.energy = EnergySummary{total, total, total, total, 0};
-      return;
+      result_.energy.emplace();
+      result_.energy->begin = row.energy() - row.given() - row.integration;
+      result_.energy->first = result_.energy->least = result_.energy->greatest = total;
+      result_.energy->materials.resize(row.contact_work.size());
+      result_.energy->scripts.resize(row.script_work.size());
     }
     EnergySummary& energy = *result_.energy;
     energy.last = total;
     energy.least = std::min(energy.least, total);
     energy.greatest = std::max(energy.greatest, total);
-    for (const double w : row.damping_work) energy.damping_work += w;
+    add_works(row, energy);
+  }
+
+  /// The lists are as long in every row (certify/runs/run_series_check.h).
+  static void add_works(const SeriesRow& row, EnergySummary& energy) {
+    for (std::size_t k = 0; k < force_kinds; ++k) {
+      energy.damping_work += row.damping_work[k];
+      energy.held_work += row.held_work[k];
+      energy.kinds[k].potential += row.work[k];
+      energy.kinds[k].damping += row.damping_work[k];
+      energy.kinds[k].held += row.held_work[k];
+    }
+    energy.restitution_work += row.restitution_work;
+    energy.integration += row.integration;
+    for (std::size_t m = 0; m < energy.materials.size(); ++m) {
+      energy.materials[m].potential += row.contact_work[m].potential;
+      energy.materials[m].friction += row.contact_work[m].friction;
+      energy.materials[m].restitution += row.contact_work[m].restitution;
+    }
+    for (std::size_t s = 0; s < energy.scripts.size(); ++s) energy.scripts[s] += row.script_work[s];
   }
 
   void add_layers(std::uint64_t window, const SeriesRow& row) {

@@ -114,7 +114,7 @@ class ScriptBook {
 template <class S, int Dim>
 struct Books {
   std::array<Account<S, Dim>, force_kinds> accounts;
-  std::vector<Account<S, Dim>> contact;  ///< that of contact, by material; as many as had a layer that fired
+  std::vector<Account<S, Dim>> contact;  ///< that of contact, by material
   std::vector<S> scripts;                ///< work by script [J]
 
   Account<S, Dim>& of(ForceKind kind) { return accounts[static_cast<std::size_t>(kind)]; }
@@ -135,10 +135,15 @@ struct Books {
     return *this;
   }
 
-  /// What a layer of contact did: for its material, and for all contact.
+  /// Room for so many materials and scripts.
+  void reserve(std::size_t materials, std::size_t script_count) {
+    contact.resize(std::max(contact.size(), materials));
+    scripts.resize(std::max(scripts.size(), script_count));
+  }
+
+  /// What a layer of contact did: for its material, for which there is room, and for all contact.
   void add_contact(std::size_t material, const Account<S, Dim>& account) {
     of(ForceKind::contact) += account;
-    if (contact.size() <= material) contact.resize(material + 1);
     contact[material] += account;
   }
 };

@@ -102,7 +102,7 @@ class Engine {
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
     open(record);
-    books.scripts.resize(std::max(books.scripts.size(), script_count_));
+    books.reserve(material_count_, script_count_);
     script_book_ = {hands_, books.scripts};
     const PhaseScope queueing(*activity_, Phase::queue);
     if (windows_ == 0) start(record, books);
@@ -239,6 +239,7 @@ class Engine {
 
   void make_contact(const Model<S, Dim>& model) {
     if (!model.contact) return;
+    material_count_ = model.contact->materials.size();
     if constexpr (has_contact) {
       contact_ = std::make_unique<ContactType>(*model.contact, model.mesh, particles_, look_steps(), window_length_);
       contact_->show(*activity_);
@@ -538,7 +539,7 @@ class Engine {
   std::vector<S> masses_;
   std::vector<Particle<S, Dim>> particles_;
   std::vector<typename ScriptBook<S, Dim>::Hand> hands_;  ///< by vertex; none without scripts
-  std::size_t script_count_ = 0;
+  std::size_t material_count_ = 0, script_count_ = 0;
   ScriptBook<S, Dim> script_book_;  ///< of the window that runs
   Instant<S, Dim> instant_;         ///< of the groups that strike now
   std::vector<VertexId> all_;       ///< vertices

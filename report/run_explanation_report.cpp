@@ -40,13 +40,32 @@ Json gap_json(const std::optional<ExactGap>& gap) {
   return {{"above", gap->above}, {"up_to", gap->up_to}, {"time", gap->time}};
 }
 
+Json works_json(const EnergySummary& energy) {
+  Json kinds = Json::object(), materials = Json::array();
+  for (std::size_t k = 0; k < energy.kinds.size(); ++k) {
+    const ForceWork& work = energy.kinds[k];
+    kinds[std::string(name(static_cast<ForceKind>(k)))] = {
+        {"potential", work.potential}, {"damping", work.damping}, {"held", work.held}};
+  }
+  for (const ContactWork& work : energy.materials) {
+    materials.push_back(
+        {{"potential", work.potential}, {"friction", work.friction}, {"restitution", work.restitution}});
+  }
+  return {{"kinds", kinds}, {"materials", materials}, {"scripts", energy.scripts}};
+}
+
 Json energy_json(const std::optional<EnergySummary>& energy) {
   if (!energy) return nullptr;
-  return {{"first", energy->first},
+  return {{"begin", energy->begin},
+          {"first", energy->first},
           {"last", energy->last},
           {"least", energy->least},
           {"greatest", energy->greatest},
-          {"damping_work", energy->damping_work}};
+          {"damping_work", energy->damping_work},
+          {"restitution_work", energy->restitution_work},
+          {"held_work", energy->held_work},
+          {"integration", energy->integration},
+          {"work", works_json(*energy)}};
 }
 
 Json layer_cap_json(const RunExplanation& e) {
@@ -128,12 +147,46 @@ std::string roll_backs_text(const RunExplanation& e) {
   return text;
 }
 
+std::string kinds_of_work_text(const EnergySummary& energy) {
+  std::string text;
+  for (std::size_t k = 0; k < energy.kinds.size(); ++k) {
+    const ForceWork& work = energy.kinds[k];
+    if (work.potential == 0 && work.damping == 0 && work.held == 0) continue;
+    const auto kind = static_cast<ForceKind>(k);
+    text += fmt::format("  {:<12} {:>10.3g} J of its potential, {:>10.3g} J of {}", name(kind), work.potential,
+                        work.damping, kind == ForceKind::contact ? "friction" : "damping");
+    if (kind == ForceKind::contact) text += fmt::format(", {:>10.3g} J of restitution", energy.restitution_work);
+    text += work.held != 0 ? fmt::format(", {:>10.3g} J of scripts against it\n", work.held) : "\n";
+  }
+  return text;
+}
+
+/// By material of contact, where there are several, and by script.
+std::string parts_of_work_text(const RunExplanation& e) {
+  std::string text;
+  const EnergySummary& energy = *e.energy;
+  for (std::size_t m = 0; energy.materials.size() > 1 && m < energy.materials.size(); ++m) {
+    const ContactWork& work = energy.materials[m];
+    const std::string who = m < e.log.meetings.size() ? on_one_line(e.log.meetings[m]) : "";
+    text += fmt::format("  material {}{}: {:.3g} J of its potential, {:.3g} J of friction, {:.3g} J of restitution\n",
+                        m, who.empty() ? "" : " (" + who + ")", work.potential, work.friction, work.restitution);
+  }
+  for (std::size_t s = 0; s < energy.scripts.size(); ++s) {
+    text += fmt::format("  scripts/{}: {:.3g} J\n", s, energy.scripts[s]);
+  }
+  return text;
+}
+
 std::string energy_text(const RunExplanation& e) {
   if (!e.energy) return "";
+  const EnergySummary& energy = *e.energy;
   return fmt::format(
-      "Energy: {:.9g} J after the first window, {:.9g} J after the last (from {:.9g} to {:.9g}); damping did "
-      "{:.3g} J of work between.\n",
-      e.energy->first, e.energy->last, e.energy->least, e.energy->greatest, e.energy->damping_work);
+             "Energy: {:.9g} J at the beginning, {:.9g} J after the last window (after others from {:.9g} to {:.9g}).\n"
+             "Work: damping and friction {:.3g} J, restitution {:.3g} J, scripts {:.3g} J; what is left, "
+             "{:.3g} J, finite steps did.\n",
+             energy.begin, energy.last, energy.least, energy.greatest, energy.damping_work, energy.restitution_work,
+             energy.held_work, energy.integration) +
+         kinds_of_work_text(energy) + parts_of_work_text(e);
 }
 
 std::string certificates_text(const RunExplanation& e) {

@@ -93,9 +93,9 @@ std::string too_near_text(const SimulateOutcome& outcome) {
 std::string unstable_text(const SimulateOutcome& outcome) {
   const EnergyAstray& energy = *outcome.energy_astray;
   return fmt::format(
-      "{} But the energy goes astray: from {:.3g} J to {:.3g} J at {} s, what damping took put back. The motion "
-      "touches "
-      "nothing, and is not that of the scene: its steps are too long, or kick in time (`noli explain`).",
+      "{} But the energy goes astray: from {:.3g} J to {:.3g} J at {} s, without what damping, friction and scripts "
+      "gave. The motion touches nothing, and is not that of the scene: its steps are too long, or kick in time "
+      "(`noli explain`).",
       nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there,
       digits17(energy.time));
 }
@@ -222,7 +222,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
   json["contacts"] = counts_json(outcome.contact ? outcome.contact->contacts : ContactCounts{});
   json["not_finite"] = not_finite_json(outcome);
   json["too_near"] = too_near_json(outcome);
-  json["energy"] = {{"watched", outcome.energy_watched},
+  json["energy"] = {{"integration", outcome.integration},
                     {"astray", outcome.energy_astray ? energy_json(*outcome.energy_astray) : Json(nullptr)}};
   json["roll_backs"] = outcome.roll_backs;
   json["proof"] = {{"whole", outcome.proved}, {"ends", or_null(outcome.no_proof)}};

@@ -214,7 +214,10 @@ class Asking {
     // Scenes begin in their shape at rest: what the first window's end has is what the beginning had, and the work.
     double work = 0;
     for (const auto& [name, column] : energy) {
-      if (name.starts_with("work_") || name.starts_with("damping_work_")) work += column[0];
+      const auto is = [&name](const char* list) {
+        return name.starts_with(list) && name.find("_of_material_") == name.npos;
+      };
+      if (is("work_") || is("damping_work_") || is("held_work_") || is("restitution_work")) work += column[0];
     }
     const double begin = energy.at("kinetic [J]")[0] - work;
     double worst = 0;

@@ -28,17 +28,18 @@ struct LogFacts {
   bool has_contact = false;
   integrator::LayerSchedule layers;
   std::uint32_t most_layers = 0;
-  std::vector<double> thicknesses;  ///< eta(1) of each material [m]
-  std::uint64_t parts = 0;          ///< begun
-  std::uint64_t parts_ended = 0;    ///< with a line of their own
-  std::uint64_t windows = 0;        ///< that it tells of, each once
-  KnownWindows known;               ///< what the last line that tells of them says
-  std::uint64_t bad_lines = 0;      ///< that are whole, but say nothing that is known
-  std::uint32_t deepest = 0;        ///< layer that was active in any of these windows
-  std::vector<Json> roll_backs;     ///< lines of the log, with windows counted from 1
-  std::string last_end;             ///< of the last part that ended: "done", "interrupted", ...
-  Json last_end_line;               ///< of the same, whole
-  bool going_on = false;            ///< the last part has no line of its end: it goes on still, or was killed
+  std::vector<double> thicknesses;    ///< eta(1) of each material [m]
+  std::vector<std::string> meetings;  ///< of each material, which bodies meet so: "a and b, b and b"; empty: not logged
+  std::uint64_t parts = 0;            ///< begun
+  std::uint64_t parts_ended = 0;      ///< with a line of their own
+  std::uint64_t windows = 0;          ///< that it tells of, each once
+  KnownWindows known;                 ///< what the last line that tells of them says
+  std::uint64_t bad_lines = 0;        ///< that are whole, but say nothing that is known
+  std::uint32_t deepest = 0;          ///< layer that was active in any of these windows
+  std::vector<Json> roll_backs;       ///< lines of the log, with windows counted from 1
+  std::string last_end;               ///< of the last part that ended: "done", "interrupted", ...
+  Json last_end_line;                 ///< of the same, whole
+  bool going_on = false;              ///< the last part has no line of its end: it goes on still, or was killed
   std::optional<Sha256Digest> manifest, series;  ///< of manifest.json; of series.h5, if the last part wrote it
   PhaseSeconds phases{};
   double verifying_seconds = 0;

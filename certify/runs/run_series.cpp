@@ -9,7 +9,7 @@ namespace noli {
 namespace {
 
 constexpr std::string_view letters = "noli row";
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t version = 3;
 constexpr std::size_t beginning = letters.size() + sizeof(version);
 
 /// Calls f on each number of a layer, in order.
@@ -29,9 +29,10 @@ void each_number_of_row(Row& row, F&& f) {
   f(row.time);
   f(row.kinetic);
   f(row.kinetic_mean);
-  for (auto* list : {&row.potential, &row.work, &row.damping_work}) {
+  for (auto* list : {&row.potential, &row.work, &row.damping_work, &row.held_work}) {
     for (auto& x : *list) f(x);
   }
+  for (auto* x : {&row.restitution_work, &row.held_ahead, &row.integration}) f(*x);
   for (auto* list : {&row.momentum, &row.angular_momentum}) {
     for (auto& x : *list) f(x);
   }
@@ -74,6 +75,15 @@ class Numbers {
   std::string_view bytes_;
 };
 
+/// A list, with its size before it; `numbers`: of 8 bytes, of each.
+template <class T>
+std::vector<T> take_list(Numbers& take, std::size_t numbers) {
+  std::uint64_t count = 0;
+  take(count);
+  if (count > take.left() / (8 * numbers)) throw std::invalid_argument("a list that is longer than what is left");
+  return std::vector<T>(count);
+}
+
 StepHistogram take_steps(Numbers& take, double smallest) {
   StepHistogram steps{smallest, {}};
   std::uint64_t count = 0;
@@ -105,6 +115,12 @@ std::string encode(const SeriesRow& row) {
       put(bytes, static_cast<std::uint64_t>(x));
     }
   });
+  put(bytes, static_cast<std::uint64_t>(row.contact_work.size()));
+  for (const ContactWork& work : row.contact_work) {
+    for (const double x : {work.potential, work.friction, work.restitution}) put(bytes, x);
+  }
+  put(bytes, static_cast<std::uint64_t>(row.script_work.size()));
+  for (const double x : row.script_work) put(bytes, x);
   put(bytes, static_cast<std::uint64_t>(row.steps.bins.size()));
   for (const auto& bin : row.steps.bins) {
     put(bytes, static_cast<std::uint64_t>(bin.number));
@@ -115,10 +131,10 @@ std::string encode(const SeriesRow& row) {
 
 std::string not_a_row(std::string_view bytes) {
   if (bytes.size() < beginning || !bytes.starts_with(letters)) {
-    return "its series is no row of version 2, as a run of an earlier Noli has it; expected a run of this version";
+    return "its series is no row of version 3, as a run of an earlier Noli has it; expected a run of this version";
   }
   const auto found = get<std::uint64_t>(bytes.data() + letters.size());
-  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 2";
+  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 3";
 }
 
 SeriesRow decode_row(std::string_view bytes) {
@@ -126,6 +142,12 @@ SeriesRow decode_row(std::string_view bytes) {
   Numbers take(bytes.substr(beginning));
   SeriesRow row;
   each_number_of_row(row, take);
+  row.contact_work = take_list<ContactWork>(take, 3);
+  for (ContactWork& work : row.contact_work) {
+    for (double* x : {&work.potential, &work.friction, &work.restitution}) take(*x);
+  }
+  row.script_work = take_list<double>(take, 1);
+  for (double& x : row.script_work) take(x);
   row.steps = take_steps(take, row.steps.smallest);
   return row;
 }

@@ -5,10 +5,11 @@
 // resumed has the whole series. All of it follows from the motion: what certificates or clocks have to say is in the
 // log.
 //
-// Bytes, all numbers little-endian of 8 bytes: the text "noli row", the version 2; then each field in the order of
+// Bytes, all numbers little-endian of 8 bytes: the text "noli row", the version 3; then each field in the order of
 // SeriesRow: doubles; events, breakpoints, halvings; the two layers, each as layer, material, pair, four vertices,
-// time, distance; the least step, the number of bins, and for each its number (of a signed integer the two's
-// complement) and its ticks.
+// time, distance; the least step; the number of materials of contact, and for each the works of its potential, of
+// friction, of restitution; the number of scripts, and the work of each; the number of bins, and for each its number
+// (of a signed integer the two's complement) and its ticks.
 #pragma once
 
 #include <cstdint>
@@ -31,21 +32,38 @@ SeriesRow decode_row(std::string_view bytes);
 
 ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action);
 
-/// `lines`: of the window; `fixed`: of each vertex, not 0 if it is pinned or scripted.
+/// The works of a window.
+template <int Dim>
+void add_works(const integrator::Books<double, Dim>& books, SeriesRow& row) {
+  for (std::size_t i = 0; i < integrator::force_kinds; ++i) {
+    const auto& account = books.accounts[i];
+    row.work[i] = account.work;
+    row.damping_work[i] = account.damping_work;
+    row.held_work[i] = account.held_work;
+    row.restitution_work += account.restitution_work;
+    row.events[i] = account.events;
+  }
+  for (const auto& account : books.contact) {
+    row.contact_work.push_back({account.work, account.damping_work, account.restitution_work});
+  }
+  row.script_work = books.scripts;
+}
+
+/// `lines`: of the window; `fixed`: of each vertex, not 0 if it is pinned or scripted; `energy_before`: of the row
+/// before, or at time 0.
 template <int Dim>
 SeriesRow series_row(const integrator::Simulation<double, Dim>& simulation, const integrator::Books<double, Dim>& books,
-                     std::uint64_t breakpoints, const WorldLines& lines, std::span<const std::uint8_t> fixed) {
+                     std::uint64_t breakpoints, const WorldLines& lines, std::span<const std::uint8_t> fixed,
+                     double energy_before) {
   const integrator::State<double, Dim> state = simulation.state();
   SeriesRow row;
   row.time = simulation.time();
   row.kinetic = state.kinetic;
   row.kinetic_mean = state.kinetic_mean;
   row.potential = state.potential;
-  for (std::size_t i = 0; i < integrator::force_kinds; ++i) {
-    row.work[i] = books.accounts[i].work;
-    row.damping_work[i] = books.accounts[i].damping_work;
-    row.events[i] = books.accounts[i].events;
-  }
+  row.held_ahead = state.held_ahead;
+  add_works(books, row);
+  row.integration = row.energy() - energy_before - row.given();
   for (int k = 0; k < Dim; ++k) row.momentum[static_cast<std::size_t>(k)] = state.momentum[k];
   constexpr int moments = Dim == 3 ? 3 : 1;
   for (int k = 0; k < moments; ++k) {

@@ -47,6 +47,18 @@ void check_counts(const SeriesRow& row, const RunWindow& window, std::uint64_t h
           row.halvings, halvings_before);
 }
 
+// --- Books -----------------------------------------------------------------------------------------------------------
+
+void check_books(const SeriesRow& row, const SeriesRow& before) {
+  require(row.contact_work.size() == before.contact_work.size(), "{} materials; expected the {} of the window before",
+          row.contact_work.size(), before.contact_work.size());
+  require(row.script_work.size() == before.script_work.size(), "{} scripts; expected the {} of the window before",
+          row.script_work.size(), before.script_work.size());
+  const double left = row.energy() - before.energy() - row.given();
+  require(row.integration == left || !std::isfinite(left),
+          "an integration of {} J; expected {} J, which is what is left", row.integration, left);
+}
+
 // --- Layers ----------------------------------------------------------------------------------------------------------
 
 void check_vertices(const ActingLayer& layer, const RunScene& scene) {
@@ -118,9 +130,10 @@ void check_steps(const StepHistogram& steps, const RunWindow& window, const RunS
 
 }  // namespace
 
-void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, std::uint64_t halvings) {
+void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, const SeriesRow* before) {
   check_times(row, window, scene);
-  check_counts(row, window, halvings);
+  check_counts(row, window, before != nullptr ? before->halvings : 0);
+  if (before != nullptr) check_books(row, *before);
   check_layers(row, window, scene);
   check_steps(row.steps, window, scene);
 }

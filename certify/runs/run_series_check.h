@@ -3,7 +3,8 @@
 // Whether the numbers of a row can be those of its window. What the motion decides is compared with it; the rest is
 // held within what the integrator can do.
 //
-// What this does not do: energies, momenta and works may be any doubles. They overflow where velocities do not.
+// What this does not do: energies, momenta and works may be any doubles, as long as they add up. They overflow where
+// velocities do not.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace noli {
 
-/// `halvings`: those of the window before, 0 for the first. Throws std::invalid_argument, one line without the place.
-void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, std::uint64_t halvings);
+/// `before`: the row of the window before, none for the first. Throws std::invalid_argument, one line without place.
+void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, const SeriesRow* before);
 
 }  // namespace noli

@@ -29,7 +29,15 @@ struct Extent {
   std::uint64_t windows = 0, frames = 0;
   std::int64_t first_bin = 0;  ///< of steps
   std::uint64_t bins = 0;
+  std::uint64_t materials = 0, scripts = 0;
 
+  void add(const SeriesRow& row) {
+    materials = row.contact_work.size();
+    scripts = row.script_work.size();
+    add(row.steps);
+  }
+
+ private:
   void add(const StepHistogram& steps) {
     if (steps.bins.empty()) return;
     const std::int64_t first = steps.bins.front().number, last = steps.bins.back().number;
@@ -52,7 +60,7 @@ std::optional<Extent> measure(const std::filesystem::path& run, double rate, con
   Extent extent;
   while (const auto window = reader.next_window()) {
     ++extent.windows;
-    extent.add(reader.row().steps);
+    extent.add(reader.row());
     extent.frames += frames_in(*window, rate, stop);
     if (stop()) return std::nullopt;
   }
@@ -94,7 +102,8 @@ std::string in_group(const char* group, std::size_t kind) {
   return std::string(group) + "/" + std::string(name(static_cast<ForceKind>(kind)));
 }
 
-/// Calls each(name, unit, values) for each series of a row except the histogram of steps.
+/// Calls each(name, unit, values) for each series of a row except the histogram of steps, and except those whose size
+/// the scene decides.
 template <class Each>
 void each_series(const SeriesRow& row, const Each& each) {
   const auto one = [&each](const std::string& name, const char* unit, double value) {
@@ -108,7 +117,11 @@ void each_series(const SeriesRow& row, const Each& each) {
     one(in_group("energy/potential", k), "J", row.potential[k]);
     one(in_group("work", k), "J", row.work[k]);
     one(in_group("damping_work", k), "J", row.damping_work[k]);
+    one(in_group("held_work", k), "J", row.held_work[k]);
   }
+  one("restitution_work", "J", row.restitution_work);
+  one("energy/held_ahead", "J", row.held_ahead);
+  one("integration", "J", row.integration);
   each("momentum", "N s", row.momentum);
   each("angular_momentum", "N m s", row.angular_momentum);
   one("events", "1", static_cast<double>(row.events_in_all()));
@@ -154,6 +167,8 @@ class Series {
     each_series(SeriesRow{}, [&](const std::string& name, const char* unit, std::span<const double> values) {
       declare(name, unit, values.size() == 1 ? SeriesShape{n} : SeriesShape{n, values.size()});
     });
+    if (extent_.materials > 0) declare("contact/work", "J", {n, extent_.materials, 3});
+    if (extent_.scripts > 0) declare("script_work", "J", {n, extent_.scripts});
     declare("histograms/step_share", "1", {n, extent_.bins});
     std::vector<double> ends;
     for (std::uint64_t i = 0; i <= extent_.bins; ++i) {
@@ -170,7 +185,16 @@ class Series {
     each_series(row, [this](const std::string& name, const char*, std::span<const double> values) {
       column(name).append(values);
     });
+    if (!row.contact_work.empty()) column("contact/work").append(works(row.contact_work));
+    if (!row.script_work.empty()) column("script_work").append(row.script_work);
     column("histograms/step_share").append(shares(row.steps));
+  }
+
+  /// By material: of its potential, of friction, of restitution.
+  static std::vector<double> works(const std::vector<ContactWork>& materials) {
+    std::vector<double> row;
+    for (const ContactWork& m : materials) row.insert(row.end(), {m.potential, m.friction, m.restitution});
+    return row;
   }
 
   /// Of each bin that the run has.

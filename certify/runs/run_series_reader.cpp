@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include <noli/errors.h>
 #include "certify/runs/run_series_check.h"
@@ -19,13 +20,12 @@ std::optional<RunWindow> SeriesReader::next_window() {
 }
 
 void SeriesReader::take_row(const RunWindow& window) {
-  const std::uint64_t halvings = row_ ? row_->halvings : 0;
-  row_.reset();
+  const std::optional<SeriesRow> before = std::exchange(row_, std::nullopt);
   why_none_ = not_a_row(window.state);
   if (!why_none_.empty()) return;
   try {
     row_ = decode_row(window.state);
-    check_row(*row_, window, scene(), halvings);
+    check_row(*row_, window, scene(), before ? &*before : nullptr);
   } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }

@@ -8,29 +8,29 @@
 namespace noli {
 namespace {
 
-double sum(const EnergyWatch::Potential& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); }
+double sum(const std::array<double, force_kinds>& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); }
 
-double without_gravity(double kinetic, EnergyWatch::Potential potential) {
-  potential[static_cast<std::size_t>(integrator::ForceKind::gravity)] = 0;
-  return kinetic + sum(potential);
+double without_gravity(const SeriesRow& row) {
+  return row.kinetic_mean + row.potential_in_all() - row.potential[static_cast<std::size_t>(ForceKind::gravity)];
 }
 
 }  // namespace
 
-EnergyWatch::EnergyWatch(double kinetic, const Potential& potential, bool losses)
-    : losses_(losses), begin_(kinetic + sum(potential)) {
-  found_ = {begin_, begin_, 0, without_gravity(kinetic, potential)};
-}
-
 void EnergyWatch::add(const SeriesRow& row) {
-  taken_ += sum(row.damping_work);
-  const double there = row.kinetic_mean + sum(row.potential) - taken_;
-  const double scale = without_gravity(row.kinetic_mean, row.potential);
-  found_.scale = std::max(found_.scale, scale);
-  const double off = losses_ ? there - begin_ : std::abs(there - begin_);
+  if (!any_) found_.begin = found_.there = row.energy() - row.given() - row.integration;
+  any_ = true;
+  const double damping = sum(row.damping_work), held = sum(row.held_work);
+  integration_ += row.integration;
+  dissipated_ += damping + row.restitution_work;
+  restitution_ += row.restitution_work;
+  moved_ += std::abs(damping) + std::abs(held) + std::abs(row.restitution_work);
+  greatest_ = std::max(greatest_, without_gravity(row));
+  found_.scale = greatest_ + moved_ + least_;
+  const double rise = restitution_ < 0 ? integration_ + dissipated_ : integration_;
+  const double off = restitution_ < 0 ? rise : std::abs(rise);
   if (off <= worst_ || std::isnan(worst_)) return;
   worst_ = off;
-  found_.there = there;
+  found_.there = found_.begin + rise;
   found_.time = row.time;
 }
 
@@ -41,15 +41,6 @@ std::optional<EnergyAstray> EnergyWatch::astray() const {
 
 Json energy_json(const EnergyAstray& energy) {
   return {{"begin", energy.begin}, {"there", energy.there}, {"time", energy.time}};
-}
-
-bool wants_watch(const integrator::Scene& scene, const integrator::Explanation& explanation) {
-  if (!scene.scripts.empty()) return false;
-  return scene.allow_unstable || !explanation.resonances.empty();
-}
-
-bool loses_by_restitution(const std::optional<integrator::ContactSettings>& contact) {
-  return contact && std::ranges::any_of(contact->materials, [](const auto& m) { return m.restitution < 1; });
 }
 
 }  // namespace noli

@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether the energy of a run stays, where its steps may be unstable: longer than what is known to be safe
-// (`allow_unstable`), or in time with an oscillation (integrator/resonance.h).
+// Whether the energy of a run stays: whether steps are so long, or so much in time with an oscillation
+// (integrator/resonance.h), that they make energy of nothing.
 //
 // Notation
-//   K, V   kinetic energy and the sum of all potentials, at the beginning or at the end of a window
-//   D      what damping and friction have taken from the beginning to there, not positive
-//   B      K + V - D, which forces that are potentials, and stable steps, leave within a few hundredths where it was
-//   scale  the greatest K + V seen, without the potential of gravity, whose zero means nothing
+//   K, V      kinetic energy and the sum of all potentials at a window's end
+//   B         K + V less what damping, friction and scripts gave since the beginning: stable steps leave it within a
+//             few hundredths where it was
+//   scale     the greatest K + V seen, without the potential of gravity, whose zero means nothing; and all that was
+//             given, whatever its sign; and the least energy that is more than rounding's
 //
 // Asynchronous variational integrators keep a nearby energy and not this one (Harmon et al. 2009, section 3), so B
-// trembles. It has gone astray where it is off by more than a twentieth of the scale, either way; only upwards where
-// restitution below 1 takes energy that no book has.
+// trembles. It has gone astray where it is off by more than a twentieth of the scale, either way.
 //
-// What this does not do: scripts put work in that no book has, so a scene with scripts cannot be watched. Between the
-// ends of windows nobody looks.
+// Where restitution takes energy, layers of contact jerk what they hold, at times that no force shares. Damping takes
+// that up, and what it and restitution are booked for is more than things have really lost. There B is K + V less what
+// scripts gave alone. It has to fall, so it is astray only if it rises.
+//
+// What this does not do: between the ends of windows nobody looks.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include <noli/run.h>
 #include "certify/json.h"
-#include "certify/runs/run_series.h"
-#include "integrator/scene/explain.h"
-#include "integrator/scene/scene.h"
 
 namespace noli {
 
@@ -33,10 +32,8 @@ class EnergyWatch {
   /// How far B may go, in parts of the scale.
   static constexpr double most = 0.05;
 
-  using Potential = std::array<double, integrator::force_kinds>;
-
-  /// Of the beginning. `losses`: restitution is below 1 somewhere.
-  EnergyWatch(double kinetic, const Potential& potential, bool losses);
+  /// `least`: the energy that rounding may make of nothing [J].
+  explicit EnergyWatch(double least = 0) : least_(least) {}
 
   /// The next window.
   void add(const SeriesRow& row);
@@ -44,21 +41,22 @@ class EnergyWatch {
   /// Of the windows so far; nothing if B stays. What is no number has gone astray.
   std::optional<EnergyAstray> astray() const;
 
+  /// What finite steps did so far [J].
+  double integration() const { return integration_; }
+
  private:
-  bool losses_;
-  double begin_;
-  double taken_ = 0;  ///< D
-  double worst_ = 0;  ///< of the distances from begin_ that count
+  double least_;
+  bool any_ = false;
+  double integration_ = 0;
+  double dissipated_ = 0;  ///< work of damping, friction and restitution
+  double restitution_ = 0;
+  double moved_ = 0;  ///< what was given, whatever its sign
+  double greatest_ = 0;
+  double worst_ = 0;  ///< of the distances of B from its beginning that count
   EnergyAstray found_;
 };
 
 /// {"begin": J, "there": J, "time": s}; null for what is no number.
 Json energy_json(const EnergyAstray& energy);
-
-/// Whether a scene has steps that may be unstable, and nothing that hides what they do.
-bool wants_watch(const integrator::Scene& scene, const integrator::Explanation& explanation);
-
-/// Whether contact takes energy that no book has.
-bool loses_by_restitution(const std::optional<integrator::ContactSettings>& contact);
 
 }  // namespace noli

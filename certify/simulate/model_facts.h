@@ -3,6 +3,8 @@
 // What a run has to know of its model beside how to integrate it.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <span>
 #include <string>
@@ -46,6 +48,21 @@ Exclusions exclusions_of(const integrator::Model<double, Dim>& model) {
   }
   if (!result.empty()) result.groups = contact.groups;
   return result;
+}
+
+/// With which everything would move by 2^-30 of the model's size within a window [J]: where there is less, it may be
+/// rounding that moves things.
+template <int Dim>
+double least_energy(const integrator::Model<double, Dim>& model) {
+  Eigen::AlignedBox<double, Dim> box;
+  double mass = 0;
+  for (std::size_t i = 0; i < model.x.size(); ++i) {
+    box.extend(model.x[i]);
+    mass += model.mass[i];
+  }
+  if (box.isEmpty()) return 0;
+  const double speed = 0x1p-30 * box.diagonal().norm() / model.window_length;
+  return 0.5 * mass * speed * speed;
 }
 
 inline void hash_numbers(std::span<const double> numbers, Sha256& hash) {

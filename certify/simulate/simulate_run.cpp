@@ -61,6 +61,7 @@ template <int Dim>
 struct Candidate {
   std::uint64_t index = 0;
   Snapshot<double, Dim> before;
+  double energy_before = 0;  ///< [J]
   std::unique_ptr<const WorldLines> lines;
   std::vector<Position> velocities;
   SeriesRow row;
@@ -92,7 +93,8 @@ class CertifiedRun {
         scene_(run_scene<Dim>(scene, built_.model)),
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
-        frame_rate_(scene.frame_rate) {
+        frame_rate_(scene.frame_rate),
+        watch_(least_energy<Dim>(built_.model)) {
     folder_.lock();
     outcome_.title = scene.title;
     outcome_.dimension = Dim;
@@ -105,7 +107,6 @@ class CertifiedRun {
     require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
     refuse_contact_at_start();
     const integrator::Explanation explanation = integrator::explain(scene);
-    if (wants_watch(scene, explanation)) watch_energy();
     const std::string space = require_space(scene, explanation);
     open(scene);
     if (request.begun) request.begun(scene, explanation, space);
@@ -127,12 +128,6 @@ class CertifiedRun {
   }
 
  private:
-  void watch_energy() {
-    const integrator::State<double, Dim> state = Simulation<double, Dim>(built_.model).state();
-    energy_.emplace(state.kinetic, state.potential, loses_by_restitution(built_.model.contact));
-    outcome_.energy_watched = true;
-  }
-
   void tell(std::string_view work, double share) const {
     if (request_.progress) request_.progress(work, share);
   }
@@ -212,7 +207,13 @@ class CertifiedRun {
   /// What the log says of the scene, for those who read the run without it.
   Json facts() const {
     Json json = {{"bodies", names_.to_json()}};
-    if (built_.model.contact) json["contact"] = contact_json(*built_.model.contact);
+    if (!built_.model.contact) return json;
+    json["contact"] = contact_json(*built_.model.contact);
+    for (std::size_t m = 0; m < built_.contact.size(); ++m) {
+      std::set<std::array<std::size_t, 2>> pairs;
+      for (const auto& pair : built_.contact[m].pairs) pairs.insert(pair.bodies);
+      json["contact"]["materials"][m]["pairs"] = pairs;
+    }
     return json;
   }
 
@@ -251,7 +252,8 @@ class CertifiedRun {
       last = snapshot_of<Dim>(*window);
       const SeriesRow& row = reader.row();
       retries_ = Retries(row.halvings);
-      if (energy_) energy_->add(row);
+      watch_.add(row);
+      energy_ = row.energy();
       require_whole(*window);
       if (stopped()) throw ReadInterrupted(folder_.path().string());
     }
@@ -316,6 +318,8 @@ class CertifiedRun {
   std::optional<Candidate<Dim>> integrate() {
     const Stopwatch watch;
     before_ = simulation_->snapshot();
+    const bool first = before_.windows == 0;
+    if (first) energy_ = simulation_->state().energy();
     finite_ = true;
     limit_.reset();
     recording_.clear();
@@ -337,11 +341,14 @@ class CertifiedRun {
     Candidate<Dim> next;
     next.index = before_.windows;
     next.before = before_;
+    next.energy_before = first ? energy_ + simulation_->contact_at_start() : energy_;
     next.deepest = simulation_->certificates().deepest;
     const PhaseScope recording(activity_, Phase::recording);
     next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
     next.velocities = positions_of<Dim>(simulation_->snapshot().v);
-    next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, scene_.labels);
+    next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, scene_.labels,
+                               next.energy_before);
+    energy_ = next.row.energy();
     next.row.halvings = retries_.halvings();
     outcome_.simulating_seconds += watch.seconds();
     return next;
@@ -426,6 +433,7 @@ class CertifiedRun {
     outcome_.certificates += simulation_->certificates();
     try {
       go_on_with(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
+      energy_ = window.energy_before;
     } catch (const Stopped&) {
       stopped();
     }
@@ -449,7 +457,7 @@ class CertifiedRun {
     writer_->commit();
     outcome_.events += window.row.events_in_all();
     outcome_.breakpoints += window.row.breakpoints;
-    if (energy_) energy_->add(window.row);
+    watch_.add(window.row);
     folder_.log(committed(), window.row, window.deepest);
     if (retries_.committed()) ++outcome_.certificate_defects;
     if (request_.keep_going && !request_.keep_going(window.row)) outcome_.end = RunEnd::interrupted;
@@ -484,8 +492,8 @@ class CertifiedRun {
         stopped();
       }
       if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
-    } else if (energy_ && energy_->astray()) {
-      outcome_.energy_astray = energy_->astray();
+    } else if (watch_.astray()) {
+      outcome_.energy_astray = watch_.astray();
       outcome_.end = RunEnd::unstable;
     }
   }
@@ -504,6 +512,7 @@ class CertifiedRun {
     outcome_.windows = writer_->windows();
     if (simulation_) outcome_.certificates += simulation_->certificates();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
+    outcome_.integration = watch_.integration();
     const std::exception_ptr lost = write_series();
     outcome_.phases = clock.seconds();
     log_end();
@@ -557,8 +566,9 @@ class CertifiedRun {
   std::optional<Simulation<double, Dim>> simulation_;
   Snapshot<double, Dim> before_;  ///< of the window that is being integrated
   Recording<double, Dim> recording_;
-  std::optional<EnergyWatch> energy_;
-  Retries retries_;  ///< of the window that is next to be committed
+  EnergyWatch watch_;
+  double energy_ = 0;  ///< at the end of the window that was integrated last [J]
+  Retries retries_;    ///< of the window that is next to be committed
   std::optional<integrator::ContactLimit> limit_;
   bool finite_ = true;  ///< all numbers of the window that is being integrated
   SimulateOutcome outcome_;

@@ -33,10 +33,22 @@ struct ActingMoment {
   ActingLayer action;
 };
 
-/// Kinetic energy, of velocities half way through the kicks, and all potentials, at the ends of windows [J].
+/// What one kind of force did [J], as SeriesRow has it for a window.
+struct ForceWork {
+  double potential = 0, damping = 0, held = 0;
+};
+
+/// Energies are kinetic energy, of velocities half way through the kicks, and all potentials, at the ends of windows
+/// [J]; works are those of all windows. last - begin = damping_work + restitution_work + held_work + integration, but
+/// for what scripts have been booked in advance (SeriesRow::held_ahead).
 struct EnergySummary {
+  double begin = 0;  ///< at time 0
   double first = 0, last = 0, least = 0, greatest = 0;
-  double damping_work = 0;  ///< of all windows but the first
+  double damping_work = 0;  ///< of damping and friction
+  double restitution_work = 0, held_work = 0, integration = 0;
+  std::array<ForceWork, force_kinds> kinds{};
+  std::vector<ContactWork> materials;  ///< of contact
+  std::vector<double> scripts;
 };
 
 /// above < gap <= up_to, and no double is between; or both are 0, which is contact.

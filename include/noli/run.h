@@ -9,7 +9,7 @@
 //   layer     of contact: a penalty that acts on a pair of features below a distance of its own
 //   step      of a vertex: the time between two of its breakpoints that follow one another
 //   bin b     the steps from 2^((2 b - 1) / 8) to 2^((2 b + 1) / 8) s, the upper end not included
-//   B         K + V - D: kinetic energy and all potentials, less what damping and friction took since the beginning
+//   B         kinetic energy and all potentials, less what damping, friction and scripts gave since the beginning
 //
 // Phases: what a run is busy with
 //   force        positions of a force's vertices and its impulse
@@ -99,18 +99,31 @@ struct ActingLayer {
   friend bool operator==(const ActingLayer&, const ActingLayer&) = default;
 };
 
+/// What the layers of one material of contact did [J].
+struct ContactWork {
+  double potential = 0, friction = 0, restitution = 0;
+
+  friend bool operator==(const ContactWork&, const ContactWork&) = default;
+};
+
 struct SeriesRow {
   double time = 0;  ///< the window's end [s]
   double kinetic = 0, kinetic_mean = 0;
   std::array<double, force_kinds> potential{};
-  std::array<double, force_kinds> work{};           ///< of the conservative impulses within the window [J]
-  std::array<double, force_kinds> damping_work{};   ///< [J]
+  std::array<double, force_kinds> work{};          ///< of the conservative impulses within the window [J]
+  std::array<double, force_kinds> damping_work{};  ///< of damping; of contact, of friction [J]
+  std::array<double, force_kinds> held_work{};     ///< of scripts, against these forces [J]
+  double restitution_work = 0;                     ///< what restitution withholds of contact's work [J]
+  double held_ahead = 0;   ///< of the work of scripts so far, what belongs to the time after the window's end [J]
+  double integration = 0;  ///< what finite steps did: the change of energy() less given() [J]
   std::array<double, 3> momentum{};                 ///< [N s]
   std::array<double, 3> angular_momentum{};         ///< in the plane the third [N m s]
   std::array<std::uint64_t, force_kinds> events{};  ///< forces fired; of contact, impulses of layers
   std::uint64_t breakpoints = 0;
   std::uint64_t halvings = 0;  ///< of the steps of all contact layers, after windows that had to be run again
   ActingLayer deepest, nearest;
+  std::vector<ContactWork> contact_work;  ///< by material
+  std::vector<double> script_work;        ///< by script [J]
   StepHistogram steps;
 
   std::uint64_t events_in_all() const {
@@ -121,6 +134,14 @@ struct SeriesRow {
   double potential_in_all() const {
     double sum = 0;
     for (const double p : potential) sum += p;
+    return sum;
+  }
+  /// K + V at the window's end, and what scripts have been booked in advance [J].
+  double energy() const { return kinetic_mean + potential_in_all() + held_ahead; }
+  /// What damping, friction, restitution and scripts gave within the window [J]; what they took is negative.
+  double given() const {
+    double sum = restitution_work;
+    for (std::size_t k = 0; k < force_kinds; ++k) sum += damping_work[k] + held_work[k];
     return sum;
   }
 
@@ -203,7 +224,8 @@ struct PairTooNear {
   double time = 0;                     ///< [s]
 };
 
-/// What is off most, and where.
+/// What is off most, and where. Where restitution takes energy, B leaves in what damping and friction took: it can but
+/// fall.
 struct EnergyAstray {
   double begin = 0;  ///< B at the beginning [J]
   double there = 0;  ///< B where it is farthest from that [J]

@@ -73,7 +73,7 @@ enum class RunEnd {
   contact,      ///< something touches in the next one
   too_near,     ///< in the next one a pair needs more layers of contact than the scene allows
   not_finite,   ///< a number of the next one is none
-  unstable,     ///< all windows are committed, but steps that the program has warned of have led the energy astray
+  unstable,     ///< all windows are committed, but steps that are too long have led the energy astray
   interrupted,  ///< by the user
   out_of_time,
   out_of_memory
@@ -106,7 +106,7 @@ struct SimulateOutcome {
   std::optional<PairTooNear> limit;
   std::optional<StartGap> start_gap;  ///< of its pair, if that begins within a layer and ends the first window
   std::optional<NotFinite> not_finite;
-  bool energy_watched = false;  ///< the scene's steps may be unstable
+  double integration = 0;  ///< what finite steps did to the energy, in all committed windows [J]
   std::optional<EnergyAstray> energy_astray;
   std::uint64_t roll_backs = 0;           ///< of windows that were run again
   bool proved = false;                    ///< proof.blocks has a proof of every window

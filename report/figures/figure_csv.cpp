@@ -54,16 +54,29 @@ std::string steps_table(const FigureData& data) {
 std::string energy_table(const FigureData& data) {
   Table table;
   for (const char* column : {"time [s]", "kinetic [J]", "kinetic_mean [J]"}) table.name(column);
-  for (const char* what : {"potential", "work", "damping_work"}) {
+  for (const char* what : {"potential", "work", "damping_work", "held_work"}) {
     for (std::size_t k = 0; k < integrator::force_kinds; ++k) table.name(of(what, k));
   }
+  for (const char* column : {"restitution_work [J]", "held_ahead [J]", "integration [J]"}) table.name(column);
+  const SeriesRow none, &first = data.windows.empty() ? none : data.windows.front().row;
+  for (std::size_t m = 0; m < first.contact_work.size(); ++m) {
+    for (const char* what : {"work", "friction_work", "restitution_work"}) {
+      table.name(fmt::format("{}_of_material_{} [J]", what, m));
+    }
+  }
+  for (std::size_t s = 0; s < first.script_work.size(); ++s) table.name(fmt::format("script_work_{} [J]", s));
   table.name("total [J]");
   for (const auto& [begin, row] : data.windows) {
     table.begin_line();
     for (const double x : {row.time, row.kinetic, row.kinetic_mean}) table.number(x);
-    for (const auto* list : {&row.potential, &row.work, &row.damping_work}) {
+    for (const auto* list : {&row.potential, &row.work, &row.damping_work, &row.held_work}) {
       for (const double x : *list) table.number(x);
     }
+    for (const double x : {row.restitution_work, row.held_ahead, row.integration}) table.number(x);
+    for (const ContactWork& m : row.contact_work) {
+      for (const double x : {m.potential, m.friction, m.restitution}) table.number(x);
+    }
+    for (const double x : row.script_work) table.number(x);
     table.number(row.kinetic_mean + row.potential_in_all());
   }
   return table.finish();

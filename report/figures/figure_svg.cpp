@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "report/figures/figure_axes.h"
 #include "report/figures/run_figure.h"
@@ -196,12 +197,16 @@ std::vector<Curve> energies(const FigureData& data) {
                            [k](const SeriesRow& row) { return row.potential[k]; });
     if (!is_zero(curve)) curves.push_back(std::move(curve));
   }
-  double sum = 0;
-  Curve damping = curve_of(data, "work of damping", [&sum](const SeriesRow& row) {
-    for (const double w : row.damping_work) sum += w;
-    return sum;
-  });
-  if (!is_zero(damping)) curves.push_back(std::move(damping));
+  const auto add_sum = [&](const char* name, const auto& of_window) {
+    double sum = 0;
+    Curve curve = curve_of(data, name, [&](const SeriesRow& row) { return sum += of_window(row); });
+    if (!is_zero(curve)) curves.push_back(std::move(curve));
+  };
+  const auto all = [](const auto& kinds) { return std::accumulate(kinds.begin(), kinds.end(), 0.0); };
+  add_sum("damping and friction", [&](const SeriesRow& row) { return all(row.damping_work); });
+  add_sum("restitution", [](const SeriesRow& row) { return row.restitution_work; });
+  add_sum("scripts", [&](const SeriesRow& row) { return all(row.held_work); });
+  add_sum("integration", [](const SeriesRow& row) { return row.integration; });
   return curves;
 }
 

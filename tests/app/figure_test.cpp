@@ -166,6 +166,92 @@ TEST_F(Figures, EnergyAndMomentumAreThoseOfTheSeries) {
   EXPECT_EQ(count_elements(bytes_of(figure("momentum", "momentum.svg")), "polyline"), 6);
 }
 
+/// Of a scene with damping, friction, restitution and two scripts, resumed in the middle.
+class Books : public Figures {
+ protected:
+  void SetUp() override {
+    const std::string file = (fs::path(NOLI_SOURCE_DIR) / "scenes/plane_compactor.json").string();
+    const auto simulate = [&](const char* until, const char* resume) {
+      return run_noli({"simulate", file, "--short", "-o", run_path("run"), "--until", until, resume}).exit_code;
+    };
+    ASSERT_EQ(simulate("0.3", "--force"), 0);
+    ASSERT_EQ(simulate("0.6", "--resume"), 0);
+    energy = read_csv(figure("energy", "energy.csv"));
+    ASSERT_EQ(energy.rows.size(), 120u);
+  }
+
+  double at(std::size_t window, const std::string& name) const { return energy.rows[window][energy.column(name)]; }
+  /// Of all columns whose names begin so.
+  double sum(std::size_t window, const std::string& begin) const {
+    double result = 0;
+    for (std::size_t i = 0; i < energy.names.size(); ++i) {
+      if (energy.names[i].starts_with(begin)) result += energy.rows[window][i];
+    }
+    return result;
+  }
+  double kinds(std::size_t window, const std::string& what) const {
+    double result = 0;
+    for (std::size_t k = 0; k < force_kinds; ++k) {
+      result += at(window, what + "_" + std::string(name(static_cast<ForceKind>(k))) + " [J]");
+    }
+    return result;
+  }
+  double given(std::size_t window) const {
+    return kinds(window, "damping_work") + kinds(window, "held_work") + at(window, "restitution_work [J]");
+  }
+
+  Csv energy;
+};
+
+TEST_F(Books, WorksAddUpToTheChangeOfEnergy) {
+  double scripts = 0, restitution = 0;
+  for (std::size_t w = 1; w < energy.rows.size(); ++w) {
+    const double in_play = at(w, "kinetic [J]") + std::abs(kinds(w, "held_work")) + 1;
+    const double kinetic = at(w, "kinetic [J]") - at(w - 1, "kinetic [J]");
+    EXPECT_NEAR(kinetic, kinds(w, "work") + given(w), 1e-10 * in_play) << w;
+    const auto all = [&](std::size_t window) { return at(window, "total [J]") + at(window, "held_ahead [J]"); };
+    EXPECT_NEAR(at(w, "integration [J]"), all(w) - all(w - 1) - given(w), 1e-12 * in_play) << w;
+    EXPECT_NEAR(sum(w, "script_work_"), kinds(w, "held_work"), 1e-12 * in_play) << w;
+    EXPECT_NEAR(at(w, "work_of_material_0 [J]"), at(w, "work_contact [J]"), 1e-12 * in_play) << w;
+    EXPECT_EQ(at(w, "friction_work_of_material_0 [J]"), at(w, "damping_work_contact [J]")) << w;
+    EXPECT_EQ(at(w, "restitution_work_of_material_0 [J]"), at(w, "restitution_work [J]")) << w;
+    scripts += kinds(w, "held_work");
+    restitution += at(w, "restitution_work [J]");
+  }
+  EXPECT_GT(scripts, 0.1) << "the plates press";
+  EXPECT_LT(restitution, -0.1);
+}
+
+TEST_F(Books, AreSummedUpByExplain) {
+  const Json found = json_of({"explain", run_path("run")}, 0)["energy"];
+  double damping = 0, restitution = 0, held = 0, integration = 0;
+  for (std::size_t w = 0; w < energy.rows.size(); ++w) {
+    damping += kinds(w, "damping_work");
+    restitution += at(w, "restitution_work [J]");
+    held += kinds(w, "held_work");
+    integration += at(w, "integration [J]");
+  }
+  EXPECT_NEAR(found["damping_work"].get<double>(), damping, 1e-9);
+  EXPECT_NEAR(found["restitution_work"].get<double>(), restitution, 1e-9);
+  EXPECT_NEAR(found["held_work"].get<double>(), held, 1e-9);
+  EXPECT_NEAR(found["integration"].get<double>(), integration, 1e-9);
+  const double change = found["last"].get<double>() - found["begin"].get<double>();
+  const double ahead = at(energy.rows.size() - 1, "held_ahead [J]");
+  EXPECT_NEAR(change + ahead, damping + restitution + held + integration, 1e-9);
+  EXPECT_NEAR(found["work"]["materials"][0]["restitution"].get<double>(), restitution, 1e-9);
+  ASSERT_EQ(found["work"]["scripts"].size(), 2);
+  EXPECT_NEAR(found["work"]["scripts"][0].get<double>() + found["work"]["scripts"][1].get<double>(), held, 1e-9);
+  const std::string text = run_noli({"explain", run_path("run")}).out;
+  EXPECT_NE(text.find("\n  scripts/1: "), std::string::npos) << text;
+  EXPECT_NE(text.find(" J of restitution, "), std::string::npos) << text;
+}
+
+TEST_F(Books, AreTheSameForARunThatWasNotStopped) {
+  const std::string file = (fs::path(NOLI_SOURCE_DIR) / "scenes/plane_compactor.json").string();
+  ASSERT_EQ(run_noli({"simulate", file, "--short", "-o", run_path("whole"), "--until", "0.6"}).exit_code, 0);
+  EXPECT_TRUE(bytes_of(run_path("whole/trajectory.blocks")) == bytes_of(run_path("run/trajectory.blocks")));
+}
+
 TEST_F(Figures, RecordedFramesHaveTheSameSeries) {
   Json json = two_cloths();
   ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run")}).exit_code, 0);

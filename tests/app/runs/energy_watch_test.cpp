@@ -8,54 +8,88 @@
 namespace noli {
 namespace {
 
-using integrator::ForceKind;
-
-SeriesRow row(double time, double kinetic, double spring, double gravity = 0, double damping = 0) {
+/// Of a window that ends with K = kinetic, and with so much energy that finite steps made.
+SeriesRow row(double time, double kinetic, double integration) {
   SeriesRow result;
   result.time = time;
   result.kinetic = result.kinetic_mean = kinetic;
-  result.potential[static_cast<std::size_t>(ForceKind::edge_spring)] = spring;
-  result.potential[static_cast<std::size_t>(ForceKind::gravity)] = gravity;
-  result.damping_work[static_cast<std::size_t>(ForceKind::edge_spring)] = damping;
+  result.integration = integration;
   return result;
 }
 
-EnergyWatch watch(bool losses, std::initializer_list<SeriesRow> rows) {
-  EnergyWatch result(1, {}, losses);
+SeriesRow damped(SeriesRow row, double work) {
+  row.damping_work[static_cast<std::size_t>(ForceKind::edge_spring)] = work;
+  return row;
+}
+
+SeriesRow with_restitution(SeriesRow row, double work) {
+  row.restitution_work = work;
+  return row;
+}
+
+SeriesRow pushed(SeriesRow row, double work) {
+  row.held_work[static_cast<std::size_t>(ForceKind::contact)] = work;
+  return row;
+}
+
+EnergyWatch watch(std::initializer_list<SeriesRow> rows) {
+  EnergyWatch result;
   for (const SeriesRow& one : rows) result.add(one);
   return result;
 }
 
 TEST(EnergyWatch, LetsEnergyGoToAndFro) {
-  EXPECT_FALSE(watch(false, {}).astray());
-  EXPECT_FALSE(watch(false, {row(1, 0.25, 0.75), row(2, 0.98, 0.0), row(3, 0.5, 0.53)}).astray());
-  EXPECT_FALSE(watch(false, {row(1, 1e6, 0, 1 - 1e6), row(2, 0, 0, 1)}).astray());  // it falls and comes back
+  EXPECT_FALSE(watch({}).astray());
+  EXPECT_FALSE(watch({row(1, 1, 0), row(2, 0.97, -0.03), row(3, 1, 0.03)}).astray());
+  SeriesRow low = row(1, 1e6, 0);  // it falls and comes back
+  low.potential[static_cast<std::size_t>(ForceKind::gravity)] = -1e6;
+  EXPECT_FALSE(watch({low, row(2, 0, 0)}).astray());
 }
 
 TEST(EnergyWatch, SaysWhereItIsFarthestOff) {
-  const auto found = watch(false, {row(1, 1, 0.2), row(2, 3, 0), row(3, 1, 0)}).astray();
+  const EnergyWatch watched = watch({row(1, 1.2, 0.2), row(2, 3, 1.8), row(3, 1, -2)});
+  const auto found = watched.astray();
   ASSERT_TRUE(found);
   EXPECT_EQ(found->begin, 1);
   EXPECT_EQ(found->there, 3);
   EXPECT_EQ(found->time, 2);
   EXPECT_EQ(found->scale, 3);
-  EXPECT_TRUE(watch(false, {row(1, 0.9, 0)}).astray());  // what is lost without a book
+  EXPECT_EQ(watched.integration(), 0);
+  EXPECT_TRUE(watch({row(1, 0.9, -0.1)}).astray()) << "what is lost without a book";
 }
 
-TEST(EnergyWatch, PutsBackWhatDampingTook) {
-  EXPECT_FALSE(watch(false, {row(1, 0.5, 0, 0, -0.5), row(2, 0.25, 0, 0, -0.25)}).astray());
-  EXPECT_TRUE(watch(false, {row(1, 0.5, 0, 0, -0.5), row(2, 0.5, 0, 0, -0.25)}).astray());
+TEST(EnergyWatch, TheGravityOfAFallIsNoScale) {
+  SeriesRow fallen = row(1, 1, 0.06);
+  fallen.potential[static_cast<std::size_t>(ForceKind::gravity)] = 1e6;
+  EXPECT_TRUE(watch({fallen}).astray());
 }
 
-TEST(EnergyWatch, TakesALossForRestitutionAndNoGain) {
-  EXPECT_FALSE(watch(true, {row(1, 0.25, 0)}).astray());
-  EXPECT_TRUE(watch(true, {row(1, 1.25, 0)}).astray());
+TEST(EnergyWatch, WhatWasGivenIsPartOfTheScale) {
+  EXPECT_TRUE(watch({row(1, 1, 0.06)}).astray());
+  EXPECT_FALSE(watch({damped(row(1, 1, 0.06), -0.5)}).astray());
+  EXPECT_FALSE(watch({pushed(row(1, 1, 0.06), 0.5)}).astray());
+  EXPECT_TRUE(watch({pushed(row(1, 1, 0.08), 0.5)}).astray());
+}
+
+TEST(EnergyWatch, RoundingMayMakeALittle) {
+  EnergyWatch watched(1e-9);
+  watched.add(row(1, 1e-20, 1e-20));
+  EXPECT_FALSE(watched.astray());
+  watched.add(row(2, 1e-9, 1e-9));
+  EXPECT_TRUE(watched.astray());
+}
+
+TEST(EnergyWatch, WhereRestitutionTakesEnergyItMayButFall) {
+  EXPECT_FALSE(watch({with_restitution(row(1, 1, 2), -2)}).astray()) << "what it is booked for and did not take";
+  EXPECT_FALSE(watch({with_restitution(damped(row(1, 1, 3), -1), -2)}).astray());
+  EXPECT_FALSE(watch({with_restitution(row(1, 1, -0.5), -0.1)}).astray());
+  EXPECT_TRUE(watch({with_restitution(row(1, 4, 3), -1)}).astray());
 }
 
 TEST(EnergyWatch, WhatIsNoNumberHasGoneAstray) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  EXPECT_TRUE(watch(false, {row(1, inf, 0)}).astray());
-  EXPECT_TRUE(watch(false, {row(1, inf, -inf), row(2, 1, 0)}).astray());
+  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(watch({row(1, inf, inf)}).astray());
+  EXPECT_TRUE(watch({row(1, inf, nan), row(2, 1, 0)}).astray());
 }
 
 }  // namespace
