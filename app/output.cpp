@@ -5,17 +5,24 @@
 
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include <noli/errors.h>
 #include <noli/version.h>
+#include "app/schema_texts.h"
 #include "certify/result_file.h"
 
 namespace noli::app {
 namespace {
 
-/// Of all schemas of results; one more when a member is removed, or means something else.
-constexpr int result_version = 1;
+/// As the schema of this name says. Precondition: there is one.
+Json version_of(std::string_view schema) {
+  for (const SchemaText& one : schema_texts()) {
+    if (one.name == schema) return Json::parse(one.text).at("properties").at("version").at("const");
+  }
+  throw std::logic_error("no schema of this name");
+}
 
 }  // namespace
 
@@ -34,7 +41,7 @@ void Output::write(std::string_view schema, const report::Answer& answer, Json j
   const std::optional<std::string>& path = options_.json;
   if (!path) return write_standard_output(words(answer));
   Json document = {{"schema", fmt::format("noli-{}", schema)},
-                   {"version", result_version},
+                   {"version", version_of(schema)},
                    {"noli", {{"version", version_number()}, {"commit", version_commit()}}}};
   for (const auto& item : json.items()) document[item.key()] = std::move(item.value());
   if (*path == "-") return write_standard_output(to_text(document));

@@ -13,7 +13,7 @@
 // a particle has velocities that no motion has.
 //
 // Impulses on pinned and scripted particles do work too, with the velocity that the scene gives; its negative is what
-// the hand that holds them puts in, which is booked by script. The kinetic energy is that of free particles, so the
+// those who hold them put in, which is booked by script. The kinetic energy is that of free particles, so the
 // works of a window, the scripts' included, add up to its change between the window's ends: the books are closed.
 //
 // Where a layer of contact parts, restitution withholds a part of the impulse that the layer's potential gives. The
@@ -73,41 +73,40 @@ struct Account {
   }
 };
 
-/// Whose hand moves the scripted particles, and what is booked for it.
+/// Which script moves a particle, and the work of each.
 template <class S, int Dim>
 class ScriptBook {
  public:
-  /// What holds a vertex.
-  struct Hand {
+  struct ScriptedVertex {
     std::uint32_t script = none;
-    double turned = -1;  ///< when its velocity changed last [s]
-    Vec<S, Dim> before;  ///< its velocity up to then
+    double changed_at = -1;  ///< when its velocity changed last [s]
+    Vec<S, Dim> before;      ///< its velocity up to then
   };
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   ScriptBook() = default;
-  /// `hands`: one for each vertex, or nothing: there are no scripts. `works`: by script [J].
-  ScriptBook(std::span<Hand> hands, std::span<S> works) : hands_(hands), works_(works) {}
+  /// `vertices`: of each vertex, or nothing: there are no scripts. `works`: by script [J].
+  ScriptBook(std::span<ScriptedVertex> vertices, std::span<S> works) : vertices_(vertices), works_(works) {}
 
   /// Before a scripted vertex changes its velocity, which is `before` up to now.
   void turn(VertexId vertex, double t, const Vec<S, Dim>& before) {
-    if (hands_.empty()) return;
-    hands_[vertex].turned = t;
-    hands_[vertex].before = before;
+    if (vertices_.empty()) return;
+    vertices_[vertex].changed_at = t;
+    vertices_[vertex].before = before;
   }
 
   /// The mean velocity of a vertex that is held and moves with v from t on. At time 0 nothing was before.
   Vec<S, Dim> velocity(VertexId vertex, double t, const Vec<S, Dim>& v) const {
-    if (hands_.empty() || t <= 0 || hands_[vertex].turned != t) return v;
-    return S(0.5) * (hands_[vertex].before + v);
+    if (vertices_.empty() || t <= 0 || vertices_[vertex].changed_at != t) return v;
+    return S(0.5) * (vertices_[vertex].before + v);
   }
 
   void add(VertexId vertex, const S& work) {
-    if (!hands_.empty() && hands_[vertex].script != none) works_[hands_[vertex].script] += work;
+    if (!vertices_.empty() && vertices_[vertex].script != none) works_[vertices_[vertex].script] += work;
   }
 
  private:
-  std::span<Hand> hands_;
+  std::span<ScriptedVertex> vertices_;
   std::span<S> works_;
 };
 
@@ -141,10 +140,10 @@ struct Books {
     scripts.resize(std::max(scripts.size(), script_count));
   }
 
-  /// What a layer of contact did: for its material, for which there is room, and for all contact.
-  void add_contact(std::size_t material, const Account<S, Dim>& account) {
-    of(ForceKind::contact) += account;
-    contact[material] += account;
+  /// All contact, of what its materials did.
+  void sum_contact() {
+    of(ForceKind::contact) = {};
+    for (const auto& account : contact) of(ForceKind::contact) += account;
   }
 };
 

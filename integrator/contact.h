@@ -290,7 +290,7 @@ class Contact {
       now.record.layer_fires(Firing{t, h, material, l, terms});
     }
     std::size_t acted = 0;
-    Account<double, Dim> account;
+    Account<double, Dim>& account = books.contact[material];
     for (const certificates::Stencil& pair : firing) {
       const double d = fire_pair(now, account, pair, terms, h);
       const double eta = terms.thickness;
@@ -300,8 +300,7 @@ class Contact {
       }
       if (d > eta) drop_if_clear(pair, material, l, d, t);
     }
-    account.events = acted;
-    if (acted > 0) books.add_contact(material, account);
+    account.events += acted;
     return acted;
   }
 

@@ -77,20 +77,7 @@ class PairState {
     }
   }
 
-  /// Twice the mean velocities of an event that has given all its impulses; `before`: as it was. Books what is held.
-  template <class Recorder>
-  std::array<Vec<S, Dim>, 4> twice_mean(const PairState& before, const Kicked<S, Dim, Recorder>& now,
-                                        const certificates::Stencil& pair, const Impulses<Dim, S>& impulses,
-                                        Account<S, Dim>& account) const {
-    std::array<Vec<S, Dim>, 4> twice;
-    for (std::size_t i = 0; i < size_; ++i) {
-      twice[i] = before.v_[i] + v_[i];
-      if (inverse_mass_[i] != S(0)) continue;
-      const Held<S, Dim> held{pair.vertices[i], now.t, x_[i], v_[i]};
-      twice[i] = S(2) * book_support<S, Dim>(account, *now.scripts, held, impulses[i]);
-    }
-    return twice;
-  }
+  const std::array<Vec<S, Dim>, 4>& velocities() const { return v_; }
 
   template <class Recorder>
   void settle(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair) const {
@@ -130,11 +117,37 @@ Friction<S, Dim> rub(PairState<S, Dim>& state, const certificates::Closest<Dim, 
   return friction;
 }
 
-template <int Dim, class S>
-S work_of(const Impulses<Dim, S>& impulses, const std::array<Vec<S, Dim>, 4>& twice_mean, std::size_t size) {
-  S twice(0);
-  for (std::size_t i = 0; i < size; ++i) twice += impulses[i].dot(twice_mean[i]);
-  return S(0.5) * twice;
+/// What a layer gives a pair, all in one event.
+template <class S, int Dim>
+struct PairImpulses {
+  Impulses<Dim, S> potential;  ///< of the layer's potential
+  Impulses<Dim, S> normal;     ///< of these, what restitution leaves
+  Impulses<Dim, S> friction;   ///< of which normal impulses are the measure
+  bool withheld = false;       ///< `normal` is not `potential`
+  bool rubs = false;           ///< there is friction
+};
+
+/// Books what a layer has given a pair, which moved with the velocities `before` and is `after` now.
+template <class S, int Dim, class Recorder>
+void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
+               const std::array<Vec<S, Dim>, 4>& before, const PairState<S, Dim>& after,
+               const PairImpulses<S, Dim>& given, Account<S, Dim>& account) {
+  S potential(0), normal(0), friction(0);
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    const Vec<S, Dim>& v = after.velocities()[i];
+    Vec<S, Dim> twice_mean = before[i] + v;
+    if (after.inverse_masses()[i] == S(0)) {
+      const Vec<S, Dim> whole = given.rubs ? Vec<S, Dim>(given.normal[i] + given.friction[i]) : given.normal[i];
+      const Held<S, Dim> held{pair.vertices[i], now.t, after.xs()[i], v};
+      twice_mean = S(2) * book_held<S, Dim>(account, *now.scripts, held, whole);
+    }
+    normal += given.normal[i].dot(twice_mean);
+    if (given.withheld) potential += given.potential[i].dot(twice_mean);
+    if (given.rubs) friction += given.friction[i].dot(twice_mean);
+  }
+  account.work += S(0.5) * (given.withheld ? potential : normal);
+  if (given.withheld) account.restitution_work += S(0.5) * (normal - potential);
+  account.damping_work += S(0.5) * friction;
 }
 
 /// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Room in the recording is the caller's
@@ -153,32 +166,24 @@ Blow<S, Dim> strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates
   blow.course.parts = opening_speed<Dim, S>(blow.closest, blow.distance, state.vs()) > S(0);
   const double share = blow.course.parts ? layer.restitution : 1;
   const S push = S(-share) * S(h) * S(layer.stiffness) * g;
-  const PairState<S, Dim> before = state;
-  Impulses<Dim, S> given = normal_impulses<Dim, S>(blow.closest, blow.distance, push);
-  const Impulses<Dim, S> normal = given;
+  const std::array<Vec<S, Dim>, 4> before = state.velocities();
+  PairImpulses<S, Dim> given;
+  given.withheld = share != 1;
+  if (given.withheld) {
+    given.potential = normal_impulses<Dim, S>(blow.closest, blow.distance, S(-1) * S(h) * S(layer.stiffness) * g);
+  }
+  given.normal = normal_impulses<Dim, S>(blow.closest, blow.distance, push);
   if (push != S(0)) {
     blow.struck = true;
-    state.give(normal);
+    state.give(given.normal);
   }
-  Friction<S, Dim> friction;
-  const bool rubs = blow.struck && layer.friction > 0;
-  if (rubs) {
-    friction = rub<S, Dim>(state, blow.closest, S(layer.friction) * push);
+  given.rubs = blow.struck && layer.friction > 0;
+  if (given.rubs) {
+    const Friction<S, Dim> friction = rub<S, Dim>(state, blow.closest, S(layer.friction) * push);
     blow.course.sticks = friction.sticks;
-    for (std::size_t i = 0; i < pair.size(); ++i) given[i] += friction.impulses[i];
+    given.friction = friction.impulses;
   }
-  const auto twice_mean = state.twice_mean(before, now, pair, given, account);
-  const S work = work_of<Dim, S>(normal, twice_mean, pair.size());
-  if (rubs) account.damping_work += work_of<Dim, S>(friction.impulses, twice_mean, pair.size());
-  if (share == 1) {
-    account.work += work;
-  } else {
-    const S whole_push = S(-1) * S(h) * S(layer.stiffness) * g;
-    const S whole =
-        work_of<Dim, S>(normal_impulses<Dim, S>(blow.closest, blow.distance, whole_push), twice_mean, pair.size());
-    account.work += whole;
-    account.restitution_work += work - whole;
-  }
+  book_pair(now, pair, before, state, given, account);
   if (blow.struck) state.settle(now, pair);
   return blow;
 }

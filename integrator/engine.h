@@ -54,7 +54,7 @@ class Engine {
       : window_length_(model.window_length), clocks_(model.clocks), gravity_(model.gravity), timeline_(model.scripts) {
     check(model);
     make_particles(model);
-    make_hands(model);
+    make_scripted(model);
     take_forces(model);
     if (gravity_) slots_.insert(slots_.begin(), {ForceKind::gravity, {gravity_->step, 1}, 0, particles_.size(), {}});
     make_contact(model);
@@ -70,6 +70,7 @@ class Engine {
       particles_[i].t = t;
     }
     for (Group& slot : slots_) slot.clock.next = first_after(t, slot.clock.step);
+    due_ = nullptr;
     timeline_.skip_to(t);
     make_own_clocks();
   }
@@ -103,7 +104,7 @@ class Engine {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
     open(record);
     books.reserve(material_count_, script_count_);
-    script_book_ = {hands_, books.scripts};
+    script_book_ = {scripted_, books.scripts};
     const PhaseScope queueing(*activity_, Phase::queue);
     if (windows_ == 0) start(record, books);
     start_contact(record, books);
@@ -112,11 +113,13 @@ class Engine {
       if (events_ + ++turns - last < events_between_questions) continue;
       if (stop()) {
         instant_.close(particles_, books);
+        books.sum_contact();
         return false;
       }
       last = events_ + turns;
     }
     close(end, record);
+    books.sum_contact();
     ++windows_;
     return true;
   }
@@ -198,11 +201,11 @@ class Engine {
     }
   }
 
-  void make_hands(const Model<S, Dim>& model) {
+  void make_scripted(const Model<S, Dim>& model) {
     if (model.scripts.empty()) return;
-    hands_.resize(particles_.size());
+    scripted_.resize(particles_.size());
     for (const auto& script : model.scripts) {
-      hands_[script.vertex].script = script.number;
+      scripted_[script.vertex].script = script.number;
       script_count_ = std::max<std::size_t>(script_count_, script.number + std::size_t{1});
     }
   }
@@ -305,7 +308,8 @@ class Engine {
   /// scripts come first, then certificates, forces and layers of contact.
   template <class Recorder>
   bool run_next(double end, Recorder& record, Books<S, Dim>& books) {
-    Group* slot = next_slot();
+    if (due_ == nullptr) due_ = next_slot();
+    Group* const slot = due_;
     const double slot_time = slot != nullptr ? slot->clock.time() : std::numeric_limits<double>::infinity();
     const double turn_time = timeline_.next_time();
     const double own_time = own_.empty() ? std::numeric_limits<double>::infinity() : own_.next_time();
@@ -321,6 +325,7 @@ class Engine {
     }
     if (slot_time > end) return false;
     ++slot->clock.next;
+    due_ = next_slot();
     fire_slot(at<Recorder>(slot_time, record), *slot, S(slot->clock.step), books);
     if (last_of(slot_time)) instant_.close(particles_, books);
     return true;
@@ -391,7 +396,7 @@ class Engine {
   }
 
   /// Whether the group that fires at t is the last one of this time; at time 0, where all do, it is not said.
-  bool last_of(double t) { return t > 0 && next_slot()->clock.time() != t; }
+  bool last_of(double t) const { return t > 0 && due_->clock.time() != t; }
 
   /// Forces with clocks of their own, up to `end` and before `other`; some rows of them.
   template <class Recorder>
@@ -433,8 +438,7 @@ class Engine {
                                       const S& h, Account<S, Dim>& account) {
     const std::span<const F> forces(division.list.forces.data() + group.begin, group.end - group.begin);
     Account<S, Dim> sum;
-    instant_.begin(F::kind, Damped, last_of(now.t), group.vertices);
-    kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, instant_, sum, *activity_);
+    kick_all<Damped, F, S, Dim>(now, forces, group.vertices, here_, h, last_of(now.t), instant_, sum, *activity_);
     account += sum;
     if constexpr (std::is_same_v<Recorder, detail::Watch>) {
       for (const F& force : forces) watch(now, force);
@@ -478,20 +482,20 @@ class Engine {
     const Vec<S, Dim> dv = h * gravity_->acceleration;
     if (dv == Vec<S, Dim>::Zero()) return;
     now.record.reserve(particles_.size());
-    instant_.begin(ForceKind::gravity, /*damped=*/false, last_of(now.t), all_);
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const auto fallen = [&](VertexId i) -> const Particle<S, Dim>& {
       const Particle<S, Dim>& p = particles_[i];
-      const auto vertex = static_cast<VertexId>(i);
-      instant_.before(vertex, p.v);
-      if (p.inverse_mass == S(0)) continue;
+      if (p.inverse_mass == S(0)) return p;
       const Vec<S, Dim> x = p.at(now.t), v = p.v + dv;
       const Vec<S, Dim> impulse = masses_[i] * dv;
       sum.impulse += impulse;
       sum.angular_impulse += moment<S, Dim>(x, impulse);
-      set_velocity(now, vertex, x, v);
-      instant_.after(i, vertex, v, p.inverse_mass);
+      set_velocity(now, i, x, v);
       ++sum.events;
-    }
+      return p;
+    };
+    const auto velocity = [&](VertexId i) -> const Vec<S, Dim>& { return particles_[i].v; };
+    instant_.template begin<false>(ForceKind::gravity, last_of(now.t), all_, velocity);
+    instant_.template end<false>(fallen, [](VertexId) { return Vec<S, Dim>(); });
     events_ += sum.events;
     books.of(ForceKind::gravity) += sum;
     if (!contact_ || !contact_->started()) return;
@@ -538,7 +542,7 @@ class Engine {
   Timeline<S, Dim> timeline_;
   std::vector<S> masses_;
   std::vector<Particle<S, Dim>> particles_;
-  std::vector<typename ScriptBook<S, Dim>::Hand> hands_;  ///< by vertex; none without scripts
+  std::vector<typename ScriptBook<S, Dim>::ScriptedVertex> scripted_;  ///< by vertex; none without scripts
   std::size_t material_count_ = 0, script_count_ = 0;
   ScriptBook<S, Dim> script_book_;  ///< of the window that runs
   Instant<S, Dim> instant_;         ///< of the groups that strike now
@@ -546,6 +550,7 @@ class Engine {
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;
   std::vector<Group> slots_;
+  Group* due_ = nullptr;  ///< that fires next, if it is known
   OwnClocks<kinds> own_;
   std::unique_ptr<ContactType> contact_;  ///< of the particles above; nothing in scenes without contact
   S contact_at_start_{};                  ///< its potential at time 0 [J], when that has been run from

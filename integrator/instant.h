@@ -26,40 +26,51 @@ template <class S, int Dim>
 class Instant {
  public:
   Instant() = default;
-  explicit Instant(std::size_t particles) : begun_(particles, 0), before_(particles), damping_(particles) {}
+  explicit Instant(std::size_t particles) : begun_(particles, 0), before_(particles) {}
 
-  /// A group is about to strike `vertices`, which outlive this time; `last`: no other does after it. For each of them,
-  /// in order, before() is called; then the group, if it is damped, adds up damping(); then after() is called for each.
-  void begin(ForceKind kind, bool damped, bool last, std::span<const VertexId> vertices) {
-    groups_.push_back({kind, damped, vertices, changes_.size(), dampings_.size()});
+  /// A group is about to strike `vertices`, which outlive this time; `last`: no other does after it. `velocity`: tells
+  /// that of a vertex, and is called for each, in order. Then end() is called.
+  template <bool Damped, class Velocity>
+  void begin(ForceKind kind, bool last, std::span<const VertexId> vertices, Velocity&& velocity) {
+    groups_.push_back({kind, Damped, vertices, changes_.size(), dampings_.size()});
     last_ = last;
     alone_ = last && groups_.size() == 1;
-  }
-
-  /// A vertex moves with v.
-  void before(VertexId i, const Vec<S, Dim>& v) {
-    changes_.push_back(v);
-    if (groups_.back().damped) damping_[i].setZero();
-    if (alone_ || begun_[i] != 0) return;
-    begun_[i] = 1;
-    before_[i] = v;
-  }
-
-  /// J of damping, by particle.
-  std::span<Vec<S, Dim>> damping() { return damping_; }
-
-  /// The k-th vertex of the group moves with v. `inverse_mass`: 0 if it is held.
-  void after(std::size_t k, VertexId i, const Vec<S, Dim>& v, const S& inverse_mass) {
-    const Group& group = groups_.back();
-    Vec<S, Dim>& change = changes_[group.first + k];
-    if (!last_) {
-      change = v - change;
-      if (group.damped) dampings_.push_back(damping_[i]);
-    } else if (inverse_mass != S(0)) {
-      const Vec<S, Dim> twice_mean = (alone_ ? change : before_[i]) + v;
-      twice_work_ += Vec<S, Dim>(v - change).dot(twice_mean) / inverse_mass;
-      if (group.damped) twice_damping_ += damping_[i].dot(twice_mean);
+    const std::size_t first = changes_.size();
+    changes_.resize(first + vertices.size());
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const VertexId i = vertices[k];
+      const Vec<S, Dim>& v = velocity(i);
+      changes_[first + k] = v;
+      if (alone_ || begun_[i] == number_) continue;
+      begun_[i] = number_;
+      before_[i] = v;
     }
+  }
+
+  /// The group has struck. `settled`: settles a vertex and returns what has its `v` and `inverse_mass`, which is 0 if
+  /// it is held; called for each, in order. `damping`: D of a vertex, if the group is damped.
+  template <bool Damped, class Settled, class Damping>
+  void end(Settled&& settled, Damping&& damping) {
+    const Group& group = groups_.back();
+    Vec<S, Dim>* const changes = changes_.data() + group.first;
+    if (!last_) {
+      for (std::size_t k = 0; k < group.vertices.size(); ++k) {
+        changes[k] = settled(group.vertices[k]).v - changes[k];
+        if constexpr (Damped) dampings_.push_back(damping(group.vertices[k]));
+      }
+      return;
+    }
+    S twice_work(0), twice_damping(0);
+    for (std::size_t k = 0; k < group.vertices.size(); ++k) {
+      const VertexId i = group.vertices[k];
+      const auto& particle = settled(i);
+      if (particle.inverse_mass == S(0)) continue;
+      const Vec<S, Dim> twice_mean = (alone_ ? changes[k] : before_[i]) + particle.v;
+      twice_work += Vec<S, Dim>(particle.v - changes[k]).dot(twice_mean) / particle.inverse_mass;
+      if constexpr (Damped) twice_damping += damping(i).dot(twice_mean);
+    }
+    twice_work_ = twice_work;
+    twice_damping_ = twice_damping;
   }
 
   /// The last group has struck, or no other will. `particles`: of what has `v` and `inverse_mass`.
@@ -68,15 +79,13 @@ class Instant {
     if (groups_.empty()) return;
     if (last_) {
       book(books.of(groups_.back().kind), twice_work_, twice_damping_);
-      if (!alone_) forget(groups_.back());
       groups_.pop_back();
     }
     for (const Group& group : groups_) close_early(group, particles, books.of(group.kind));
-    for (const Group& group : groups_) forget(group);
     groups_.clear();
     changes_.clear();
     dampings_.clear();
-    twice_work_ = twice_damping_ = S(0);
+    ++number_;
   }
 
  private:
@@ -107,17 +116,14 @@ class Instant {
     account.damping_work += S(0.5) * twice_damping;
   }
 
-  void forget(const Group& group) {
-    for (const VertexId i : group.vertices) begun_[i] = 0;
-  }
-
   bool last_ = false, alone_ = false;  ///< the last group of groups_
-  S twice_work_{}, twice_damping_{};   ///< of the last group, so far
+  S twice_work_{}, twice_damping_{};   ///< of the last group
   std::vector<Group> groups_;
   std::vector<Vec<S, Dim>> changes_;  ///< J / m, of the groups' vertices, one after another; before after(), velocities
   std::vector<Vec<S, Dim>> dampings_;  ///< D, of those of damped groups
-  std::vector<std::uint8_t> begun_;
-  std::vector<Vec<S, Dim>> before_, damping_;  ///< by particle
+  std::uint64_t number_ = 1;           ///< of this time
+  std::vector<std::uint64_t> begun_;   ///< by particle: the number of the time that before_ is of
+  std::vector<Vec<S, Dim>> before_;    ///< v0, by particle
 };
 
 }  // namespace noli::integrator

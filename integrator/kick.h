@@ -91,7 +91,7 @@ struct Kicked {
   std::span<Particle<S, Dim>> particles;
   Recorder& record;
   double t;                     ///< now
-  ScriptBook<S, Dim>* scripts;  ///< is told what those who hold particles do
+  ScriptBook<S, Dim>* scripts;  ///< books the work of scripts
 };
 
 /// Gives a particle that is at x now another velocity. Room in the recording is the caller's business.
@@ -116,9 +116,10 @@ bool differ(const Vec<S, Dim>& a, const Vec<S, Dim>& b) {
 /// Where a vertex is at the time of an event of many forces, and whether one of them has changed its velocity. The mass
 /// is here because beside a velocity that has just been written it could not be read without waiting.
 template <class S, int Dim>
-struct Here {
+struct alignas(particle_alignment<S, Dim>) Here {
   Vec<S, Dim> x;
   S inverse_mass;
+  Vec<S, Dim> damping;  ///< impulses of damping so far [N s]
   bool changed;
 };
 
@@ -130,7 +131,6 @@ struct GroupBlows {
   S h;
   Kicked<S, Dim, Recorder> now;
   std::span<Here<S, Dim>> here;
-  std::span<Vec<S, Dim>> damping;  ///< by particle: of these blows
 
   std::size_t size() const { return forces.size(); }
   const F& force(std::size_t k) const { return forces[k]; }
@@ -188,8 +188,8 @@ struct Held {
 /// Books what a particle that is not free takes out of the momentum of all others, and the work of what holds it.
 /// `impulse`: the whole of the event's. Returns the velocity with which that works.
 template <class S, int Dim>
-[[gnu::noinline]] Vec<S, Dim> book_support(Account<S, Dim>& account, ScriptBook<S, Dim>& scripts,
-                                           const Held<S, Dim>& held, const Vec<S, Dim>& impulse) {
+[[gnu::noinline]] Vec<S, Dim> book_held(Account<S, Dim>& account, ScriptBook<S, Dim>& scripts, const Held<S, Dim>& held,
+                                        const Vec<S, Dim>& impulse) {
   account.impulse -= impulse;
   account.angular_impulse -= moment<S, Dim>(held.x, impulse);
   const Vec<S, Dim> v = scripts.velocity(held.vertex, held.t, held.v);
@@ -213,14 +213,44 @@ void find_impulses(const Blows& blows, std::size_t k, VertexVectors<S, Dim, F::s
   }
 }
 
-/// Gives the vertices of blow k their velocities. Books what that does to those who hold particles, and all of it where
-/// the blow is an event.
+/// What blow k does to its vertices, which are still as they were before.
+template <class S, int Dim, std::size_t N>
+struct BlowOf {
+  VertexVectors<S, Dim, N> impulses;  ///< of the potential
+  VertexVectors<S, Dim, N> damping;   ///< further ones; not there if nothing is damped
+  VertexVectors<S, Dim, N> v;         ///< velocities after it [m/s]
+};
+
+/// Books blow k as an event; where it is only part of one, what holds particles.
+template <bool Damped, class S, int Dim, std::size_t N, class Blows>
+void book(const Blows& blows, std::size_t k, const BlowOf<S, Dim, N>& blow, Account<S, Dim>& account) {
+  const auto& vertices = blows.force(k).vertices;
+  S twice_work(0), twice_damping(0);
+  for (std::size_t i = 0; i < N; ++i) {
+    const bool is_held = blows.inverse_mass(vertices[i]) == S(0);
+    if (!Blows::are_events && !is_held) continue;
+    Vec<S, Dim> twice_mean = blows.velocity(vertices[i]) + blow.v[i];
+    if (is_held) [[unlikely]] {
+      Vec<S, Dim> whole = blow.impulses[i];
+      if constexpr (Damped) whole += blow.damping[i];
+      const Held<S, Dim> held{vertices[i], blows.time(k), blows.position(k, vertices[i]), blow.v[i]};
+      twice_mean = S(2) * book_held<S, Dim>(account, blows.scripts(), held, whole);
+    }
+    twice_work += blow.impulses[i].dot(twice_mean);
+    if constexpr (Damped) twice_damping += blow.damping[i].dot(twice_mean);
+  }
+  account.work += S(0.5) * twice_work;
+  if constexpr (Damped) account.damping_work += S(0.5) * twice_damping;
+}
+
+/// Gives the vertices of blow k their velocities, and books that.
 template <bool Damped, class S, int Dim, std::size_t N, class Blows>
 void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& impulses, Account<S, Dim>& account) {
   const auto& force = blows.force(k);
-  VertexVectors<S, Dim, N> v, damping;
+  BlowOf<S, Dim, N> blow;
+  blow.impulses = impulses;
   for (std::size_t i = 0; i < N; ++i) {
-    v[i] = blows.velocity(force.vertices[i]) + blows.inverse_mass(force.vertices[i]) * impulses[i];
+    blow.v[i] = blows.velocity(force.vertices[i]) + blows.inverse_mass(force.vertices[i]) * impulses[i];
   }
   if constexpr (Damped) {
     VertexVectors<S, Dim, N> x;
@@ -229,29 +259,13 @@ void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& im
       x[i] = blows.position(k, force.vertices[i]);
       inverse_mass[i] = blows.inverse_mass(force.vertices[i]);
     }
-    damping = damp(force, x, v, inverse_mass, blows.step(k));
-  }
-  S twice_work(0), twice_damping(0);
-  for (std::size_t i = 0; i < N; ++i) {
-    const VertexId vertex = force.vertices[i];
-    const bool held = blows.inverse_mass(vertex) == S(0);
+    blow.damping = damp(force, x, blow.v, inverse_mass, blows.step(k));
     if constexpr (!Blows::are_events) {
-      if constexpr (Damped) blows.damping[vertex] += damping[i];
-      if (!held) continue;
+      for (std::size_t i = 0; i < N; ++i) blows.here[force.vertices[i]].damping += blow.damping[i];
     }
-    Vec<S, Dim> twice_mean = blows.velocity(vertex) + v[i];
-    if (held) [[unlikely]] {
-      Vec<S, Dim> impulse = impulses[i];
-      if constexpr (Damped) impulse += damping[i];
-      const Held<S, Dim> there{vertex, blows.time(k), blows.position(k, vertex), v[i]};
-      twice_mean = S(2) * book_support<S, Dim>(account, blows.scripts(), there, impulse);
-    }
-    twice_work += impulses[i].dot(twice_mean);
-    if constexpr (Damped) twice_damping += damping[i].dot(twice_mean);
   }
-  account.work += S(0.5) * twice_work;
-  if constexpr (Damped) account.damping_work += S(0.5) * twice_damping;
-  for (std::size_t i = 0; i < N; ++i) blows.settle(k, force.vertices[i], v[i]);
+  book<Damped>(blows, k, blow, account);
+  for (std::size_t i = 0; i < N; ++i) blows.settle(k, force.vertices[i], blow.v[i]);
 }
 
 /// Fires all. Leaves the activity at what it does last.
@@ -270,25 +284,24 @@ void strike(const Blows& blows, Account<S, Dim>& account, Activity& activity) {
 }
 
 /// Fires forces of equal step that strike at one time. `vertices`: all of theirs, each once; `here` has room for every
-/// particle; with `instant` they have begun.
+/// particle; `last`: no others strike at this time after them.
 template <bool Damped, class F, class S, int Dim, class Recorder>
 void kick_all(const Kicked<S, Dim, Recorder>& now, std::span<const F> forces, std::span<const VertexId> vertices,
-              std::span<Here<S, Dim>> here, const S& h, Instant<S, Dim>& instant, Account<S, Dim>& account,
+              std::span<Here<S, Dim>> here, const S& h, bool last, Instant<S, Dim>& instant, Account<S, Dim>& account,
               Activity& activity) {
   activity.set(Phase::force);
-  for (const VertexId i : vertices) {
+  instant.template begin<Damped>(F::kind, last, vertices, [&](VertexId i) -> const Vec<S, Dim>& {
     const Particle<S, Dim>& p = now.particles[i];
-    here[i] = {p.at(now.t), p.inverse_mass, false};
-    instant.before(i, p.v);
-  }
-  const GroupBlows<F, S, Dim, Recorder> blows{forces, h, now, here, instant.damping()};
+    here[i] = {p.at(now.t), p.inverse_mass, Vec<S, Dim>::Zero(), false};
+    return p.v;
+  });
+  const GroupBlows<F, S, Dim, Recorder> blows{forces, h, now, here};
   strike<Damped, F, S, Dim>(blows, account, activity);
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const VertexId i = vertices[k];
-    const Vec<S, Dim> v = now.particles[i].v;
-    instant.after(k, i, v, here[i].inverse_mass);
-    if (here[i].changed) set_velocity(now, i, here[i].x, v);
-  }
+  const auto settled = [&](VertexId i) -> const Particle<S, Dim>& {
+    if (here[i].changed) set_velocity(now, i, here[i].x, Vec<S, Dim>(now.particles[i].v));
+    return now.particles[i];
+  };
+  instant.template end<Damped>(settled, [&](VertexId i) -> const Vec<S, Dim>& { return here[i].damping; });
 }
 
 }  // namespace noli::integrator

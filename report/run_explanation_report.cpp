@@ -161,20 +161,43 @@ std::string kinds_of_work_text(const EnergySummary& energy) {
   return text;
 }
 
-/// By material of contact, where there are several, and by script.
-std::string parts_of_work_text(const RunExplanation& e) {
+/// " (a and b, a and c)", or nothing.
+std::string meetings_text(const LogFacts& log, std::size_t material) {
+  if (material >= log.meetings.size() || log.meetings[material].pairs.empty()) return "";
   std::string text;
-  const EnergySummary& energy = *e.energy;
-  for (std::size_t m = 0; energy.materials.size() > 1 && m < energy.materials.size(); ++m) {
-    const ContactWork& work = energy.materials[m];
-    const std::string who = m < e.log.meetings.size() ? on_one_line(e.log.meetings[m]) : "";
+  for (const auto& [a, b] : log.meetings[material].pairs) {
+    const auto name = [&](std::uint64_t body) { return on_one_line(log.names.bodies()[body].name); };
+    text += fmt::format("{}{} and {}", text.empty() ? " (" : ", ", name(a), name(b));
+  }
+  const std::uint64_t more = log.meetings[material].more;
+  return text + (more > 0 ? fmt::format(", and {} more pairs)", more) : ")");
+}
+
+constexpr std::size_t most_told = 16;  ///< materials, and scripts; JSON has all
+
+std::string and_more(std::size_t count, const char* what) {
+  return count > most_told ? fmt::format("  and {} more {}\n", count - most_told, what) : "";
+}
+
+/// By material of contact, where there are several.
+std::string work_of_materials_text(const RunExplanation& e) {
+  const std::vector<ContactWork>& materials = e.energy->materials;
+  if (materials.size() < 2) return "";
+  std::string text;
+  for (std::size_t m = 0; m < std::min(materials.size(), most_told); ++m) {
+    const ContactWork& work = materials[m];
     text += fmt::format("  material {}{}: {:.3g} J of its potential, {:.3g} J of friction, {:.3g} J of restitution\n",
-                        m, who.empty() ? "" : " (" + who + ")", work.potential, work.friction, work.restitution);
+                        m, meetings_text(e.log, m), work.potential, work.friction, work.restitution);
   }
-  for (std::size_t s = 0; s < energy.scripts.size(); ++s) {
-    text += fmt::format("  scripts/{}: {:.3g} J\n", s, energy.scripts[s]);
+  return text + and_more(materials.size(), "materials");
+}
+
+std::string work_of_scripts_text(const std::vector<double>& scripts) {
+  std::string text;
+  for (std::size_t s = 0; s < std::min(scripts.size(), most_told); ++s) {
+    text += fmt::format("  scripts/{}: {:.3g} J\n", s, scripts[s]);
   }
-  return text;
+  return text + and_more(scripts.size(), "scripts");
 }
 
 std::string energy_text(const RunExplanation& e) {
@@ -186,7 +209,7 @@ std::string energy_text(const RunExplanation& e) {
              "{:.3g} J, finite steps did.\n",
              energy.begin, energy.last, energy.least, energy.greatest, energy.damping_work, energy.restitution_work,
              energy.held_work, energy.integration) +
-         kinds_of_work_text(energy) + parts_of_work_text(e);
+         kinds_of_work_text(energy) + work_of_materials_text(e) + work_of_scripts_text(energy.scripts);
 }
 
 std::string certificates_text(const RunExplanation& e) {

@@ -93,11 +93,10 @@ std::string too_near_text(const SimulateOutcome& outcome) {
 std::string unstable_text(const SimulateOutcome& outcome) {
   const EnergyAstray& energy = *outcome.energy_astray;
   return fmt::format(
-      "{} But the energy goes astray: from {:.3g} J to {:.3g} J at {} s, without what damping, friction and scripts "
-      "gave. The motion touches nothing, and is not that of the scene: its steps are too long, or kick in time "
-      "(`noli explain`).",
-      nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there,
-      digits17(energy.time));
+      "{} But the energy goes astray: from {:.3g} J to {:.3g} J at {} s, without what {} gave. The motion touches "
+      "nothing, and is not that of the scene: its steps are too long, or kick in time (`noli explain`).",
+      nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there, digits17(energy.time),
+      energy.may_fall ? "scripts" : "damping, friction and scripts");
 }
 
 std::string going_on_text(const SimulateOutcome& outcome) {

@@ -61,7 +61,7 @@ integrator::Model<MpfrNumber, Dim> precise(const integrator::Model<double, Dim>&
   for (const double m : model.mass) result.mass.push_back(MpfrNumber(m));
   result.pinned = model.pinned;
   for (const auto& script : model.scripts) {
-    result.scripts.push_back({script.vertex, script.times, precise(script.positions)});
+    result.scripts.push_back({script.vertex, script.times, precise(script.positions), script.number});
   }
   if (model.gravity) result.gravity = {precise(model.gravity->acceleration), model.gravity->step};
   const auto copy = [](const auto& from, auto& to) {

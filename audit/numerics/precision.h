@@ -5,13 +5,11 @@
 //
 // Notation
 //   E         energy at a window's end: kinetic energy of the velocities half way through the kicks of that time, and
-//             all potentials (integrator/energy.h)
-//   D_p       (E - E_1) - (W - W_1) of the run with p bits, W the work of damping and friction (not positive), 1 the
-//             end of the first window: by how much the run has gained energy that nothing gave it
+//             all potentials, and what scripts have been booked in advance (integrator/energy.h)
+//   D_p       (E - E_1) - (W - W_1) of the run with p bits, W the work of damping, friction, restitution and scripts,
+//             1 the end of the first window: by how much the run has gained energy that nothing gave it
 //   truncation  D_p of the greatest p: what is left is the error of the scheme, its steps being finite
 //   rounding    D of double less that
-// In scenes where scripts do work on things, or restitution takes energy, D is not all error: then there is no
-// truncation to be told from it, but rounding, a difference of two runs, is what it is.
 //
 // What this does not do: windows are not verified, so none is rolled back; the run in double is that of noli simulate
 // as long as that rolls none back either. Event times are not computed in higher precision, but see TimeTie.
@@ -34,7 +32,7 @@ namespace noli::audit {
 
 struct PrecisionRequest {
   /// The first one is to yield the bits of double; the last one is what energies are measured against.
-  std::vector<Arithmetic> arithmetics = {hardware_double};
+  std::vector<Arithmetic> arithmetics = std::vector<Arithmetic>(1, hardware_double);
   std::uint64_t windows = 0;  ///< to be run
   int threads = 0;            ///< 0: all there are. They change nothing but the time it takes
   const std::atomic<bool>* stop = nullptr;
@@ -80,11 +78,10 @@ struct PrecisionOutcome {
   std::uint64_t impulses = 0;               ///< of these, layers that acted
   std::optional<BitDifference> difference;  ///< of the first run from double
   std::vector<PrecisionRun> runs;
-  std::vector<EnergyError> energies;         ///< one for each window
-  std::optional<std::string> not_conserved;  ///< why D is not all error
-  std::optional<TimeTie> tie;                ///< the first
-  std::optional<std::string> ended;          ///< why the run in double did
-  bool complete = false;                     ///< all windows were run
+  std::vector<EnergyError> energies;  ///< one for each window
+  std::optional<TimeTie> tie;         ///< the first
+  std::optional<std::string> ended;   ///< why the run in double did
+  bool complete = false;              ///< all windows were run
 
   /// The earliest time at which the order of events would be another: a layer that acts in double and not in the
   /// greatest precision, or the other way round, or a tie.

@@ -131,7 +131,6 @@ Panel energy_errors(const PrecisionOutcome& outcome) {
     truncation.values.push_back(std::abs(error.truncation));
     rounding.values.push_back(std::abs(error.rounding));
   }
-  if (outcome.not_conserved) return {"energy error [J]", {rounding}};
   return {"energy error [J]", {truncation, rounding}};
 }
 

@@ -80,16 +80,10 @@ std::string order_text(const PrecisionOutcome& outcome) {
 std::string energy_text(const PrecisionOutcome& outcome) {
   if (last_in_order(outcome) == nullptr) return "";
   const EnergyError& last = *last_in_order(outcome);
-  const std::string head =
-      fmt::format("Energy of double at {} s: {} J. ", three_digits(last.time), three_digits(last.energy));
-  if (outcome.not_conserved) {
-    return head +
-           fmt::format("Gained by rounding {} J. It is not conserved here ({}), so that truncation cannot be told.\n",
-                       three_digits(last.rounding), *outcome.not_conserved);
-  }
-  return head + fmt::format("Gained by truncation {} J, by rounding {} J: rounding is {} of both.\n",
-                            three_digits(last.truncation), three_digits(last.rounding),
-                            three_digits(last.share_of_rounding()));
+  return fmt::format(
+      "Energy of double at {} s: {} J. Gained by truncation {} J, by rounding {} J: rounding is {} of both.\n",
+      three_digits(last.time), three_digits(last.energy), three_digits(last.truncation), three_digits(last.rounding),
+      three_digits(last.share_of_rounding()));
 }
 
 // --- JSON ------------------------------------------------------------------------------------------------------------
@@ -201,7 +195,6 @@ Json precision_json(const PrecisionOutcome& outcome) {
                {"impulses", outcome.impulses},
                {"difference", nullptr},
                {"order", order_json(outcome)},
-               {"not_conserved", or_null(outcome.not_conserved)},
                {"energies", Json::array()},
                {"runs", Json::array()}};
   if (outcome.difference) json["difference"] = {{"time", outcome.difference->time}, {"what", outcome.difference->what}};

@@ -94,7 +94,7 @@ class Comparison {
 
 /// The work of damping, friction, restitution and scripts [J].
 template <class S, int Dim>
-S damping_work(const integrator::Books<S, Dim>& books) {
+S given_work(const integrator::Books<S, Dim>& books) {
   S sum(0);
   for (const auto& account : books.accounts) sum += account.damping_work + account.restitution_work + account.held_work;
   return sum;
@@ -120,13 +120,13 @@ class Replay {
     if (!engine_.run_window(comparison_, books_, stop)) return;
     comparison_.conclude(engine_.time());
     state_ = integrator::Ledger<Number, Dim, ReplayedContact<Number, Dim>>(engine_).state();
-    damping_ = damping_work(books_);
+    given_ = given_work(books_);
   }
 
   const auto& particles() const { return engine_.particles(); }
   /// At the end of the last window.
   const State& state() const { return state_; }
-  const Number& damping() const { return damping_; }  ///< work since time 0 [J]
+  const Number& given() const { return given_; }  ///< given_work() since time 0 [J]
 
   Comparison<Dim>& comparison() { return comparison_; }
 
@@ -143,7 +143,7 @@ class Replay {
   Engine engine_;
   integrator::Books<Number, Dim> books_;
   State state_;
-  Number damping_;
+  Number given_;
 };
 
 }  // namespace noli::audit

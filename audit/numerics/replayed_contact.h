@@ -56,14 +56,15 @@ class ReplayedContact {
     const integrator::Kicked<S, Dim, Recorder> now{particles_, record, firing.time, &scripts};
     record.layer_fires(firing);
     record.reserve(4 * (logged.end - logged.begin));
-    integrator::Account<S, Dim> account;
+    integrator::Account<S, Dim>& account = books.contact[firing.material];
+    std::size_t acted = 0;
     for (const Examined& examined : log_->examined().subspan(logged.begin, logged.end - logged.begin)) {
       const auto blow = integrator::strike_pair(now, examined.pair, firing.terms, firing.h, account);
       record.examined(examined.pair, blow.whole_course());
-      if (blow.course.acts) ++account.events;
+      if (blow.course.acts) ++acted;
     }
-    if (account.events > 0) books.add_contact(firing.material, account);
-    return account.events;
+    account.events += acted;
+    return acted;
   }
 
   /// The firings of time 0: nothing else happens then.

@@ -71,22 +71,23 @@ class Reader {
     }
     for (const Json& material : member(contact, "materials")) {
       facts_.thicknesses.push_back(number<double>(material, "thickness"));
-      facts_.meetings.push_back(meetings(member(material, "pairs")));
+      facts_.meetings.push_back(meetings(material));
     }
   }
 
-  /// `pairs`: of bodies, by their numbers. Of anything else, nothing.
-  std::string meetings(const Json& pairs) const {
-    std::string text;
-    if (!pairs.is_array()) return text;
-    const auto& bodies = facts_.names.bodies();
+  /// Pairs of bodies that are there; of anything else, nothing.
+  MeetingBodies meetings(const Json& material) const {
+    MeetingBodies result;
+    const Json& pairs = member(material, "pairs");
+    if (!pairs.is_array()) return result;
+    const auto is_body = [&](const Json& n) { return n.is_number_unsigned() && n < facts_.names.bodies().size(); };
     for (const Json& pair : pairs) {
-      const auto is_body = [&](const Json& n) { return n.is_number_unsigned() && n < bodies.size(); };
-      if (!pair.is_array() || pair.size() != 2 || !std::ranges::all_of(pair, is_body)) return "";
-      const auto name = [&](std::size_t k) { return bodies[pair[k].get<std::size_t>()].name; };
-      text += (text.empty() ? "" : ", ") + name(0) + " and " + name(1);
+      if (result.pairs.size() == MeetingBodies::most) break;
+      if (!pair.is_array() || pair.size() != 2 || !std::ranges::all_of(pair, is_body)) return {};
+      result.pairs.push_back({pair[0].get<std::uint64_t>(), pair[1].get<std::uint64_t>()});
     }
-    return text;
+    result.more = number<std::uint64_t>(material, "more_pairs");
+    return result;
   }
 
   /// Whoever resumes may have found fewer windows than the part before had told of, and makes the others again.

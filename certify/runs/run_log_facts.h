@@ -6,6 +6,7 @@
 // What this does not do: lines that it does not know are counted and passed over.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -23,23 +24,44 @@
 
 namespace noli {
 
+/// Which bodies meet so, by their numbers.
+struct MeetingBodies {
+  static constexpr std::size_t most = 6;
+  std::vector<std::array<std::uint64_t, 2>> pairs;  ///< at most so many
+  std::uint64_t more = 0;                           ///< that are not told
+};
+
+/// Of pairs that have `bodies`; those of two classes of a body count once.
+template <class Pairs>
+MeetingBodies meeting_bodies(const Pairs& pairs) {
+  std::set<std::array<std::uint64_t, 2>> all;
+  for (const auto& pair : pairs) all.insert({pair.bodies[0], pair.bodies[1]});
+  MeetingBodies result;
+  for (const auto& pair : all) {
+    if (result.pairs.size() == MeetingBodies::most) break;
+    result.pairs.push_back(pair);
+  }
+  result.more = all.size() - result.pairs.size();
+  return result;
+}
+
 struct LogFacts {
   BodyNames names;
   bool has_contact = false;
   integrator::LayerSchedule layers;
   std::uint32_t most_layers = 0;
-  std::vector<double> thicknesses;    ///< eta(1) of each material [m]
-  std::vector<std::string> meetings;  ///< of each material, which bodies meet so: "a and b, b and b"; empty: not logged
-  std::uint64_t parts = 0;            ///< begun
-  std::uint64_t parts_ended = 0;      ///< with a line of their own
-  std::uint64_t windows = 0;          ///< that it tells of, each once
-  KnownWindows known;                 ///< what the last line that tells of them says
-  std::uint64_t bad_lines = 0;        ///< that are whole, but say nothing that is known
-  std::uint32_t deepest = 0;          ///< layer that was active in any of these windows
-  std::vector<Json> roll_backs;       ///< lines of the log, with windows counted from 1
-  std::string last_end;               ///< of the last part that ended: "done", "interrupted", ...
-  Json last_end_line;                 ///< of the same, whole
-  bool going_on = false;              ///< the last part has no line of its end: it goes on still, or was killed
+  std::vector<double> thicknesses;      ///< eta(1) of each material [m]
+  std::vector<MeetingBodies> meetings;  ///< of each material; none where there is but one, or it is not logged
+  std::uint64_t parts = 0;              ///< begun
+  std::uint64_t parts_ended = 0;        ///< with a line of their own
+  std::uint64_t windows = 0;            ///< that it tells of, each once
+  KnownWindows known;                   ///< what the last line that tells of them says
+  std::uint64_t bad_lines = 0;          ///< that are whole, but say nothing that is known
+  std::uint32_t deepest = 0;            ///< layer that was active in any of these windows
+  std::vector<Json> roll_backs;         ///< lines of the log, with windows counted from 1
+  std::string last_end;                 ///< of the last part that ended: "done", "interrupted", ...
+  Json last_end_line;                   ///< of the same, whole
+  bool going_on = false;                ///< the last part has no line of its end: it goes on still, or was killed
   std::optional<Sha256Digest> manifest, series;  ///< of manifest.json; of series.h5, if the last part wrote it
   PhaseSeconds phases{};
   double verifying_seconds = 0;

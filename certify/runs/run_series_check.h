@@ -3,8 +3,8 @@
 // Whether the numbers of a row can be those of its window. What the motion decides is compared with it; the rest is
 // held within what the integrator can do.
 //
-// What this does not do: energies, momenta and works may be any doubles, as long as they add up. They overflow where
-// velocities do not.
+// What this does not do: energies, momenta and works may be any doubles, which overflow where velocities do not; only
+// `integration` is compared with them, in all rows but the first.
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace noli {
@@ -16,27 +17,31 @@ double without_gravity(const SeriesRow& row) {
 
 }  // namespace
 
+void EnergyWatch::Farthest::add(double off_now, double change_now, double time_now) {
+  if (!std::isfinite(off) || (std::isfinite(change_now) && off_now <= off)) return;
+  off = std::isfinite(change_now) ? off_now : std::numeric_limits<double>::infinity();
+  change = change_now;
+  time = time_now;
+}
+
 void EnergyWatch::add(const SeriesRow& row) {
-  if (!any_) found_.begin = found_.there = row.energy() - row.given() - row.integration;
-  any_ = true;
+  if (!begin_) begin_ = row.energy() - row.given() - row.integration;
   const double damping = sum(row.damping_work), held = sum(row.held_work);
   integration_ += row.integration;
   dissipated_ += damping + row.restitution_work;
   restitution_ += row.restitution_work;
   moved_ += std::abs(damping) + std::abs(held) + std::abs(row.restitution_work);
   greatest_ = std::max(greatest_, without_gravity(row));
-  found_.scale = greatest_ + moved_ + least_;
-  const double rise = restitution_ < 0 ? integration_ + dissipated_ : integration_;
-  const double off = restitution_ < 0 ? rise : std::abs(rise);
-  if (off <= worst_ || std::isnan(worst_)) return;
-  worst_ = off;
-  found_.there = found_.begin + rise;
-  found_.time = row.time;
+  either_way_.add(std::abs(integration_), integration_, row.time);
+  up_.add(integration_ + dissipated_, integration_ + dissipated_, row.time);
 }
 
 std::optional<EnergyAstray> EnergyWatch::astray() const {
-  if (worst_ <= most * found_.scale && std::isfinite(worst_)) return std::nullopt;
-  return found_;
+  const bool may_fall = restitution_ < 0;
+  const Farthest& farthest = may_fall ? up_ : either_way_;
+  const double scale = greatest_ + moved_ + rounding_;
+  if (farthest.off <= most * scale && std::isfinite(farthest.off)) return std::nullopt;
+  return EnergyAstray{*begin_, *begin_ + farthest.change, farthest.time, scale, may_fall};
 }
 
 Json energy_json(const EnergyAstray& energy) {

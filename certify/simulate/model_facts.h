@@ -50,10 +50,21 @@ Exclusions exclusions_of(const integrator::Model<double, Dim>& model) {
   return result;
 }
 
+/// At time 0 [J].
+template <int Dim>
+double kinetic_energy(const integrator::Model<double, Dim>& model) {
+  const std::vector<std::uint8_t> labels = labels_of<Dim>(model);
+  double sum = 0;
+  for (std::size_t i = 0; i < model.v.size(); ++i) {
+    if (labels[i] != scripted_vertex) sum += 0.5 * model.mass[i] * model.v[i].squaredNorm();
+  }
+  return sum;
+}
+
 /// With which everything would move by 2^-30 of the model's size within a window [J]: where there is less, it may be
 /// rounding that moves things.
 template <int Dim>
-double least_energy(const integrator::Model<double, Dim>& model) {
+double energy_of_rounding(const integrator::Model<double, Dim>& model) {
   Eigen::AlignedBox<double, Dim> box;
   double mass = 0;
   for (std::size_t i = 0; i < model.x.size(); ++i) {

@@ -94,7 +94,7 @@ class CertifiedRun {
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
         frame_rate_(scene.frame_rate),
-        watch_(least_energy<Dim>(built_.model)) {
+        watch_(kinetic_energy<Dim>(built_.model), energy_of_rounding<Dim>(built_.model)) {
     folder_.lock();
     outcome_.title = scene.title;
     outcome_.dimension = Dim;
@@ -209,10 +209,12 @@ class CertifiedRun {
     Json json = {{"bodies", names_.to_json()}};
     if (!built_.model.contact) return json;
     json["contact"] = contact_json(*built_.model.contact);
+    if (built_.contact.size() == 1) return json;
     for (std::size_t m = 0; m < built_.contact.size(); ++m) {
-      std::set<std::array<std::size_t, 2>> pairs;
-      for (const auto& pair : built_.contact[m].pairs) pairs.insert(pair.bodies);
-      json["contact"]["materials"][m]["pairs"] = pairs;
+      Json& material = json["contact"]["materials"][m];
+      const MeetingBodies bodies = meeting_bodies(built_.contact[m].pairs);
+      material["pairs"] = bodies.pairs;
+      material["more_pairs"] = bodies.more;
     }
     return json;
   }

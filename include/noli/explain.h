@@ -39,8 +39,8 @@ struct ForceWork {
 };
 
 /// Energies are kinetic energy, of velocities half way through the kicks, and all potentials, at the ends of windows
-/// [J]; works are those of all windows. last - begin = damping_work + restitution_work + held_work + integration, but
-/// for what scripts have been booked in advance (SeriesRow::held_ahead).
+/// [J]; works are those of all windows. last - begin = damping_work + restitution_work + held_work + integration,
+/// except for the work of scripts that is booked in advance (SeriesRow::held_ahead).
 struct EnergySummary {
   double begin = 0;  ///< at time 0
   double first = 0, last = 0, least = 0, greatest = 0;

@@ -224,13 +224,14 @@ struct PairTooNear {
   double time = 0;                     ///< [s]
 };
 
-/// What is off most, and where. Where restitution takes energy, B leaves in what damping and friction took: it can but
-/// fall.
+/// What is off most, and where. Where restitution takes energy, what damping and friction gave is left in B, so that it
+/// can only fall.
 struct EnergyAstray {
-  double begin = 0;  ///< B at the beginning [J]
-  double there = 0;  ///< B where it is farthest from that [J]
-  double time = 0;   ///< [s]
-  double scale = 0;  ///< [J]
+  double begin = 0;       ///< B at the beginning [J]
+  double there = 0;       ///< B where it is farthest from that [J]
+  double time = 0;        ///< [s]
+  double scale = 0;       ///< [J]
+  bool may_fall = false;  ///< restitution takes energy
 };
 
 enum class SeriesEnd : std::uint8_t {

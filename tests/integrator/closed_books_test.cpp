@@ -144,6 +144,20 @@ TEST(RestitutionBooks, HaveWhatTheBallHasLost) {
   EXPECT_EQ(bounce(1).contact.restitution_work, 0);
 }
 
+/// Nothing else tells how much contact has at time 0, and a run that begins within a layer begins with it.
+TEST(ContactAtStart, IsThePotentialOfLayersThatActThere) {
+  Model<double, 2> model = with_contact(ball_and_floor(0.09, 0), {0.1, 1000, 0.02, 1, 0});
+  Simulation<double, 2> simulation(model);
+  EXPECT_EQ(simulation.contact_at_start(), 0);
+  const double begin = simulation.state().energy();
+  test::run(simulation, 1);
+  EXPECT_NEAR(simulation.contact_at_start(), 0.5 * 1000 * 0.01 * 0.01, 1e-12) << "the second layer begins at 0.084 m";
+  EXPECT_NEAR(simulation.state().energy(), begin + simulation.contact_at_start(), 0.02 * simulation.contact_at_start());
+  Simulation<double, 2> above(with_contact(ball_and_floor(0.2, 0), {0.1, 1000, 0.02, 1, 0}));
+  test::run(above, 1);
+  EXPECT_EQ(above.contact_at_start(), 0);
+}
+
 /// Then a ball that parts gets no impulse at all, and yet the potential falls.
 TEST(RestitutionBooks, HaveWhatNoImpulseGives) {
   const Bounce found = bounce(0);
@@ -202,7 +216,7 @@ TEST(ScriptBooks, WhatIsLeftFallsFourfoldWhenStepsAreHalved) {
   }
 }
 
-/// The two hands of two scripts: what pulls gives, what holds at rest gives nothing.
+/// Of two scripts: what pulls gives, what holds at rest gives nothing.
 TEST(ScriptBooks, AreByScript) {
   Model<double, 2> model = test::chain<2>({{0, 0}, {1, 0}, {2, 0}}, false, 100, 1);
   model.forces.turnings = {};
@@ -246,7 +260,7 @@ TEST(DampingBooks, AreOfTheMiddleOfTheEvent) {
 }
 
 struct ChainBooks {
-  double damping, integration, in_play;
+  double damping, integration;
 };
 
 ChainBooks of_hanging_chain(double step_factor) {
@@ -256,7 +270,7 @@ ChainBooks of_hanging_chain(double step_factor) {
   const State<double, 2> begin = simulation.state();
   const Books<double, 2> books = test::run(simulation, 100);
   const double damping = taken(books), energy = simulation.state().energy();
-  return {damping, energy - begin.energy() - damping, energy - begin.potential[0]};
+  return {damping, energy - begin.energy() - damping};
 }
 
 /// Where links nearly balance, each alone would throw a vertex to and fro at every step: with the velocities in between

@@ -84,6 +84,7 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
     }
     plans.add(t, work_of(contact.counts()) - before);
   }
+  books.sum_contact();
   std::printf(
       "%d impulses, %d activations; in one instant at most %d failures, %d repairs, plans and tubes, %d layers\n",
       static_cast<int>(books.of(ForceKind::contact).events), static_cast<int>(contact.counts().activations),

@@ -85,12 +85,6 @@ TEST(AuditPrecision, DrawsAngularMomentumWhereThereIsSome) {
   EXPECT_EQ(count(read_text(svg), ">double - 256 bits<"), 4u);
 }
 
-TEST(AuditPrecision, SaysWhereTruncationCannotBeTold) {
-  const Process process = run_noli(command("restitution", {"--until", "0.05", "--bits", "64"}));
-  EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_NE(process.out.find("not conserved here (restitution takes energy)"), std::string::npos) << process.out;
-}
-
 TEST(AuditPrecision, RefusesWhatItCannotDo) {
   for (const char* const bits : {"23", "1025", "x", "53,0x100", "", "-256"}) {
     EXPECT_EQ(run_noli(command("bounce", {"--until", "1", "--bits", bits})).exit_code, 3) << bits;

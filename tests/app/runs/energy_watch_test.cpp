@@ -71,25 +71,40 @@ TEST(EnergyWatch, WhatWasGivenIsPartOfTheScale) {
   EXPECT_TRUE(watch({pushed(row(1, 1, 0.08), 0.5)}).astray());
 }
 
+TEST(EnergyWatch, TheBeginningIsPartOfTheScale) {
+  EnergyWatch fast(1), slow(0.5);
+  fast.add(row(1, 0.1, 0.04));
+  slow.add(row(1, 0.1, 0.04));
+  EXPECT_FALSE(fast.astray());
+  EXPECT_TRUE(slow.astray());
+}
+
 TEST(EnergyWatch, RoundingMayMakeALittle) {
-  EnergyWatch watched(1e-9);
+  EnergyWatch watched(0, 1e-9);
   watched.add(row(1, 1e-20, 1e-20));
   EXPECT_FALSE(watched.astray());
   watched.add(row(2, 1e-9, 1e-9));
   EXPECT_TRUE(watched.astray());
 }
 
-TEST(EnergyWatch, WhereRestitutionTakesEnergyItMayButFall) {
+TEST(EnergyWatch, WhereRestitutionTakesEnergyItMayFallAndNotRise) {
   EXPECT_FALSE(watch({with_restitution(row(1, 1, 2), -2)}).astray()) << "what it is booked for and did not take";
   EXPECT_FALSE(watch({with_restitution(damped(row(1, 1, 3), -1), -2)}).astray());
   EXPECT_FALSE(watch({with_restitution(row(1, 1, -0.5), -0.1)}).astray());
-  EXPECT_TRUE(watch({with_restitution(row(1, 4, 3), -1)}).astray());
+  const auto found = watch({with_restitution(row(1, 4, 3), -1)}).astray();
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->may_fall);
+  EXPECT_EQ(found->there - found->begin, 2);
 }
 
 TEST(EnergyWatch, WhatIsNoNumberHasGoneAstray) {
   constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(watch({row(1, inf, inf)}).astray());
   EXPECT_TRUE(watch({row(1, inf, nan), row(2, 1, 0)}).astray());
+  EXPECT_TRUE(watch({with_restitution(row(1, 1, -inf), -1)}).astray());
+  const auto first = watch({row(1, 1, 0), row(2, inf, inf), row(3, 1, nan)}).astray();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->time, 2);
 }
 
 }  // namespace

@@ -165,6 +165,32 @@ TEST_F(Simulate, ExplainTellsOfWindowsThatWereRolledBack) {
   EXPECT_EQ(json["roll_backs"][0]["window"], 4);  // the log counts from 0
 }
 
+TEST_F(Simulate, ExplainTellsTheEnergyOfTheBeginning) {
+  Json json = bouncing_point();
+  json["bodies"][1]["mesh"]["points"]["at"] = {{0.1, 0.09}};  // within the first layer
+  json["duration"] = 0.125;
+  ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run")}).exit_code, 0);
+  const Json energy = json_of({"explain", run_path("run")}, 0)["energy"];
+  EXPECT_NEAR(energy["begin"].get<double>(), 9.81 * 0.09 + 0.5 * 100 * 0.01 * 0.01, 1e-12);
+}
+
+TEST_F(Simulate, ExplainNamesWhoMeetsWhereTheyMeetDifferently) {
+  const std::string file = (fs::path(NOLI_SOURCE_DIR) / "scenes/incline.json").string();
+  ASSERT_EQ(run_noli({"simulate", file, "--short", "--until", "0.1", "-o", run_path("run")}).exit_code, 0);
+  const std::string text = run_noli({"explain", run_path("run")}).out;
+  EXPECT_NE(text.find("material 1 (sticks and plane): "), std::string::npos) << text;
+  EXPECT_NE(text.find("material 2 (slips and plane): "), std::string::npos) << text;
+}
+
+TEST_F(Simulate, ALogOfOneMaterialNamesNoPairs) {
+  ASSERT_EQ(run_noli({"simulate", scene(bouncing_point()), "-o", run_path("run")}).exit_code, 0);
+  const std::string begin = bytes_of(run_path("run/log.jsonl"));
+  Json entry = Json::parse(begin.substr(0, begin.find('\n')));
+  for (const char* member : {"pairs", "more_pairs"}) {
+    EXPECT_FALSE(entry["contact"]["materials"][0].contains(member)) << "all meet in the same way";
+  }
+}
+
 TEST_F(Simulate, ExplainWantsARun) {
   const std::string file = scene(bouncing_point());
   const Process none = run_noli({"explain", fs::path(file).parent_path().string()});
