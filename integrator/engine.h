@@ -99,6 +99,7 @@ class Engine {
   }
 
   /// False when `stop`, which is asked now and then, said so: then the state is one between two events of the window.
+  /// Books what has happened, also when it throws ContactLimit.
   template <class Recorder, class Stop>
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
@@ -106,20 +107,17 @@ class Engine {
     books.reserve(material_count_, script_count_);
     script_book_ = {scripted_, books.scripts};
     const PhaseScope queueing(*activity_, Phase::queue);
-    if (windows_ == 0) start(record, books);
-    start_contact(record, books);
-    std::uint64_t turns = 0, last = events_;
-    while (run_next(end, record, books)) {
-      if (events_ + ++turns - last < events_between_questions) continue;
-      if (stop()) {
-        instant_.close(particles_, books);
-        books.sum_contact();
-        return false;
-      }
-      last = events_ + turns;
+    bool whole = false;
+    try {
+      whole = run_events(end, record, books, stop);
+    } catch (const ContactLimit&) {
+      books.sum_contact();
+      throw;
     }
-    close(end, record);
+    instant_.close(particles_, books);
     books.sum_contact();
+    if (!whole) return false;
+    close(end, record);
     ++windows_;
     return true;
   }
@@ -270,6 +268,20 @@ class Engine {
   template <class Recorder>
   Now<Recorder> at(double t, Recorder& record) {
     return {particles_, record, t, &script_book_};
+  }
+
+  /// False when it was stopped.
+  template <class Recorder, class Stop>
+  bool run_events(double end, Recorder& record, Books<S, Dim>& books, const Stop& stop) {
+    if (windows_ == 0) start(record, books);
+    start_contact(record, books);
+    std::uint64_t turns = 0, last = events_;
+    while (run_next(end, record, books)) {
+      if (events_ + ++turns - last < events_between_questions) continue;
+      if (stop()) return false;
+      last = events_ + turns;
+    }
+    return true;
   }
 
   template <class Recorder>

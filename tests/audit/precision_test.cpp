@@ -191,7 +191,7 @@ TEST(PrecisionAudit, SaysWhenTheOrderOfEventsChanges) {
 TEST(PrecisionAudit, TellsTruncationWhereScriptsAndRestitutionWork) {
   const std::vector<Arithmetic> arithmetics = {hardware_double, {128, false}};
   const PrecisionOutcome pulled = audit(shipped("sheet_through_sheet"), 4, arithmetics),
-                         bounced = audit(shipped("restitution"), 40, arithmetics);
+                         bounced = audit(shipped("restitution"), 16, arithmetics);
   EXPECT_LT(std::abs(pulled.energies.back().truncation), 0.05 * std::abs(pulled.energies.back().energy));
   EXPECT_LT(std::abs(bounced.energies.back().truncation), 0.01 * std::abs(bounced.energies.back().energy));
   EXPECT_FALSE(pulled.difference);

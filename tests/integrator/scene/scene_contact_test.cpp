@@ -280,6 +280,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{R"({"newton_restitution": 2})", "/newton_restitution: expected a number not greater than 1, found 2"},
         Bad{R"({"friction": -0.1})", "/friction: expected a number not less than 0, found -0.1"},
         Bad{R"({"most_layers": 0})", "/most_layers: expected a number not less than 1, found 0"},
+        Bad{R"({"most_layers": 1000001})", "/most_layers: expected a number not greater than 1000000, found 1000001"},
         Bad{R"({"layers": {"thickness_exponent": 0.3}})",
             "/layers/thickness_exponent: expected a multiple of 1/4, found 0.3"},
         Bad{R"({"layers": {"thickness_exponent": 0}})",
