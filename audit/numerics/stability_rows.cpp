@@ -296,7 +296,7 @@ void add_scenes(Rows& rows) {
              [](double value) { return thickness(sheets(true), value); });
   rows.scene("thickness-all-layers-contact", "thickness of the first layer [m]", true, thicknesses, [](double value) {
     Json scene = thickness(chains(true), value);
-    scene["contact"]["most_layers"] = 4'000'000'000;
+    scene["contact"]["most_layers"] = 1'000'000;
     return scene;
   });
   const std::vector<double> factors = {1, 1e3, 1e6, 1e9};
