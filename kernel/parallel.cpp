@@ -121,14 +121,21 @@ void run_tbb(std::size_t count, int threads, const Task& task) {
     // More threads than the machine has must be allowed for explicitly. Controls alive at once take the least of their
     // values, so none is made that would hold back a loop elsewhere or within this one, which may have more tasks; the
     // arena is what limits this one.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(std::max(wanted(threads), hardware_threads())));
-    Arenas::Arena arena = arenas().take(lanes);
-    arena->execute([&] {
-      tbb::parallel_for(
-          0, lanes, [&loop](int) { loop.lane(); }, tbb::simple_partitioner());
-    });
-    arenas().give_back(lanes, std::move(arena));
+    auto allow =
+        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(std::max(wanted(threads), hardware_threads())));
+    try {
+      Arenas::Arena arena = arenas().take(lanes);
+      arena->execute([&] {
+        tbb::parallel_for(
+            0, lanes, [&loop](int) { loop.lane(); }, tbb::simple_partitioner());
+      });
+      arenas().give_back(lanes, std::move(arena));
+    } catch (...) {
+      // Memory has run out within TBB, which then may wait for ever when a control goes: it stays.
+      static_cast<void>(allow.release());
+      throw;
+    }
   }
   loop.rethrow();
 }
