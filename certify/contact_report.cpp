@@ -3,11 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <vector>
 
 #include "certify/body_names.h"
 
 namespace noli {
+namespace {
+
+MeetingBodies meeting_bodies(const integrator::BuiltContact& contact) {
+  std::set<std::array<std::uint64_t, 2>> all;  // those of two classes of a body count once
+  for (const auto& pair : contact.pairs) all.insert({pair.bodies[0], pair.bodies[1]});
+  MeetingBodies result;
+  for (const auto& pair : all) {
+    if (result.pairs.size() == MeetingBodies::most) break;
+    result.pairs.push_back(pair);
+  }
+  result.more = all.size() - result.pairs.size();
+  return result;
+}
+
+}  // namespace
 
 Json contact_json(const FeatureContact& contact) {
   const auto begin = contact.vertices.begin(), middle = begin + first_size(contact.pair);
@@ -36,7 +52,7 @@ Json certificates_json(const CertificateCounts& counts) {
           {"deepest", counts.deepest}};
 }
 
-Json contact_json(const integrator::ContactSettings& settings) {
+Json contact_json(const integrator::ContactSettings& settings, std::span<const integrator::BuiltContact> built) {
   const integrator::LayerSchedule& s = settings.schedule;
   Json materials = Json::array();
   for (const auto& m : settings.materials) {
@@ -45,6 +61,11 @@ Json contact_json(const integrator::ContactSettings& settings) {
                          {"step", m.step},
                          {"restitution", m.restitution},
                          {"friction", m.friction}});
+  }
+  for (std::size_t m = 0; built.size() > 1 && m < built.size(); ++m) {
+    const MeetingBodies bodies = meeting_bodies(built[m]);
+    materials[m]["pairs"] = bodies.pairs;
+    materials[m]["more_pairs"] = bodies.more;
   }
   return {{"most_layers", settings.most_layers},
           {"layers", {s.thickness_quarters, s.stiffness_quarters, s.step_quarters}},

@@ -3,13 +3,17 @@
 // Contacts in words and as JSON, the same in every command.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <noli/run.h>
 #include "certify/json.h"
 #include "integrator/contact_settings.h"
+#include "integrator/scene/build_model.h"
 #include "proofs/prover/verifier.h"
 
 namespace noli {
@@ -17,8 +21,16 @@ namespace noli {
 /// {"pair": "edge_edge", "features": [[a, b], [c, d]]}
 Json contact_json(const FeatureContact& contact);
 
-/// What the layers of a model are: {"most_layers": n, "layers": [4 a, 4 b, 4 c], "materials": [...]}
-Json contact_json(const integrator::ContactSettings& settings);
+/// Of a material, which bodies meet so, by their numbers.
+struct MeetingBodies {
+  static constexpr std::size_t most = 6;
+  std::vector<std::array<std::uint64_t, 2>> pairs;  ///< at most so many
+  std::uint64_t more = 0;                           ///< that are not told
+};
+
+/// What the layers of a model are: {"most_layers": n, "layers": [4 a, 4 b, 4 c], "materials": [...]}; where there are
+/// several materials, each with "pairs" and "more_pairs" of MeetingBodies. `built`: one for each material.
+Json contact_json(const integrator::ContactSettings& settings, std::span<const integrator::BuiltContact> built);
 
 /// All zero in scenes without contact.
 Json certificates_json(const CertificateCounts& counts);

@@ -6,7 +6,6 @@
 // What this does not do: lines that it does not know are counted and passed over.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,6 +15,7 @@
 
 #include <noli/run.h>
 #include "certify/body_names.h"
+#include "certify/contact_report.h"
 #include "certify/json.h"
 #include "certify/runs/run_series_reader.h"
 #include "certify/simulate/phase_clock.h"
@@ -23,27 +23,6 @@
 #include "trajectory/blocks/run_file.h"
 
 namespace noli {
-
-/// Which bodies meet so, by their numbers.
-struct MeetingBodies {
-  static constexpr std::size_t most = 6;
-  std::vector<std::array<std::uint64_t, 2>> pairs;  ///< at most so many
-  std::uint64_t more = 0;                           ///< that are not told
-};
-
-/// Of pairs that have `bodies`; those of two classes of a body count once.
-template <class Pairs>
-MeetingBodies meeting_bodies(const Pairs& pairs) {
-  std::set<std::array<std::uint64_t, 2>> all;
-  for (const auto& pair : pairs) all.insert({pair.bodies[0], pair.bodies[1]});
-  MeetingBodies result;
-  for (const auto& pair : all) {
-    if (result.pairs.size() == MeetingBodies::most) break;
-    result.pairs.push_back(pair);
-  }
-  result.more = all.size() - result.pairs.size();
-  return result;
-}
 
 struct LogFacts {
   BodyNames names;

@@ -25,19 +25,17 @@
 #include "certify/simulate/energy_watch.h"
 #include "certify/simulate/exact_gap.h"
 #include "certify/simulate/model_facts.h"
-#include "certify/simulate/model_run.h"
 #include "certify/simulate/phase_clock.h"
 #include "certify/simulate/retries.h"
 #include "certify/simulate/run_extent.h"
 #include "certify/simulate/run_space.h"
 #include "certify/simulate/start_check.h"
+#include "certify/simulate/window_integrator.h"
 #include "certify/stopwatch.h"
-#include "integrator/contact_extremes.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/explain.h"
 #include "integrator/scene/read_scene.h"
 #include "integrator/scene/scene.h"
-#include "integrator/simulation.h"
 #include "kernel/parallel.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/run_file.h"
@@ -48,24 +46,13 @@ namespace noli {
 
 namespace {
 
-using integrator::Books;
 using integrator::Phase;
 using integrator::PhaseScope;
-using integrator::Recording;
-using integrator::Simulation;
 using integrator::Snapshot;
-using integrator::Vec;
 
-/// A window that has been integrated and waits for its verdict.
+/// A window that waits for its verdict.
 template <int Dim>
-struct Candidate {
-  std::uint64_t index = 0;
-  Snapshot<double, Dim> before;
-  double energy_before = 0;  ///< [J]
-  std::unique_ptr<const WorldLines> lines;
-  std::vector<Position> velocities;
-  SeriesRow row;
-  std::uint32_t deepest = 0;  ///< layer that was active, so far
+struct Candidate : IntegratedWindow<Dim> {
   std::future<WindowResult> verdict;
 };
 
@@ -94,6 +81,7 @@ class CertifiedRun {
         verifier_(built_.model.mesh, positions_of<Dim>(built_.model.x), window_options()),
         folder_(request.run),
         frame_rate_(scene.frame_rate),
+        integrator_(built_.model, scene_.labels, activity_),
         watch_(kinetic_energy<Dim>(built_.model), energy_of_rounding<Dim>(built_.model)) {
     folder_.lock();
     outcome_.title = scene.title;
@@ -207,15 +195,7 @@ class CertifiedRun {
   /// What the log says of the scene, for those who read the run without it.
   Json facts() const {
     Json json = {{"bodies", names_.to_json()}};
-    if (!built_.model.contact) return json;
-    json["contact"] = contact_json(*built_.model.contact);
-    if (built_.contact.size() == 1) return json;
-    for (std::size_t m = 0; m < built_.contact.size(); ++m) {
-      Json& material = json["contact"]["materials"][m];
-      const MeetingBodies bodies = meeting_bodies(built_.contact[m].pairs);
-      material["pairs"] = bodies.pairs;
-      material["more_pairs"] = bodies.more;
-    }
+    if (built_.model.contact) json["contact"] = contact_json(*built_.model.contact, built_.contact);
     return json;
   }
 
@@ -224,23 +204,17 @@ class CertifiedRun {
 
   CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
 
-  void go_on_with(Simulation<double, Dim> simulation) {
-    simulation_.emplace(std::move(simulation));
-    simulation_->show(activity_);
-  }
-
   void open(const integrator::Scene& scene) {
     folder_.lock();  // another process may have made it since
     const bool go_on = request_.resume && folder_.has_begun();
     if (!go_on) {
-      Simulation<double, Dim> simulation(built_.model);  // which may be stopped; then nothing is written
+      integrator_.begin();  // which may be stopped; then nothing is written
       folder_.make(request_.force || request_.resume);
       writer_.emplace(folder_.path(), scene_);
       folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
       if (full() && request_.prove) {
         proof_ = proof_of_run(std::make_unique<FileSink>(proof_path(folder_.path()), FileSink::Open::create), scene_);
       }
-      go_on_with(std::move(simulation));
       return;
     }
     const KnownWindows known = folder_.go_on(scene.document, hash_of<Dim>(built_.model));
@@ -250,12 +224,13 @@ class CertifiedRun {
       throw InputError(folder_.path().string(), "", "holds a run of another scene; expected one of this scene");
     }
     Snapshot<double, Dim> last;
+    double energy = 0;
     while (const auto window = reader.next_window()) {
       last = snapshot_of<Dim>(*window);
       const SeriesRow& row = reader.row();
       retries_ = Retries(row.halvings);
       watch_.add(row);
-      energy_ = row.energy();
+      energy = row.energy();
       require_whole(*window);
       if (stopped()) throw ReadInterrupted(folder_.path().string());
     }
@@ -275,7 +250,7 @@ class CertifiedRun {
       }
     }
     outcome_.windows_before = last.windows;
-    go_on_with(simulation_at<Dim>(built_.model, last, retries_.halvings()));
+    integrator_.go_on(last, energy, {0, retries_.halvings()});
   }
 
   /// Windows of a run that can be gone on with are those that a simulation writes.
@@ -291,7 +266,7 @@ class CertifiedRun {
   /// Integrates a window while the one before it is verified. False at the end of the run.
   bool run_window() {
     std::optional<Candidate<Dim>> next;
-    if (simulation_->windows() < outcome_.windows_total) next = integrate();
+    if (integrator_.windows() < outcome_.windows_total) next = integrate();
     if (settle() == Settled::rolled_back) return true;
     if (outcome_.end != RunEnd::done || !next) return false;
     verify(std::move(*next));
@@ -307,53 +282,19 @@ class CertifiedRun {
       return work();
     } catch (const std::bad_alloc&) {
       outcome_.end = RunEnd::out_of_memory;
-      recording_ = {};
-      if (simulation_) outcome_.certificates += simulation_->certificates();
-      simulation_.reset();
+      integrator_.end();
       if (candidate_ && !candidate_->verdict.valid()) candidate_.reset();  // it was still being written
       if (!candidate_) writer_->discard_window();
       return false;
     }
   }
 
-  /// The next window; nothing when the run ends within it.
   std::optional<Candidate<Dim>> integrate() {
     const Stopwatch watch;
-    before_ = simulation_->snapshot();
-    const bool first = before_.windows == 0;
-    if (first) energy_ = simulation_->state().energy();
-    finite_ = true;
-    limit_.reset();
-    recording_.clear();
-    Books<double, Dim> books;
-    try {
-      if (!simulation_->run_window(recording_, books, [this] { return stopped(); })) return std::nullopt;
-    } catch (const Stopped&) {
-      stopped();
-      return std::nullopt;
-    } catch (const integrator::ContactLimit& limit) {
-      finite_ = simulation_->finite();
-      if (finite_) limit_ = limit;
-      return std::nullopt;
-    }
-    if (!simulation_->finite()) {
-      finite_ = false;
-      return std::nullopt;
-    }
-    Candidate<Dim> next;
-    next.index = before_.windows;
-    next.before = before_;
-    next.energy_before = first ? energy_ + simulation_->contact_at_start() : energy_;
-    next.deepest = simulation_->certificates().deepest;
-    const PhaseScope recording(activity_, Phase::recording);
-    next.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, outcome_.vertices));
-    next.velocities = positions_of<Dim>(simulation_->snapshot().v);
-    next.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *next.lines, scene_.labels,
-                               next.energy_before);
-    energy_ = next.row.energy();
-    next.row.halvings = retries_.halvings();
+    std::optional<IntegratedWindow<Dim>> next = integrator_.next([this] { return stopped(); });
+    if (!next) return std::nullopt;
     outcome_.simulating_seconds += watch.seconds();
-    return next;
+    return Candidate<Dim>{std::move(*next), {}};
   }
 
   /// The window is written before its verdict, because its proof names the hash of what was written; it is not
@@ -421,7 +362,7 @@ class CertifiedRun {
   /// have missed one, then with all layers' steps halved, from here on. False when all that has been tried.
   bool roll_back(const Candidate<Dim>& window, const WindowResult& result) {
     if (!built_.model.contact || outcome_.end != RunEnd::done) return false;
-    const std::optional<Retry> retry = retries_.next(simulation_->certificates().deepest);
+    const std::optional<Retry> retry = retries_.next(integrator_.deepest());
     if (!retry) return false;
     ++outcome_.roll_backs;
     Json entry = {{"event", "roll_back"}, {"window", window.index}, {"try", retries_.tries()}};
@@ -432,10 +373,8 @@ class CertifiedRun {
       entry["first_time"] = result.first->lower();
     }
     folder_.log(entry);
-    outcome_.certificates += simulation_->certificates();
     try {
-      go_on_with(simulation_at<Dim>(built_.model, window.before, retry->halvings, retry->least_layers));
-      energy_ = window.energy_before;
+      integrator_.go_back(window, *retry);
     } catch (const Stopped&) {
       stopped();
     }
@@ -480,19 +419,13 @@ class CertifiedRun {
   /// Why the next window did not come to its end, if it did not by itself.
   void find_end() {
     if (outcome_.end != RunEnd::done) return;
-    if (limit_) {
+    if (const auto& limit = integrator_.limit()) {
       outcome_.end = RunEnd::too_near;
-      outcome_.limit = PairTooNear{limit_->pair.kind, limit_->pair.vertices, limit_->time};
-      if (before_.windows == 0) outcome_.start_gap = start_gap(limit_->pair);
-      outcome_.first_names = names_.pair(limit_->pair.kind, limit_->pair.vertices, "and");
-    } else if (!finite_) {
-      try {
-        outcome_.not_finite = simulation_at<Dim>(built_.model, before_, retries_.halvings()).find_not_finite([this] {
-          return stopped();
-        });
-      } catch (const Stopped&) {
-        stopped();
-      }
+      outcome_.limit = PairTooNear{limit->pair.kind, limit->pair.vertices, limit->time};
+      if (integrator_.in_first_window()) outcome_.start_gap = start_gap(limit->pair);
+      outcome_.first_names = names_.pair(limit->pair.kind, limit->pair.vertices, "and");
+    } else if (!integrator_.finite()) {
+      outcome_.not_finite = integrator_.find_not_finite([this] { return stopped(); });
       if (outcome_.not_finite) outcome_.end = RunEnd::not_finite;
     } else if (watch_.astray()) {
       outcome_.energy_astray = watch_.astray();
@@ -512,7 +445,7 @@ class CertifiedRun {
 
   void conclude(PhaseClock& clock) {
     outcome_.windows = writer_->windows();
-    if (simulation_) outcome_.certificates += simulation_->certificates();
+    outcome_.certificates = integrator_.certificates();
     outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
     outcome_.integration = watch_.integration();
     const std::exception_ptr lost = write_series();
@@ -565,14 +498,9 @@ class CertifiedRun {
   std::optional<RunWriter> writer_;
   std::unique_ptr<StepProofs> proof_;  ///< with record full
   integrator::Activity activity_;
-  std::optional<Simulation<double, Dim>> simulation_;
-  Snapshot<double, Dim> before_;  ///< of the window that is being integrated
-  Recording<double, Dim> recording_;
+  WindowIntegrator<Dim> integrator_;
   EnergyWatch watch_;
-  double energy_ = 0;  ///< at the end of the window that was integrated last [J]
-  Retries retries_;    ///< of the window that is next to be committed
-  std::optional<integrator::ContactLimit> limit_;
-  bool finite_ = true;  ///< all numbers of the window that is being integrated
+  Retries retries_;  ///< of the window that is next to be committed
   SimulateOutcome outcome_;
   std::optional<Candidate<Dim>> candidate_;  ///< last: its verdict, which another thread makes, uses all of the others
 };
