@@ -69,7 +69,7 @@ class Explaining {
     const double total = row.kinetic_mean + row.potential_in_all();
     if (!result_.energy) {
       result_.energy.emplace();
-      result_.energy->begin = row.energy() - row.given() - row.integration;
+      result_.energy->begin = row.energy_before();
       result_.energy->first = result_.energy->least = result_.energy->greatest = total;
       result_.energy->materials.resize(row.contact_work.size());
       result_.energy->scripts.resize(row.script_work.size());

@@ -119,23 +119,30 @@ struct Books {
   Account<S, Dim>& of(ForceKind kind) { return accounts[static_cast<std::size_t>(kind)]; }
   const Account<S, Dim>& of(ForceKind kind) const { return accounts[static_cast<std::size_t>(kind)]; }
 
+  /// Of all: the change of the kinetic energy.
   S work() const {
     S sum{};
     for (const auto& a : accounts) sum += a.work + a.damping_work + a.restitution_work + a.held_work;
     return sum;
   }
 
+  /// Of damping, friction, restitution and scripts.
+  S given() const {
+    S sum{};
+    for (const auto& a : accounts) sum += a.damping_work + a.restitution_work + a.held_work;
+    return sum;
+  }
+
   Books& operator+=(const Books& other) {
     for (std::size_t k = 0; k < accounts.size(); ++k) accounts[k] += other.accounts[k];
-    contact.resize(std::max(contact.size(), other.contact.size()));
+    make_room(other.contact.size(), other.scripts.size());
     for (std::size_t m = 0; m < other.contact.size(); ++m) contact[m] += other.contact[m];
-    scripts.resize(std::max(scripts.size(), other.scripts.size()));
     for (std::size_t s = 0; s < other.scripts.size(); ++s) scripts[s] += other.scripts[s];
     return *this;
   }
 
   /// Room for so many materials and scripts.
-  void reserve(std::size_t materials, std::size_t script_count) {
+  void make_room(std::size_t materials, std::size_t script_count) {
     contact.resize(std::max(contact.size(), materials));
     scripts.resize(std::max(scripts.size(), script_count));
   }

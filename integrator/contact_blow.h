@@ -134,7 +134,7 @@ void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil&
                const PairImpulses<S, Dim>& given, Account<S, Dim>& account) {
   S potential(0), normal(0), friction(0);
   for (std::size_t i = 0; i < pair.size(); ++i) {
-    const Vec<S, Dim>& v = after.velocities()[i];
+    const Vec<S, Dim>& v = after.vs()[i];
     Vec<S, Dim> twice_mean = before[i] + v;
     if (after.inverse_masses()[i] == S(0)) {
       const Vec<S, Dim> whole = given.rubs ? Vec<S, Dim>(given.normal[i] + given.friction[i]) : given.normal[i];

@@ -104,7 +104,7 @@ class Engine {
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     const double end = static_cast<double>(windows_ + 1) * window_length_;
     open(record);
-    books.reserve(material_count_, script_count_);
+    books.make_room(material_count_, script_count_);
     script_book_ = {scripted_, books.scripts};
     const PhaseScope queueing(*activity_, Phase::queue);
     bool whole = false;
@@ -507,7 +507,7 @@ class Engine {
     };
     const auto velocity = [&](VertexId i) -> const Vec<S, Dim>& { return particles_[i].v; };
     instant_.template begin<false>(ForceKind::gravity, last_of(now.t), all_, velocity);
-    instant_.template end<false>(fallen, [](VertexId) { return Vec<S, Dim>(); });
+    instant_.template end<false>(fallen);
     events_ += sum.events;
     books.of(ForceKind::gravity) += sum;
     if (!contact_ || !contact_->started()) return;

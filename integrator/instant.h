@@ -13,6 +13,7 @@
 // What this does not do: it knows nothing of particles that are held, whose velocity no force changes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,8 +50,8 @@ class Instant {
 
   /// The group has struck. `settled`: settles a vertex and returns what has its `v` and `inverse_mass`, which is 0 if
   /// it is held; called for each, in order. `damping`: D of a vertex, if the group is damped.
-  template <bool Damped, class Settled, class Damping>
-  void end(Settled&& settled, Damping&& damping) {
+  template <bool Damped, class Settled, class Damping = std::nullptr_t>
+  void end(Settled&& settled, Damping&& damping = {}) {
     const Group& group = groups_.back();
     Vec<S, Dim>* const changes = changes_.data() + group.first;
     if (!last_) {

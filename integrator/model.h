@@ -112,4 +112,16 @@ std::vector<std::uint8_t> held_vertices(const Model<S, Dim>& model) {
   return held;
 }
 
+/// The diagonal of the box around all points [m].
+template <int Dim>
+double extent(const std::vector<Vec<double, Dim>>& points) {
+  if (points.empty()) return 0;
+  Vec<double, Dim> low = points.front(), high = low;
+  for (const auto& x : points) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return (high - low).norm();
+}
+
 }  // namespace noli::integrator

@@ -22,7 +22,12 @@ class ImplicitEuler {
   using Vec = integrator::Vec<double, Dim>;
 
   ImplicitEuler(const Model<double, Dim>& model, double step)
-      : model_(model), free_(free_vertices(model)), h_(step), x_(model.x), v_(model.v), size_(extent(model.x)) {
+      : model_(model),
+        free_(free_vertices(model)),
+        h_(step),
+        x_(model.x),
+        v_(model.v),
+        size_(integrator::extent<Dim>(model.x)) {
     for (std::size_t i = 0; i < v_.size(); ++i) {
       if (!free_[i]) v_[i].setZero();
     }

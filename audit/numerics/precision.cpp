@@ -29,7 +29,7 @@ class Audit {
       outcome_.runs.push_back({arithmetic, {}, {}, {}});
     }
     outcome_.vertices = model.x.size();
-    outcome_.extent = extent(model.x);
+    outcome_.extent = integrator::extent<Dim>(model.x);
     outcome_.windows_total = request.windows;
     take_clocks(model);
   }
@@ -125,7 +125,7 @@ class Audit {
     if (!same_bits(state.kinetic, other.kinetic) || !same_bits(state.kinetic_mean, other.kinetic_mean)) {
       comparison.differ(t, "kinetic energy");
     }
-    if (!same_bits(given_work(books_), replay.given()) || !same_bits(state.held_ahead, other.held_ahead)) {
+    if (!same_bits(books_.given(), replay.given()) || !same_bits(state.held_ahead, other.held_ahead)) {
       comparison.differ(t, "work of damping, friction, restitution or scripts");
     }
     if (!all_same_bits(state.momentum, other.momentum)) comparison.differ(t, "momentum");
@@ -191,7 +191,7 @@ class Audit {
     if (outcome_.runs.back().ended) return;
     const MpfrScope scope(measuring);
     const Replay<Dim>& replay = *replays_.back();
-    const MpfrNumber own = energy(state), gained = own - MpfrNumber(given_work(books_)),
+    const MpfrNumber own = energy(state), gained = own - MpfrNumber(books_.given()),
                      exact = energy(replay.state()) - replay.given();
     if (outcome_.energies.empty()) first_ = {gained, exact};
     const MpfrNumber truncation = exact - first_.second;

@@ -32,6 +32,7 @@ namespace noli::audit {
 
 struct PrecisionRequest {
   /// The first one is to yield the bits of double; the last one is what energies are measured against.
+  /// (Not in braces, which g++ 12 takes for uninitialised where this is inlined.)
   std::vector<Arithmetic> arithmetics = std::vector<Arithmetic>(1, hardware_double);
   std::uint64_t windows = 0;  ///< to be run
   int threads = 0;            ///< 0: all there are. They change nothing but the time it takes

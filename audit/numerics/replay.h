@@ -92,14 +92,6 @@ class Comparison {
   CourseChanges changes_;
 };
 
-/// The work of damping, friction, restitution and scripts [J].
-template <class S, int Dim>
-S given_work(const integrator::Books<S, Dim>& books) {
-  S sum(0);
-  for (const auto& account : books.accounts) sum += account.damping_work + account.restitution_work + account.held_work;
-  return sum;
-}
-
 template <int Dim>
 class Replay {
  public:
@@ -120,13 +112,13 @@ class Replay {
     if (!engine_.run_window(comparison_, books_, stop)) return;
     comparison_.conclude(engine_.time());
     state_ = integrator::Ledger<Number, Dim, ReplayedContact<Number, Dim>>(engine_).state();
-    given_ = given_work(books_);
+    given_ = books_.given();
   }
 
   const auto& particles() const { return engine_.particles(); }
   /// At the end of the last window.
   const State& state() const { return state_; }
-  const Number& given() const { return given_; }  ///< given_work() since time 0 [J]
+  const Number& given() const { return given_; }  ///< Books::given() since time 0 [J]
 
   Comparison<Dim>& comparison() { return comparison_; }
 

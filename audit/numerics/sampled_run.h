@@ -60,18 +60,6 @@ std::vector<bool> free_vertices(const integrator::Model<double, Dim>& model) {
   return free;
 }
 
-/// The diagonal of the box around all points.
-template <int Dim>
-double extent(const std::vector<integrator::Vec<double, Dim>>& points) {
-  if (points.empty()) return 0;
-  integrator::Vec<double, Dim> low = points.front(), high = low;
-  for (const auto& x : points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return (high - low).norm();
-}
-
 template <int Dim>
 Mechanics<Dim> mechanics(const integrator::Model<double, Dim>& model, const Sample<Dim>& sample) {
   Mechanics<Dim> result;

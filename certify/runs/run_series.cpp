@@ -152,6 +152,8 @@ SeriesRow decode_row(std::string_view bytes) {
   return row;
 }
 
+double left_of_change(const SeriesRow& row, double energy_before) { return row.energy() - energy_before - row.given(); }
+
 ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action) {
   if (!action) return {};
   return {action->layer, action->material, action->pair.kind, action->pair.vertices, action->time, action->distance};

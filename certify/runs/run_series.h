@@ -32,6 +32,9 @@ SeriesRow decode_row(std::string_view bytes);
 
 ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action);
 
+/// Of the change of the energy, what nothing that is booked has given: SeriesRow::integration [J].
+double left_of_change(const SeriesRow& row, double energy_before);
+
 /// The works of a window.
 template <int Dim>
 void add_works(const integrator::Books<double, Dim>& books, SeriesRow& row) {
@@ -63,7 +66,7 @@ SeriesRow series_row(const integrator::Simulation<double, Dim>& simulation, cons
   row.potential = state.potential;
   row.held_ahead = state.held_ahead;
   add_works(books, row);
-  row.integration = row.energy() - energy_before - row.given();
+  row.integration = left_of_change(row, energy_before);
   for (int k = 0; k < Dim; ++k) row.momentum[static_cast<std::size_t>(k)] = state.momentum[k];
   constexpr int moments = Dim == 3 ? 3 : 1;
   for (int k = 0; k < moments; ++k) {

@@ -54,7 +54,7 @@ void check_books(const SeriesRow& row, const SeriesRow& before) {
           row.contact_work.size(), before.contact_work.size());
   require(row.script_work.size() == before.script_work.size(), "{} scripts; expected the {} of the window before",
           row.script_work.size(), before.script_work.size());
-  const double left = row.energy() - before.energy() - row.given();
+  const double left = left_of_change(row, before.energy());
   require(row.integration == left || !std::isfinite(left),
           "an integration of {} J; expected {} J, which is what is left", row.integration, left);
 }

@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace noli {
 namespace {
-
-double sum(const std::array<double, force_kinds>& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); }
 
 double without_gravity(const SeriesRow& row) {
   return row.kinetic_mean + row.potential_in_all() - row.potential[static_cast<std::size_t>(ForceKind::gravity)];
@@ -25,8 +22,8 @@ void EnergyWatch::Farthest::add(double off_now, double change_now, double time_n
 }
 
 void EnergyWatch::add(const SeriesRow& row) {
-  if (!begin_) begin_ = row.energy() - row.given() - row.integration;
-  const double damping = sum(row.damping_work), held = sum(row.held_work);
+  if (!begin_) begin_ = row.energy_before();
+  const double damping = row.damping_in_all(), held = row.held_in_all();
   integration_ += row.integration;
   dissipated_ += damping + row.restitution_work;
   restitution_ += row.restitution_work;

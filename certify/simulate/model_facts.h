@@ -3,9 +3,8 @@
 // What a run has to know of its model beside how to integrate it.
 #pragma once
 
-#include <Eigen/Geometry>
-
 #include <array>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,13 +49,13 @@ Exclusions exclusions_of(const integrator::Model<double, Dim>& model) {
   return result;
 }
 
-/// At time 0 [J].
+/// Of what is free, at time 0 [J].
 template <int Dim>
 double kinetic_energy(const integrator::Model<double, Dim>& model) {
-  const std::vector<std::uint8_t> labels = labels_of<Dim>(model);
+  const std::vector<std::uint8_t> held = integrator::held_vertices(model);
   double sum = 0;
   for (std::size_t i = 0; i < model.v.size(); ++i) {
-    if (labels[i] != scripted_vertex) sum += 0.5 * model.mass[i] * model.v[i].squaredNorm();
+    if (held[i] == 0) sum += 0.5 * model.mass[i] * model.v[i].squaredNorm();
   }
   return sum;
 }
@@ -65,14 +64,8 @@ double kinetic_energy(const integrator::Model<double, Dim>& model) {
 /// rounding that moves things.
 template <int Dim>
 double energy_of_rounding(const integrator::Model<double, Dim>& model) {
-  Eigen::AlignedBox<double, Dim> box;
-  double mass = 0;
-  for (std::size_t i = 0; i < model.x.size(); ++i) {
-    box.extend(model.x[i]);
-    mass += model.mass[i];
-  }
-  if (box.isEmpty()) return 0;
-  const double speed = 0x1p-30 * box.diagonal().norm() / model.window_length;
+  const double mass = std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
+  const double speed = 0x1p-30 * integrator::extent<Dim>(model.x) / model.window_length;
   return 0.5 * mass * speed * speed;
 }
 

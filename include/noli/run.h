@@ -136,6 +136,16 @@ struct SeriesRow {
     for (const double p : potential) sum += p;
     return sum;
   }
+  double damping_in_all() const {
+    double sum = 0;
+    for (const double w : damping_work) sum += w;
+    return sum;
+  }
+  double held_in_all() const {
+    double sum = 0;
+    for (const double w : held_work) sum += w;
+    return sum;
+  }
   /// K + V at the window's end, and what scripts have been booked in advance [J].
   double energy() const { return kinetic_mean + potential_in_all() + held_ahead; }
   /// What damping, friction, restitution and scripts gave within the window [J]; what they took is negative.
@@ -144,6 +154,8 @@ struct SeriesRow {
     for (std::size_t k = 0; k < force_kinds; ++k) sum += damping_work[k] + held_work[k];
     return sum;
   }
+  /// energy() at the window's beginning, up to rounding.
+  double energy_before() const { return energy() - given() - integration; }
 
   friend bool operator==(const SeriesRow&, const SeriesRow&) = default;
 };

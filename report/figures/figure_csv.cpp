@@ -58,7 +58,7 @@ std::string energy_table(const FigureData& data) {
     for (std::size_t k = 0; k < integrator::force_kinds; ++k) table.name(of(what, k));
   }
   for (const char* column : {"restitution_work [J]", "held_ahead [J]", "integration [J]"}) table.name(column);
-  const SeriesRow none, &first = data.windows.empty() ? none : data.windows.front().row;
+  const SeriesRow& first = data.windows.front().row;
   for (std::size_t m = 0; m < first.contact_work.size(); ++m) {
     for (const char* what : {"work", "friction_work", "restitution_work"}) {
       table.name(fmt::format("{}_of_material_{} [J]", what, m));

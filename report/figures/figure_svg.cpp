@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "report/figures/figure_axes.h"
 #include "report/figures/run_figure.h"
@@ -202,10 +201,9 @@ std::vector<Curve> energies(const FigureData& data) {
     Curve curve = curve_of(data, name, [&](const SeriesRow& row) { return sum += of_window(row); });
     if (!is_zero(curve)) curves.push_back(std::move(curve));
   };
-  const auto all = [](const auto& kinds) { return std::accumulate(kinds.begin(), kinds.end(), 0.0); };
-  add_sum("damping and friction", [&](const SeriesRow& row) { return all(row.damping_work); });
+  add_sum("damping and friction", [](const SeriesRow& row) { return row.damping_in_all(); });
   add_sum("restitution", [](const SeriesRow& row) { return row.restitution_work; });
-  add_sum("scripts", [&](const SeriesRow& row) { return all(row.held_work); });
+  add_sum("scripts", [](const SeriesRow& row) { return row.held_in_all(); });
   add_sum("integration", [](const SeriesRow& row) { return row.integration; });
   return curves;
 }

@@ -66,7 +66,7 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
   contact.show(activity);
   NoRecording nothing;
   Books<double, 3> books;
-  books.reserve(model.contact->materials.size(), 0);
+  books.make_room(model.contact->materials.size(), 0);
   ScriptBook<double, 3> scripts;
   contact.start(0);
   InstantSet failures, plans, fired;
