@@ -88,8 +88,12 @@ class ClosedBooks : public testing::TestWithParam<std::string> {
     EXPECT_NEAR(by_script, held, 1e-10 * (1 + std::abs(held))) << "what is pinned does no work";
     for (std::size_t m = 0; m < all.contact.size(); ++m) {
       const ContactMaterial& material = model.contact->materials[m];
-      if (material.friction == 0) EXPECT_EQ(all.contact[m].damping_work, 0) << "material " << m;
-      if (material.restitution == 1) EXPECT_EQ(all.contact[m].restitution_work, 0) << "material " << m;
+      if (material.friction == 0) {
+        EXPECT_EQ(all.contact[m].damping_work, 0) << "material " << m;
+      }
+      if (material.restitution == 1) {
+        EXPECT_EQ(all.contact[m].restitution_work, 0) << "material " << m;
+      }
     }
     return all.of(ForceKind::contact).events;
   }
