@@ -85,7 +85,7 @@ void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words, s
   std::uint64_t windows = 0;
   try {
     reader.emplace(open_run(run, log));
-    windows = reader->count_windows();
+    windows = reader->look().windows;
   } catch (const InputError&) {
     return;
   }

@@ -27,14 +27,19 @@
 namespace noli {
 namespace {
 
-RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log, double window) {
+RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
   RunEnding ending;
   if (!log.going_on && !log.last_end.empty()) ending.why = log.last_end;
   ending.going_on = log.going_on;
   ending.duration = duration_of(run);
-  const double windows = ending.duration ? integrator::windows_up_to(*ending.duration, window) : 0;
-  if (windows > 0 && windows < 0x1p53) ending.windows_total = static_cast<std::uint64_t>(windows);
   return ending;
+}
+
+/// Nothing when the duration is not known, or no number of windows reaches up to it.
+std::optional<std::uint64_t> windows_total(const RunEnding& ending, std::uint64_t there, double window) {
+  const double windows = ending.duration ? integrator::windows_up_to(*ending.duration, window) : 0;
+  if (!(windows > 0 && windows < 0x1p53 && ending.time < 0x1p52 * window)) return std::nullopt;
+  return integrator::windows_in_all(there, ending.time, window, static_cast<std::uint64_t>(windows));
 }
 
 class RunVerification : private Verification {
@@ -52,9 +57,11 @@ class RunVerification : private Verification {
     }
     require_world_lines();
     const Mesh& mesh = reader_.mesh();
-    outcome_.steps_total = reader_.count_windows();
+    const RunLook look = reader_.look();
+    outcome_.steps_total = look.windows;
+    end_ = look.end;
     reader_.look_for_expected();
-    outcome_.ending = ending_of(run_, log_, reader_.header().window_length);
+    outcome_.ending = ending_of(run_, log_);
     if (const auto note = note_of_lost_log(log_)) outcome_.notes.push_back(*note);
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
@@ -88,6 +95,7 @@ class RunVerification : private Verification {
     if (request_.reproduce) make_again();
     while (outcome_.complete) {
       auto window = read_next();
+      if (window) end_ = std::max(end_, window->end);
       // A stop after the last window changes nothing.
       if (!window || stopped() || !reproduce(*window)) break;
       verify(*window);
@@ -152,7 +160,7 @@ class RunVerification : private Verification {
   /// There is none, once nobody writes to the run any more and its log tells of no more.
   std::optional<RunWindow> next_behind_the_last() {
     log_ = read_log(run_);
-    outcome_.ending = ending_of(run_, log_, reader_.header().window_length);
+    outcome_.ending = ending_of(run_, log_);
     reader_.expect(log_.known);
     reader_.look_again();
     auto window = next_committed();
@@ -274,7 +282,9 @@ class RunVerification : private Verification {
     stopped();
     outcome_.steps_total = ended_ ? reader_.windows() : std::max(outcome_.steps_total, outcome_.steps.size());
     outcome_.claim.steps = outcome_.steps_total;
-    outcome_.ending->time = static_cast<double>(outcome_.steps_total) * reader_.header().window_length;
+    outcome_.ending->time = end_;
+    outcome_.ending->windows_total =
+        windows_total(*outcome_.ending, outcome_.steps_total, reader_.header().window_length);
     outcome_.open_window = ended_ && !live_ && reader_.open_window().has_value();
     if (live_) say_that_it_is_written();
     // A run of which nothing was committed yet proves nothing.
@@ -301,6 +311,7 @@ class RunVerification : private Verification {
   bool witness_sought_ = false;
   bool meeting_at_end_ = false;
   bool ended_ = false;  ///< all windows have been read
+  double end_ = 0;      ///< of the last window that is known [s]
 };
 
 }  // namespace

@@ -51,7 +51,11 @@ class Engine {
   using Divisions = OfEachForce<Division, S, Dim>;
 
   explicit Engine(Model<S, Dim> model)
-      : window_length_(model.window_length), clocks_(model.clocks), gravity_(model.gravity), timeline_(model.scripts) {
+      : window_length_(model.window_length),
+        most_breakpoints_(model.most_breakpoints),
+        clocks_(model.clocks),
+        gravity_(model.gravity),
+        timeline_(model.scripts) {
     check(model);
     make_particles(model);
     make_scripted(model);
@@ -63,7 +67,8 @@ class Engine {
   /// The state of all clocks follows from the time.
   void resume(const Snapshot<S, Dim>& snapshot) {
     windows_ = snapshot.windows;
-    const double t = time();
+    time_ = snapshot.time;
+    const double t = time_;
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       particles_[i].x = snapshot.x[i];
       particles_[i].v = snapshot.v[i];
@@ -76,7 +81,7 @@ class Engine {
   }
 
   Snapshot<S, Dim> snapshot() const {
-    Snapshot<S, Dim> result{windows_, {}, {}};
+    Snapshot<S, Dim> result{windows_, time_, {}, {}};
     for (const Particle<S, Dim>& p : particles_) {
       result.x.push_back(p.x);
       result.v.push_back(p.v);
@@ -84,7 +89,7 @@ class Engine {
     return result;
   }
 
-  double time() const { return static_cast<double>(windows_) * window_length_; }
+  double time() const { return time_; }
   std::uint64_t windows() const { return windows_; }
   std::uint64_t events() const { return events_; }
   const std::vector<Particle<S, Dim>>& particles() const { return particles_; }
@@ -102,7 +107,7 @@ class Engine {
   /// Books what has happened, also when it throws ContactLimit.
   template <class Recorder, class Stop>
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
-    const double end = static_cast<double>(windows_ + 1) * window_length_;
+    double end = static_cast<double>(first_after(time_, window_length_)) * window_length_;
     open(record);
     books.make_room(material_count_, script_count_);
     script_book_ = {scripted_, books.scripts};
@@ -119,6 +124,7 @@ class Engine {
     if (!whole) return false;
     close(end, record);
     ++windows_;
+    time_ = end;
     return true;
   }
 
@@ -270,13 +276,14 @@ class Engine {
     return {particles_, record, t, &script_book_};
   }
 
-  /// False when it was stopped.
+  /// Up to `end`, which becomes an earlier time when breakpoints become too many. False when it was stopped.
   template <class Recorder, class Stop>
-  bool run_events(double end, Recorder& record, Books<S, Dim>& books, const Stop& stop) {
+  bool run_events(double& end, Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     if (windows_ == 0) start(record, books);
     start_contact(record, books);
     std::uint64_t turns = 0, last = events_;
     while (run_next(end, record, books)) {
+      if (record.size() >= most_breakpoints_ && record.last_time() > time_) end = record.last_time();
       if (events_ + ++turns - last < events_between_questions) continue;
       if (stop()) return false;
       last = events_ + turns;
@@ -416,11 +423,19 @@ class Engine {
     constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // asks after each force
     const auto is_due = [&] { return own_.next_time() <= end && own_.next_time() < other; };
     const auto prefetch = [this](VertexId v) { __builtin_prefetch(&particles_[v], 1); };
-    const bool alone = watched || contact_;  // what certificates see must be of one time
-    for (int rows = 0; rows < (contact_ ? 1 : most_rows) && is_due(); ++rows) {
+    // What certificates see must be of one time, and so is the breakpoint that ends a window early.
+    const bool alone = watched || contact_ || nearly_full(record);
+    for (int rows = 0; rows < (alone ? 1 : most_rows) && is_due(); ++rows) {
       own_.take_row(alone ? 1 : own_.longest_row, is_due, prefetch);
       fire_row(record, books, std::make_index_sequence<kinds>{});
     }
+  }
+
+  /// Whether the rows of run_own could have more breakpoints than a window.
+  template <class Recorder>
+  bool nearly_full(const Recorder& record) const {
+    constexpr std::size_t most = most_rows * OwnClocks<kinds>::longest_row * Shelf::most_vertices;
+    return record.size() + most >= most_breakpoints_;
   }
 
   template <class Recorder, std::size_t... I>
@@ -549,6 +564,7 @@ class Engine {
   }
 
   double window_length_;
+  std::size_t most_breakpoints_;
   Clocks clocks_;
   std::optional<Gravity<S, Dim>> gravity_;
   Timeline<S, Dim> timeline_;
@@ -567,6 +583,7 @@ class Engine {
   std::unique_ptr<ContactType> contact_;  ///< of the particles above; nothing in scenes without contact
   S contact_at_start_{};                  ///< its potential at time 0 [J], when that has been run from
   std::uint64_t windows_ = 0;
+  double time_ = 0;  ///< the last window's end [s]
   std::uint64_t events_ = 0;
   Activity unseen_;
   Activity* activity_ = &unseen_;

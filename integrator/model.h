@@ -11,7 +11,9 @@
 // What this does not do: it does not say whether steps are stable (integrator/stable_step.h does).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -99,6 +101,8 @@ struct Model {
   std::optional<Gravity<S, Dim>> gravity;
   Forces<S, Dim> forces;
   double window_length = 0;  ///< W [s], positive
+  /// A window that has so many breakpoints, those at its begin included, ends after all events of that time.
+  std::size_t most_breakpoints = std::numeric_limits<std::size_t>::max();
   Clocks clocks = Clocks::grouped;
   std::optional<ContactSettings> contact;  ///< nothing: things that meet end the run
 };

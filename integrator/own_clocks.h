@@ -163,6 +163,8 @@ class Calendar {
 /// The forces of one kind as bytes.
 class Shelf {
  public:
+  static constexpr std::size_t most_vertices = 4;  ///< of a force
+
   Shelf() = default;
 
   /// `first`: number of the first of the forces. They stay where they are.
@@ -192,8 +194,6 @@ class Shelf {
   }
 
  private:
-  static constexpr std::size_t most_vertices = 4;
-
   const std::byte* forces_ = nullptr;
   const std::byte* vertices_ = nullptr;  ///< of the first force
   std::size_t first_ = 0, stride_ = 0, last_ = 0;

@@ -37,6 +37,9 @@ class Recording {
   }
 
   std::span<const Breakpoint<S, Dim>> stream() const { return {stream_.data(), size_}; }
+  std::size_t size() const { return size_; }
+  /// Of the breakpoint that came last. Precondition: there is one.
+  double last_time() const { return stream_[size_ - 1].t; }
   /// Forgets the breakpoints and keeps their room for the next window.
   void clear() { size_ = 0; }
 
@@ -47,8 +50,14 @@ class Recording {
   std::size_t size_ = 0;
 };
 
+/// What recorders derive from that end no window early: their breakpoints are not counted.
+struct Uncounted {
+  static constexpr std::size_t size() { return 0; }
+  static constexpr double last_time() { return 0; }
+};
+
 /// For runs that nobody looks at.
-struct NoRecording {
+struct NoRecording : Uncounted {
   void reserve(std::size_t) {}
   template <class X>
   void put(VertexId, double, const X&, bool) {}

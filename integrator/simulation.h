@@ -10,7 +10,8 @@
 //            All impulses of one time act on the positions of that time
 //   kick     a force's impulse -h grad V on the velocities; at time 0 half of one, so that the scheme is of second
 //            order from the start
-//   window   [k W, (k + 1) W]; its end advances every particle to it
+//   window   from the end of the one before up to the next multiple of W, or up to the time at which it has as many
+//            breakpoints as the model allows; its end advances every particle to it
 //
 // The state at a window's end (Snapshot) determines all that follows: clocks are multiples of their steps.
 //
@@ -34,7 +35,8 @@ namespace noli::integrator {
 /// Positions and velocities of all vertices at a window's end.
 template <class S, int Dim>
 struct Snapshot {
-  std::uint64_t windows = 0;  ///< done; the time is fl(windows W)
+  std::uint64_t windows = 0;  ///< done
+  double time = 0;            ///< [s]
   std::vector<Vec<S, Dim>> x, v;
 };
 
@@ -88,7 +90,7 @@ class Simulation {
   /// impulses. Asks `stop` every ten thousand events or so. Returns false if it said so: the simulation is then
   /// somewhere within the window, and must not be used again.
   bool run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop = never_stop);
-  /// The same without a recording: the same numbers.
+  /// The same without a recording: the same numbers, but no window ends early.
   void run_window(Books<S, Dim>& books);
 
   Snapshot<S, Dim> snapshot() const;

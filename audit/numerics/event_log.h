@@ -38,7 +38,7 @@ struct ActivePair {
 
 /// A recorder of Engine<double, Dim>.
 template <int Dim>
-class EventLog {
+class EventLog : public integrator::Uncounted {
  public:
   void reserve(std::size_t count) { recording_.reserve(count); }
   void put(VertexId vertex, double t, const integrator::Vec<double, Dim>& x, bool wanted) {

@@ -39,7 +39,7 @@ bool all_same_bits(const A& a, const B& b) {
 
 /// The recorder of a replay: compares with the log as events come.
 template <int Dim>
-class Comparison {
+class Comparison : public integrator::Uncounted {
  public:
   /// `bits`: look at breakpoints, number by number.
   explicit Comparison(bool bits) : bits_(bits) {}

@@ -22,7 +22,7 @@ namespace noli {
 struct RunToCome {
   std::filesystem::path run;
   std::size_t vertices = 0, cells = 0;
-  std::uint64_t windows_there = 0;  ///< of the run that is gone on with
+  std::uint64_t windows_there = 0;  ///< of the run that is gone on with; in `windows`
   std::uint64_t windows = 0;        ///< of the whole run
   std::uint64_t bytes_there = 0;    ///< of trajectory.blocks and proof.blocks
   bool prove = true;                ///< with record full, proofs are written

@@ -90,9 +90,10 @@ class CertifiedRun {
     outcome_.cells = built_.model.mesh.cell_count();
     outcome_.window_length = scene.window;
     outcome_.not_compared = not_compared(scene_.mesh, scene_.labels, scene_.exclusions, names_);
-    outcome_.windows_total = windows_of(request, scene);
+    windows_asked_ = windows_of(request, scene);
+    end_ = static_cast<double>(windows_asked_) * scene.window;
     require_cells();
-    require_countable_frames(request, scene, outcome_.vertices, outcome_.windows_total);
+    require_countable_frames(request, scene, outcome_.vertices, windows_asked_);
     refuse_contact_at_start();
     const integrator::Explanation explanation = integrator::explain(scene);
     const std::string space = require_space(scene, explanation);
@@ -107,7 +108,7 @@ class CertifiedRun {
     while (goes_on && !stopped()) goes_on = with_memory([this] { return run_window(); });
     with_memory([this] { return settle() == Settled::yes; });
     // Whoever stopped a run of which nothing was left to do has stopped nothing.
-    if (writer_->windows() == outcome_.windows_total && stopped_from_outside()) outcome_.end = RunEnd::done;
+    if (outcome_.time == end_ && stopped_from_outside()) outcome_.end = RunEnd::done;
     find_end();
     conclude(clock);
     outcome_.proved = proof_ != nullptr && outcome_.windows > 0;
@@ -179,12 +180,14 @@ class CertifiedRun {
     run.run = folder_.path();
     run.vertices = outcome_.vertices;
     run.cells = outcome_.cells;
-    run.windows = outcome_.windows_total;
+    run.windows = windows_asked_;
     run.prove = request_.prove;
     run.series = series_program().available();
     const bool there = std::filesystem::exists(trajectory_path(run.run));
     if (!request_.resume || !there || !folder_.has_begun()) return run;
-    run.windows_there = RunReader(run.run).count_windows();
+    const RunLook look = RunReader(run.run).look();
+    run.windows_there = look.windows;
+    run.windows = windows_in_all(look.windows, look.end);
     std::error_code error;
     run.bytes_there = std::filesystem::file_size(trajectory_path(run.run));
     const auto proof = std::filesystem::file_size(proof_path(run.run), error);
@@ -201,6 +204,11 @@ class CertifiedRun {
 
   /// World lines are recorded, and proofs written.
   bool full() const { return scene_.header.record == RecordMode::full; }
+
+  /// Of a run that has `there`, up to `time`.
+  std::uint64_t windows_in_all(std::uint64_t there, double time) const {
+    return integrator::windows_in_all(there, time, outcome_.window_length, windows_asked_);
+  }
 
   CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
 
@@ -231,13 +239,12 @@ class CertifiedRun {
       retries_ = Retries(row.halvings);
       watch_.add(row);
       energy = row.energy();
-      require_whole(*window);
       if (stopped()) throw ReadInterrupted(folder_.path().string());
     }
-    if (last.windows > outcome_.windows_total) {
+    if (last.time > end_) {
       throw InputError(folder_.path().string(), "",
-                       fmt::format("has {} windows, {} more than asked for; expected a later time to go on to",
-                                   last.windows, last.windows - outcome_.windows_total));
+                       fmt::format("goes up to {} s, beyond the {} s asked for; expected a later time to go on to",
+                                   last.time, end_));
     }
     writer_.emplace(folder_.path(), reader);
     folder_.resumed(committed(), facts());
@@ -250,15 +257,8 @@ class CertifiedRun {
       }
     }
     outcome_.windows_before = last.windows;
+    outcome_.time = last.time;
     integrator_.go_on(last, energy, {0, retries_.halvings()});
-  }
-
-  /// Windows of a run that can be gone on with are those that a simulation writes.
-  void require_whole(const RunWindow& window) const {
-    if (window.end == static_cast<double>(window.index + 1) * outcome_.window_length) return;
-    throw InputError(folder_.path().string(), "",
-                     fmt::format("window {} ends at {} s; expected {} s to go on with it", window.index + 1, window.end,
-                                 static_cast<double>(window.index + 1) * outcome_.window_length));
   }
 
   // --- Windows -------------------------------------------------------------------------------------------------------
@@ -266,11 +266,11 @@ class CertifiedRun {
   /// Integrates a window while the one before it is verified. False at the end of the run.
   bool run_window() {
     std::optional<Candidate<Dim>> next;
-    if (integrator_.windows() < outcome_.windows_total) next = integrate();
+    if (integrator_.time() < end_) next = integrate();
     if (settle() == Settled::rolled_back) return true;
     if (outcome_.end != RunEnd::done || !next) return false;
     verify(std::move(*next));
-    tell("simulate", static_cast<double>(writer_->windows()) / static_cast<double>(outcome_.windows_total));
+    tell("simulate", outcome_.time / end_);
     return true;
   }
 
@@ -398,6 +398,7 @@ class CertifiedRun {
     writer_->commit();
     outcome_.events += window.row.events_in_all();
     outcome_.breakpoints += window.row.breakpoints;
+    outcome_.time = window.row.time;
     watch_.add(window.row);
     folder_.log(committed(), window.row, window.deepest);
     if (retries_.committed()) ++outcome_.certificate_defects;
@@ -445,8 +446,8 @@ class CertifiedRun {
 
   void conclude(PhaseClock& clock) {
     outcome_.windows = writer_->windows();
+    outcome_.windows_total = windows_in_all(outcome_.windows, outcome_.time);
     outcome_.certificates = integrator_.certificates();
-    outcome_.time = static_cast<double>(outcome_.windows) * outcome_.window_length;
     outcome_.integration = watch_.integration();
     const std::exception_ptr lost = write_series();
     outcome_.phases = clock.seconds();
@@ -495,6 +496,8 @@ class CertifiedRun {
   WindowVerifier verifier_;
   RunFolder folder_;
   double frame_rate_;
+  std::uint64_t windows_asked_ = 0;  ///< as many as there are when none ends early
+  double end_ = 0;                   ///< of the last one [s]
   std::optional<RunWriter> writer_;
   std::unique_ptr<StepProofs> proof_;  ///< with record full
   integrator::Activity activity_;

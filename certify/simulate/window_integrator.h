@@ -57,8 +57,8 @@ class WindowIntegrator {
     gone_ += counts;
   }
 
-  /// That have been integrated.
-  std::uint64_t windows() const { return simulation_->windows(); }
+  /// Up to which it has come [s].
+  double time() const { return simulation_->time(); }
   std::uint32_t deepest() const { return simulation_->certificates().deepest; }
   CertificateCounts certificates() const {
     CertificateCounts all = gone_;

@@ -153,6 +153,13 @@ void limit_gravity_step(const Scene& scene, Model<double, Dim>& model) {
   model.gravity->step = gravity_step(scene, step);
 }
 
+/// What keeps memory bounded, however much happens in a window; no vertex is to end one by its mere number.
+template <int Dim>
+void limit_breakpoints(const Scene& scene, Model<double, Dim>& model) {
+  constexpr std::size_t least = 4'000'000, of_a_vertex = 8;
+  model.most_breakpoints = scene.most_breakpoints.value_or(std::max(least, of_a_vertex * model.x.size()));
+}
+
 // --- Scripts ---------------------------------------------------------------------------------------------------------
 
 /// Positions of all vertices of a body, frame by frame.
@@ -266,6 +273,7 @@ BuiltScene<Dim> build_model(const Scene& scene) {
   add_gravity(scene, model);
   add_contact(scene, meshes, inverse_mass, result);
   limit_gravity_step(scene, model);
+  limit_breakpoints(scene, model);
   return result;
 }
 

@@ -64,6 +64,7 @@ void read_run(Scene& scene, const Field& f) {
   scene.about = f["about"].text();
   scene.duration = f["duration"].number();
   scene.window = f["window"].countable_time();
+  if (f.has("most_breakpoints")) scene.most_breakpoints = f["most_breakpoints"].count<std::uint64_t>();
   scene.seed = f["seed"].count<std::uint64_t>();
   scene.record = f["record"].text() == "full" ? Record::full : Record::frames;
   scene.frame_rate = f["frame_rate"].number();

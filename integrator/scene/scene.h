@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <noli/mesh.h>
+#include "integrator/clocks.h"
 #include "integrator/model.h"
 #include "integrator/scene/schema.h"
 
@@ -267,6 +268,7 @@ struct Scene {
   std::string title, about;
   int dimension = 3;
   double duration = 0, window = 0;
+  std::optional<std::uint64_t> most_breakpoints;  ///< of a window
   std::uint64_t seed = 1;
   Record record = Record::full;
   double frame_rate = 60;
@@ -285,5 +287,12 @@ struct Scene {
 /// How many windows reach up to a time. A time that is a whole number of windows except for rounding, as 0.07 of 0.01,
 /// takes just that number.
 inline double windows_up_to(double time, double window) { return std::ceil(time / window * (1 - 0x1p-50)); }
+
+/// The least number of windows with which a run that has `there`, the last of them up to `time`, comes to the end of
+/// `all`. It takes more when more of them end early, because they have too many breakpoints.
+inline std::uint64_t windows_in_all(std::uint64_t there, double time, double window, std::uint64_t all) {
+  const std::uint64_t behind = first_after(time, window) - 1;
+  return there + (all > behind ? all - behind : 0);
+}
 
 }  // namespace noli::integrator

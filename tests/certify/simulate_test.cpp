@@ -8,11 +8,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <noli/errors.h>
 #include "tests/support/temporary_folder.h"
+#include "trajectory/text.h"
 
 namespace noli {
 namespace {
@@ -61,6 +63,41 @@ TEST_F(SimulateInProcess, StopsAtACondition) {
   EXPECT_EQ(rest.end, RunEnd::done);
   EXPECT_EQ(rest.windows, 4U);
   EXPECT_EQ(rest.windows_before, 2U);
+}
+
+/// A point that falls, with a breakpoint at each kick of gravity: windows end early, and the run is stopped behind each.
+TEST_F(SimulateInProcess, GoesOnFromAWindowThatEndedEarly) {
+  SimulateRequest asked = request();
+  asked.scene = folder.write("falling.json", R"({
+    "noli_scene": 1, "dimension": 2, "duration": 0.03, "window": 0.01, "gravity": [0, -10], "gravity_step": 1e-3,
+    "most_breakpoints": 5,
+    "bodies": [{"mesh": {"points": {"at": [[0, 0]]}}, "material": {"edge_stiffness": 1, "mass_per_vertex": 1}}]})");
+  const SimulateOutcome whole = run_simulate(asked);
+  EXPECT_EQ(whole.end, RunEnd::done);
+  EXPECT_EQ(whole.windows, whole.windows_total);
+  EXPECT_GE(whole.windows, 9U);
+
+  SimulateRequest step_by_step = asked;
+  step_by_step.run = folder / "steps";
+  step_by_step.keep_going = [](const SeriesRow&) { return false; };
+  std::uint64_t early = 0;
+  for (std::uint64_t windows = 1; windows <= whole.windows; ++windows) {
+    const SimulateOutcome outcome = run_simulate(step_by_step);
+    step_by_step.resume = true;
+    ASSERT_EQ(outcome.windows, windows);
+    EXPECT_EQ(outcome.end, windows < whole.windows ? RunEnd::interrupted : RunEnd::done);
+    EXPECT_LE(outcome.windows_total, whole.windows) << "more can end early yet";
+    if (outcome.time != 0.01 && outcome.time != 0.02 && outcome.time != 0.03) ++early;
+    VerifyRequest verify;
+    verify.frames = {step_by_step.run};
+    const VerifyOutcome verified = run_verify_motion(verify);
+    EXPECT_EQ(verified.verdict, Verdict::no_contact);
+    EXPECT_EQ(verified.ending->time, outcome.time);
+    EXPECT_EQ(verified.ending->windows_total, outcome.windows_total);
+  }
+  EXPECT_EQ(early, whole.windows - 3);
+  const auto bytes = [](const std::filesystem::path& run) { return read_whole_file(run / "trajectory.blocks"); };
+  EXPECT_TRUE(bytes(step_by_step.run) == bytes(asked.run));
 }
 
 TEST_F(SimulateInProcess, AConditionAtTheEndChangesNothing) {

@@ -64,7 +64,7 @@ std::vector<Json> scenes_with_every_field() {
   return {Json::parse(R"({
     "noli_scene": 1, "title": "t", "about": "a", "dimension": 3, "duration": 2.5, "window": 0.5, "seed": 7,
     "record": "frames", "frame_rate": 24.5, "steps": "own", "step_factor": 0.25, "allow_unstable": true,
-    "gravity": [0.5, 0.25, -9.81], "gravity_step": 0.125,
+    "gravity": [0.5, 0.25, -9.81], "gravity_step": 0.125, "most_breakpoints": 12345,
     "bodies": [
       {"mesh": {"grid": {"size": [1.5, 2.5], "cells": [4, 5], "diagonals": "parallel",
                          "refine": {"at": [0.5, -0.75], "factor": 3, "radius": 0.125}}},
@@ -127,8 +127,9 @@ std::vector<Json> scenes_with_every_field() {
 
 bool same(const Scene& a, const Scene& b) {
   const auto parts = [](const Scene& s) {
-    return std::tie(s.title, s.about, s.dimension, s.duration, s.window, s.seed, s.record, s.frame_rate, s.steps,
-                    s.step_factor, s.allow_unstable, s.gravity, s.gravity_step, s.bodies, s.scripts, s.contact);
+    return std::tie(s.title, s.about, s.dimension, s.duration, s.window, s.most_breakpoints, s.seed, s.record,
+                    s.frame_rate, s.steps, s.step_factor, s.allow_unstable, s.gravity, s.gravity_step, s.bodies,
+                    s.scripts, s.contact);
   };
   return parts(a) == parts(b);
 }

@@ -112,6 +112,7 @@ class BlockWriter {
 /// What the headers of blocks say.
 struct CommitLook {
   std::uint64_t count = 0;              ///< of commits
+  std::uint64_t last_group = 0;         ///< where the group begins that the last of them closes
   std::optional<Sha256Digest> running;  ///< as one of them has it
 };
 
@@ -141,6 +142,8 @@ class BlockReader {
   /// How many commit blocks the file has, by the headers of its blocks alone, and the running hash that the one which
   /// closes this group, counted from 1, has. Nothing is checked.
   CommitLook look_at_commits(std::uint64_t group = 0);
+  /// The block at this place. Throws InputError when it is damaged.
+  Block look_at_block(std::uint64_t offset);
 
   /// Whoever waits for more: the file as it is now, behind the last commit that next() passed; also after an error.
   /// Precondition: there was a commit. Throws InputError when the file has become shorter than that.
@@ -155,7 +158,7 @@ class BlockReader {
  private:
   void open(FourLetters content);
   std::string read(std::uint64_t offset, std::uint64_t count);
-  std::optional<std::string> read_block(std::string& header, std::string& body);
+  std::optional<std::string> read_block(std::uint64_t offset, std::string& header, std::string& body);
   bool commit_follows(std::uint64_t from);
   void check_commit(const Block& block);
   [[noreturn]] void fail(std::uint64_t offset, const std::string& problem) const;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <noli/errors.h>
 #include "trajectory/blocks/block_file.h"
@@ -89,17 +90,17 @@ std::string BlockReader::read(std::uint64_t offset, std::uint64_t count) {
   return bytes;
 }
 
-/// Reads the bytes of the block at at_. Returns what is wrong with them, if anything is.
-std::optional<std::string> BlockReader::read_block(std::string& header, std::string& body) {
+/// Reads the bytes of a block. Returns what is wrong with them, if anything is.
+std::optional<std::string> BlockReader::read_block(std::uint64_t offset, std::string& header, std::string& body) {
   using namespace block_format;
-  const std::uint64_t left = size_ - at_;
+  const std::uint64_t left = size_ - offset;
   if (left < block_header_size) return fmt::format("truncated: {} bytes are no block", left);
-  header = read(at_, block_header_size);
+  header = read(offset, block_header_size);
   const auto length = get<std::uint64_t>(header.data() + 4);
   if (length > left - block_header_size || left - block_header_size - length < checksum_size) {
     return fmt::format("truncated: a block of {} bytes, but only {} bytes remain", length, left - block_header_size);
   }
-  body = read(at_ + block_header_size, length + checksum_size);
+  body = read(offset + block_header_size, length + checksum_size);
   const std::string_view payload(body.data(), length);
   if (get<std::uint32_t>(body.data() + length) != crc32c(payload, crc32c(header))) {
     return fmt::format("damaged: the checksum of block {} does not fit", letters_of(get<FourLetters>(header.data())));
@@ -146,7 +147,7 @@ void BlockReader::check_commit(const Block& block) {
 std::optional<Block> BlockReader::next() {
   if (at_ == size_) return std::nullopt;
   std::string header, body;
-  if (const auto problem = read_block(header, body)) {
+  if (const auto problem = read_block(at_, header, body)) {
     if (commit_follows(at_)) fail(at_, *problem + "; committed blocks follow, so this is no end that was cut off");
     at_ = size_;
     return std::nullopt;
@@ -166,17 +167,27 @@ std::optional<Block> BlockReader::next() {
 CommitLook BlockReader::look_at_commits(std::uint64_t group) {
   using namespace block_format;
   CommitLook look;
+  std::uint64_t open = file_header_size;
   for (std::uint64_t at = file_header_size; size_ - at >= block_header_size + checksum_size;) {
     const std::string header = read(at, block_header_size);
     const std::uint64_t left = size_ - at - block_header_size - checksum_size;
     const auto length = get<std::uint64_t>(header.data() + 4);
     if (length > left) break;
-    if (get<FourLetters>(header.data()) == commit && ++look.count == group && length == commit_payload_size) {
+    const bool commits = get<FourLetters>(header.data()) == commit;
+    if (commits && ++look.count == group && length == commit_payload_size) {
       look.running = digest_at(read(at + block_header_size, length), 40);
     }
     at += block_header_size + length + checksum_size;
+    if (commits) look.last_group = std::exchange(open, at);
   }
   return look;
+}
+
+Block BlockReader::look_at_block(std::uint64_t offset) {
+  std::string header, body;
+  if (const auto problem = read_block(offset, header, body)) fail(offset, *problem);
+  body.resize(body.size() - block_format::checksum_size);
+  return {get<FourLetters>(header.data()), offset, std::move(body)};
 }
 
 void BlockReader::look_again() {

@@ -103,6 +103,12 @@ struct KnownWindows {
   bool made_again = false;              ///< whoever reads makes those that are missing again
 };
 
+/// How many windows a run has, and how far they go [s].
+struct RunLook {
+  std::uint64_t windows = 0;
+  double end = 0;
+};
+
 class RunReader;
 
 /// Writes a run. In memory: the positions at the end of one window.
@@ -187,8 +193,9 @@ class RunReader {
 
   /// How many windows have been read.
   std::uint64_t windows() const { return blocks_.committed().groups - 1; }
-  /// How many windows the file seems to have: a quick look that reads none of them and checks nothing.
-  std::uint64_t count_windows();
+  /// What the file seems to have: a quick look that reads no world line. Throws InputError when the beginning of the
+  /// last window is damaged.
+  RunLook look();
   const Sha256Digest& running_hash() const { return blocks_.committed().running; }
 
  private:

@@ -171,7 +171,13 @@ void RunReader::look_for_expected() {
   if (look.running) require_hash(*look.running);
 }
 
-std::uint64_t RunReader::count_windows() { return std::max<std::uint64_t>(blocks_.look_at_commits().count, 1) - 1; }
+RunLook RunReader::look() {
+  const CommitLook look = blocks_.look_at_commits();
+  if (look.count < 2) return {};
+  const Block block = blocks_.look_at_block(look.last_group);
+  if (block.kind != run_kind::window) fail(block, "expected block " + letters_of(run_kind::window));
+  return {look.count - 1, run_block::decode_window({blocks_.name(), block}).end};
+}
 
 std::string RunReader::open_window_message() const {
   return fmt::format("{}: ends in an open window at {}", blocks_.name(), byte_place(open_window().value()));

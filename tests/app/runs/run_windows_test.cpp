@@ -115,6 +115,52 @@ TEST_F(Simulate, ExplainPredictsAsManyWindowsAsARunHas) {
   EXPECT_EQ(json_of({"simulate", file, "-o", run_path("run")}, 0)["windows"], 7);
 }
 
+// --- Windows that end early ------------------------------------------------------------------------------------------
+
+TEST_F(Simulate, AWindowWithTooManyBreakpointsEndsEarly) {
+  Json json = two_cloths();
+  const std::string unbounded = run_path("unbounded"), run = run_path("run"), parts = run_path("parts");
+  ASSERT_EQ(json_of({"simulate", scene(json), "-o", unbounded}, 0)["windows"], 20);
+  const std::uint64_t there = json_of({"info", unbounded}, 0)["files"][0]["most_breakpoints_in_a_window"];
+  json["most_breakpoints"] = there / 4;
+  const std::string file = scene(json);
+  const Json whole = json_of({"simulate", file, "-o", run}, 0);
+  EXPECT_GT(whole["windows"], 40);
+  EXPECT_EQ(whole["windows"], whole["windows_total"]);
+  EXPECT_EQ(whole["time"], 0.2);
+  const Json info = json_of({"info", run}, 0)["files"][0];
+  // A window has what happens at its last time, too, and its end for each vertex.
+  EXPECT_LT(info["most_breakpoints_in_a_window"], there / 4 + 3 * info["vertices"].get<std::uint64_t>());
+  EXPECT_EQ(info["end_time"], 0.2);
+
+  const Json verified = json_of({"verify", run}, 0);
+  EXPECT_EQ(verified["steps"], whole["windows"]);
+  EXPECT_EQ(verified["run"]["windows_total"], whole["windows"]);
+  EXPECT_EQ(verified["run"]["time"], 0.2);
+  EXPECT_EQ(run_noli({"check", run}).exit_code, 0);
+  EXPECT_EQ(json_of({"explain", run}, 0)["windows"], whole["windows"]);
+
+  ASSERT_EQ(run_noli({"simulate", file, "-o", parts, "--until", "0.13"}).exit_code, 0);
+  const Json part = json_of({"verify", parts}, 0);
+  EXPECT_EQ(part["run"]["time"], 0.13);
+  EXPECT_EQ(part["run"]["windows_total"], part["steps"].get<int>() + 7);
+  ASSERT_EQ(run_noli({"simulate", file, "-o", parts, "--resume"}).exit_code, 0);
+  EXPECT_TRUE(blocks("parts") == blocks("run"));
+}
+
+TEST_F(Simulate, WindowsThatEndedEarlyAreMadeAgain) {
+  Json json = hanging_sheet();
+  json["most_breakpoints"] = 300;
+  json["record"] = "frames";
+  const std::string file = scene(json), run = run_path("run");
+  const Json simulated = json_of({"simulate", file, "-o", run}, 0);
+  ASSERT_GT(simulated["windows"], 50);
+  EXPECT_EQ(json_of({"verify", run, "--reproduce"}, 0)["steps"], simulated["windows"]);
+  EXPECT_EQ(json_of({"info", run}, 0)["files"][0]["frames"], 16);  // 0.25 s at 60 a second, and the first
+  EXPECT_EQ(run_noli({"simulate", file, "--reproduce", run, "--window", "40", "-o", run_path("again.block")}).exit_code,
+            0);
+}
+
 // --- The end that is asked for ---------------------------------------------------------------------------------------
 
 TEST_F(Simulate, UntilBeyondTheDurationHasToBeMeant) {
