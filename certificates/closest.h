@@ -168,8 +168,9 @@ class ClosestFinder {
 
 /// Precondition: x has the stencil's vertices, finite; in the plane no faces.
 template <int Dim, class S = double>
-Closest<Dim, S> closest(FeaturePair kind, std::span<const Vector<Dim, S>> x) {
-  Closest<Dim, S> result;
+void find_closest(FeaturePair kind, std::span<const Vector<Dim, S>> x, Closest<Dim, S>& result) {
+  result.weights = {};
+  result.slide_count = 0;
   detail::ClosestFinder<Dim, S> finder(x, result);
   switch (kind) {
     case FeaturePair::vertex_face: finder.vertex_face(); break;
@@ -179,6 +180,13 @@ Closest<Dim, S> closest(FeaturePair kind, std::span<const Vector<Dim, S>> x) {
   }
   result.r = result.weights[0] * x[0];
   for (std::size_t i = 1; i < x.size(); ++i) result.r += result.weights[i] * x[i];
+}
+
+/// The same by value.
+template <int Dim, class S = double>
+Closest<Dim, S> closest(FeaturePair kind, std::span<const Vector<Dim, S>> x) {
+  Closest<Dim, S> result;
+  find_closest<Dim, S>(kind, x, result);
   return result;
 }
 

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <set>
@@ -110,6 +111,7 @@ class Contact {
         look_steps_(std::move(look_steps)),
         layers_(settings.materials.size()),
         greatest_thicknesses_(greatest_thicknesses(settings)),
+        is_struck_(particles.size(), 0),
         certificates_(*this, mesh, positions(particles), longest_slice * window_length) {}
 
   Contact(const Contact&) = delete;
@@ -249,6 +251,12 @@ class Contact {
   static constexpr std::uint64_t most_in_advance = 1000;
   static_assert(ContactSettings::excluded == certificates::no_material);
 
+  /// A pair that a layer has fired for without need.
+  struct Clear {
+    std::size_t pair;  ///< of those that it has fired for
+    double distance;   ///< [m]
+  };
+
   struct Layer {
     Clock clock;
     LayerTerms terms;
@@ -289,19 +297,38 @@ class Contact {
     if constexpr (requires { now.record.layer_fires(Firing{t, h, material, l, terms}); }) {
       now.record.layer_fires(Firing{t, h, material, l, terms});
     }
-    std::size_t acted = 0;
     Account<double, Dim>& account = books.contact[material];
-    for (const certificates::Stencil& pair : firing) {
-      const double d = fire_pair(now, account, pair, terms, h);
-      const double eta = terms.thickness;
-      if (d < eta) {
-        ++acted;
-        extremes_.add({pair, t, d, material, l});
+    std::size_t acted = 0;
+    for (std::size_t begin = 0; begin < firing.size(); begin += approaches_.size()) {
+      const auto row = firing.subspan(begin, std::min(approaches_.size(), firing.size() - begin));
+      for (std::size_t i = 0; i < row.size(); ++i) find_approach(now, row[i], approaches_[i]);
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        fire_pair(now, account, row[i], approaches_[i], terms, h);
+        const double d = approaches_[i].distance;
+        if (d < terms.thickness) {
+          ++acted;
+          extremes_.add({row[i], t, d, material, l});
+        } else if (d > terms.thickness) {
+          clear_.push_back({begin + i, d});
+        }
       }
-      if (d > eta) drop_if_clear(pair, material, l, d, t);
     }
     account.events += acted;
+    certify(firing, material, l, t);
     return acted;
+  }
+
+  /// What the layer has struck, and which pairs it is clear of: once it has fired for all of them, as one vertex is
+  /// part of many pairs.
+  void certify(std::span<const certificates::Stencil> fired, std::uint16_t material, std::uint32_t l, double t) {
+    const PhaseScope certifying(*activity_, Phase::certificate);
+    for (const VertexId i : struck_) {
+      is_struck_[i] = 0;
+      look(i, t);
+    }
+    for (const Clear& clear : clear_) certificates_.drop_if_clear(fired[clear.pair], material, l, clear.distance, t);
+    struck_.clear();
+    clear_.clear();
   }
 
   /// Fires a layer that must not act. Throws ContactLimit if it would.
@@ -315,20 +342,21 @@ class Contact {
     }
   }
 
-  /// Of one pair; returns the distance.
   template <class Recorder>
-  double fire_pair(const Kicked<double, Dim, Recorder>& now, Account<double, Dim>& account,
-                   const certificates::Stencil& pair, const LayerTerms& layer, double h) {
-    const Blow<double, Dim> blow = strike_pair(now, pair, layer, h, account);
-    if constexpr (requires { now.record.examined(pair, blow.whole_course()); }) {
-      now.record.examined(pair, blow.whole_course());
+  void fire_pair(const Kicked<double, Dim, Recorder>& now, Account<double, Dim>& account,
+                 const certificates::Stencil& pair, const Approach<double, Dim>& approach, const LayerTerms& layer,
+                 double h) {
+    const Blow blow = strike_pair(now, pair, approach, layer, h, account);
+    if constexpr (requires { now.record.examined(pair, blow.course); }) {
+      now.record.examined(pair, approach.with_corners(blow.course));
     }
-    if (!blow.struck) return blow.distance;
-    const PhaseScope certifying(*activity_, Phase::certificate);
+    if (!blow.struck) return;
     for (std::size_t i = 0; i < pair.size(); ++i) {
-      if (!immovable(pair.vertices[i])) look(pair.vertices[i], now.t);
+      const VertexId v = pair.vertices[i];
+      if (is_struck_[v] || immovable(v)) continue;
+      is_struck_[v] = 1;
+      struck_.push_back(v);
     }
-    return blow.distance;
   }
 
   ContactSettings settings_;
@@ -337,6 +365,12 @@ class Contact {
   std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
   std::vector<double> greatest_thicknesses_;                           ///< [group * class_count + class]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
+  /// Of the pairs that fire next. They are found one after another before any of them fires: that waits for velocities
+  /// that the one before has just written, this for nothing.
+  std::array<Approach<double, Dim>, 64> approaches_;
+  std::vector<std::uint8_t> is_struck_;  ///< by vertex: by the layer that fires now
+  std::vector<VertexId> struck_;         ///< these vertices
+  std::vector<Clear> clear_;             ///< pairs of the layer that fires now
   ContactExtremes extremes_;
   Activity unseen_;
   Activity* activity_ = &unseen_;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -39,153 +40,167 @@ struct Course {
   friend bool operator==(const Course&, const Course&) = default;
 };
 
+/// Where a pair is when a layer fires. It follows from positions alone, so it is the same before and after all kicks of
+/// that time.
 template <class S, int Dim>
-struct Blow {
+struct Approach {
   certificates::Closest<Dim, S> closest;
   S distance;
+
+  /// `course`, and corners.
+  Course with_corners(Course course) const {
+    for (std::size_t i = 0; i < 4; ++i) course.corners |= static_cast<std::uint8_t>((closest.weights[i] != S(0)) << i);
+    return course;
+  }
+};
+
+struct Blow {
   Course course;  ///< corners are not in it
   bool struck = false;
-
-  Course whole_course() const {
-    Course whole = course;
-    for (std::size_t i = 0; i < 4; ++i) whole.corners |= static_cast<std::uint8_t>((closest.weights[i] != S(0)) << i);
-    return whole;
-  }
 };
 
-/// The vertices of a pair at one time.
-template <class S, int Dim>
-class PairState {
- public:
-  template <class Recorder>
-  PairState(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair) : size_(pair.size()) {
-    for (std::size_t i = 0; i < size_; ++i) {
-      const auto& p = now.particles[pair.vertices[i]];
-      x_[i] = p.at(now.t);
-      v_[i] = p.v;
-      inverse_mass_[i] = p.inverse_mass;
-    }
+/// Of a pair's N vertices, what(vertex).
+template <std::size_t N, class What>
+auto each_of(const certificates::Stencil& pair, const What& what) {
+  std::array<decltype(what(pair.vertices[0])), N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = what(pair.vertices[i]);
+  return result;
+}
+
+/// Most vertices have been struck at this time before.
+template <class S, int Dim, class Recorder>
+void kick_vertex(const Kicked<S, Dim, Recorder>& now, VertexId vertex, const Vec<S, Dim>& impulse) {
+  Particle<S, Dim>& p = now.particles[vertex];
+  if (p.inverse_mass == S(0)) return;
+  const Vec<S, Dim> v = p.v + p.inverse_mass * impulse;
+  if (!differ<S, Dim>(v, p.v)) return;
+  if (p.t == now.t) {
+    p.v = v;
+  } else {
+    set_velocity(now, vertex, Vec<S, Dim>(p.at(now.t)), v);
   }
+}
 
-  std::span<const Vec<S, Dim>> xs() const { return {x_.data(), size_}; }
-  std::span<const Vec<S, Dim>> vs() const { return {v_.data(), size_}; }
-  std::span<const S> inverse_masses() const { return {inverse_mass_.data(), size_}; }
-
-  void give(const Impulses<Dim, S>& impulses) {
-    for (std::size_t i = 0; i < size_; ++i) {
-      if (inverse_mass_[i] != S(0)) v_[i] += inverse_mass_[i] * impulses[i];
-    }
-  }
-
-  const std::array<Vec<S, Dim>, 4>& velocities() const { return v_; }
-
-  template <class Recorder>
-  void settle(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair) const {
-    for (std::size_t i = 0; i < size_; ++i) {
-      const VertexId vertex = pair.vertices[i];
-      if (inverse_mass_[i] == S(0) || !differ<S, Dim>(v_[i], now.particles[vertex].v)) continue;
-      set_velocity(now, vertex, x_[i], v_[i]);
-    }
-  }
-
- private:
-  std::size_t size_;
-  std::array<Vec<S, Dim>, 4> x_, v_;
-  std::array<S, 4> inverse_mass_{};
-};
-
-/// Of friction up to a magnitude `most`: the impulses, all zero if nothing slips.
-template <class S, int Dim>
+template <class S, int Dim, std::size_t N>
 struct Friction {
-  Impulses<Dim, S> impulses;
-  bool sticks = true;  ///< it stops all slip
+  Impulses<Dim, S> impulses;          ///< all zero if nothing slips
+  std::array<Vec<S, Dim>, N> before;  ///< velocities before the layer fired
+  bool sticks = true;                 ///< it stops all slip
 };
 
-template <class S, int Dim>
-Friction<S, Dim> rub(PairState<S, Dim>& state, const certificates::Closest<Dim, S>& c, const S& most) {
-  const Slip<Dim, S> s = slip<Dim, S>(c, state.xs(), state.vs());
-  Friction<S, Dim> friction{s.against};
-  const S yield = yielding<Dim, S>(s, state.inverse_masses());
+/// Kicks the pair's vertices, which the layer has pushed apart, against their slip, with a magnitude up to `most`.
+template <std::size_t N, class S, int Dim, class Recorder>
+void rub(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, const certificates::Closest<Dim, S>& c,
+         const S& most, Friction<S, Dim, N>& friction) {
+  const auto x = each_of<N>(pair, [&](VertexId i) -> Vec<S, Dim> { return now.particles[i].at(now.t); });
+  const auto v = each_of<N>(pair, [&](VertexId i) { return now.particles[i].v; });
+  const auto inverse_masses = each_of<N>(pair, [&](VertexId i) { return now.particles[i].inverse_mass; });
+  const Slip<Dim, S> s = slip<Dim, S>(c, x, v);
+  friction.impulses = s.against;
+  const S yield = yielding<Dim, S>(s, inverse_masses);
   if (!(s.speed > S(0)) || !(yield > S(0))) {
     for (auto& impulse : friction.impulses) impulse.setZero();
-    return friction;
+    return;
   }
   const S stop = s.speed / yield, magnitude = std::min(most, stop);
   for (auto& impulse : friction.impulses) impulse *= magnitude;
-  state.give(friction.impulses);
+  for (std::size_t i = 0; i < N; ++i) kick_vertex<S, Dim>(now, pair.vertices[i], friction.impulses[i]);
   friction.sticks = !(most < stop);
-  return friction;
 }
 
-/// What a layer gives a pair, all in one event.
-template <class S, int Dim>
-struct PairImpulses {
-  Impulses<Dim, S> potential;  ///< of the layer's potential
-  Impulses<Dim, S> normal;     ///< of these, what restitution leaves
-  Impulses<Dim, S> friction;   ///< of which normal impulses are the measure
-  bool withheld = false;       ///< `normal` is not `potential`
-  bool rubs = false;           ///< there is friction
+/// What a layer has given a pair, all in one event.
+template <class S, int Dim, std::size_t N>
+struct Given {
+  S full;                                         ///< magnitude of the impulse of the layer's potential [N s]
+  S push;                                         ///< of it, what restitution leaves
+  Vec<S, Dim> normal;                             ///< impulses are its multiples, by weight
+  S before;                                       ///< opening() before it
+  const Friction<S, Dim, N>* friction = nullptr;  ///< if there is any
 };
 
-/// Books what a layer has given a pair, which moved with the velocities `before` and is `after` now.
-template <class S, int Dim, class Recorder>
-void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
-               const std::array<Vec<S, Dim>, 4>& before, const PairState<S, Dim>& after,
-               const PairImpulses<S, Dim>& given, Account<S, Dim>& account) {
-  S potential(0), normal(0), friction(0);
-  for (std::size_t i = 0; i < pair.size(); ++i) {
-    const Vec<S, Dim>& v = after.vs()[i];
-    Vec<S, Dim> twice_mean = before[i] + v;
-    if (after.inverse_masses()[i] == S(0)) {
-      const Vec<S, Dim> whole = given.rubs ? Vec<S, Dim>(given.normal[i] + given.friction[i]) : given.normal[i];
-      const Held<S, Dim> held{pair.vertices[i], now.t, after.xs()[i], v};
-      twice_mean = S(2) * book_held<S, Dim>(account, *now.scripts, held, whole);
-    }
-    normal += given.normal[i].dot(twice_mean);
-    if (given.withheld) potential += given.potential[i].dot(twice_mean);
-    if (given.rubs) friction += given.friction[i].dot(twice_mean);
+/// Twice the mean of opening() before and after.
+template <std::size_t N, class S, int Dim, class Recorder>
+S twice_mean_opening(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
+                     const Approach<S, Dim>& approach, const Given<S, Dim, N>& given) {
+  if (given.friction != nullptr) {
+    const auto velocity = [&](std::size_t i) -> const Vec<S, Dim>& { return now.particles[pair.vertices[i]].v; };
+    return given.before + opening<Dim, S>(approach.closest, N, velocity);
   }
-  account.work += S(0.5) * (given.withheld ? potential : normal);
-  if (given.withheld) account.restitution_work += S(0.5) * (normal - potential);
-  account.damping_work += S(0.5) * friction;
+  S mobility(0);
+  for (std::size_t i = 0; i < N; ++i) {
+    const S& weight = approach.closest.weights[i];
+    mobility += weight * weight * now.particles[pair.vertices[i]].inverse_mass;
+  }
+  return S(2) * given.before + given.push * approach.distance * mobility;
+}
+
+/// Books it. The work of normal impulses needs no velocity but that at which the closest points open.
+template <std::size_t N, class S, int Dim, class Recorder>
+void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, const Approach<S, Dim>& approach,
+               const Given<S, Dim, N>& given, Account<S, Dim>& account) {
+  S twice_opening = twice_mean_opening(now, pair, approach, given), twice_friction(0);
+  for (std::size_t i = 0; i < N; ++i) {
+    const Particle<S, Dim>& p = now.particles[pair.vertices[i]];
+    if (given.friction != nullptr) twice_friction += given.friction->impulses[i].dot(given.friction->before[i] + p.v);
+    if (p.inverse_mass != S(0)) continue;
+    Vec<S, Dim> whole = (given.push * approach.closest.weights[i]) * given.normal;
+    if (given.friction != nullptr) whole += given.friction->impulses[i];
+    const Held<S, Dim> held{pair.vertices[i], now.t, p.at(now.t), p.v};
+    const Vec<S, Dim> twice_more = S(2) * Vec<S, Dim>(book_held<S, Dim>(account, *now.scripts, held, whole) - p.v);
+    twice_opening += approach.closest.weights[i] * approach.closest.r.dot(twice_more);
+    if (given.friction != nullptr) twice_friction += given.friction->impulses[i].dot(twice_more);
+  }
+  const S mean_speed = S(0.5) * twice_opening / approach.distance;
+  account.work += given.full * mean_speed;
+  account.restitution_work += (given.push - given.full) * mean_speed;
+  account.damping_work += S(0.5) * twice_friction;
+}
+
+/// strike_pair() of a pair of N vertices.
+template <std::size_t N, class S, int Dim, class Recorder>
+[[gnu::always_inline]] inline Blow strike_vertices(const Kicked<S, Dim, Recorder>& now,
+                                                   const certificates::Stencil& pair, const Approach<S, Dim>& approach,
+                                                   const LayerTerms& layer, double h, Account<S, Dim>& account) {
+  Blow blow;
+  const auto& [closest, distance] = approach;
+  const S g = distance - S(layer.thickness);
+  if (!(g < S(0))) return blow;
+  if (!(distance > S(0))) throw ContactLimit(pair, now.t);
+  const auto velocity = [&](std::size_t i) -> const Vec<S, Dim>& { return now.particles[pair.vertices[i]].v; };
+  const S before = opening<Dim, S>(closest, N, velocity);
+  blow.course.acts = true;
+  blow.course.parts = before > S(0);
+  const std::array<double, 2> shares{1, layer.restitution};  // without a branch that no processor foresees
+  const S push = S(-shares[blow.course.parts]) * S(h) * S(layer.stiffness) * g;
+  const S full = S(-1) * S(h) * S(layer.stiffness) * g;
+  Given<S, Dim, N> given{full, push, closest.r / distance, before};
+  blow.struck = push != S(0);
+  Friction<S, Dim, N> friction;
+  const bool rubs = blow.struck && layer.friction > 0;
+  if (rubs) friction.before = each_of<N>(pair, [&](VertexId i) { return now.particles[i].v; });
+  for (std::size_t i = 0; blow.struck && i < N; ++i) {
+    kick_vertex<S, Dim>(now, pair.vertices[i], (push * closest.weights[i]) * given.normal);
+  }
+  if (rubs) {
+    rub<N>(now, pair, closest, S(layer.friction) * push, friction);
+    blow.course.sticks = friction.sticks;
+    given.friction = &friction;
+  }
+  book_pair(now, pair, approach, given, account);
+  return blow;
 }
 
 /// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Room in the recording is the caller's
 /// business.
 template <class S, int Dim, class Recorder>
-Blow<S, Dim> strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
-                         const LayerTerms& layer, double h, Account<S, Dim>& account) {
-  PairState<S, Dim> state(now, pair);
-  Blow<S, Dim> blow;
-  blow.closest = certificates::closest<Dim, S>(pair.kind, state.xs());
-  blow.distance = blow.closest.distance();
-  const S g = blow.distance - S(layer.thickness);
-  if (!(g < S(0))) return blow;
-  if (!(blow.distance > S(0))) throw ContactLimit(pair, now.t);
-  blow.course.acts = true;
-  blow.course.parts = opening_speed<Dim, S>(blow.closest, blow.distance, state.vs()) > S(0);
-  const double share = blow.course.parts ? layer.restitution : 1;
-  const S push = S(-share) * S(h) * S(layer.stiffness) * g;
-  const std::array<Vec<S, Dim>, 4> before = state.velocities();
-  PairImpulses<S, Dim> given;
-  given.withheld = share != 1;
-  if (given.withheld) {
-    given.potential = normal_impulses<Dim, S>(blow.closest, blow.distance, S(-1) * S(h) * S(layer.stiffness) * g);
+[[gnu::always_inline]] inline Blow strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
+                                               const Approach<S, Dim>& approach, const LayerTerms& layer, double h,
+                                               Account<S, Dim>& account) {
+  switch (pair.size()) {
+    case 2: return strike_vertices<2>(now, pair, approach, layer, h, account);
+    case 3: return strike_vertices<3>(now, pair, approach, layer, h, account);
+    default: return strike_vertices<4>(now, pair, approach, layer, h, account);
   }
-  given.normal = normal_impulses<Dim, S>(blow.closest, blow.distance, push);
-  if (push != S(0)) {
-    blow.struck = true;
-    state.give(given.normal);
-  }
-  given.rubs = blow.struck && layer.friction > 0;
-  if (given.rubs) {
-    const Friction<S, Dim> friction = rub<S, Dim>(state, blow.closest, S(layer.friction) * push);
-    blow.course.sticks = friction.sticks;
-    given.friction = friction.impulses;
-  }
-  book_pair(now, pair, before, state, given, account);
-  if (blow.struck) state.settle(now, pair);
-  return blow;
 }
 
 /// The closest points of a pair whose vertices are at position(vertex).
@@ -194,6 +209,15 @@ certificates::Closest<Dim, S> closest_of(const certificates::Stencil& pair, cons
   std::array<Vec<S, Dim>, 4> x;
   for (std::size_t i = 0; i < pair.size(); ++i) x[i] = position(pair.vertices[i]);
   return certificates::closest<Dim, S>(pair.kind, std::span<const Vec<S, Dim>>(x.data(), pair.size()));
+}
+
+/// Where a pair is at the time of an event.
+template <class S, int Dim, class Recorder>
+void find_approach(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, Approach<S, Dim>& approach) {
+  std::array<Vec<S, Dim>, 4> x;
+  for (std::size_t i = 0; i < pair.size(); ++i) x[i] = now.particles[pair.vertices[i]].at(now.t);
+  certificates::find_closest<Dim, S>(pair.kind, std::span<const Vec<S, Dim>>(x.data(), pair.size()), approach.closest);
+  approach.distance = approach.closest.distance();
 }
 
 }  // namespace noli::integrator

@@ -37,12 +37,13 @@ Impulses<Dim, S> normal_impulses(const certificates::Closest<Dim, S>& c, const S
   return impulses;
 }
 
-/// d(d)/dt: negative while the closest points approach.
-template <int Dim, class S>
-S opening_speed(const certificates::Closest<Dim, S>& c, const S& d, std::span<const Vec<S, Dim>> v) {
+/// d d(d)/dt of a pair of so many vertices: negative while the closest points approach. `velocity`: of vertex i of the
+/// pair.
+template <int Dim, class S, class Velocity>
+S opening(const certificates::Closest<Dim, S>& c, std::size_t size, const Velocity& velocity) {
   S sum(0);
-  for (std::size_t i = 0; i < v.size(); ++i) sum += c.weights[i] * c.r.dot(v[i]);
-  return sum / d;
+  for (std::size_t i = 0; i < size; ++i) sum += c.weights[i] * c.r.dot(velocity(i));
+  return sum;
 }
 
 /// The slip of a pair: its speed, and the generalized force of magnitude 1 against it.

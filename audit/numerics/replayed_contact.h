@@ -59,8 +59,10 @@ class ReplayedContact {
     integrator::Account<S, Dim>& account = books.contact[firing.material];
     std::size_t acted = 0;
     for (const Examined& examined : log_->examined().subspan(logged.begin, logged.end - logged.begin)) {
-      const auto blow = integrator::strike_pair(now, examined.pair, firing.terms, firing.h, account);
-      record.examined(examined.pair, blow.whole_course());
+      integrator::Approach<S, Dim> approach;
+      integrator::find_approach(now, examined.pair, approach);
+      const auto blow = integrator::strike_pair(now, examined.pair, approach, firing.terms, firing.h, account);
+      record.examined(examined.pair, approach.with_corners(blow.course));
       if (blow.course.acts) ++acted;
     }
     account.events += acted;
