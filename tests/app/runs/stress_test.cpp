@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes that are hard on memory and time (scenes/stress): each ends with a verdict within two gigabytes of addresses
+// and its --time-limit, and each but one runs to its end. What a scene shows is read from its result.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/app/runs/simulate_fixture.h"
+#include "trajectory/blocks/run_file.h"
+
+namespace noli::app_tests {
+namespace {
+
+double mean_height(std::span<const Position> x) {
+  double sum = 0;
+  for (const Position& p : x) sum += p[2];
+  return sum / static_cast<double>(x.size());
+}
+
+class StressSlow : public Simulate {
+ protected:
+  Process simulate_file(const std::string& file, const std::string& limit) const {
+    ProcessOptions options;
+    options.address_space = 2'000'000'000;
+    return run_noli({"simulate", file, "-o", run_path("run"), "--time-limit", sanitized ? "600s" : limit}, options);
+  }
+  Process simulate(const std::string& name, const std::string& limit) const {
+    return simulate_file((fs::path(NOLI_SOURCE_DIR) / "scenes/stress" / (name + ".json")).string(), limit);
+  }
+
+  /// Of a run that came to its end.
+  void expect_whole(const Process& process) const {
+    ASSERT_EQ(process.exit_code, 0) << process.out << process.err;
+    ASSERT_NE(process.out.find("NO CONTACT"), std::string::npos) << process.out;
+    std::printf("at most %.0f MB\n", static_cast<double>(process.peak_bytes) * 1e-6);
+  }
+
+  Json explained() const { return json_of({"explain", run_path("run")}, 0); }
+
+  /// Where all vertices are at the end.
+  std::vector<Position> end() const {
+    RunReader reader(run_path("run"));
+    std::vector<Position> last;
+    while (const auto window = reader.next_window()) last = window->positions;
+    return last;
+  }
+  /// Mean heights of `count` bodies of equally many vertices, from vertex `first` on.
+  static std::vector<double> heights(const std::vector<Position>& x, std::size_t first, std::size_t count,
+                                     std::size_t vertices) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < count; ++i) {
+      result.push_back(mean_height(std::span(x).subspan(first + i * vertices, vertices)));
+    }
+    return result;
+  }
+};
+
+TEST_F(StressSlow, BeadsIntoEightSheets) {
+  expect_whole(simulate("beads", "200s"));
+  EXPECT_GT(explained()["events"]["contact"], 1'000'000);
+  const std::vector<double> sheets = heights(end(), 0, 8, 81);
+  EXPECT_TRUE(std::ranges::is_sorted(sheets)) << "none goes through another";
+  EXPECT_LT(sheets.front(), -0.5) << "the momentum goes through all";
+}
+
+TEST_F(StressSlow, ABulletAgainstASheetsEdge) {
+  expect_whole(simulate("bullet", "60s"));
+  const std::string deepest = explained()["deepest"]["names"];
+  EXPECT_NE(deepest.find("sheet["), std::string::npos) << deepest;
+  EXPECT_NE(deepest.find("bullet["), std::string::npos) << deepest;
+  const std::vector<Position> x = end();
+  EXPECT_LT(mean_height(std::span(x).subspan(441)), -0.5);
+  double lowest = 0;
+  for (const Position& p : std::span(x).first(441)) lowest = std::min(lowest, p[2]);
+  EXPECT_LT(lowest, -0.02) << "the edge is bent down";
+}
+
+TEST_F(StressSlow, SheetsAMicrometreApart) {
+  expect_whole(simulate("micrometre", "60s"));
+  const Json run = explained();
+  EXPECT_LT(run["nearest"]["distance"], 0.7e-6);
+  EXPECT_GT(run["deepest"]["layer"], 50);
+  EXPECT_TRUE(std::ranges::is_sorted(heights(end(), 0, 3, 49)));
+}
+
+TEST_F(StressSlow, TwentySheetsFallOnEachOther) {
+  expect_whole(simulate("twenty_sheets", "400s"));
+  const std::vector<double> sheets = heights(end(), 0, 20, 81);
+  EXPECT_TRUE(std::ranges::is_sorted(sheets));
+  EXPECT_GT(sheets.front(), 0);
+  EXPECT_LT(sheets.back(), 0.1) << "it began at 0.21 m";
+}
+
+TEST_F(StressSlow, APressGoesToFourTenthsOfAMillimetre) {
+  expect_whole(simulate("press", "200s"));
+  const std::vector<Position> x = end();
+  for (const Position& p : std::span(x).first(75)) {
+    ASSERT_GT(p[2], 0);
+    ASSERT_LT(p[2], 0.0004);
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(heights(x, 0, 3, 25)));
+}
+
+/// The deeper the layers, the more there is to do: this one does not come to its end in any time. Its windows end
+/// early, so it is heard when the time is over, and goes on from where it was.
+TEST_F(StressSlow, APinchEndsWithItsTime) {
+  const Process process = simulate("pinch", "20s");
+  EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+  EXPECT_NE(process.out.find("UNDECIDED"), std::string::npos) << process.out;
+  EXPECT_NE(process.out.find("Out of time"), std::string::npos) << process.out;
+  std::printf("at most %.0f MB\n", static_cast<double>(process.peak_bytes) * 1e-6);
+  const Json run = explained();
+  EXPECT_GT(run["windows"], 15);
+  EXPECT_GT(run["time"], 0.03);
+}
+
+/// Ten thousand layers act from the start, each with steps a million times shorter than the first: the window would
+/// have some thousand million breakpoints.
+TEST_F(StressSlow, APointTenThousandLayersDeepOnBothSides) {
+  Json json = {{"noli_scene", 1}, {"dimension", 2}, {"duration", 1}, {"window", 0.01}};
+  json["bodies"] = Json::parse(R"([
+      {"name": "floor", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}}, "pin": ["all"],
+       "material": {"edge_stiffness": 0, "mass_per_length": 1}},
+      {"name": "ceiling", "mesh": {"chain": {"points": [[-1, 0.02], [1, 0.02]], "segments": 1}}, "pin": ["all"],
+       "material": {"edge_stiffness": 0, "mass_per_length": 1}},
+      {"name": "point", "mesh": {"points": {"at": [[0.1, 0.01]]}}, "velocity": [0, -1],
+       "material": {"edge_stiffness": 0, "mass_per_vertex": 1}}])");
+  json["contact"] = {{"thickness", 0.1}, {"stiffness", 100}, {"most_layers", 100000}};
+  const Process process = simulate_file(scene(json), "20s");
+  std::printf("at most %.0f MB\n", static_cast<double>(process.peak_bytes) * 1e-6);
+  EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+  EXPECT_NE(process.out.find("Out of time"), std::string::npos) << process.out;
+  EXPECT_LT(process.peak_bytes, 1'500'000'000U);
+}
+
+}  // namespace
+}  // namespace noli::app_tests
