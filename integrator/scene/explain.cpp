@@ -123,13 +123,17 @@ void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
   }
 }
 
-void warn(const Scene& scene, Explanation& e) {
+/// `most`: breakpoints of a window.
+void warn(const Scene& scene, std::size_t most, Explanation& e) {
   if (scene.allow_unstable)
     e.warnings.emplace_back("steps above the limit of stability are accepted (\"allow_unstable\")");
   if (e.breakpoints_a_window > most_breakpoints) {
     e.warnings.push_back(fmt::format("a window has about {:.2g} breakpoints; with \"window\" {:.2g} it has {:.2g}",
                                      e.breakpoints_a_window, scene.window * most_breakpoints / e.breakpoints_a_window,
                                      most_breakpoints));
+  }
+  if (e.breakpoints_a_window > static_cast<double>(most)) {
+    e.warnings.push_back(fmt::format("windows end early, with {} breakpoints (\"most_breakpoints\")", most));
   }
   if (scene.contact && e.contact.empty()) {
     e.warnings.emplace_back("there are no layers of contact: nothing can move, or all that can is excluded");
@@ -209,6 +213,7 @@ void add_derived_defaults(const Scene& scene, const Model<double, Dim>& model, E
   const Field root = field_of(scene);
   Derived derived(explanation.defaults);
   if (model.gravity) derived.add(root, "gravity_step", model.gravity->step);
+  derived.add(root, "most_breakpoints", model.most_breakpoints);
   derived.add(root, "contact", "none");
   if (scene.contact) derived.contact(root["contact"], explanation.contact);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) derived.body(scene.bodies[i], root["bodies"][i]);
@@ -226,8 +231,9 @@ void explain(const Scene& scene, Explanation& explanation) {
   survey.run();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) survey.body(scene.bodies[i], explanation.bodies[i]);
   add_derived_defaults(scene, built.model, explanation);
+  const std::size_t most = built.model.most_breakpoints;
   predict(scene, std::move(built.model), explanation);
-  warn(scene, explanation);
+  warn(scene, most, explanation);
 }
 
 }  // namespace

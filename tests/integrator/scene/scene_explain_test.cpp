@@ -98,6 +98,7 @@ TEST(Explain, EveryDefaultIsListed) {
                            "/step_factor",
                            "/allow_unstable",
                            "/gravity_step",
+                           "/most_breakpoints",
                            "/scripts",
                            "/contact",
                            "/bodies/0/name",
@@ -180,6 +181,9 @@ TEST(Explain, WarnsOfWindowsThatAreTooLongAndOfStepsThatAreCut) {
   ASSERT_GT(e.breakpoints_a_window, 2e6);
   EXPECT_EQ(std::count_if(e.warnings.begin(), e.warnings.end(), [](auto& w) { return w.starts_with("a window has "); }),
             1);
+  const auto early = std::ranges::find_if(e.warnings, [](auto& w) { return w.starts_with("windows end early"); });
+  ASSERT_NE(early, e.warnings.end());
+  EXPECT_EQ(*early, "windows end early, with 4000000 breakpoints (\"most_breakpoints\")");
   const std::string cut = "some steps are as long as the window and could be longer with a longer one";
   EXPECT_FALSE(has(e.warnings, cut));
   EXPECT_TRUE(has(explained(sheet()).warnings, cut));
