@@ -38,7 +38,7 @@ RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
 /// Nothing when the duration is not known, or no number of windows reaches up to it.
 std::optional<std::uint64_t> windows_total(const RunEnding& ending, std::uint64_t there, double window) {
   const double windows = ending.duration ? integrator::windows_up_to(*ending.duration, window) : 0;
-  if (!(windows > 0 && windows < 0x1p53 && ending.time < 0x1p52 * window)) return std::nullopt;
+  if (!(windows > 0 && windows < 0x1p53)) return std::nullopt;
   return integrator::windows_in_all(there, ending.time, window, static_cast<std::uint64_t>(windows));
 }
 
@@ -59,7 +59,7 @@ class RunVerification : private Verification {
     const Mesh& mesh = reader_.mesh();
     const RunLook look = reader_.look();
     outcome_.steps_total = look.windows;
-    end_ = look.end;
+    look_end_ = look.end.value_or(0);
     reader_.look_for_expected();
     outcome_.ending = ending_of(run_, log_);
     if (const auto note = note_of_lost_log(log_)) outcome_.notes.push_back(*note);
@@ -95,7 +95,7 @@ class RunVerification : private Verification {
     if (request_.reproduce) make_again();
     while (outcome_.complete) {
       auto window = read_next();
-      if (window) end_ = std::max(end_, window->end);
+      if (window) read_to_ = window->end;
       // A stop after the last window changes nothing.
       if (!window || stopped() || !reproduce(*window)) break;
       verify(*window);
@@ -282,7 +282,9 @@ class RunVerification : private Verification {
     stopped();
     outcome_.steps_total = ended_ ? reader_.windows() : std::max(outcome_.steps_total, outcome_.steps.size());
     outcome_.claim.steps = outcome_.steps_total;
-    outcome_.ending->time = end_;
+    outcome_.ending->time = ended_ ? read_to_ : std::max(look_end_, read_to_);
+    outcome_.ending->some_ended_early =
+        integrator::some_ended_early(outcome_.steps_total, outcome_.ending->time, reader_.header().window_length);
     outcome_.ending->windows_total =
         windows_total(*outcome_.ending, outcome_.steps_total, reader_.header().window_length);
     outcome_.open_window = ended_ && !live_ && reader_.open_window().has_value();
@@ -310,8 +312,8 @@ class RunVerification : private Verification {
   std::optional<RunWriter> lines_;       ///< of the run as if it were recorded in full
   bool witness_sought_ = false;
   bool meeting_at_end_ = false;
-  bool ended_ = false;  ///< all windows have been read
-  double end_ = 0;      ///< of the last window that is known [s]
+  bool ended_ = false;                 ///< all windows have been read
+  double look_end_ = 0, read_to_ = 0;  ///< ends of the last window, by a quick look, and of the last that was read [s]
 };
 
 }  // namespace

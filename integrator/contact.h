@@ -253,8 +253,8 @@ class Contact {
 
   /// A pair that a layer has fired for without need.
   struct Clear {
-    std::size_t pair;  ///< of those that it has fired for
-    double distance;   ///< [m]
+    std::size_t number;  ///< among those that it has fired for
+    double distance;     ///< [m]
   };
 
   struct Layer {
@@ -326,7 +326,7 @@ class Contact {
       is_struck_[i] = 0;
       look(i, t);
     }
-    for (const Clear& clear : clear_) certificates_.drop_if_clear(fired[clear.pair], material, l, clear.distance, t);
+    for (const Clear& clear : clear_) certificates_.drop_if_clear(fired[clear.number], material, l, clear.distance, t);
     struck_.clear();
     clear_.clear();
   }
@@ -365,8 +365,8 @@ class Contact {
   std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
   std::vector<double> greatest_thicknesses_;                           ///< [group * class_count + class]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
-  /// Of the pairs that fire next. They are found one after another before any of them fires: that waits for velocities
-  /// that the one before has just written, this for nothing.
+  /// Of the pairs that fire next: all are found before any of them fires. One by one, each would wait for what the one
+  /// before has just written.
   std::array<Approach<double, Dim>, 64> approaches_;
   std::vector<std::uint8_t> is_struck_;  ///< by vertex: by the layer that fires now
   std::vector<VertexId> struck_;         ///< these vertices

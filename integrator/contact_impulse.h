@@ -28,12 +28,18 @@ namespace noli::integrator {
 template <int Dim, class S = double>
 using Impulses = std::array<Vec<S, Dim>, 4>;
 
-/// J_n along the gradient of the distance. `push`: J_n.
+/// J_n at one vertex. `n`: r / d; `push`: J_n.
+template <int Dim, class S>
+Vec<S, Dim> normal_impulse(const certificates::Closest<Dim, S>& c, const Vec<S, Dim>& n, const S& push, std::size_t i) {
+  return (push * c.weights[i]) * n;
+}
+
+/// J_n along the gradient of the distance.
 template <int Dim, class S>
 Impulses<Dim, S> normal_impulses(const certificates::Closest<Dim, S>& c, const S& d, const S& push) {
   Impulses<Dim, S> impulses;
   const Vec<S, Dim> n = c.r / d;
-  for (std::size_t i = 0; i < 4; ++i) impulses[i] = (push * c.weights[i]) * n;
+  for (std::size_t i = 0; i < 4; ++i) impulses[i] = normal_impulse<Dim, S>(c, n, push, i);
   return impulses;
 }
 

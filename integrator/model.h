@@ -5,8 +5,9 @@
 //
 // Notation
 //   h        a force's step [s]; it fires at the times k h, k = 1, 2, ...
-//   window   a piece of simulated time [k W, (k + 1) W], W = window_length; its end is an event at which every particle
-//            is advanced, so W is part of what determines the run
+//   window   a piece of simulated time up to the next multiple of W = window_length, or up to the time at which it has
+//            most_breakpoints; its end is an event at which every particle is advanced, so both are part of what
+//            determines the run
 //
 // What this does not do: it does not say whether steps are stable (integrator/stable_step.h does).
 #pragma once

@@ -90,7 +90,7 @@ class Simulation {
   /// impulses. Asks `stop` every ten thousand events or so. Returns false if it said so: the simulation is then
   /// somewhere within the window, and must not be used again.
   bool run_window(Recording<S, Dim>& recording, Books<S, Dim>& books, const Stop& stop = never_stop);
-  /// The same without a recording: the same numbers, but no window ends early.
+  /// The same without a recording: the same numbers, as long as no window with a recording ends early. None does here.
   void run_window(Books<S, Dim>& books);
 
   Snapshot<S, Dim> snapshot() const;

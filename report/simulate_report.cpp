@@ -106,7 +106,7 @@ std::string going_on_text(const SimulateOutcome& outcome) {
 std::string out_of_memory_text(const SimulateOutcome& outcome) {
   return fmt::format(
       "Out of memory in window {}, after the committed ones{} A window takes memory for its breakpoints and for the "
-      "layers of contact that pairs have: a shorter \"window\" of the scene needs less.",
+      "layers of contact that pairs have: with fewer \"most_breakpoints\" in the scene it needs less.",
       outcome.windows + 1, going_on_text(outcome));
 }
 
@@ -157,14 +157,14 @@ std::string statement(const SimulateOutcome& outcome) {
 std::string committed_text(const SimulateRequest& request, const SimulateOutcome& outcome) {
   const std::string run = on_one_line(request.run.string());
   if (outcome.windows == 0) return fmt::format("No window was committed to {}: nothing is claimed.", run);
-  return fmt::format("{} windows of {} s committed to {}, each verified exactly: {}", outcome.windows,
-                     outcome.window_length, run, statement(outcome));
+  return fmt::format("{} windows committed to {}, each verified exactly: {}", outcome.windows, run, statement(outcome));
 }
 
 /// What stands behind the verdict.
 std::string place(const SimulateOutcome& outcome) {
-  const std::string committed =
-      fmt::format("{} of {} windows, {} s", outcome.windows, outcome.windows_total, digits4(outcome.time));
+  const bool more = outcome.some_ended_early && outcome.windows < outcome.windows_total;
+  const std::string committed = fmt::format("{} of {}{} windows, {} s", outcome.windows, more ? "at least " : "",
+                                            outcome.windows_total, digits4(outcome.time));
   const std::string at = fmt::format("window {}", outcome.windows + 1);
   switch (outcome.end) {
     case RunEnd::done: return fmt::format("{}: {}", committed, nothing_touches_in_short(outcome.not_compared));

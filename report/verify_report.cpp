@@ -213,8 +213,10 @@ class Place {
     if (!request_.run) return fmt::format("{} frames, {}", request_.frames.size(), steps);
     const RunEnding& ending = *outcome_.ending;
     if (ending.whole() || !ending.duration) return fmt::format("{}, {} s", steps, digits4(ending.time));
-    const std::string of =
-        ending.windows_total ? fmt::format("{} of {} windows", outcome_.steps_total, *ending.windows_total) : steps;
+    const std::string of = ending.windows_total
+                               ? fmt::format("{} of {}{} windows", outcome_.steps_total,
+                                             ending.some_ended_early ? "at least " : "", *ending.windows_total)
+                               : steps;
     return fmt::format("{}, {} of {} s", of, digits4(ending.time), *ending.duration);
   }
 

@@ -11,8 +11,9 @@
 //   truncation  D_p of the greatest p: what is left is the error of the scheme, its steps being finite
 //   rounding    D of double less that
 //
-// What this does not do: windows are not verified, so none is rolled back; the run in double is that of noli simulate
-// as long as that rolls none back either. Event times are not computed in higher precision, but see TimeTie.
+// What this does not do: windows are not verified, so none is rolled back, and none ends early; the run in double is
+// that of noli simulate as long as that does neither. Event times are not computed in higher precision, but see
+// TimeTie.
 #pragma once
 
 #include <atomic>

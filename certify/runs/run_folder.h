@@ -91,5 +91,7 @@ std::string title_of(const std::filesystem::path& run);
 /// Of the scene of a run [s]; nothing where it has lost that or its manifest. Throws InputError when one of
 /// them is damaged.
 std::optional<double> duration_of(const std::filesystem::path& run);
+/// The same of its windows' length.
+std::optional<double> window_of(const std::filesystem::path& run);
 
 }  // namespace noli

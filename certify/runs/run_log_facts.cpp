@@ -8,6 +8,7 @@
 
 #include <noli/errors.h>
 #include "certify/contact_report.h"
+#include "certify/runs/run_folder.h"
 #include "trajectory/blocks/run_log.h"
 #include "trajectory/blocks/run_manifest.h"
 #include "trajectory/formats/frame_look.h"
@@ -181,6 +182,12 @@ LogFacts read_log(const std::filesystem::path& run) {
 SeriesReader open_run(const std::filesystem::path& run, const LogFacts& log) {
   SeriesReader reader(run);
   reader.expect(log.known);
+  const double length = reader.header().window_length;
+  const std::optional<double> window = window_of(run);
+  if (window && *window != length) {
+    throw InputError(trajectory_path(run).string(), "",
+                     fmt::format("has windows of {} s; expected {} s, as its scene says", length, *window));
+  }
   return reader;
 }
 

@@ -29,8 +29,8 @@ void require(bool holds, fmt::format_string<Parts...> problem, Parts&&... parts)
 void check_times(const SeriesRow& row, const RunWindow& window, const RunScene& scene) {
   require(window.index > 0 || window.begin == 0, "is of a first window that begins at {} s; expected 0", window.begin);
   const double length = scene.header.window_length;
-  require(window.begin < 0x1p52 * length, "is of a window that begins at {} s; expected less than 2^52 windows of {} s",
-          window.begin, length);
+  require(window.begin < 0x1p52 * length,
+          "is of a window that begins at {} s; expected fewer than 2^52 windows of {} s", window.begin, length);
   const double last = static_cast<double>(integrator::first_after(window.begin, length)) * length;
   require(window.end <= last, "is of a window from {} s to {} s; expected at most {} s", window.begin, window.end,
           last);

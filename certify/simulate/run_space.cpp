@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace noli {
@@ -26,10 +27,23 @@ fs::path there_or_above(fs::path folder) {
 
 double bytes_a_window(const integrator::Scene& scene, const integrator::Explanation& explanation,
                       const RunToCome& run) {
-  if (run.windows_there > 0) return static_cast<double>(run.bytes_there) / static_cast<double>(run.windows_there);
   const double motion = explanation.bytes * scene.window + window_overhead;
   if (scene.record == integrator::Record::frames || !run.prove) return motion;
   return motion + proof_of_cell * static_cast<double>(run.cells) + proof_overhead;
+}
+
+/// What is there tells how much a second takes, and how many windows it has, as some may end early.
+bool goes_on(const RunToCome& run) { return run.windows_there > 0 && run.time_there > 0; }
+
+double motion_to_come(const integrator::Scene& scene, const integrator::Explanation& explanation,
+                      const RunToCome& run) {
+  if (!goes_on(run)) return static_cast<double>(run.windows) * bytes_a_window(scene, explanation, run);
+  return static_cast<double>(run.bytes_there) * std::max(0.0, run.time - run.time_there) / run.time_there;
+}
+
+double windows_in_all(const RunToCome& run) {
+  if (!goes_on(run)) return static_cast<double>(run.windows);
+  return static_cast<double>(run.windows_there) * std::max(1.0, run.time / run.time_there);
 }
 
 std::string what_is_written(const RunBytes& bytes) {
@@ -50,13 +64,12 @@ RunBytes bytes_to_come(const integrator::Scene& scene, const integrator::Explana
   RunBytes bytes;
   bytes.full = scene.record == integrator::Record::full;
   bytes.proved = bytes.full && run.prove;
-  bytes.at_least = !explanation.contact.empty() && run.windows_there == 0;
-  const auto windows = static_cast<double>(run.windows);
-  const double to_come = run.windows > run.windows_there ? static_cast<double>(run.windows - run.windows_there) : 0;
-  bytes.motion = to_come * bytes_a_window(scene, explanation, run);
+  bytes.at_least = !explanation.contact.empty() && !goes_on(run);
+  bytes.motion = motion_to_come(scene, explanation, run);
   if (!run.series) return bytes;
-  const double frames = windows * scene.window * scene.frame_rate + 1;  // the file is written anew, as a whole
-  bytes.series = frames * (24.0 * static_cast<double>(run.vertices) + 8) + windows * series_row_size + series_file_size;
+  const double frames = run.time * scene.frame_rate + 1;  // the file is written anew, as a whole
+  bytes.series = frames * (24.0 * static_cast<double>(run.vertices) + 8) + windows_in_all(run) * series_row_size +
+                 series_file_size;
   return bytes;
 }
 

@@ -22,8 +22,10 @@ namespace noli {
 struct RunToCome {
   std::filesystem::path run;
   std::size_t vertices = 0, cells = 0;
-  std::uint64_t windows_there = 0;  ///< of the run that is gone on with; in `windows`
-  std::uint64_t windows = 0;        ///< of the whole run
+  std::uint64_t windows = 0;        ///< of the whole run, if none ends early
+  double time = 0;                  ///< up to which it goes [s]
+  std::uint64_t windows_there = 0;  ///< of the run that is gone on with
+  double time_there = 0;            ///< up to which it has come [s]
   std::uint64_t bytes_there = 0;    ///< of trajectory.blocks and proof.blocks
   bool prove = true;                ///< with record full, proofs are written
   bool series = true;               ///< series.h5 is written

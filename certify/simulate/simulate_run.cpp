@@ -181,13 +181,14 @@ class CertifiedRun {
     run.vertices = outcome_.vertices;
     run.cells = outcome_.cells;
     run.windows = windows_asked_;
+    run.time = end_;
     run.prove = request_.prove;
     run.series = series_program().available();
     const bool there = std::filesystem::exists(trajectory_path(run.run));
     if (!request_.resume || !there || !folder_.has_begun()) return run;
     const RunLook look = RunReader(run.run).look();
     run.windows_there = look.windows;
-    run.windows = windows_in_all(look.windows, look.end);
+    run.time_there = look.end.value_or(0);
     std::error_code error;
     run.bytes_there = std::filesystem::file_size(trajectory_path(run.run));
     const auto proof = std::filesystem::file_size(proof_path(run.run), error);
@@ -204,11 +205,6 @@ class CertifiedRun {
 
   /// World lines are recorded, and proofs written.
   bool full() const { return scene_.header.record == RecordMode::full; }
-
-  /// Of a run that has `there`, up to `time`.
-  std::uint64_t windows_in_all(std::uint64_t there, double time) const {
-    return integrator::windows_in_all(there, time, outcome_.window_length, windows_asked_);
-  }
 
   CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
 
@@ -243,7 +239,8 @@ class CertifiedRun {
     }
     if (last.time > end_) {
       throw InputError(folder_.path().string(), "",
-                       fmt::format("goes up to {} s, beyond the {} s asked for; expected a later time to go on to",
+                       fmt::format("goes up to {} s, and the windows that are asked for end at {} s; expected a later "
+                                   "time to go on to",
                                    last.time, end_));
     }
     writer_.emplace(folder_.path(), reader);
@@ -446,7 +443,9 @@ class CertifiedRun {
 
   void conclude(PhaseClock& clock) {
     outcome_.windows = writer_->windows();
-    outcome_.windows_total = windows_in_all(outcome_.windows, outcome_.time);
+    outcome_.some_ended_early = integrator::some_ended_early(outcome_.windows, outcome_.time, outcome_.window_length);
+    outcome_.windows_total =
+        integrator::windows_in_all(outcome_.windows, outcome_.time, outcome_.window_length, windows_asked_).value();
     outcome_.certificates = integrator_.certificates();
     outcome_.integration = watch_.integration();
     const std::exception_ptr lost = write_series();

@@ -10,8 +10,9 @@
 //   if (outcome.end == noli::RunEnd::contact) ...     // outcome.contact->first says who, when and how
 //
 // Notation
-//   window k   [(k - 1) W, k W], k = 1, 2, ..., W the scene's length of a window. While a window is integrated, the one
-//              before is verified on another thread
+//   window k   k = 1, 2, ...: from the end of the one before up to the next multiple of W, the scene's length of a
+//              window, or up to the time at which it has as many breakpoints as the scene allows. While a window is
+//              integrated, the one before is verified on another thread
 //   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5
 //
 // The bytes of trajectory.blocks depend on the scene and the version alone: not on threads, on where a run was
@@ -96,11 +97,13 @@ struct SimulateOutcome {
   int dimension = 3;
   std::size_t vertices = 0, cells = 0;
   double window_length = 0;
-  std::uint64_t windows = 0, windows_total = 0;  ///< committed, and those of the whole run
-  std::uint64_t windows_before = 0;              ///< of those committed, by earlier calls (--resume)
-  double time = 0;                               ///< of the last commit [s]
-  std::uint64_t events = 0, breakpoints = 0;     ///< of this call
-  std::optional<StepResult> contact;             ///< of the window that was refused; times are in seconds
+  std::uint64_t windows = 0;                  ///< committed
+  std::uint64_t windows_total = 0;            ///< these, and the least number still to come
+  bool some_ended_early = false;              ///< so there may be more to come
+  std::uint64_t windows_before = 0;           ///< of those committed, by earlier calls (--resume)
+  double time = 0;                            ///< of the last commit [s]
+  std::uint64_t events = 0, breakpoints = 0;  ///< of this call
+  std::optional<StepResult> contact;          ///< of the window that was refused; times are in seconds
   NotCompared not_compared;
   std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
   std::optional<PairTooNear> limit;

@@ -144,7 +144,8 @@ struct RunEnding {
   bool being_written = false;      ///< it has not ended: another process writes to it
   double time = 0;                 ///< of the last window [s]
   std::optional<double> duration;  ///< of the scene [s]
-  std::optional<std::uint64_t> windows_total;  ///< those there, and as many as the scene's duration asks for yet
+  std::optional<std::uint64_t> windows_total;  ///< those that are there, and the least number still to come
+  bool some_ended_early = false;               ///< so there may be more to come
 
   bool whole() const { return duration && time >= *duration; }
 };

@@ -153,7 +153,7 @@ void limit_gravity_step(const Scene& scene, Model<double, Dim>& model) {
   model.gravity->step = gravity_step(scene, step);
 }
 
-/// What keeps memory bounded, however much happens in a window; no vertex is to end one by its mere number.
+/// Bounds the memory for breakpoints. Large meshes get room for a few at each vertex.
 template <int Dim>
 void limit_breakpoints(const Scene& scene, Model<double, Dim>& model) {
   constexpr std::size_t least = 4'000'000, of_a_vertex = 8;

@@ -288,9 +288,16 @@ struct Scene {
 /// takes just that number.
 inline double windows_up_to(double time, double window) { return std::ceil(time / window * (1 - 0x1p-50)); }
 
+/// Whether some of the windows that a run has, up to `time`, have ended early.
+inline bool some_ended_early(std::uint64_t there, double time, double window) {
+  return static_cast<double>(there) > windows_up_to(time, window);
+}
+
 /// The least number of windows with which a run that has `there`, the last of them up to `time`, comes to the end of
-/// `all`. It takes more when more of them end early, because they have too many breakpoints.
-inline std::uint64_t windows_in_all(std::uint64_t there, double time, double window, std::uint64_t all) {
+/// `all`. It takes more when more of them end early, because they have too many breakpoints. Nothing when no run has
+/// come to such a time.
+inline std::optional<std::uint64_t> windows_in_all(std::uint64_t there, double time, double window, std::uint64_t all) {
+  if (!(time >= 0 && time < 0x1p52 * window)) return std::nullopt;
   const std::uint64_t behind = first_after(time, window) - 1;
   return there + (all > behind ? all - behind : 0);
 }

@@ -142,8 +142,8 @@ class BlockReader {
   /// How many commit blocks the file has, by the headers of its blocks alone, and the running hash that the one which
   /// closes this group, counted from 1, has. Nothing is checked.
   CommitLook look_at_commits(std::uint64_t group = 0);
-  /// The block at this place. Throws InputError when it is damaged.
-  Block look_at_block(std::uint64_t offset);
+  /// The block at this place; nothing where it is damaged.
+  std::optional<Block> look_at_block(std::uint64_t offset);
 
   /// Whoever waits for more: the file as it is now, behind the last commit that next() passed; also after an error.
   /// Precondition: there was a commit. Throws InputError when the file has become shorter than that.

@@ -183,11 +183,11 @@ CommitLook BlockReader::look_at_commits(std::uint64_t group) {
   return look;
 }
 
-Block BlockReader::look_at_block(std::uint64_t offset) {
+std::optional<Block> BlockReader::look_at_block(std::uint64_t offset) {
   std::string header, body;
-  if (const auto problem = read_block(offset, header, body)) fail(offset, *problem);
+  if (read_block(offset, header, body)) return std::nullopt;
   body.resize(body.size() - block_format::checksum_size);
-  return {get<FourLetters>(header.data()), offset, std::move(body)};
+  return Block{get<FourLetters>(header.data()), offset, std::move(body)};
 }
 
 void BlockReader::look_again() {

@@ -36,7 +36,7 @@ inline constexpr std::uint8_t scripted_vertex = 1;
 struct RunHeader {
   std::uint32_t dimension = 3;  ///< 2 or 3; in 2 every z is +0, and no z is stored
   RecordMode record = RecordMode::full;
-  double window_length = 0;  ///< seconds, positive; the last window may be shorter
+  double window_length = 0;  ///< seconds, positive; windows end at its multiples, or before
 
   friend bool operator==(const RunHeader&, const RunHeader&) = default;
 };
@@ -103,10 +103,10 @@ struct KnownWindows {
   bool made_again = false;              ///< whoever reads makes those that are missing again
 };
 
-/// How many windows a run has, and how far they go [s].
+/// How many windows a run seems to have, and how far they seem to go.
 struct RunLook {
   std::uint64_t windows = 0;
-  double end = 0;
+  std::optional<double> end;  ///< [s]; nothing when there are none, or the last one says no time
 };
 
 class RunReader;
@@ -193,8 +193,7 @@ class RunReader {
 
   /// How many windows have been read.
   std::uint64_t windows() const { return blocks_.committed().groups - 1; }
-  /// What the file seems to have: a quick look that reads no world line. Throws InputError when the beginning of the
-  /// last window is damaged.
+  /// A quick look, which reads no world line and checks no hash. What is damaged is for next_window() to say.
   RunLook look();
   const Sha256Digest& running_hash() const { return blocks_.committed().running; }
 

@@ -174,9 +174,14 @@ void RunReader::look_for_expected() {
 RunLook RunReader::look() {
   const CommitLook look = blocks_.look_at_commits();
   if (look.count < 2) return {};
-  const Block block = blocks_.look_at_block(look.last_group);
-  if (block.kind != run_kind::window) fail(block, "expected block " + letters_of(run_kind::window));
-  return {look.count - 1, run_block::decode_window({blocks_.name(), block}).end};
+  const std::optional<Block> block = blocks_.look_at_block(look.last_group);
+  RunLook result{look.count - 1, std::nullopt};
+  if (!block || block->kind != run_kind::window) return result;
+  try {
+    result.end = run_block::decode_window({blocks_.name(), *block}).end;
+  } catch (const InputError&) {
+  }
+  return result;
 }
 
 std::string RunReader::open_window_message() const {

@@ -59,16 +59,24 @@ TEST(RunSpace, WhatIsThereCountsOff) {
   run.vertices = 2;
   run.cells = 1;
   run.windows = 100;
+  run.time = 1;
   run.series = false;
   const double whole = bytes_to_come(scene, explanation, run).motion;
   EXPECT_GT(whole, explanation.bytes_in_all);
-  // From then on the run's own windows tell how much one takes.
-  run.windows_there = 75;
+  // From then on the run itself tells how much a second takes, however many windows that has.
   run.bytes_there = 75'000;
-  EXPECT_EQ(bytes_to_come(scene, explanation, run).motion, 25'000);
-  run.windows_there = 100;
+  run.time_there = 0.75;
+  for (const std::uint64_t windows : {75, 1000}) {
+    run.windows_there = windows;
+    EXPECT_EQ(bytes_to_come(scene, explanation, run).motion, 25'000);
+  }
+  run.series = true;
+  const double rows = bytes_to_come(scene, explanation, run).series;
+  run.windows_there = 75;
+  EXPECT_GT(rows, bytes_to_come(scene, explanation, run).series) << "each window has a row";
+  run.time_there = 1;
   EXPECT_EQ(bytes_to_come(scene, explanation, run).motion, 0);
-  run.windows_there = 101;
+  run.time_there = 1.01;
   EXPECT_EQ(bytes_to_come(scene, explanation, run).motion, 0);
 }
 

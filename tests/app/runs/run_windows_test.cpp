@@ -132,6 +132,7 @@ TEST_F(Simulate, AWindowWithTooManyBreakpointsEndsEarly) {
   // A window has what happens at its last time, too, and its end for each vertex.
   EXPECT_LT(info["most_breakpoints_in_a_window"], there / 4 + 3 * info["vertices"].get<std::uint64_t>());
   EXPECT_EQ(info["end_time"], 0.2);
+  EXPECT_EQ(info["windows"], whole["windows"]);
 
   const Json verified = json_of({"verify", run}, 0);
   EXPECT_EQ(verified["steps"], whole["windows"]);
@@ -146,6 +147,17 @@ TEST_F(Simulate, AWindowWithTooManyBreakpointsEndsEarly) {
   EXPECT_EQ(part["run"]["windows_total"], part["steps"].get<int>() + 7);
   ASSERT_EQ(run_noli({"simulate", file, "-o", parts, "--resume"}).exit_code, 0);
   EXPECT_TRUE(blocks("parts") == blocks("run"));
+}
+
+TEST_F(Simulate, HowManyWindowsAreToComeIsALeastNumberWhereSomeEndEarly) {
+  Json json = hanging_sheet();
+  json["most_breakpoints"] = 300;
+  const std::string file = scene(json), run = run_path("run");
+  const Process part = run_noli({"simulate", file, "-o", run, "--until", "0.05"});
+  EXPECT_EQ(part.exit_code, 0);
+  EXPECT_FALSE(contains(part.verdict_line(), "at least")) << part.verdict_line();
+  EXPECT_TRUE(contains(run_noli({"verify", run}).verdict_line(), " of at least ")) << run_noli({"verify", run}).out;
+  EXPECT_FALSE(contains(part.out, "windows of 0.01 s")) << part.out;
 }
 
 TEST_F(Simulate, WindowsThatEndedEarlyAreMadeAgain) {

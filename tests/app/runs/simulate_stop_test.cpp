@@ -8,6 +8,20 @@
 namespace noli::app_tests {
 namespace {
 
+/// Of a run whose series.h5 takes longer to read than a stop waits.
+TEST_F(Simulate, AStoppedRunWithALargeSeriesSaysItsVerdict) {
+  Json json = beam(10000);
+  json["frame_rate"] = 20000;
+  const std::string run = run_path("run");
+  const Process stopped = run_noli({"simulate", scene(json), "-o", run, "--time-limit", "1s", "--ignore-space"});
+  EXPECT_EQ(stopped.exit_code, 2) << stopped.err;
+  EXPECT_TRUE(stopped.verdict_line().starts_with("UNDECIDED ")) << stopped.out << stopped.err;
+  EXPECT_EQ(last_entry(run)["event"], "end");
+  if (fs::exists(fs::path(run) / "series.h5")) {
+    EXPECT_GT(fs::file_size(fs::path(run) / "series.h5"), 2'000'000U);
+  }
+}
+
 class SimulateStop : public Simulate {};
 
 TEST_F(SimulateStop, EndsWithinAWindow) {
