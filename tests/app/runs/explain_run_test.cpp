@@ -204,7 +204,7 @@ TEST_F(Simulate, ExplainWantsARun) {
 
 TEST_F(Simulate, ARunOfAnEarlierVersionIsRefused) {
   RunScene scene;
-  scene.header.window_length = 1;
+  scene.header.window_length = bouncing_point().value("window", 0.01);
   scene.mesh.vertex_count = 1;
   scene.mesh.points = {0};
   scene.labels = {0};
