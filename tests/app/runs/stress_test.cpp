@@ -132,7 +132,7 @@ TEST_F(StressSlow, APointTenThousandLayersDeepOnBothSides) {
       {"name": "point", "mesh": {"points": {"at": [[0.1, 0.01]]}}, "velocity": [0, -1],
        "material": {"edge_stiffness": 0, "mass_per_vertex": 1}}])");
   json["contact"] = {{"thickness", 0.1}, {"stiffness", 100}, {"most_layers", 100000}};
-  const Process process = simulate_file(scene(json), "20s");
+  const Process process = simulate_file(scene(json), "10s");
   std::printf("at most %.0f MB\n", static_cast<double>(process.peak_bytes) * 1e-6);
   EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
   EXPECT_NE(process.out.find("Out of time"), std::string::npos) << process.out;
