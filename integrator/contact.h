@@ -251,7 +251,7 @@ class Contact {
   static constexpr std::uint64_t most_in_advance = 1000;
   static_assert(ContactSettings::excluded == certificates::no_material);
 
-  /// A pair that a layer has fired for without need.
+  /// A pair for which the layer fired, and which was too far apart for it to act.
   struct Clear {
     std::size_t number;  ///< among those that it has fired for
     double distance;     ///< [m]

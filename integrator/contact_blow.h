@@ -67,7 +67,7 @@ auto each_of(const certificates::Stencil& pair, const What& what) {
   return result;
 }
 
-/// Mostly the vertex is at this time already, and its breakpoint recorded: then only its velocity changes.
+/// Usually an earlier pair has brought the vertex to this time and recorded that: then only its velocity changes.
 template <class S, int Dim, class Recorder>
 void kick_vertex(const Kicked<S, Dim, Recorder>& now, VertexId vertex, const Vec<S, Dim>& impulse) {
   Particle<S, Dim>& p = now.particles[vertex];
@@ -118,14 +118,19 @@ struct Given {
   const Friction<S, Dim, N>* friction = nullptr;  ///< if there is any
 };
 
+/// opening() of a pair as it moves now.
+template <std::size_t N, class S, int Dim, class Recorder>
+S opening_now(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
+              const certificates::Closest<Dim, S>& closest) {
+  return opening<Dim, S>(closest, N,
+                         [&](std::size_t i) -> const Vec<S, Dim>& { return now.particles[pair.vertices[i]].v; });
+}
+
 /// Twice the mean of opening() before and after.
 template <std::size_t N, class S, int Dim, class Recorder>
 S twice_mean_opening(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
                      const Approach<S, Dim>& approach, const Given<S, Dim, N>& given) {
-  if (given.friction != nullptr) {
-    const auto velocity = [&](std::size_t i) -> const Vec<S, Dim>& { return now.particles[pair.vertices[i]].v; };
-    return given.before + opening<Dim, S>(approach.closest, N, velocity);
-  }
+  if (given.friction != nullptr) return given.before + opening_now<N>(now, pair, approach.closest);
   S mobility(0);
   for (std::size_t i = 0; i < N; ++i) {
     const S& weight = approach.closest.weights[i];
@@ -156,8 +161,8 @@ void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil&
   account.damping_work += S(0.5) * twice_friction;
 }
 
-/// strike_pair() of a pair of N vertices. Inlined, as is that: reading back a small result that has just been written
-/// byte by byte took a tenth of the time.
+/// strike_pair() of a pair of N vertices. Both are inlined: reading back a result written byte by byte just before took
+/// a tenth of the time of this function.
 template <std::size_t N, class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_vertices(const Kicked<S, Dim, Recorder>& now,
                                                    const certificates::Stencil& pair, const Approach<S, Dim>& approach,
@@ -167,8 +172,7 @@ template <std::size_t N, class S, int Dim, class Recorder>
   const S g = distance - S(layer.thickness);
   if (!(g < S(0))) return blow;
   if (!(distance > S(0))) throw ContactLimit(pair, now.t);
-  const auto velocity = [&](std::size_t i) -> const Vec<S, Dim>& { return now.particles[pair.vertices[i]].v; };
-  const S before = opening<Dim, S>(closest, N, velocity);
+  const S before = opening_now<N>(now, pair, closest);
   blow.course.acts = true;
   blow.course.parts = before > S(0);
   const std::array<double, 2> shares{1, layer.restitution};  // without a branch that no processor foresees

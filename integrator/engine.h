@@ -38,23 +38,8 @@ struct Division {
 };
 
 namespace detail {
-/// Looks for what is not finite after each force, in windows that end where those of a Recording do.
-class Watch {
- public:
-  void reserve(std::size_t) {}
-  template <class X>
-  void put(VertexId, double t, const X&, bool wanted) {
-    if (!wanted) return;
-    ++size_;
-    last_time_ = t;
-  }
-  std::size_t size() const { return size_; }
-  double last_time() const { return last_time_; }
-
- private:
-  std::size_t size_ = 0;
-  double last_time_ = 0;
-};
+/// Looks for what is not finite after each force.
+struct Watch : BreakpointCount {};
 }  // namespace detail
 
 /// `Touching` does in a run of other numbers what Contact does (audit/numerics/replayed_contact.h); void: it is

@@ -50,7 +50,7 @@ class Recording {
   std::size_t size_ = 0;
 };
 
-/// What recorders derive from that end no window early: their breakpoints are not counted.
+/// Base of recorders that never end a window early.
 struct Uncounted {
   static constexpr std::size_t size() { return 0; }
   static constexpr double last_time() { return 0; }
@@ -61,6 +61,24 @@ struct NoRecording : Uncounted {
   void reserve(std::size_t) {}
   template <class X>
   void put(VertexId, double, const X&, bool) {}
+};
+
+/// Counts breakpoints as Recording does, and keeps none: windows end at the same times.
+class BreakpointCount {
+ public:
+  void reserve(std::size_t) {}
+  template <class X>
+  void put(VertexId, double t, const X&, bool wanted) {
+    if (!wanted) return;
+    ++size_;
+    last_time_ = t;
+  }
+  std::size_t size() const { return size_; }
+  double last_time() const { return last_time_; }
+
+ private:
+  std::size_t size_ = 0;
+  double last_time_ = 0;
 };
 
 /// The world lines of a window: the stream by vertex. Third coordinates of plane motion are zero. Throws InputError

@@ -189,8 +189,8 @@ std::optional<double> number_of_scene(const fs::path& run, const char* name) {
   return number.is_number() ? std::optional(number.get<double>()) : std::nullopt;
 }
 
-/// Of a file that this process has just written. Stops are not asked for: who has asked for one has been heard, and
-/// waits for the run's last words.
+/// Hash of a file this process has just written. Ignores requests to stop: the run is already ending, and its end has
+/// still to be logged.
 Sha256Digest hash_of_written(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::vector<char> part(std::size_t{1} << 20);

@@ -32,7 +32,7 @@ double bytes_a_window(const integrator::Scene& scene, const integrator::Explanat
   return motion + proof_of_cell * static_cast<double>(run.cells) + proof_overhead;
 }
 
-/// What is there tells how much a second takes, and how many windows it has, as some may end early.
+/// A run that goes on is predicted from what it has written so far.
 bool goes_on(const RunToCome& run) { return run.windows_there > 0 && run.time_there > 0; }
 
 double motion_to_come(const integrator::Scene& scene, const integrator::Explanation& explanation,

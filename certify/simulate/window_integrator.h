@@ -57,7 +57,7 @@ class WindowIntegrator {
     gone_ += counts;
   }
 
-  /// Up to which it has come [s].
+  /// The end of the last window that was integrated [s].
   double time() const { return simulation_->time(); }
   std::uint32_t deepest() const { return simulation_->certificates().deepest; }
   CertificateCounts certificates() const {

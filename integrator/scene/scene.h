@@ -294,8 +294,8 @@ inline bool some_ended_early(std::uint64_t there, double time, double window) {
 }
 
 /// The least number of windows with which a run that has `there`, the last of them up to `time`, comes to the end of
-/// `all`. It takes more when more of them end early, because they have too many breakpoints. Nothing when no run has
-/// come to such a time.
+/// `all`. It takes more if more of them end early, because they have too many breakpoints. Empty if no run can have
+/// reached this time.
 inline std::optional<std::uint64_t> windows_in_all(std::uint64_t there, double time, double window, std::uint64_t all) {
   if (!(time >= 0 && time < 0x1p52 * window)) return std::nullopt;
   const std::uint64_t behind = first_after(time, window) - 1;

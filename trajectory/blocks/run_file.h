@@ -106,7 +106,7 @@ struct KnownWindows {
 /// How many windows a run seems to have, and how far they seem to go.
 struct RunLook {
   std::uint64_t windows = 0;
-  std::optional<double> end;  ///< [s]; nothing when there are none, or the last one says no time
+  std::optional<double> end;  ///< [s]; empty if there is no window, or the last one is damaged
 };
 
 class RunReader;
@@ -193,7 +193,7 @@ class RunReader {
 
   /// How many windows have been read.
   std::uint64_t windows() const { return blocks_.committed().groups - 1; }
-  /// A quick look, which reads no world line and checks no hash. What is damaged is for next_window() to say.
+  /// A quick look, which reads no world line and checks no hash. next_window() reports damage.
   RunLook look();
   const Sha256Digest& running_hash() const { return blocks_.committed().running; }
 
