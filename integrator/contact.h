@@ -31,6 +31,7 @@
 #include "integrator/contact_blow.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/contact_settings.h"
+#include "integrator/falling.h"
 #include "integrator/kick.h"
 #include "integrator/phase.h"
 
@@ -147,23 +148,27 @@ class Contact {
   double next_layer() const { return agenda_.empty() ? never : std::get<0>(*agenda_.begin()); }
 
   /// Fires the next layer; returns how many pairs it acted on. (How many it fired for is no property of the motion.)
+  /// Gravity acts on what it strikes.
   template <class Recorder>
-  std::size_t fire_next(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts) {
+  std::size_t fire_next(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts,
+                        Falling<double, Dim>& falling) {
     const auto [t, material, l] = *agenda_.begin();
     Layer& layer = layers_[material][l - 1];
     agenda_.erase(agenda_.begin());
     ++layer.clock.next;
     agenda_.insert({layer.clock.time(), material, l});
-    return fire(Kicked<double, Dim, Recorder>{particles_, record, t, &scripts}, books, material, l, layer.clock.step);
+    return fire(Kicked<double, Dim, Recorder>{particles_, record, t, &scripts}, books, falling, material, l,
+                layer.clock.step);
   }
 
   /// The half kicks with which a run begins.
   template <class Recorder>
-  void fire_halves(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts) {
+  void fire_halves(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts,
+                   Falling<double, Dim>& falling) {
     for (std::size_t m = 0; m < layers_.size(); ++m) {
       for (std::size_t l = 1; l <= layers_[m].size(); ++l) {
-        fire(Kicked<double, Dim, Recorder>{particles_, record, 0, &scripts}, books, static_cast<std::uint16_t>(m),
-             static_cast<std::uint32_t>(l), 0.5 * layers_[m][l - 1].clock.step);
+        fire(Kicked<double, Dim, Recorder>{particles_, record, 0, &scripts}, books, falling,
+             static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l), 0.5 * layers_[m][l - 1].clock.step);
       }
     }
   }
@@ -283,8 +288,8 @@ class Contact {
   }
 
   template <class Recorder>
-  std::size_t fire(const Kicked<double, Dim, Recorder>& now, Books<double, Dim>& books, std::uint16_t material,
-                   std::uint32_t l, double h) {
+  std::size_t fire(const Kicked<double, Dim, Recorder>& now, Books<double, Dim>& books, Falling<double, Dim>& falling,
+                   std::uint16_t material, std::uint32_t l, double h) {
     const double t = now.t;
     const PhaseScope busy(*activity_, Phase::layer);
     if (l > settings_.most_layers) {
@@ -314,6 +319,7 @@ class Contact {
       }
     }
     account.events += acted;
+    for (const VertexId i : struck_) falling.act_with_layer(now, i, material, books.of(ForceKind::gravity));
     certify(firing, material, l, t);
     return acted;
   }

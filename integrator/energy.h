@@ -26,7 +26,7 @@ class Ledger {
   explicit Ledger(const Engine<S, Dim, Touching>& engine) : engine_(engine) {
     for (const auto& p : engine.particles()) v_mean_.push_back(p.v);
     engine_.for_each_division([&](const auto& division) { add_division(division); });
-    if (engine_.gravity()) add_gravity();
+    if (!engine_.falling().empty()) add_gravity();
     if (engine_.contact() != nullptr) add_contact();
     for (std::size_t i = 0; i < v_mean_.size(); ++i) add_particle(i);
   }
@@ -63,14 +63,13 @@ class Ledger {
   }
 
   void add_gravity() {
-    const auto& gravity = *engine_.gravity();
-    const bool now = strikes(gravity.step);
+    const auto& falling = engine_.falling();
     S potential{};
     for (std::size_t i = 0; i < v_mean_.size(); ++i) {
       const auto& p = engine_.particles()[i];
       if (p.inverse_mass == S(0)) continue;
-      potential -= engine_.masses()[i] * gravity.acceleration.dot(p.x);
-      if (now) v_mean_[i] -= (S(0.5) * S(gravity.step)) * gravity.acceleration;
+      potential -= engine_.masses()[i] * falling.acceleration().dot(p.x);
+      v_mean_[i] -= S(falling.lead(static_cast<VertexId>(i))) * falling.acceleration();
     }
     state_.potential[static_cast<std::size_t>(ForceKind::gravity)] = potential;
   }

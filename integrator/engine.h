@@ -4,17 +4,25 @@
 //
 // Notation: that of integrator/simulation.h, and
 //   division  all forces of one kind, in the order of their numbers
-//   slot      what fires many forces in a row: a group of a division, or gravity
+//   slot      what fires many forces in a row: a group of a division, or gravity on the vertices of one step
+//   carried   of a vertex: gravity acts on it when the force of its shortest step does
 //
-// With clocks of their own, forces are in OwnClocks and only gravity has a slot. A division that is empty has no slot
-// and no event, so what a scene does not have costs nothing.
+// With clocks of their own, forces are in OwnClocks, and gravity has slots for vertices only that are not carried. A
+// division that is empty has no slot and no event, so what a scene does not have costs nothing.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <iterator>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 
+#include "integrator/check_model.h"
 #include "integrator/contact.h"
+#include "integrator/falling.h"
+#include "integrator/gravity_steps.h"
 #include "integrator/groups.h"
 #include "integrator/kick.h"
 #include "integrator/own_clocks.h"
@@ -54,13 +62,13 @@ class Engine {
       : window_length_(model.window_length),
         most_breakpoints_(model.most_breakpoints),
         clocks_(model.clocks),
-        gravity_(model.gravity),
         timeline_(model.scripts) {
-    check(model);
+    check_model(model);
     make_particles(model);
     make_scripted(model);
     take_forces(model);
-    if (gravity_) slots_.insert(slots_.begin(), {ForceKind::gravity, {gravity_->step, 1}, 0, particles_.size(), {}});
+    make_falling(model);
+    make_own_clocks();
     make_contact(model);
   }
 
@@ -75,6 +83,8 @@ class Engine {
       particles_[i].t = t;
     }
     for (Group& slot : slots_) slot.clock.next = first_after(t, slot.clock.step);
+    falling_.begin_window(window_end_after(t));
+    if (t > 0) falling_.resume(t);
     due_ = nullptr;
     timeline_.skip_to(t);
     make_own_clocks();
@@ -95,7 +105,7 @@ class Engine {
   const std::vector<Particle<S, Dim>>& particles() const { return particles_; }
   const std::vector<S>& masses() const { return masses_; }
   const S& contact_at_start() const { return contact_at_start_; }
-  const std::optional<Gravity<S, Dim>>& gravity() const { return gravity_; }
+  const Falling<S, Dim>& falling() const { return falling_; }
   const ContactType* contact() const { return contact_.get(); }
   ContactType* contact() { return contact_.get(); }
   void show(Activity& activity) {
@@ -107,7 +117,7 @@ class Engine {
   /// Books what has happened, also when it throws ContactLimit.
   template <class Recorder, class Stop>
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
-    double end = static_cast<double>(first_after(time_, window_length_)) * window_length_;
+    double end = window_end_after(time_);
     open(record);
     books.make_room(material_count_, script_count_);
     script_book_ = {scripted_, books.scripts};
@@ -120,6 +130,7 @@ class Engine {
       throw;
     }
     instant_.close(particles_, books);
+    if (whole) fall_at_end(end, record, books);
     books.sum_contact();
     if (!whole) return false;
     close(end, record);
@@ -161,33 +172,11 @@ class Engine {
   template <class Recorder>
   using Now = Kicked<S, Dim, Recorder>;
 
+  double window_end_after(double t) const {
+    return static_cast<double>(first_after(t, window_length_)) * window_length_;
+  }
+
   // --- Construction --------------------------------------------------------------------------------------------------
-
-  static void require(bool condition, const char* what) {
-    if (!condition) throw std::invalid_argument(what);
-  }
-
-  static void check(const Model<S, Dim>& model) {
-    const std::size_t n = model.x.size();
-    require(model.v.size() == n && model.mass.size() == n, "model: x, v and mass differ in size");
-    require(model.window_length > 0, "model: the window's length is not positive");
-    for (const S& m : model.mass) require(m > S(0), "model: a mass is not positive");
-    for (const VertexId v : model.pinned) require(v < n, "model: a pinned vertex is out of range");
-    for (const auto& s : model.scripts) {
-      require(s.vertex < n && !s.times.empty() && s.times.size() == s.positions.size(), "model: a script is none");
-    }
-    require(!model.gravity || model.gravity->step > 0, "model: gravity's step is not positive");
-    std::apply([&](const auto&... list) { (check_list(list, n), ...); }, model.forces.lists());
-  }
-
-  template <class F>
-  static void check_list(const ForceList<F>& list, std::size_t n) {
-    require(list.forces.size() == list.steps.size(), "model: forces and steps differ in number");
-    for (const double h : list.steps) require(h > 0 && std::isfinite(h), "model: a step is not positive and finite");
-    for (const F& force : list.forces) {
-      for (const VertexId v : force.vertices) require(v < n, "model: a force's vertex is out of range");
-    }
-  }
 
   void make_particles(const Model<S, Dim>& model) {
     masses_ = model.mass;
@@ -218,7 +207,6 @@ class Engine {
     auto lists = model.forces.lists();
     [&]<std::size_t... I>(std::index_sequence<I...>) { (take_list(std::get<I>(divisions_), std::get<I>(lists)), ...); }
     (std::make_index_sequence<kinds>{});
-    make_own_clocks();
   }
 
   template <class F>
@@ -230,18 +218,35 @@ class Engine {
     slots_.insert(slots_.end(), groups.begin(), groups.end());
   }
 
+  void make_falling(const Model<S, Dim>& model) {
+    if (!model.gravity || model.gravity->acceleration == Vec<S, Dim>::Zero()) return;
+    gravity_steps_ = gravity_steps(held_vertices(model), shortest_steps(), model.gravity->step);
+    std::vector<Group> groups = gravity_groups(gravity_steps_, clocks_);
+    slots_.insert(slots_.begin(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
+    std::vector<double> layer_steps;
+    if (model.contact) {
+      for (const ContactMaterial& m : model.contact->materials) layer_steps.push_back(m.step);
+    }
+    falling_ = Falling<S, Dim>(model.gravity->acceleration, masses_, gravity_steps_.steps, layer_steps);
+    falling_.begin_window(window_end_after(0));
+  }
+
   void make_own_clocks() {
     if (clocks_ != Clocks::own) return;
     std::array<Shelf, kinds> shelves;
     std::vector<double> steps;
-    std::vector<std::uint32_t> kind_of;
-    std::uint32_t kind = 0;
+    std::vector<Calendar::Said> said;
+    Carriers carriers(gravity_steps_);
+    std::uint16_t kind = 0;
     for_each_division([&](const auto& d) {
       shelves[kind] = Shelf(d.list.forces, steps.size());
       steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end());
-      kind_of.resize(steps.size(), kind++);
+      for (std::size_t i = 0; i < d.list.forces.size(); ++i) {
+        said.push_back({kind, carriers.take(d.list.forces[i].vertices, d.list.steps[i])});
+      }
+      ++kind;
     });
-    own_ = OwnClocks<kinds>(shelves, Calendar(steps, kind_of, time()), particles_.size());
+    own_ = OwnClocks<kinds>(shelves, Calendar(steps, said, time()), particles_.size());
   }
 
   void make_contact(const Model<S, Dim>& model) {
@@ -255,19 +260,21 @@ class Engine {
     }
   }
 
-  /// Of each vertex the shortest step of what acts on it.
-  std::vector<double> look_steps() const {
-    std::vector<double> steps(particles_.size(), gravity_ ? gravity_->step : std::numeric_limits<double>::infinity());
+  /// Of each vertex the shortest step of the forces on it; infinity if it has none or is held.
+  std::vector<double> shortest_steps() const {
+    std::vector<double> steps(particles_.size(), std::numeric_limits<double>::infinity());
     for_each_division([&](const auto& division) {
       for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
-        for (const VertexId v : division.list.forces[i].vertices) steps[v] = std::min(steps[v], division.list.steps[i]);
+        for (const VertexId v : division.list.forces[i].vertices) {
+          if (particles_[v].inverse_mass != S(0)) steps[v] = std::min(steps[v], division.list.steps[i]);
+        }
       }
     });
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      if (particles_[i].inverse_mass == S(0)) steps[i] = std::numeric_limits<double>::infinity();
-    }
     return steps;
   }
+
+  /// The same of all that acts on it.
+  std::vector<double> look_steps() const { return falling_.empty() ? shortest_steps() : gravity_steps_.steps; }
 
   // --- The loop ------------------------------------------------------------------------------------------------------
 
@@ -295,7 +302,10 @@ class Engine {
   void start(Recorder& record, Books<S, Dim>& books) {
     const Now<Recorder> now = at<Recorder>(0, record);
     while (timeline_.next_time() <= 0) turn(now);
-    for (const Group& slot : slots_) fire_slot(now, slot, S(0.5) * S(slot.clock.step), books);
+    if (!falling_.empty()) fall(now, all_, books);
+    for (const Group& slot : slots_) {
+      if (slot.kind != ForceKind::gravity) fire_slot(now, slot, S(0.5) * S(slot.clock.step), books);
+    }
     instant_.close(particles_, books);
     if (clocks_ != Clocks::own) return;
     for_each_division([&](auto& division) { start_own(now, division, books); });
@@ -311,14 +321,14 @@ class Engine {
       contact_->for_each_acting([this](const auto&, const auto&, const S& g, double r, double) {
         contact_at_start_ += S(0.5) * S(r) * g * g;
       });
-      contact_->fire_halves(record, books, script_book_);
+      contact_->fire_halves(record, books, script_book_, falling_);
     }
   }
 
   template <class Recorder, class F>
   void start_own(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
     for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
-      const DueForce half{now.t, 0.5 * division.list.steps[i], i};
+      const DueForce half{now.t, 0.5 * division.list.steps[i], i, 0, 0};
       fire_single(now.record, division, std::span(&half, 1), books);
     }
   }
@@ -332,14 +342,19 @@ class Engine {
     const double slot_time = slot != nullptr ? slot->clock.time() : std::numeric_limits<double>::infinity();
     const double turn_time = timeline_.next_time();
     const double own_time = own_.empty() ? std::numeric_limits<double>::infinity() : own_.next_time();
-    const double force_time = std::min(slot_time, own_time);
+    const double struck_time = falling_.next_struck();
+    const double force_time = std::min({slot_time, own_time, struck_time});
     if (turn_time <= end && turn_time <= force_time && !contact_before(turn_time)) {
       turn(at<Recorder>(turn_time, record));
       return true;
     }
     if (contact_ && run_contact(end, force_time, record, books)) return true;
+    if (struck_time <= end && struck_time < slot_time && struck_time <= own_time) {
+      fall_where_struck(at<Recorder>(struck_time, record), books);
+      return true;
+    }
     if (own_time <= end && own_time < slot_time) {
-      run_own(end, std::min(slot_time, turn_time), record, books);
+      run_own(end, std::min({slot_time, turn_time, struck_time}), record, books);
       return true;
     }
     if (slot_time > end) return false;
@@ -365,7 +380,7 @@ class Engine {
         return true;
       }
       if (layer <= end && layer < force_time) {
-        events_ += contact_->fire_next(record, books, script_book_);
+        events_ += contact_->fire_next(record, books, script_book_, falling_);
         return true;
       }
     }
@@ -406,7 +421,7 @@ class Engine {
 
   template <class Recorder>
   void fire_slot(const Now<Recorder>& now, const Group& slot, const S& h, Books<S, Dim>& books) {
-    if (slot.kind == ForceKind::gravity) return fall(now, h, books);
+    if (slot.kind == ForceKind::gravity) return fall_slot(now, slot, books);
     const auto fire_if = [&](const auto& division) {
       using F = typename std::remove_cvref_t<decltype(division.list.forces)>::value_type;
       if (F::kind == slot.kind) fire_group(now, division, slot, h, books);
@@ -486,6 +501,7 @@ class Engine {
     } else {
       fire_single_as<false>(blows, account);
     }
+    if (!falling_.empty()) fall_with(record, division, firing, books);
     if (!contact_ || !contact_->started()) return;
     for (const DueForce& due : firing) {
       look(at<Recorder>(due.t, record), division.list.forces[due.force].vertices);
@@ -502,34 +518,82 @@ class Engine {
     }
   }
 
+  /// Gravity acts on many vertices. They outlive this time.
   template <class Recorder>
-  void fall(const Now<Recorder>& now, const S& h, Books<S, Dim>& books) {
-    const PhaseScope falling(*activity_, Phase::kick);
+  void fall(const Now<Recorder>& now, std::span<const VertexId> vertices, Books<S, Dim>& books) {
+    const PhaseScope kicking(*activity_, Phase::kick);
+    now.record.reserve(vertices.size());
     Account<S, Dim> sum;
-    const Vec<S, Dim> dv = h * gravity_->acceleration;
-    if (dv == Vec<S, Dim>::Zero()) return;
-    now.record.reserve(particles_.size());
-    const auto fallen = [&](VertexId i) -> const Particle<S, Dim>& {
-      const Particle<S, Dim>& p = particles_[i];
-      if (p.inverse_mass == S(0)) return p;
-      const Vec<S, Dim> x = p.at(now.t), v = p.v + dv;
-      const Vec<S, Dim> impulse = masses_[i] * dv;
-      sum.impulse += impulse;
-      sum.angular_impulse += moment<S, Dim>(x, impulse);
-      set_velocity(now, i, x, v);
-      ++sum.events;
-      return p;
-    };
     const auto velocity = [&](VertexId i) -> const Vec<S, Dim>& { return particles_[i].v; };
-    instant_.template begin<false>(ForceKind::gravity, last_of(now.t), all_, velocity);
+    const auto fallen = [&](VertexId i) -> const Particle<S, Dim>& {
+      if (falling_.falls(i)) falling_.act(now, i, sum);
+      return particles_[i];
+    };
+    instant_.template begin<false>(ForceKind::gravity, last_of(now.t), vertices, velocity);
     instant_.template end<false>(fallen);
+    sum.work = S(0);  // the instant's
+    book_fall(sum, books);
+  }
+
+  /// What is carried, is looked at when its forces have fired, which they do at the same time.
+  template <class Recorder>
+  void fall_slot(const Now<Recorder>& now, const Group& slot, Books<S, Dim>& books) {
+    for (const VertexId i : slot.vertices) falling_.pass(i, slot.clock.time());
+    fall(now, slot.vertices, books);
+    if (!contact_) return;
+    const PhaseScope certifying(*activity_, Phase::certificate);
+    for (const VertexId i : slot.vertices) {
+      if (gravity_steps_.carried[i] == 0) contact_->look(i, now.t);
+    }
+  }
+
+  /// On what contact has struck.
+  template <class Recorder>
+  void fall_where_struck(const Now<Recorder>& now, Books<S, Dim>& books) {
+    Account<S, Dim> sum;
+    falling_.take_struck([&](VertexId i) {
+      now.record.reserve(1);
+      falling_.act(now, i, sum);
+      look(now, std::array{i});
+    });
+    book_fall(sum, books);
+  }
+
+  /// On what these forces carry.
+  template <class Recorder, class F>
+  void fall_with(Recorder& record, const Division<F>& division, std::span<const DueForce> firing,
+                 Books<S, Dim>& books) {
+    Account<S, Dim> sum;
+    record.reserve(F::size * firing.size());
+    for (const DueForce& due : firing) {
+      for (unsigned bits = due.carries; bits != 0; bits &= bits - 1) {
+        const VertexId i = division.list.forces[due.force].vertices[static_cast<unsigned>(std::countr_zero(bits))];
+        falling_.pass(i, due.next);
+        falling_.act(at<Recorder>(due.t, record), i, sum);
+      }
+    }
+    book_fall(sum, books);
+  }
+
+  /// On all, as at the end of every window: what gravity knows of vertices then follows from the time.
+  template <class Recorder>
+  void fall_at_end(double end, Recorder& record, Books<S, Dim>& books) {
+    if (falling_.empty()) return;
+    falling_.begin_window(window_end_after(end));
+    record.reserve(particles_.size());
+    const Now<Recorder> now = at<Recorder>(end, record);
+    Account<S, Dim> sum;
+    for (const VertexId i : all_) {
+      const std::uint64_t before = sum.events;
+      if (falling_.falls(i)) falling_.act(now, i, sum);
+      if (sum.events != before) look(now, std::array{i});
+    }
+    book_fall(sum, books);
+  }
+
+  void book_fall(const Account<S, Dim>& sum, Books<S, Dim>& books) {
     events_ += sum.events;
     books.of(ForceKind::gravity) += sum;
-    if (!contact_ || !contact_->started()) return;
-    activity_->set(Phase::certificate);
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      if (particles_[i].inverse_mass != S(0)) contact_->look(static_cast<VertexId>(i), now.t);
-    }
   }
 
   template <class Recorder>
@@ -566,7 +630,6 @@ class Engine {
   double window_length_;
   std::size_t most_breakpoints_;
   Clocks clocks_;
-  std::optional<Gravity<S, Dim>> gravity_;
   Timeline<S, Dim> timeline_;
   std::vector<S> masses_;
   std::vector<Particle<S, Dim>> particles_;
@@ -575,6 +638,8 @@ class Engine {
   ScriptBook<S, Dim> script_book_;  ///< of the window that runs
   Instant<S, Dim> instant_;         ///< of the groups that strike now
   std::vector<VertexId> all_;       ///< vertices
+  GravitySteps gravity_steps_;      ///< nothing without gravity
+  Falling<S, Dim> falling_;
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;
   std::vector<Group> slots_;

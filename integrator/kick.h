@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "integrator/books.h"
@@ -150,6 +151,8 @@ struct GroupBlows {
 struct DueForce {
   double t, h;
   std::size_t force;
+  std::uint16_t carries;  ///< bit k: gravity acts on vertex k with it
+  double next;            ///< when it is due again
 };
 
 /// Forces without a vertex in common.

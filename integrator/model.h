@@ -52,11 +52,11 @@ struct Script {
   std::uint32_t number = 0;            ///< of the scene's scripts, one of which may move many vertices
 };
 
-/// A constant acceleration of all particles that are not scripted, with a clock of its own.
+/// A constant acceleration of all particles that are neither pinned nor scripted.
 template <class S, int Dim>
 struct Gravity {
   Vec<S, Dim> acceleration;  ///< [m/s^2]
-  double step = 0;           ///< h [s]
+  double step = 0;           ///< the longest [s]; on a vertex, that of the forces on it where it is shorter
 };
 
 template <class S, int Dim>

@@ -43,19 +43,25 @@ namespace noli::integrator {
 /// and stay in the cache. Events do not come or go.
 class Calendar {
  public:
+  /// What the caller says of an event.
+  struct Said {
+    std::uint16_t kind;
+    std::uint16_t carries;  ///< bit k: gravity acts on vertex k with it
+  };
+
   struct Entry {
     double step, next;  ///< h and k, a whole number
     std::uint32_t event;
-    std::uint32_t kind;  ///< what the caller says of it
+    Said said;
 
     double time() const { return next * step; }
   };
 
   Calendar() = default;
 
-  /// One event for each step; each at its first time after `now`. `kinds`: one for each step. Precondition: steps
+  /// One event for each step; each at its first time after `now`. `said`: one for each step. Precondition: steps
   /// positive, fewer than 2^32.
-  Calendar(const std::vector<double>& steps, const std::vector<std::uint32_t>& kinds, double now) {
+  Calendar(const std::vector<double>& steps, const std::vector<Said>& said, double now) {
     if (steps.empty()) return;
     const auto [least, longest] = std::minmax_element(steps.begin(), steps.end());
     double rate = 0;
@@ -65,7 +71,7 @@ class Calendar {
     many_years_ = days > most_days;
     days_.resize(std::bit_ceil(static_cast<std::size_t>(std::min(days, most_days))));
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      put({steps[i], static_cast<double>(first_after(now, steps[i])), static_cast<std::uint32_t>(i), kinds[i]});
+      put({steps[i], static_cast<double>(first_after(now, steps[i])), static_cast<std::uint32_t>(i), said[i]});
     }
     day_ = static_cast<std::uint64_t>(now / length_);
     open();
@@ -83,7 +89,7 @@ class Calendar {
   /// Sends the next event to its next time.
   void advance() {
     const Entry& entry = today_[at_];
-    put({entry.step, entry.next + 1, entry.event, entry.kind});
+    put({entry.step, entry.next + 1, entry.event, entry.said});
     if (++at_ == today_.size()) {
       ++day_;
       open();
@@ -248,9 +254,11 @@ class OwnClocks {
     claims_.clear();
     for (std::size_t size = 0; size < longest && is_due(); ++size) {
       const Calendar::Entry& entry = calendar_.front();
-      const Shelf& shelf = shelves_[entry.kind];
+      const auto [kind, carries] = entry.said;
+      const Shelf& shelf = shelves_[kind];
       if (!claims_.claim(shelf, entry.event)) return;
-      row_[entry.kind][sizes_[entry.kind]++] = {entry.time(), entry.step, entry.event - shelf.first()};
+      row_[kind][sizes_[kind]++] = {entry.time(), entry.step, entry.event - shelf.first(), carries,
+                                    (entry.next + 1) * entry.step};
       look_ahead(prefetch);
       calendar_.advance();
     }
@@ -265,8 +273,8 @@ class OwnClocks {
     constexpr std::size_t far = 24, near = 12;
     if (calendar_.ahead() < far) return;
     const Calendar::Entry &later = calendar_.ahead(far), &soon = calendar_.ahead(near);
-    shelves_[later.kind].prefetch(later.event);
-    shelves_[soon.kind].for_each_vertex(soon.event, prefetch);
+    shelves_[later.said.kind].prefetch(later.event);
+    shelves_[soon.said.kind].for_each_vertex(soon.event, prefetch);
   }
 
   Calendar calendar_;

@@ -16,6 +16,7 @@
 #include "audit/numerics/event_log.h"
 #include "integrator/contact_blow.h"
 #include "integrator/contact_settings.h"
+#include "integrator/falling.h"
 #include "integrator/phase.h"
 
 namespace noli::audit {
@@ -50,7 +51,8 @@ class ReplayedContact {
   double next_layer() const { return next_ < log_->firings().size() ? log_->firings()[next_].firing.time : never; }
 
   template <class Recorder>
-  std::size_t fire_next(Recorder& record, integrator::Books<S, Dim>& books, integrator::ScriptBook<S, Dim>& scripts) {
+  std::size_t fire_next(Recorder& record, integrator::Books<S, Dim>& books, integrator::ScriptBook<S, Dim>& scripts,
+                        integrator::Falling<S, Dim>& falling) {
     const LoggedFiring& logged = log_->firings()[next_++];
     const integrator::Firing& firing = logged.firing;
     const integrator::Kicked<S, Dim, Recorder> now{particles_, record, firing.time, &scripts};
@@ -64,15 +66,22 @@ class ReplayedContact {
       const auto blow = integrator::strike_pair(now, examined.pair, approach, firing.terms, firing.h, account);
       record.examined(examined.pair, approach.with_corners(blow.course));
       if (blow.course.acts) ++acted;
+      for (std::size_t k = 0; blow.struck && k < examined.pair.size(); ++k)
+        struck_.push_back(examined.pair.vertices[k]);
     }
     account.events += acted;
+    for (const VertexId i : struck_) {
+      falling.act_with_layer(now, i, firing.material, books.of(integrator::ForceKind::gravity));
+    }
+    struck_.clear();
     return acted;
   }
 
   /// The firings of time 0: nothing else happens then.
   template <class Recorder>
-  void fire_halves(Recorder& record, integrator::Books<S, Dim>& books, integrator::ScriptBook<S, Dim>& scripts) {
-    while (next_layer() <= 0) fire_next(record, books, scripts);
+  void fire_halves(Recorder& record, integrator::Books<S, Dim>& books, integrator::ScriptBook<S, Dim>& scripts,
+                   integrator::Falling<S, Dim>& falling) {
+    while (next_layer() <= 0) fire_next(record, books, scripts, falling);
   }
 
   /// As Contact has it; of the pairs that are active there.
@@ -91,6 +100,7 @@ class ReplayedContact {
   Particles& particles_;
   const EventLog<Dim>* log_ = nullptr;
   std::size_t next_ = 0;
+  std::vector<VertexId> struck_;  ///< by the layer that fires; some more than once
   bool started_ = false;
 };
 

@@ -9,7 +9,7 @@ namespace noli {
 namespace {
 
 constexpr std::string_view letters = "noli row";
-constexpr std::uint64_t version = 3;
+constexpr std::uint64_t version = 4;
 constexpr std::size_t beginning = letters.size() + sizeof(version);
 
 /// Calls f on each number of a layer, in order.
@@ -131,10 +131,10 @@ std::string encode(const SeriesRow& row) {
 
 std::string not_a_row(std::string_view bytes) {
   if (bytes.size() < beginning || !bytes.starts_with(letters)) {
-    return "its series is no row of version 3, as a run of an earlier Noli has it; expected a run of this version";
+    return "its series is no row of version 4, as a run of an earlier Noli has it; expected a run of this version";
   }
   const auto found = get<std::uint64_t>(bytes.data() + letters.size());
-  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 3";
+  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 4";
 }
 
 SeriesRow decode_row(std::string_view bytes) {

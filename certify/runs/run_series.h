@@ -5,11 +5,14 @@
 // resumed has the whole series. All of it follows from the motion: what certificates or clocks have to say is in the
 // log.
 //
-// Bytes, all numbers little-endian of 8 bytes: the text "noli row", the version 3; then each field in the order of
+// Bytes, all numbers little-endian of 8 bytes: the text "noli row", the version 4; then each field in the order of
 // SeriesRow: doubles; events, breakpoints, halvings; the two layers, each as layer, material, pair, four vertices,
 // time, distance; the least step; the number of materials of contact, and for each the works of its potential, of
 // friction, of restitution; the number of scripts, and the work of each; the number of bins, and for each its number
 // (of a signed integer the two's complement) and its ticks.
+//
+// The version is also that of the motion: a run that began with another one would go on differently. In version 3
+// gravity had a clock of its own; the fields were the same.
 #pragma once
 
 #include <cstdint>

@@ -122,35 +122,11 @@ ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std
 }
 
 template <int Dim>
-double longest_step(const Forces<double, Dim>& forces) {
-  double longest = 0;
-  const auto look = [&longest](const auto& list) {
-    for (const double h : list.steps) longest = std::max(longest, h);
-  };
-  std::apply([&look](const auto&... lists) { (look(lists), ...); }, forces.lists());
-  return longest;
-}
-
-/// At most this, as it can be.
-double gravity_step(const Scene& scene, double step) {
-  return scene.steps == Clocks::grouped ? std::ldexp(scene.window, -step_exponent(step, scene.window)) : step;
-}
-
-template <int Dim>
 void add_gravity(const Scene& scene, Model<double, Dim>& model) {
   if (scene.gravity == Position{}) return;
-  double step = scene.window / 16;
-  if (const double longest = longest_step(model.forces); longest > 0) step = std::min(step, longest);
-  model.gravity = {cut<Dim>(to_vec(scene.gravity)), gravity_step(scene, scene.gravity_step.value_or(step))};
-}
-
-/// A coarse clock of gravity would add to, or take from, the energy of each impact.
-template <int Dim>
-void limit_gravity_step(const Scene& scene, Model<double, Dim>& model) {
-  if (!model.gravity || scene.gravity_step || !model.contact) return;
-  double step = model.gravity->step;
-  for (const ContactMaterial& m : model.contact->materials) step = std::min(step, m.step);
-  model.gravity->step = gravity_step(scene, step);
+  double step = scene.gravity_step.value_or(scene.window / 16);
+  if (scene.steps == Clocks::grouped) step = std::ldexp(scene.window, -step_exponent(step, scene.window));
+  model.gravity = {cut<Dim>(to_vec(scene.gravity)), step};
 }
 
 /// Bounds the memory for breakpoints. Large meshes get room for a few at each vertex.
@@ -272,7 +248,6 @@ BuiltScene<Dim> build_model(const Scene& scene) {
   (std::make_index_sequence<std::tuple_size_v<decltype(lists)>>());
   add_gravity(scene, model);
   add_contact(scene, meshes, inverse_mass, result);
-  limit_gravity_step(scene, model);
   limit_breakpoints(scene, model);
   return result;
 }

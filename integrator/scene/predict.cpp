@@ -129,13 +129,40 @@ void add_groups(ForceKind kind, const std::vector<double>& steps, Clocks clocks,
   }
 }
 
+/// Of each vertex that falls, how often gravity acts on it at least (integrator/falling.h).
+template <int Dim>
+std::vector<double> gravity_steps(const Model<double, Dim>& model, const AtVertices<Dim>& at) {
+  std::vector<double> steps;
+  for (std::size_t v = 0; v < at.pulls.size(); ++v) {
+    if (at.held[v]) continue;
+    double step = model.gravity->step;
+    for (const Pull<Dim>& pull : at.pulls[v]) step = std::min(step, pull.force_step.second);
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+/// Gravity acts at the ends of windows too; with groups that is one of its times.
+template <int Dim>
+void add_gravity_groups(const Model<double, Dim>& model, const AtVertices<Dim>& at, Explanation& explanation) {
+  const std::vector<double> steps = gravity_steps(model, at);
+  add_groups(ForceKind::gravity, steps, model.clocks, explanation);
+  if (model.clocks == Clocks::grouped || steps.empty()) return;
+  const double at_ends = static_cast<double>(steps.size()) / model.window_length;
+  explanation.groups.back().events += at_ends;
+  explanation.events += at_ends;
+}
+
 /// Breakpoints a second of a vertex that can move. Windows end at a rate of their own; steps of groups are parts of one
 /// another and of the window, so the shortest has the breakpoints of all; others share none.
 template <int Dim>
 double rate(const std::vector<Pull<Dim>>& pulls, const Model<double, Dim>& model) {
   std::set<double> steps{model.window_length};
   for (const Pull<Dim>& pull : pulls) steps.insert(pull.force_step.second);
-  if (model.gravity) steps.insert(model.gravity->step);
+  if (model.gravity) {
+    const bool rides = !pulls.empty() && *steps.begin() <= model.gravity->step;
+    if (!rides) steps.insert(model.gravity->step);
+  }
   if (model.clocks == Clocks::grouped) return 1 / *steps.begin();
   double sum = 0;
   for (const double h : steps) sum += 1 / h;
@@ -165,16 +192,16 @@ double byte_rate(const Scene& scene, std::size_t vertices, double breakpoints) {
 template <int Dim>
 void predict(const Scene& scene, Model<double, Dim> model, Explanation& explanation) {
   AtVertices<Dim> at{std::vector<std::vector<Pull<Dim>>>(model.x.size()), held_vertices(model)};
-  const auto add = [&]<class F>(ForceList<F>& list) {
+  const auto look = [&]<class F>(ForceList<F>& list) {
     if (model.clocks == Clocks::grouped) make_groups(list, scene.window);
-    add_groups(F::kind, list.steps, model.clocks, explanation);
     for (std::size_t i = 0; i < list.forces.size(); ++i) add_pulls(list.forces[i], list.steps[i], model, at);
   };
-  const auto falling = static_cast<std::size_t>(std::count(at.held.begin(), at.held.end(), 0));
-  if (model.gravity) {
-    add_groups(ForceKind::gravity, std::vector<double>(falling, model.gravity->step), model.clocks, explanation);
-  }
-  std::apply([&add](auto&... lists) { (add(lists), ...); }, model.forces.lists());
+  const auto add = [&]<class F>(const ForceList<F>& list) {
+    add_groups(F::kind, list.steps, model.clocks, explanation);
+  };
+  std::apply([&look](auto&... lists) { (look(lists), ...); }, model.forces.lists());
+  if (model.gravity) add_gravity_groups(model, at, explanation);
+  std::apply([&add](const auto&... lists) { (add(lists), ...); }, model.forces.lists());
   explanation.windows = windows_up_to(scene.duration, scene.window);
   explanation.breakpoints = breakpoint_rate(scene, model, at);
   explanation.breakpoints_a_window = explanation.breakpoints * scene.window;

@@ -68,6 +68,7 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
   Books<double, 3> books;
   books.make_room(model.contact->materials.size(), 0);
   ScriptBook<double, 3> scripts;
+  Falling<double, 3> falling;
   contact.start(0);
   InstantSet failures, plans, fired;
   for (;;) {
@@ -79,7 +80,7 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
       contact.run_certificate();
       failures.add(t, 1);
     } else {
-      contact.fire_next(nothing, books, scripts);
+      contact.fire_next(nothing, books, scripts, falling);
       fired.add(t, 1);
     }
     plans.add(t, work_of(contact.counts()) - before);

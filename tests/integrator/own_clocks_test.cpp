@@ -32,21 +32,24 @@ class Reference {
   std::set<std::pair<double, std::size_t>> queue_;
 };
 
-std::vector<std::uint32_t> kinds_of(std::size_t count) {
-  std::vector<std::uint32_t> kinds(count);
-  for (std::size_t i = 0; i < count; ++i) kinds[i] = static_cast<std::uint32_t>(i % 3);
-  return kinds;
+std::vector<Calendar::Said> said_of(std::size_t count) {
+  std::vector<Calendar::Said> said;
+  for (std::size_t i = 0; i < count; ++i) {
+    said.push_back({static_cast<std::uint16_t>(i % 3), static_cast<std::uint16_t>(i % 7)});
+  }
+  return said;
 }
 
 void expect_order(const std::vector<double>& steps, double now, int events) {
-  Calendar calendar(steps, kinds_of(steps.size()), now);
+  Calendar calendar(steps, said_of(steps.size()), now);
   Reference reference(steps, now);
   for (int i = 0; i < events; ++i) {
     const auto [time, event] = reference.take();
     ASSERT_FALSE(calendar.empty());
     ASSERT_EQ(calendar.front().time(), time) << i;
     ASSERT_EQ(calendar.front().event, event) << i;
-    ASSERT_EQ(calendar.front().kind, event % 3) << i;
+    ASSERT_EQ(calendar.front().said.kind, event % 3) << i;
+    ASSERT_EQ(calendar.front().said.carries, event % 7) << i;
     ASSERT_GT(time, now);
     calendar.advance();
   }

@@ -122,7 +122,8 @@ TEST_F(Simulate, AWindowWithTooManyBreakpointsEndsEarly) {
   const std::string unbounded = run_path("unbounded"), run = run_path("run"), parts = run_path("parts");
   ASSERT_EQ(json_of({"simulate", scene(json), "-o", unbounded}, 0)["windows"], 20);
   const std::uint64_t there = json_of({"info", unbounded}, 0)["files"][0]["most_breakpoints_in_a_window"];
-  json["most_breakpoints"] = there / 4;
+  const std::uint64_t most = there / 6;
+  json["most_breakpoints"] = most;
   const std::string file = scene(json);
   const Json whole = json_of({"simulate", file, "-o", run}, 0);
   EXPECT_GT(whole["windows"], 40);
@@ -130,7 +131,7 @@ TEST_F(Simulate, AWindowWithTooManyBreakpointsEndsEarly) {
   EXPECT_EQ(whole["time"], 0.2);
   const Json info = json_of({"info", run}, 0)["files"][0];
   // A window has what happens at its last time, too, and its end for each vertex.
-  EXPECT_LT(info["most_breakpoints_in_a_window"], there / 4 + 3 * info["vertices"].get<std::uint64_t>());
+  EXPECT_LT(info["most_breakpoints_in_a_window"], most + 3 * info["vertices"].get<std::uint64_t>());
   EXPECT_EQ(info["end_time"], 0.2);
   EXPECT_EQ(info["windows"], whole["windows"]);
 

@@ -102,20 +102,6 @@ TEST(SceneContact, NeedsTheFourthPowersOfLengths) {
   }
 }
 
-TEST(SceneContact, GravityStepsNoLongerThanAFirstLayerUnlessItIsSaid) {
-  Json scene = changed(sheet(), "/gravity", Json{0, 0, -10});
-  const double without = built(scene).model.gravity->step;
-  scene["contact"] = {{"step", without / 5}, {"stiffness", 1}};
-  EXPECT_EQ(built(scene).model.gravity->step, without / 8) << "groups have powers of two";
-  scene["steps"] = "own";
-  EXPECT_EQ(built(scene).model.gravity->step, without / 5);
-  scene["contact"]["step"] = without * 4;
-  EXPECT_EQ(built(scene).model.gravity->step, without);
-  scene["contact"]["step"] = without / 5;
-  scene["gravity_step"] = without;
-  EXPECT_EQ(built(scene).model.gravity->step, without);
-}
-
 TEST(SceneContact, InThePlaneTheLengthOfEdgesBounds) {
   const Json scene = changed(loop(), "/contact", Json::object());
   EXPECT_NEAR(settings<2>(scene).materials[0].thickness, std::sin(std::numbers::pi / 8) / 4, 1e-15);

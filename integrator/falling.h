@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Gravity, which has no clock of its own where it can do without: it acts on a vertex together with what strikes the
+// vertex anyway.
+//
+// Notation
+//   h      of a vertex: the shortest step of the forces on it, or gravity's where that is shorter or there are none
+//   since  when gravity acted last on a vertex
+//   until  when it is expected to act again: at the next of the times k h, at the window's end, or, behind an impulse
+//          of contact, at the next time at which the first layer of its material fires (h(1)), whichever comes first
+//   lead   (until - since) / 2: from `since` on a vertex has the velocity of the time since + lead, with which it is on
+//          its parabola at `until`
+//
+// So an event at t is a kick of g (t - since - lead + lead'), lead' being that from t on: half of the step before and
+// half of the one to come. With equal steps that is leapfrog; with any others too, what falls freely is on its parabola
+// whenever gravity acts as it was expected to.
+//
+// An impulse of contact comes when it likes. Gravity acts with it, so that the velocity is right from then on; but a
+// vertex that is struck s after `since`, in a step that was to take p, is g s (p - s) / 2 short of its parabola, and
+// has lost m g^2 s (p - s) / 2. For the first impulse that is m g^2 h^2 / 12 on average; for those that follow, p is
+// h(1) at most. The books have it under what finite steps do.
+//
+// Steps depend on the motion alone: on impulses, which are the motion's, not on which layers are active. At a window's
+// end gravity acts on all and forgets who was struck, so what it knows follows from the time.
+//
+// What this does not do: it knows of no certificates; who changes velocities has them looked at.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "integrator/books.h"
+#include "integrator/clocks.h"
+#include "integrator/kick.h"
+#include "integrator/model.h"
+
+namespace noli::integrator {
+
+template <class S, int Dim>
+class Falling {
+ public:
+  /// Nothing falls.
+  Falling() = default;
+
+  /// `masses`, `steps`: of all vertices, [kg] and h; infinity for what does not fall. They stay where they are.
+  /// `layer_steps`: h(1) of each material.
+  Falling(const Vec<S, Dim>& acceleration, std::span<const S> masses, std::span<const double> steps,
+          const std::vector<double>& layer_steps)
+      : acceleration_(acceleration), masses_(masses), steps_(steps), falls_(steps.size()) {
+    for (const double h : layer_steps) struck_.push_back({{h, 1}, {}});
+    for (VertexId i = 0; i < falls_.size(); ++i) falls_[i].own = first_own(i, 0);
+  }
+
+  bool empty() const { return falls_.empty(); }
+  bool falls(VertexId i) const { return steps_[i] < never; }
+  const Vec<S, Dim>& acceleration() const { return acceleration_; }
+  /// Precondition: gravity has acted on it at this time, or never.
+  double lead(VertexId i) const { return 0.5 * (falls_[i].until - falls_[i].since); }
+
+  /// A window that is to end then begins. Who was struck is forgotten.
+  void begin_window(double end) {
+    window_end_ = end;
+    for (Struck& struck : struck_) struck.vertices.clear();
+    for (Fall& fall : falls_) fall.struck = never;
+    next_struck_ = never;
+  }
+
+  /// As it is at time t > 0 when a window begins.
+  void resume(double t) {
+    for (VertexId i = 0; i < falls_.size(); ++i) {
+      falls_[i] = {t, t, first_own(i, t), never};
+      falls_[i].until = expected(falls_[i], t);
+    }
+  }
+
+  /// One of the times k h of a vertex is now; the next one is `next`.
+  void pass(VertexId i, double next) { falls_[i].own = next; }
+
+  /// Acts on a vertex that falls, and books it alone.
+  template <class Recorder>
+  void act(const Kicked<S, Dim, Recorder>& now, VertexId i, Account<S, Dim>& account) {
+    const S elapsed(advance(falls_[i], now.t));
+    if (elapsed == S(0)) return;
+    const Particle<S, Dim>& p = now.particles[i];
+    const Vec<S, Dim> x = p.at(now.t), v = p.v + elapsed * acceleration_;
+    const Vec<S, Dim> impulse = (masses_[i] * elapsed) * acceleration_;
+    account.work += S(0.5) * impulse.dot(Vec<S, Dim>(p.v + v));
+    account.impulse += impulse;
+    account.angular_impulse += moment<S, Dim>(x, impulse);
+    ++account.events;
+    set_velocity(now, i, x, v);
+  }
+
+  /// Acts on a vertex that a layer of this material has struck.
+  template <class Recorder>
+  void act_with_layer(const Kicked<S, Dim, Recorder>& now, VertexId i, std::uint16_t material,
+                      Account<S, Dim>& account) {
+    const bool moved = now.particles[i].t == now.t;  // the closest point may be an end of an edge
+    if (empty() || !moved || !falls(i)) return;
+    if (struck_[material].clock.step < steps_[i]) await(i, struck_[material], now.t);
+    act(now, i, account);
+  }
+
+  /// When gravity acts next on what was struck.
+  double next_struck() const { return next_struck_; }
+
+  /// Calls each(vertex) for those on which it is to act then; more than once for some.
+  template <class Each>
+  void take_struck(const Each& each) {
+    const double t = next_struck_;
+    for (Struck& struck : struck_) {
+      if (struck.vertices.empty() || struck.clock.time() != t) continue;
+      for (const VertexId i : struck.vertices) {
+        if (falls_[i].struck != t) continue;
+        falls_[i].struck = never;
+        each(i);
+      }
+      struck.vertices.clear();
+    }
+    next_struck_ = never;
+    for (const Struck& struck : struck_) {
+      if (!struck.vertices.empty()) next_struck_ = std::min(next_struck_, struck.clock.time());
+    }
+  }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  struct Fall {
+    double since = 0, until = 0;
+    double own = never;     ///< the next of the times k h
+    double struck = never;  ///< the time at which it is expected because of an impulse
+  };
+
+  /// Those that one material has struck, and the next time of its first layer.
+  struct Struck {
+    Clock clock;
+    std::vector<VertexId> vertices;  ///< some of them are not expected any more
+  };
+
+  double first_own(VertexId i, double t) const {
+    return falls(i) ? static_cast<double>(first_after(t, steps_[i])) * steps_[i] : never;
+  }
+
+  double expected(const Fall& fall, double t) const {
+    const double next = std::min(fall.own, fall.struck);
+    return window_end_ > t ? std::min(next, window_end_) : next;
+  }
+
+  /// Of an event at time t. Returns how long the kick is [s].
+  double advance(Fall& fall, double t) const {
+    const double lead = 0.5 * (fall.until - fall.since), elapsed = t - fall.since;
+    fall.since = t;
+    fall.until = expected(fall, t);
+    return (elapsed - lead) + 0.5 * (fall.until - t);
+  }
+
+  void await(VertexId i, Struck& struck, double t) {
+    if (struck.vertices.empty()) struck.clock.next = first_after(t, struck.clock.step);
+    const double next = struck.clock.time();
+    if (!(next < falls_[i].struck)) return;
+    falls_[i].struck = next;
+    struck.vertices.push_back(i);
+    next_struck_ = std::min(next_struck_, next);
+  }
+
+  Vec<S, Dim> acceleration_ = Vec<S, Dim>::Zero();
+  std::span<const S> masses_;
+  std::span<const double> steps_;  ///< h
+  std::vector<Fall> falls_;
+  std::vector<Struck> struck_;  ///< by material
+  double next_struck_ = never;
+  double window_end_ = 0;
+};
+
+}  // namespace noli::integrator

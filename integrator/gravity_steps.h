@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// With what gravity acts on each vertex: with the force of its shortest step, which carries it, or by itself.
+//
+// Notation: that of integrator/falling.h, and
+//   carried  of a vertex: the forces on it have a step that is not longer than gravity's
+//
+// What this does not do: it acts on nothing (integrator/falling.h does).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "integrator/groups.h"
+
+namespace noli::integrator {
+
+struct GravitySteps {
+  std::vector<double> steps;          ///< h of each vertex; infinity for what does not fall
+  std::vector<std::uint8_t> carried;  ///< by vertex
+};
+
+/// `held`: by vertex. `of_forces`: of each vertex, the shortest step of the forces on it; infinity if there are none.
+/// `longest`: gravity's step.
+inline GravitySteps gravity_steps(const std::vector<std::uint8_t>& held, std::vector<double> of_forces,
+                                  double longest) {
+  GravitySteps result{std::move(of_forces), std::vector<std::uint8_t>(held.size(), 0)};
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    double& h = result.steps[i];
+    result.carried[i] = held[i] == 0 && h <= longest;
+    h = held[i] != 0 ? std::numeric_limits<double>::infinity() : std::min(h, longest);
+  }
+  return result;
+}
+
+/// The vertices of equal steps, longest first. Those that are carried are left out where forces have clocks of their
+/// own: each of them brings gravity with it.
+inline std::vector<Group> gravity_groups(const GravitySteps& gravity, Clocks clocks) {
+  std::map<double, std::vector<VertexId>, std::greater<>> of_step;
+  for (std::size_t i = 0; i < gravity.steps.size(); ++i) {
+    const bool is_held = gravity.steps[i] == std::numeric_limits<double>::infinity();
+    if (is_held || (clocks == Clocks::own && gravity.carried[i] != 0)) continue;
+    of_step[gravity.steps[i]].push_back(static_cast<VertexId>(i));
+  }
+  std::vector<Group> groups;
+  for (auto& [step, vertices] : of_step) {
+    groups.push_back({ForceKind::gravity, {step, 1}, 0, vertices.size(), std::move(vertices)});
+  }
+  return groups;
+}
+
+/// Tells forces with clocks of their own, one after another, what they carry: of the forces that could carry a vertex
+/// it is the first one.
+class Carriers {
+ public:
+  explicit Carriers(const GravitySteps& gravity) : gravity_(gravity), left_(gravity.carried) {}
+
+  /// Bit k: the force carries vertex k.
+  template <class Vertices>
+  std::uint16_t take(const Vertices& vertices, double step) {
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < vertices.size() && !left_.empty(); ++k) {
+      std::uint8_t& waits = left_[vertices[k]];
+      if (waits == 0 || gravity_.steps[vertices[k]] != step) continue;
+      waits = 0;
+      bits |= 1U << k;
+    }
+    return static_cast<std::uint16_t>(bits);
+  }
+
+ private:
+  const GravitySteps& gravity_;
+  std::vector<std::uint8_t> left_;
+};
+
+}  // namespace noli::integrator

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// When gravity acts, and what its steps do to energies.
+#include "integrator/falling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "contact_models.h"
+#include "models.h"
+#include "running.h"
+
+namespace noli::integrator {
+namespace {
+
+using test::noise;
+using test::run;
+
+constexpr double g = 9.81;
+
+/// A sheet that shakes, with steps that are estimated.
+Model<double, 3> shaking_sheet(Clocks clocks) {
+  Model<double, 3> model = test::sheet({});
+  model.pinned = {0, 6};
+  model.clocks = clocks;
+  test::choose_steps(model, 0.5);
+  return model;
+}
+
+std::size_t breakpoints(const Model<double, 3>& model) {
+  Simulation<double, 3> simulation(model);
+  Recording<double, 3> recording;
+  Books<double, 3> books;
+  for (int w = 0; w < 3; ++w) simulation.run_window(recording, books);
+  return recording.stream().size();
+}
+
+TEST(Falling, RidesOnTheForcesOfAVertex) {
+  for (const Clocks clocks : {Clocks::grouped, Clocks::own}) {
+    Model<double, 3> model = shaking_sheet(clocks);
+    const std::size_t without = breakpoints(model);
+    model.gravity = Gravity<double, 3>{{0, 0, -g}, model.window_length};
+    EXPECT_EQ(breakpoints(model), without);
+    model.gravity->step = 1e-4;  // shorter than those of the forces
+    EXPECT_GT(breakpoints(model), 3 * without);
+  }
+}
+
+/// A pair at rest: its spring does nothing, but carries gravity. Windows end where no step does.
+Model<double, 2> falling_pair(Clocks clocks, double step) {
+  Model<double, 2> model = test::spring_pair<2>(1, 3, 100, 0, 0.0137);
+  model.v.assign(2, Vec<double, 2>(1, 2));
+  model.window_length = 0.05;
+  model.clocks = clocks;
+  model.gravity = Gravity<double, 2>{{0, -g}, step};
+  return model;
+}
+
+TEST(Falling, IsOnItsParabolaAtTheEndsOfWindowsWhateverTheSteps) {
+  for (const Clocks clocks : {Clocks::grouped, Clocks::own}) {
+    for (const double step : {0.05, 0.011}) {
+      Simulation<double, 2> simulation(falling_pair(clocks, step));
+      for (int w = 0; w < 40; ++w) {
+        run(simulation, 1);
+        const double t = simulation.time();
+        const auto x = simulation.snapshot().x;
+        const auto v = simulation.mean_velocities();
+        EXPECT_NEAR(x[0][1], 2 * t - g / 2 * t * t, 1e-12) << t;
+        EXPECT_NEAR(x[1][0], 1 + t, 1e-12);
+        EXPECT_NEAR(v[1][1], 2 - g * t, 1e-12);
+      }
+    }
+  }
+}
+
+/// A window that ends early cuts a step p after s: each time, what falls is left g s (p - s) / 2 too low.
+TEST(Falling, AnEarlyEndCostsLessThanItsStepSquared) {
+  Model<double, 2> model = falling_pair(Clocks::own, 0.05);
+  model.most_breakpoints = 7;
+  Simulation<double, 2> simulation(model);
+  Recording<double, 2> recording;
+  Books<double, 2> books;
+  int early = 0;
+  for (int w = 0; w < 40; ++w) {
+    recording.clear();
+    simulation.run_window(recording, books);
+    const double t = simulation.time(), windows = t / 0.05;
+    early += windows != std::round(windows) ? 1 : 0;
+    const double high = simulation.snapshot().x[0][1] - (2 * t - g / 2 * t * t);
+    EXPECT_LE(high, 1e-12);
+    EXPECT_GE(high, -g * 0.0137 * 0.0137 / 8 * early - 1e-12 - t * 1e-12);
+    EXPECT_NEAR(simulation.mean_velocities()[0][1], 2 - g * t, 1e-12);
+  }
+  EXPECT_GT(early, 5);
+}
+
+TEST(Falling, GoesOnFromASnapshotBitForBit) {
+  for (const Clocks clocks : {Clocks::grouped, Clocks::own}) {
+    Model<double, 3> model = shaking_sheet(clocks);
+    model.gravity = Gravity<double, 3>{{0, 0, -g}, 0.7 * model.window_length};
+    Simulation<double, 3> whole(model);
+    run(whole, 3);
+    Simulation<double, 3> resumed(model, whole.snapshot());
+    run(whole, 4);
+    run(resumed, 4);
+    test::expect_same(whole.snapshot(), resumed.snapshot());
+  }
+}
+
+// --- With contact ----------------------------------------------------------------------------------------------------
+
+constexpr double ball_thickness = 0.01, ball_stiffness = 1e7, layer_step = 0x1p-20;
+
+/// A ball of mass 1 above a floor. Layers are stiff and their steps so short that what is left of errors is gravity's.
+Model<double, 2> stiff_ball(double height, double speed, double step) {
+  Model<double, 2> model = test::with_contact(test::ball_and_floor(height, speed),
+                                              {ball_thickness, ball_stiffness, 0.1, /*restitution=*/1, 0});
+  model.contact->materials[0].step = layer_step;
+  model.window_length = 0x1p-4;
+  model.gravity = Gravity<double, 2>{{0, -g}, step};
+  return model;
+}
+
+bool is_multiple(double t, double step) { return std::floor(t / step) * step == t; }
+
+/// By itself gravity acts on the ball once in a while. An impulse has it act once more, at the next time of a first
+/// layer, however deep the layer was.
+TEST(Falling, ActsFinelyBehindImpulses) {
+  const double step = 0x1p-7;
+  Simulation<double, 2> simulation(stiff_ball(0.02, 1, step));
+  Recording<double, 2> recording;
+  Books<double, 2> books;
+  simulation.run_window(recording, books);
+  ASSERT_GT(books.of(ForceKind::contact).events, 100U);
+  std::vector<double> times;
+  for (const auto& b : recording.stream()) {
+    if (b.vertex == 0 && b.t > 0) times.push_back(b.t);
+  }
+  std::size_t own = 0, with_first_layers = 0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (is_multiple(times[k], step)) {
+      ++own;
+    } else if (is_multiple(times[k], layer_step)) {
+      ++with_first_layers;
+    } else {
+      ASSERT_LT(k + 1, times.size());
+      EXPECT_LE(times[k + 1], std::ceil(times[k] / layer_step) * layer_step) << "an impulse of a deep layer";
+    }
+  }
+  EXPECT_EQ(own, simulation.time() / step);
+  EXPECT_GT(with_first_layers, 50U);
+  EXPECT_TRUE(is_multiple(times.back(), step)) << "it has left";
+}
+
+/// K + V over m, per impact: what is derived in integrator/falling.h, m g^2 p^2 / 12 on average.
+TEST(Falling, AnImpactCostsAboutATwelfthOfGravitysStepSquared) {
+  const double step = 0x1p-6;  // in which it falls a small part of how much the heights differ
+  const int impacts = 2000;
+  double sum = 0, squares = 0;
+  for (int i = 0; i < impacts; ++i) {
+    const double height = 0.25 + 0.2 * noise(static_cast<std::uint64_t>(i));
+    Simulation<double, 2> simulation(stiff_ball(height, 3, step));
+    const double before = simulation.state().energy();
+    for (int w = 0; w < 2; ++w) run(simulation, 1);
+    ASSERT_GT(simulation.snapshot().x[0][1], ball_thickness);
+    ASSERT_GT(simulation.mean_velocities()[0][1], 0);
+    const double change = simulation.state().energy() - before;
+    sum += change;
+    squares += change * change;
+  }
+  const double mean = sum / impacts, error = std::sqrt((squares / impacts - mean * mean) / impacts);
+  const double theory = -g * g * step * step / 12;
+  std::printf("energy of an impact: %.3g J/kg (expected %.3g) +- %.2g\n", mean, theory, error);
+  EXPECT_LT(error, -theory / 10);
+  EXPECT_NEAR(mean, theory, 3 * error);
+}
+
+/// What lies on layers stays where it lies. At a window's end gravity forgets that it is struck, and the step that is
+/// cut then throws it g h p / 2 down.
+TEST(Falling, RestStaysRest) {
+  const double h = 0x1p-10, step = 0x1p-7, part = 0x1p-5;
+  Model<double, 2> model = stiff_ball((1 - part) * ball_thickness, 0, step);
+  model.contact->materials[0] = {ball_thickness, g / (part * ball_thickness), h, 1, 0};
+  Simulation<double, 2> simulation(model);
+  Books<double, 2> books;
+  double farthest = 0;
+  for (int w = 0; w < 128; ++w) {
+    books += run(simulation, 1);
+    farthest = std::max(farthest, std::abs(simulation.snapshot().x[0][1] - model.x[0][1]));
+  }
+  const double throws = g * h * step / 2;
+  std::printf("8 s at rest: at most %.2g of a throw away\n", farthest / throws);
+  EXPECT_GT(farthest, 0.1 * throws);
+  EXPECT_LT(farthest, 5 * throws);
+  EXPECT_EQ(books.of(ForceKind::contact).events, 8 / h + 1) << "the first layer, each time and at the start";
+}
+
+}  // namespace
+}  // namespace noli::integrator
