@@ -148,7 +148,7 @@ class Contact {
   double next_layer() const { return agenda_.empty() ? never : std::get<0>(*agenda_.begin()); }
 
   /// Fires the next layer; returns how many pairs it acted on. (How many it fired for is no property of the motion.)
-  /// Gravity acts on what it strikes.
+  /// Tells gravity what it strikes.
   template <class Recorder>
   std::size_t fire_next(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts,
                         Falling<double, Dim>& falling) {
@@ -319,7 +319,7 @@ class Contact {
       }
     }
     account.events += acted;
-    for (const VertexId i : struck_) falling.act_with_layer(now, i, material, books.of(ForceKind::gravity));
+    for (const VertexId i : struck_) falling.strike(now, i, material);
     certify(firing, material, l, t);
     return acted;
   }

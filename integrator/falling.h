@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gravity, which has no clock of its own where it can do without: it acts on a vertex together with what strikes the
-// vertex anyway.
+// Gravity, which has no clock of its own where it can do without: it acts on a vertex when its forces do.
 //
 // Notation
 //   h      of a vertex: the shortest step of the forces on it, or gravity's where that is shorter or there are none
+//   h(1)   step of the first layer of a material of contact
 //   since  when gravity acted last on a vertex
-//   until  when it is expected to act again: at the next of the times k h, at the window's end, or, behind an impulse
-//          of contact, at the next time at which the first layer of its material fires (h(1)), whichever comes first
+//   until  when it is expected to act again: at the next of the times k h, at the window's end, or, for as long as
+//          contact strikes the vertex, at the next of the times k h(1), whichever comes first
 //   lead   (until - since) / 2: from `since` on a vertex has the velocity of the time since + lead, with which it is on
 //          its parabola at `until`
 //
@@ -15,10 +15,10 @@
 // half of the one to come. With equal steps that is leapfrog; with any others too, what falls freely is on its parabola
 // whenever gravity acts as it was expected to.
 //
-// An impulse of contact comes when it likes. Gravity acts with it, so that the velocity is right from then on; but a
-// vertex that is struck s after `since`, in a step that was to take p, is g s (p - s) / 2 short of its parabola, and
-// has lost m g^2 s (p - s) / 2. For the first impulse that is m g^2 h^2 / 12 on average; for those that follow, p is
-// h(1) at most. The books have it under what finite steps do.
+// A first impulse comes when it likes, and cuts a step of p to s: the vertex is then g s (p - s) / 2 short of its
+// parabola, and has lost m g^2 s (p - s) / 2, that is m g^2 h^2 / 12 on average. The books have it under what finite
+// steps do. While impulses follow, steps are as they were expected. (Were gravity to act with each impulse, all steps
+// would be cut, all the same way: a ball that bounces with the speed v would win m v g h(1) / 2 each time.)
 //
 // Steps depend on the motion alone: on impulses, which are the motion's, not on which layers are active. At a window's
 // end gravity acts on all and forgets who was struck, so what it knows follows from the time.
@@ -30,6 +30,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "integrator/books.h"
@@ -64,14 +65,17 @@ class Falling {
   void begin_window(double end) {
     window_end_ = end;
     for (Struck& struck : struck_) struck.vertices.clear();
-    for (Fall& fall : falls_) fall.struck = never;
+    for (Fall& fall : falls_) {
+      fall.struck = never;
+      fall.is_struck = false;
+    }
     next_struck_ = never;
   }
 
   /// As it is at time t > 0 when a window begins.
   void resume(double t) {
     for (VertexId i = 0; i < falls_.size(); ++i) {
-      falls_[i] = {t, t, first_own(i, t), never};
+      falls_[i] = {t, t, first_own(i, t), never, false};
       falls_[i].until = expected(falls_[i], t);
     }
   }
@@ -94,31 +98,35 @@ class Falling {
     set_velocity(now, i, x, v);
   }
 
-  /// Acts on a vertex that a layer of this material has struck.
+  /// A layer of this material has given a pair an impulse, of which vertex i is part.
   template <class Recorder>
-  void act_with_layer(const Kicked<S, Dim, Recorder>& now, VertexId i, std::uint16_t material,
-                      Account<S, Dim>& account) {
+  void strike(const Kicked<S, Dim, Recorder>& now, VertexId i, std::uint16_t material) {
     const bool moved = now.particles[i].t == now.t;  // the closest point may be an end of an edge
-    if (empty() || !moved || !falls(i)) return;
-    if (struck_[material].clock.step < steps_[i]) await(i, struck_[material], now.t);
-    act(now, i, account);
+    if (empty() || !moved || !(struck_[material].clock.step < steps_[i])) return;
+    falls_[i].is_struck = true;
+    await(i, struck_[material], now.t);
   }
 
-  /// When gravity acts next on what was struck.
+  /// When gravity acts next on what is struck.
   double next_struck() const { return next_struck_; }
 
-  /// Calls each(vertex) for those on which it is to act then; more than once for some.
+  /// Calls each(vertex) for those on which it is to act then. What was struck since it did that last, is expected again
+  /// at the next time.
   template <class Each>
   void take_struck(const Each& each) {
     const double t = next_struck_;
     for (Struck& struck : struck_) {
       if (struck.vertices.empty() || struck.clock.time() != t) continue;
-      for (const VertexId i : struck.vertices) {
-        if (falls_[i].struck != t) continue;
-        falls_[i].struck = never;
+      taken_.clear();
+      taken_.swap(struck.vertices);
+      ++struck.clock.next;
+      for (const VertexId i : taken_) {
+        Fall& fall = falls_[i];
+        if (fall.struck != t) continue;
+        fall.struck = never;
+        if (std::exchange(fall.is_struck, false)) expect(i, struck);
         each(i);
       }
-      struck.vertices.clear();
     }
     next_struck_ = never;
     for (const Struck& struck : struck_) {
@@ -132,10 +140,11 @@ class Falling {
   struct Fall {
     double since = 0, until = 0;
     double own = never;     ///< the next of the times k h
-    double struck = never;  ///< the time at which it is expected because of an impulse
+    double struck = never;  ///< the next of the times k h(1), where it is expected because of impulses
+    bool is_struck = false;
   };
 
-  /// Those that one material has struck, and the next time of its first layer.
+  /// Those that one material strikes, and the next time of its first layer.
   struct Struck {
     Clock clock;
     std::vector<VertexId> vertices;  ///< some of them are not expected any more
@@ -160,18 +169,21 @@ class Falling {
 
   void await(VertexId i, Struck& struck, double t) {
     if (struck.vertices.empty()) struck.clock.next = first_after(t, struck.clock.step);
-    const double next = struck.clock.time();
-    if (!(next < falls_[i].struck)) return;
-    falls_[i].struck = next;
+    if (struck.clock.time() < falls_[i].struck) expect(i, struck);
+  }
+
+  void expect(VertexId i, Struck& struck) {
+    falls_[i].struck = struck.clock.time();
     struck.vertices.push_back(i);
-    next_struck_ = std::min(next_struck_, next);
+    next_struck_ = std::min(next_struck_, falls_[i].struck);
   }
 
   Vec<S, Dim> acceleration_ = Vec<S, Dim>::Zero();
   std::span<const S> masses_;
   std::span<const double> steps_;  ///< h
   std::vector<Fall> falls_;
-  std::vector<Struck> struck_;  ///< by material
+  std::vector<Struck> struck_;   ///< by material
+  std::vector<VertexId> taken_;  ///< for take_struck
   double next_struck_ = never;
   double window_end_ = 0;
 };

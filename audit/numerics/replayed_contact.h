@@ -70,9 +70,7 @@ class ReplayedContact {
         struck_.push_back(examined.pair.vertices[k]);
     }
     account.events += acted;
-    for (const VertexId i : struck_) {
-      falling.act_with_layer(now, i, firing.material, books.of(integrator::ForceKind::gravity));
-    }
+    for (const VertexId i : struck_) falling.strike(now, i, firing.material);
     struck_.clear();
     return acted;
   }
