@@ -129,7 +129,7 @@ class Cells {
   /// Of a slab's slack: below it, the slab is put up anew.
   static constexpr double worn = 0.3;
   /// Of the time to a wall: a plan ends there.
-  static constexpr double reach = 0.75;
+  static constexpr double reach = 0.9;
   /// Of a guard's radius, squared: farther out, a vertex is planned anew.
   static constexpr double well_inside = 0.5;
   /// Of the time in which a vertex leaves its guard: then it is looked at, and with this much it is not well inside.

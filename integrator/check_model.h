@@ -40,8 +40,11 @@ void check_model(const Model<S, Dim>& model) {
   for (const auto& s : model.scripts) {
     require(s.vertex < n && !s.times.empty() && s.times.size() == s.positions.size(), "model: a script is none");
   }
-  require(!model.gravity || model.gravity->step > 0, "model: gravity's step is not positive");
   std::apply([&](const auto&... list) { (detail::check_list(list, n), ...); }, model.forces.lists());
+  if (!model.gravity) return;
+  const double h = model.gravity->step;
+  require(h > 0 && std::isfinite(h), "model: gravity's step is not positive and finite");
+  require(model.gravity->step_without_forces > 0, "model: gravity's step without forces is not positive");
 }
 
 }  // namespace noli::integrator

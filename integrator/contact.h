@@ -319,7 +319,7 @@ class Contact {
       }
     }
     account.events += acted;
-    for (const VertexId i : struck_) falling.strike(now, i, material);
+    for (const VertexId i : struck_) falling.strike(i, material, t);
     certify(firing, material, l, t);
     return acted;
   }
@@ -359,7 +359,7 @@ class Contact {
     if (!blow.struck) return;
     for (std::size_t i = 0; i < pair.size(); ++i) {
       const VertexId v = pair.vertices[i];
-      if (is_struck_[v] || immovable(v)) continue;
+      if (is_struck_[v] || immovable(v) || approach.closest.weights[i] == 0) continue;
       is_struck_[v] = 1;
       struck_.push_back(v);
     }

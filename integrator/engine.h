@@ -125,13 +125,13 @@ class Engine {
     bool whole = false;
     try {
       whole = run_events(end, record, books, stop);
+      instant_.close(particles_, books);
+      if (whole) fall_at_end(end, record, books);
     } catch (const ContactLimit&) {
-      books.sum_contact();
+      close_books(books);
       throw;
     }
-    instant_.close(particles_, books);
-    if (whole) fall_at_end(end, record, books);
-    books.sum_contact();
+    close_books(books);
     if (!whole) return false;
     close(end, record);
     ++windows_;
@@ -220,7 +220,7 @@ class Engine {
 
   void make_falling(const Model<S, Dim>& model) {
     if (!model.gravity || model.gravity->acceleration == Vec<S, Dim>::Zero()) return;
-    gravity_steps_ = gravity_steps(held_vertices(model), shortest_steps(), model.gravity->step);
+    gravity_steps_ = steps_of_gravity(held_vertices(model), shortest_steps(), *model.gravity);
     std::vector<Group> groups = gravity_groups(gravity_steps_, clocks_);
     slots_.insert(slots_.begin(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
     std::vector<double> layer_steps;
@@ -302,7 +302,9 @@ class Engine {
   void start(Recorder& record, Books<S, Dim>& books) {
     const Now<Recorder> now = at<Recorder>(0, record);
     while (timeline_.next_time() <= 0) turn(now);
-    if (!falling_.empty()) fall(now, all_, books);
+    if (!falling_.empty()) {
+      fall(now, all_, books, [&](VertexId i, Account<S, Dim>& account) { falling_.act(now, i, account); });
+    }
     for (const Group& slot : slots_) {
       if (slot.kind != ForceKind::gravity) fire_slot(now, slot, S(0.5) * S(slot.clock.step), books);
     }
@@ -328,13 +330,14 @@ class Engine {
   template <class Recorder, class F>
   void start_own(const Now<Recorder>& now, const Division<F>& division, Books<S, Dim>& books) {
     for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
-      const DueForce half{now.t, 0.5 * division.list.steps[i], i, 0, 0};
+      const DueForce half{now.t, 0.5 * division.list.steps[i], i};
       fire_single(now.record, division, std::span(&half, 1), books);
     }
   }
 
   /// The next event, or the next few. False when there is none up to `end`. Of events of one time, breakpoints of
-  /// scripts come first, then certificates, forces and layers of contact.
+  /// scripts come first, then certificates, slots, gravity on what is struck, forces with clocks of their own, and
+  /// layers of contact.
   template <class Recorder>
   bool run_next(double end, Recorder& record, Books<S, Dim>& books) {
     if (due_ == nullptr) due_ = next_slot();
@@ -501,7 +504,7 @@ class Engine {
     } else {
       fire_single_as<false>(blows, account);
     }
-    if (!falling_.empty()) fall_with(record, division, firing, books);
+    if (!falling_.empty()) fall_with(record, division, firing);
     if (!contact_ || !contact_->started()) return;
     for (const DueForce& due : firing) {
       look(at<Recorder>(due.t, record), division.list.forces[due.force].vertices);
@@ -518,28 +521,32 @@ class Engine {
     }
   }
 
-  /// Gravity acts on many vertices. They outlive this time.
-  template <class Recorder>
-  void fall(const Now<Recorder>& now, std::span<const VertexId> vertices, Books<S, Dim>& books) {
+  // --- Gravity -------------------------------------------------------------------------------------------------------
+
+  /// On many vertices, which outlive this time, as part of its instant. `act(vertex, account)`: acts on one.
+  template <class Recorder, class Act>
+  void fall(const Now<Recorder>& now, std::span<const VertexId> vertices, Books<S, Dim>& books, const Act& act) {
     const PhaseScope kicking(*activity_, Phase::kick);
     now.record.reserve(vertices.size());
     Account<S, Dim> sum;
     const auto velocity = [&](VertexId i) -> const Vec<S, Dim>& { return particles_[i].v; };
     const auto fallen = [&](VertexId i) -> const Particle<S, Dim>& {
-      if (falling_.falls(i)) falling_.act(now, i, sum);
+      act(i, sum);
       return particles_[i];
     };
     instant_.template begin<false>(ForceKind::gravity, last_of(now.t), vertices, velocity);
     instant_.template end<false>(fallen);
     sum.work = S(0);  // the instant's
-    book_fall(sum, books);
+    book_fall(sum, books.of(ForceKind::gravity));
   }
 
-  /// What is carried, is looked at when its forces have fired, which they do at the same time.
+  /// What is carried, is looked at when its forces have fired, which they do at the same time. (A certificate of this
+  /// time may come between: it sees where things are and how they move now.)
   template <class Recorder>
   void fall_slot(const Now<Recorder>& now, const Group& slot, Books<S, Dim>& books) {
-    for (const VertexId i : slot.vertices) falling_.pass(i, slot.clock.time());
-    fall(now, slot.vertices, books);
+    const double next = slot.clock.time();
+    fall(now, slot.vertices, books,
+         [&](VertexId i, Account<S, Dim>& account) { falling_.act_at_own(now, i, next, account); });
     if (!contact_) return;
     const PhaseScope certifying(*activity_, Phase::certificate);
     for (const VertexId i : slot.vertices) {
@@ -547,32 +554,12 @@ class Engine {
     }
   }
 
-  /// On what contact has struck.
+  /// On what contact strikes.
   template <class Recorder>
   void fall_where_struck(const Now<Recorder>& now, Books<S, Dim>& books) {
-    Account<S, Dim> sum;
-    falling_.take_struck([&](VertexId i) {
-      now.record.reserve(1);
-      falling_.act(now, i, sum);
-      look(now, std::array{i});
-    });
-    book_fall(sum, books);
-  }
-
-  /// On what these forces carry.
-  template <class Recorder, class F>
-  void fall_with(Recorder& record, const Division<F>& division, std::span<const DueForce> firing,
-                 Books<S, Dim>& books) {
-    Account<S, Dim> sum;
-    record.reserve(F::size * firing.size());
-    for (const DueForce& due : firing) {
-      for (unsigned bits = due.carries; bits != 0; bits &= bits - 1) {
-        const VertexId i = division.list.forces[due.force].vertices[static_cast<unsigned>(std::countr_zero(bits))];
-        falling_.pass(i, due.next);
-        falling_.act(at<Recorder>(due.t, record), i, sum);
-      }
-    }
-    book_fall(sum, books);
+    struck_.clear();
+    falling_.take_struck([this](VertexId i) { struck_.push_back(i); });
+    fall_and_look(now, struck_, books);
   }
 
   /// On all, as at the end of every window: what gravity knows of vertices then follows from the time.
@@ -580,21 +567,49 @@ class Engine {
   void fall_at_end(double end, Recorder& record, Books<S, Dim>& books) {
     if (falling_.empty()) return;
     falling_.begin_window(window_end_after(end));
-    record.reserve(particles_.size());
-    const Now<Recorder> now = at<Recorder>(end, record);
-    Account<S, Dim> sum;
-    for (const VertexId i : all_) {
-      const std::uint64_t before = sum.events;
-      if (falling_.falls(i)) falling_.act(now, i, sum);
-      if (sum.events != before) look(now, std::array{i});
-    }
-    book_fall(sum, books);
+    fall_and_look(at<Recorder>(end, record), all_, books);
   }
 
-  void book_fall(const Account<S, Dim>& sum, Books<S, Dim>& books) {
-    events_ += sum.events;
-    books.of(ForceKind::gravity) += sum;
+  template <class Recorder>
+  void fall_and_look(const Now<Recorder>& now, std::span<const VertexId> vertices, Books<S, Dim>& books) {
+    const PhaseScope kicking(*activity_, Phase::kick);
+    now.record.reserve(vertices.size());
+    Account<S, Dim> sum;
+    moved_.clear();
+    for (const VertexId i : vertices) {
+      if (falling_.act(now, i, sum)) moved_.push_back(i);
+    }
+    book_fall(sum, books.of(ForceKind::gravity));
+    look(now, moved_);
   }
+
+  /// On what these forces carry. Booked by their kind until the window's end: rows may be longer or shorter, and sums
+  /// must not depend on that.
+  template <class Recorder, class F>
+  void fall_with(Recorder& record, const Division<F>& division, std::span<const DueForce> firing) {
+    Account<S, Dim>& account = carried_books_[static_cast<std::size_t>(F::kind)];
+    const std::uint64_t before = account.events;
+    record.reserve(F::size * firing.size());
+    for (const DueForce& due : firing) {
+      for (unsigned bits = due.carries; bits != 0; bits &= bits - 1) {
+        const VertexId i = division.list.forces[due.force].vertices[static_cast<unsigned>(std::countr_zero(bits))];
+        falling_.act_at_own(at<Recorder>(due.t, record), i, due.next, account);
+      }
+    }
+    events_ += account.events - before;
+  }
+
+  void book_fall(const Account<S, Dim>& sum, Account<S, Dim>& account) {
+    events_ += sum.events;
+    account += sum;
+  }
+
+  void close_books(Books<S, Dim>& books) {
+    for (Account<S, Dim>& account : carried_books_) books.of(ForceKind::gravity) += std::exchange(account, {});
+    books.sum_contact();
+  }
+
+  // --- Ends of windows -----------------------------------------------------------------------------------------------
 
   template <class Recorder>
   void open(Recorder& record) {
@@ -635,10 +650,12 @@ class Engine {
   std::vector<Particle<S, Dim>> particles_;
   std::vector<typename ScriptBook<S, Dim>::ScriptedVertex> scripted_;  ///< by vertex; none without scripts
   std::size_t material_count_ = 0, script_count_ = 0;
-  ScriptBook<S, Dim> script_book_;  ///< of the window that runs
-  Instant<S, Dim> instant_;         ///< of the groups that strike now
-  std::vector<VertexId> all_;       ///< vertices
-  GravitySteps gravity_steps_;      ///< nothing without gravity
+  ScriptBook<S, Dim> script_book_;                          ///< of the window that runs
+  Instant<S, Dim> instant_;                                 ///< of the groups that strike now
+  std::vector<VertexId> all_;                               ///< vertices
+  GravitySteps gravity_steps_;                              ///< nothing without gravity
+  std::vector<VertexId> struck_, moved_;                    ///< for fall_where_struck, fall_and_look
+  std::array<Account<S, Dim>, force_kinds> carried_books_;  ///< of the window, by kind of who carries
   Falling<S, Dim> falling_;
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;

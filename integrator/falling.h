@@ -7,7 +7,7 @@
 //   h(1)   step of the first layer of a material of contact
 //   since  when gravity acted last on a vertex
 //   until  when it is expected to act again: at the next of the times k h, at the window's end, or, for as long as
-//          contact strikes the vertex, at the next of the times k h(1), whichever comes first
+//          contact strikes the vertex and if h(1) is less than h, at the next of the times k h(1), whichever comes first
 //   lead   (until - since) / 2: from `since` on a vertex has the velocity of the time since + lead, with which it is on
 //          its parabola at `until`
 //
@@ -20,8 +20,9 @@
 // steps do. While impulses follow, steps are as they were expected. (Were gravity to act with each impulse, all steps
 // would be cut, all the same way: a ball that bounces with the speed v would win m v g h(1) / 2 each time.)
 //
-// Steps depend on the motion alone: on impulses, which are the motion's, not on which layers are active. At a window's
-// end gravity acts on all and forgets who was struck, so what it knows follows from the time.
+// Steps depend on the motion alone: on impulses, which are the motion's, not on which layers are active; so in numbers
+// of other precisions too they follow from each run's own impulses. At a window's end gravity acts on all and forgets
+// who was struck, so what it knows follows from the time.
 //
 // What this does not do: it knows of no certificates; who changes velocities has them looked at.
 #pragma once
@@ -80,31 +81,24 @@ class Falling {
     }
   }
 
-  /// One of the times k h of a vertex is now; the next one is `next`.
-  void pass(VertexId i, double next) { falls_[i].own = next; }
-
-  /// Acts on a vertex that falls, and books it alone.
+  /// Acts on a vertex, if it falls, and books it alone. Says whether the velocity has changed.
   template <class Recorder>
-  void act(const Kicked<S, Dim, Recorder>& now, VertexId i, Account<S, Dim>& account) {
-    const S elapsed(advance(falls_[i], now.t));
-    if (elapsed == S(0)) return;
-    const Particle<S, Dim>& p = now.particles[i];
-    const Vec<S, Dim> x = p.at(now.t), v = p.v + elapsed * acceleration_;
-    const Vec<S, Dim> impulse = (masses_[i] * elapsed) * acceleration_;
-    account.work += S(0.5) * impulse.dot(Vec<S, Dim>(p.v + v));
-    account.impulse += impulse;
-    account.angular_impulse += moment<S, Dim>(x, impulse);
-    ++account.events;
-    set_velocity(now, i, x, v);
+  bool act(const Kicked<S, Dim, Recorder>& now, VertexId i, Account<S, Dim>& account) {
+    return falls(i) && act_for(advance(falls_[i], now.t), now, i, account);
   }
 
-  /// A layer of this material has given a pair an impulse, of which vertex i is part.
+  /// The same at one of the times k h; the next one is `next`. Precondition: it falls.
   template <class Recorder>
-  void strike(const Kicked<S, Dim, Recorder>& now, VertexId i, std::uint16_t material) {
-    const bool moved = now.particles[i].t == now.t;  // the closest point may be an end of an edge
-    if (empty() || !moved || !(struck_[material].clock.step < steps_[i])) return;
+  bool act_at_own(const Kicked<S, Dim, Recorder>& now, VertexId i, double next, Account<S, Dim>& account) {
+    falls_[i].own = next;
+    return act_for(advance(falls_[i], now.t), now, i, account);
+  }
+
+  /// A layer of this material has given a vertex an impulse at time t.
+  void strike(VertexId i, std::uint16_t material, double t) {
+    if (empty() || !falls(i) || !(struck_[material].clock.step < steps_[i])) return;
     falls_[i].is_struck = true;
-    await(i, struck_[material], now.t);
+    await(i, struck_[material], t);
   }
 
   /// When gravity acts next on what is struck.
@@ -160,11 +154,25 @@ class Falling {
   }
 
   /// Of an event at time t. Returns how long the kick is [s].
-  double advance(Fall& fall, double t) const {
-    const double lead = 0.5 * (fall.until - fall.since), elapsed = t - fall.since;
+  S advance(Fall& fall, double t) const {
+    const S lead = S(0.5) * (S(fall.until) - S(fall.since)), elapsed = S(t) - S(fall.since);
     fall.since = t;
     fall.until = expected(fall, t);
-    return (elapsed - lead) + 0.5 * (fall.until - t);
+    return (elapsed - lead) + S(0.5) * (S(fall.until) - S(t));
+  }
+
+  template <class Recorder>
+  bool act_for(const S& duration, const Kicked<S, Dim, Recorder>& now, VertexId i, Account<S, Dim>& account) const {
+    if (duration == S(0)) return false;
+    const Particle<S, Dim>& p = now.particles[i];
+    const Vec<S, Dim> x = p.at(now.t), v = p.v + duration * acceleration_;
+    const Vec<S, Dim> impulse = (masses_[i] * duration) * acceleration_;
+    account.work += S(0.5) * impulse.dot(Vec<S, Dim>(p.v + v));
+    account.impulse += impulse;
+    account.angular_impulse += moment<S, Dim>(x, impulse);
+    ++account.events;
+    set_velocity(now, i, x, v);
+    return true;
   }
 
   void await(VertexId i, Struck& struck, double t) {

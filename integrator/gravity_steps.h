@@ -26,14 +26,16 @@ struct GravitySteps {
 };
 
 /// `held`: by vertex. `of_forces`: of each vertex, the shortest step of the forces on it; infinity if there are none.
-/// `longest`: gravity's step.
-inline GravitySteps gravity_steps(const std::vector<std::uint8_t>& held, std::vector<double> of_forces,
-                                  double longest) {
+template <class S, int Dim>
+GravitySteps steps_of_gravity(const std::vector<std::uint8_t>& held, std::vector<double> of_forces,
+                              const Gravity<S, Dim>& gravity) {
+  constexpr double none = std::numeric_limits<double>::infinity();
   GravitySteps result{std::move(of_forces), std::vector<std::uint8_t>(held.size(), 0)};
   for (std::size_t i = 0; i < held.size(); ++i) {
     double& h = result.steps[i];
+    const double longest = h == none ? std::min(gravity.step, gravity.step_without_forces) : gravity.step;
     result.carried[i] = held[i] == 0 && h <= longest;
-    h = held[i] != 0 ? std::numeric_limits<double>::infinity() : std::min(h, longest);
+    h = held[i] != 0 ? none : std::min(h, longest);
   }
   return result;
 }

@@ -151,8 +151,8 @@ struct GroupBlows {
 struct DueForce {
   double t, h;
   std::size_t force;
-  std::uint16_t carries;  ///< bit k: gravity acts on vertex k with it
-  double next;            ///< when it is due again
+  std::uint16_t carries = 0;  ///< bit k: gravity acts on vertex k with it
+  double next = 0;            ///< when it is due again
 };
 
 /// Forces without a vertex in common.

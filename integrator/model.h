@@ -57,6 +57,8 @@ template <class S, int Dim>
 struct Gravity {
   Vec<S, Dim> acceleration;  ///< [m/s^2]
   double step = 0;           ///< the longest [s]; on a vertex, that of the forces on it where it is shorter
+  /// The longest where no force acts [s].
+  double step_without_forces = std::numeric_limits<double>::infinity();
 };
 
 template <class S, int Dim>

@@ -27,7 +27,10 @@ double least_step(integrator::Model<double, Dim>& model) {
   for_each_list(model, [&](auto& list) {
     for (const double h : list.steps) least = std::min(least, h);
   });
-  if (std::isinf(least)) least = model.gravity ? model.gravity->step : model.window_length;
+  if (std::isinf(least)) {
+    least = model.window_length;
+    if (model.gravity) least = std::min({least, model.gravity->step, model.gravity->step_without_forces});
+  }
   return std::ldexp(model.window_length, -integrator::step_exponent(least, model.window_length));
 }
 
@@ -35,7 +38,7 @@ double least_step(integrator::Model<double, Dim>& model) {
 template <int Dim>
 void set_steps(integrator::Model<double, Dim>& model, double step) {
   for_each_list(model, [step](auto& list) { std::fill(list.steps.begin(), list.steps.end(), step); });
-  if (model.gravity) model.gravity->step = step;
+  if (model.gravity) model.gravity->step = model.gravity->step_without_forces = step;
   if (!model.contact || model.contact->materials.empty()) return;
   double least = model.contact->materials.front().step;
   for (const auto& m : model.contact->materials) least = std::min(least, m.step);
@@ -48,7 +51,10 @@ void scale_steps(integrator::Model<double, Dim>& model, double factor) {
   for_each_list(model, [factor](auto& list) {
     for (double& h : list.steps) h *= factor;
   });
-  if (model.gravity) model.gravity->step *= factor;
+  if (model.gravity) {
+    model.gravity->step *= factor;
+    model.gravity->step_without_forces *= factor;
+  }
   if (!model.contact) return;
   for (auto& m : model.contact->materials) m.step *= factor;
 }

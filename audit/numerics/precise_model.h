@@ -63,7 +63,9 @@ integrator::Model<MpfrNumber, Dim> precise(const integrator::Model<double, Dim>&
   for (const auto& script : model.scripts) {
     result.scripts.push_back({script.vertex, script.times, precise(script.positions), script.number});
   }
-  if (model.gravity) result.gravity = {precise(model.gravity->acceleration), model.gravity->step};
+  if (model.gravity) {
+    result.gravity = {precise(model.gravity->acceleration), model.gravity->step, model.gravity->step_without_forces};
+  }
   const auto copy = [](const auto& from, auto& to) {
     to.forces.reserve(from.forces.size());
     for (const auto& force : from.forces) to.forces.push_back(precise(force));

@@ -66,11 +66,12 @@ class ReplayedContact {
       const auto blow = integrator::strike_pair(now, examined.pair, approach, firing.terms, firing.h, account);
       record.examined(examined.pair, approach.with_corners(blow.course));
       if (blow.course.acts) ++acted;
-      for (std::size_t k = 0; blow.struck && k < examined.pair.size(); ++k)
-        struck_.push_back(examined.pair.vertices[k]);
+      for (std::size_t k = 0; blow.struck && k < examined.pair.size(); ++k) {
+        if (approach.closest.weights[k] != S(0)) struck_.push_back(examined.pair.vertices[k]);
+      }
     }
     account.events += acted;
-    for (const VertexId i : struck_) falling.strike(now, i, firing.material);
+    for (const VertexId i : struck_) falling.strike(i, firing.material, firing.time);
     struck_.clear();
     return acted;
   }

@@ -124,9 +124,25 @@ ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std
 template <int Dim>
 void add_gravity(const Scene& scene, Model<double, Dim>& model) {
   if (scene.gravity == Position{}) return;
-  double step = scene.gravity_step.value_or(scene.window / 16);
-  if (scene.steps == Clocks::grouped) step = std::ldexp(scene.window, -step_exponent(step, scene.window));
-  model.gravity = {cut<Dim>(to_vec(scene.gravity)), step};
+  model.gravity = Gravity<double, Dim>{cut<Dim>(to_vec(scene.gravity)), scene.gravity_step.value_or(scene.window / 16)};
+}
+
+/// What has forces falls with their steps. What has none strikes others in the middle of a step of gravity each time,
+/// and would lose by a long one (integrator/falling.h).
+template <int Dim>
+void choose_gravity_steps(const Scene& scene, Model<double, Dim>& model) {
+  if (!model.gravity) return;
+  Gravity<double, Dim>& gravity = *model.gravity;
+  gravity.step_without_forces = gravity.step;
+  if (model.contact && !scene.gravity_step) {
+    for (const ContactMaterial& m : model.contact->materials) {
+      gravity.step_without_forces = std::min(gravity.step_without_forces, m.step);
+    }
+  }
+  if (scene.steps == Clocks::own) return;
+  for (double* const step : {&gravity.step, &gravity.step_without_forces}) {
+    *step = std::ldexp(scene.window, -step_exponent(*step, scene.window));
+  }
 }
 
 /// Bounds the memory for breakpoints. Large meshes get room for a few at each vertex.
@@ -248,6 +264,7 @@ BuiltScene<Dim> build_model(const Scene& scene) {
   (std::make_index_sequence<std::tuple_size_v<decltype(lists)>>());
   add_gravity(scene, model);
   add_contact(scene, meshes, inverse_mass, result);
+  choose_gravity_steps(scene, model);
   limit_breakpoints(scene, model);
   return result;
 }

@@ -4,10 +4,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
 
+#include "integrator/gravity_steps.h"
 #include "integrator/groups.h"
 #include "integrator/scene/scene.h"
 #include "trajectory/stop.h"
@@ -129,26 +131,22 @@ void add_groups(ForceKind kind, const std::vector<double>& steps, Clocks clocks,
   }
 }
 
-/// Of each vertex that falls, how often gravity acts on it at least (integrator/falling.h).
-template <int Dim>
-std::vector<double> gravity_steps(const Model<double, Dim>& model, const AtVertices<Dim>& at) {
-  std::vector<double> steps;
-  for (std::size_t v = 0; v < at.pulls.size(); ++v) {
-    if (at.held[v]) continue;
-    double step = model.gravity->step;
-    for (const Pull<Dim>& pull : at.pulls[v]) step = std::min(step, pull.force_step.second);
-    steps.push_back(step);
-  }
-  return steps;
-}
-
-/// Gravity acts at the ends of windows too; with groups that is one of its times.
+/// Gravity acts at the ends of windows too, where these are no times of its steps.
 template <int Dim>
 void add_gravity_groups(const Model<double, Dim>& model, const AtVertices<Dim>& at, Explanation& explanation) {
-  const std::vector<double> steps = gravity_steps(model, at);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<double> of_forces(at.pulls.size(), never), steps;
+  for (std::size_t v = 0; v < of_forces.size(); ++v) {
+    for (const Pull<Dim>& pull : at.pulls[v]) of_forces[v] = std::min(of_forces[v], pull.force_step.second);
+  }
+  double at_ends = 0;
+  for (const double h : steps_of_gravity(at.held, std::move(of_forces), *model.gravity).steps) {
+    if (h == never) continue;
+    steps.push_back(h);
+    if (std::round(model.window_length / h) * h != model.window_length) at_ends += 1 / model.window_length;
+  }
+  if (steps.empty()) return;
   add_groups(ForceKind::gravity, steps, model.clocks, explanation);
-  if (model.clocks == Clocks::grouped || steps.empty()) return;
-  const double at_ends = static_cast<double>(steps.size()) / model.window_length;
   explanation.groups.back().events += at_ends;
   explanation.events += at_ends;
 }
@@ -160,8 +158,9 @@ double rate(const std::vector<Pull<Dim>>& pulls, const Model<double, Dim>& model
   std::set<double> steps{model.window_length};
   for (const Pull<Dim>& pull : pulls) steps.insert(pull.force_step.second);
   if (model.gravity) {
-    const bool rides = !pulls.empty() && *steps.begin() <= model.gravity->step;
-    if (!rides) steps.insert(model.gravity->step);
+    const bool carried = !pulls.empty() && *steps.begin() <= model.gravity->step;
+    const double longest = pulls.empty() ? model.gravity->step_without_forces : model.gravity->step;
+    if (!carried) steps.insert(std::min(model.gravity->step, longest));
   }
   if (model.clocks == Clocks::grouped) return 1 / *steps.begin();
   double sum = 0;

@@ -102,6 +102,19 @@ TEST(PrecisionAudit, FiftyThreeBitsAreDoubleWithContactInThePlane) {
   expect_same(audit(discs(), 10, {hardware_double}));
 }
 
+/// What holds still is struck from the start, and gravity acts on it in neither run.
+TEST(PrecisionAudit, FiftyThreeBitsAreDoubleWhereARunBeginsInContact) {
+  const Scene scene = written(
+      R"({"mesh": {"points": {"at": [[0, 0.09]]}}, "material": {"edge_stiffness": 0, "mass_per_vertex": 1}},
+         {"mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}}, "pin": ["all"],
+          "material": {"edge_stiffness": 0, "mass_per_length": 1}})",
+      R"("dimension": 2, "duration": 0.1, "window": 0.01, "gravity": [0, -9.8],
+         "contact": {"thickness": 0.1, "stiffness": 1000})");
+  const PrecisionOutcome outcome = audit(scene, 10, {hardware_double});
+  expect_same(outcome);
+  EXPECT_GT(outcome.impulses, 50U);
+}
+
 TEST(PrecisionAudit, FiftyThreeBitsAreDoubleWithContactInSpace) {
   for (const char* const steps : {"grouped", "own"}) {
     const PrecisionOutcome outcome = audit(falling_sheet(steps), 8, {hardware_double});

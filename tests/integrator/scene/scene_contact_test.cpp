@@ -102,6 +102,23 @@ TEST(SceneContact, NeedsTheFourthPowersOfLengths) {
   }
 }
 
+TEST(SceneContact, WhatHasNoForcesFallsWithStepsNoLongerThanThoseOfAFirstLayerUnlessTheyAreSaid) {
+  Json scene = changed(sheet(), "/gravity", Json{0, 0, -10});
+  const auto gravity = [&scene] { return *built(scene).model.gravity; };
+  const double step = gravity().step;
+  EXPECT_EQ(gravity().step_without_forces, step);
+  scene["contact"] = {{"step", step / 5}, {"stiffness", 1}};
+  EXPECT_EQ(gravity().step_without_forces, step / 8) << "groups have powers of two";
+  EXPECT_EQ(gravity().step, step);
+  scene["steps"] = "own";
+  EXPECT_EQ(gravity().step_without_forces, step / 5);
+  scene["contact"]["step"] = step * 4;
+  EXPECT_EQ(gravity().step_without_forces, step);
+  scene["contact"]["step"] = step / 5;
+  scene["gravity_step"] = step;
+  EXPECT_EQ(gravity().step_without_forces, step);
+}
+
 TEST(SceneContact, InThePlaneTheLengthOfEdgesBounds) {
   const Json scene = changed(loop(), "/contact", Json::object());
   EXPECT_NEAR(settings<2>(scene).materials[0].thickness, std::sin(std::numbers::pi / 8) / 4, 1e-15);
