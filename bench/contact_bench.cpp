@@ -4,8 +4,6 @@
 // without them; Algorithm 1 read literally (tests/support/every_pair.h) against cells; an impulse of a layer, with all
 // that follows from it; and stacks of ten sheets that fall onto each other and onto a pinned one, larger and larger.
 //
-// Gravity steps with the sheets, not with the layers, which would have it make up most of all events.
-//
 // Each pair of runs is of the same scene over the same windows, in turn, median of the passes.
 #include <fmt/format.h>
 
@@ -45,7 +43,6 @@ Model sheets(int cells, int count, double edges_apart, bool fall) {
                                  "", R"(, "pin": ["all"])");
   }
   const std::string text = fmt::format(R"({{"noli_scene": 1, "duration": 1, "window": 0.01, "gravity": [0, 0, -9.81],
-    "gravity_step": 6.25e-4,
     "bodies": [{}], "contact": {{"thickness": 0.0015, "stiffness": 50}}}})",
                                        bodies);
   return integrator::build_model<3>(integrator::parse_scene(text, "bench")).model;

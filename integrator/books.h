@@ -3,8 +3,9 @@
 // Who did how much work: the energy and momentum books of a window.
 //
 // Notation
-//   event  all groups of forces that strike at one time (integrator/instant.h); a force with a clock of its own; or a
-//          layer of contact, for one pair: all its impulses, those of a potential and those that take energy
+//   event  all groups of forces that strike at one time (integrator/instant.h); a force with a clock of its own;
+//          gravity on one vertex, where it acts without a group; or a layer of contact, for one pair: all its
+//          impulses, those of a potential and those that take energy
 //   J      an impulse of an event on a particle [N s]; v, v' the particle's velocities before and after the event
 //   work   J . (v + v') / 2. That of all impulses of an event is the change of kinetic energy, whatever their size; it
 //          is never a difference of energies, which would lose the digits that matter

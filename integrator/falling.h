@@ -7,7 +7,7 @@
 //   h(1)   step of the first layer of a material of contact
 //   since  when gravity acted last on a vertex
 //   until  when it is expected to act again: at the next of the times k h, at the window's end, or, for as long as
-//          contact strikes the vertex and if h(1) is less than h, at the next of the times k h(1), whichever comes first
+//          contact strikes the vertex and if h(1) is less than h, at the next of the times k h(1), whichever is first
 //   lead   (until - since) / 2: from `since` on a vertex has the velocity of the time since + lead, with which it is on
 //          its parabola at `until`
 //

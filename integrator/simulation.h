@@ -6,7 +6,8 @@
 //
 // Notation
 //   event    (time, kind, number), in ascending order; kinds: scripts, then forces as in ForceKind, then a window's
-//            end.
+//            end. Gravity acts with forces, on what contact strikes behind them, and at a window's end
+//            (integrator/falling.h).
 //            All impulses of one time act on the positions of that time
 //   kick     a force's impulse -h grad V on the velocities; at time 0 half of one, so that the scheme is of second
 //            order from the start

@@ -2,8 +2,9 @@
 //
 // What a window of a run in double did, so that a run in other numbers can do the same in the same order.
 //
-// Forces, gravity and scripts need no log: their times follow from their steps, whatever the numbers. Contact does:
-// which pairs a layer fires for depends on where things are.
+// Forces and scripts need no log: their times follow from their steps, whatever the numbers. Nor does gravity: its
+// times follow from those of forces and from the run's own impulses. Contact does: which pairs a layer fires for
+// depends on where things are.
 //
 // What this does not do: pairs that no certificate brought to the layers are not in it.
 #pragma once
