@@ -97,8 +97,8 @@ TEST(WildContact, NothingTouches) {
   try_scenes<3>(std::span(test::wild_seeds_3d).first(12));
   try_scenes<2>(std::span(test::wild_seeds_2d).first(12));
 }
-TEST(WildContact, SlowNothingTouchesInAHundredAndTwentyScenesInSpace) { try_scenes<3>(test::wild_seeds_3d); }
-TEST(WildContact, SlowNothingTouchesInEightyScenesInThePlane) { try_scenes<2>(test::wild_seeds_2d); }
+TEST(WildContact, SlowNothingTouchesInTwoHundredScenesInSpace) { try_scenes<3>(test::wild_seeds_3d); }
+TEST(WildContact, SlowNothingTouchesInTwoHundredScenesInThePlane) { try_scenes<2>(test::wild_seeds_2d); }
 
 }  // namespace
 }  // namespace noli::integrator

@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <vector>
 
 #include "contact_models.h"
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
 #include "models.h"
 #include "running.h"
 
@@ -221,6 +224,53 @@ TEST(Falling, RestStaysRest) {
   EXPECT_GT(farthest, 0.1 * throws);
   EXPECT_LT(farthest, 5 * throws);
   EXPECT_EQ(books.of(ForceKind::contact).events, 8 / h + 1) << "the first layer, each time and at the start";
+}
+
+/// A ring, points and a floor, with several stiffnesses of contact and so several h(1); windows end early, in the middle of
+/// everything.
+Model<double, 2> several_materials(const std::string& steps) {
+  const std::string text = R"({
+    "noli_scene": 1, "dimension": 2, "duration": 1, "window": 0.011, "gravity": [0.3, -9.8],
+    "most_breakpoints": 150, "steps": ")" +
+                           steps + R"(",
+    "bodies": [
+      {"name": "ring", "mesh": {"ring": {"radius": 0.05, "segments": 6}}, "velocity": [0.2, -1],
+       "transform": {"translate": [0, 0.08]},
+       "material": {"edge_stiffness": 300, "bending_stiffness": 0.001, "mass_per_vertex": 0.001}},
+      {"name": "balls", "mesh": {"points": {"at": [[0, 0.16], [0.12, 0.03]]}}, "velocity": [0, -1],
+       "material": {"edge_stiffness": 0, "mass_per_vertex": 0.002}},
+      {"name": "floor", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 1}}, "pin": ["all"],
+       "material": {"edge_stiffness": 0, "mass_per_length": 1}}],
+    "contact": {"thickness": 0.01, "stiffness": 300, "restitution": 0.5, "friction": 0.3,
+      "pairs": [{"bodies": ["balls", "floor"], "stiffness": 90}, {"bodies": ["balls", "ring"], "stiffness": 1000}]}})";
+  return build_model<2>(parse_scene(text, "scene.json")).model;
+}
+
+TEST(Falling, GoesOnBitForBitWhereSeveralMaterialsStrike) {
+  for (const char* const steps : {"grouped", "own"}) {
+    const Model<double, 2> model = several_materials(steps);
+    ASSERT_GE(model.contact->materials.size(), 3U);
+    Simulation<double, 2> whole(model);
+    Recording<double, 2> recording;
+    Books<double, 2> books;
+    int early = 0;
+    for (int w = 0; w < 60; ++w) {
+      const Snapshot<double, 2> before = whole.snapshot();
+      recording.clear();
+      whole.run_window(recording, books);
+      const double windows = whole.time() / model.window_length;
+      early += windows != std::round(windows) ? 1 : 0;
+      if (w == 0) continue;
+      Simulation<double, 2> resumed(model, before);
+      recording.clear();
+      Books<double, 2> again;
+      resumed.run_window(recording, again);
+      ASSERT_EQ(resumed.time(), whole.time());
+      ASSERT_NO_FATAL_FAILURE(test::expect_same(whole.snapshot(), resumed.snapshot())) << steps << " " << w;
+    }
+    EXPECT_GT(early, 20);
+    EXPECT_GT(books.of(ForceKind::contact).events, 500U);
+  }
 }
 
 }  // namespace

