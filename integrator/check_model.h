@@ -38,7 +38,8 @@ void check_model(const Model<S, Dim>& model) {
   for (const S& m : model.mass) require(m > S(0), "model: a mass is not positive");
   for (const VertexId v : model.pinned) require(v < n, "model: a pinned vertex is out of range");
   for (const auto& s : model.scripts) {
-    require(s.vertex < n && !s.times.empty() && s.times.size() == s.positions.size(), "model: a script is none");
+    require(s.vertex < n && !s.times.empty() && s.times.size() == s.positions.size(),
+            "model: a script's vertex is out of range, or its times and positions do not match");
   }
   std::apply([&](const auto&... list) { (detail::check_list(list, n), ...); }, model.forces.lists());
   if (!model.gravity) return;

@@ -3,7 +3,7 @@
 // Gravity, which has no clock of its own where it can do without: it acts on a vertex when its forces do.
 //
 // Notation
-//   h      of a vertex: the shortest step of the forces on it, or gravity's where that is shorter or there are none
+//   h      step of gravity at a vertex: the shortest step of the forces on it, but at most gravity's own step
 //   h(1)   step of the first layer of a material of contact
 //   since  when gravity acted last on a vertex
 //   until  when it is expected to act again: at the next of the times k h, at the window's end, or, for as long as

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// With what gravity acts on each vertex: with the force of its shortest step, which carries it, or by itself.
+// Chooses how gravity acts on each vertex: with the force of the shortest step there, which carries it, or by itself.
 //
 // Notation: that of integrator/falling.h, and
-//   carried  of a vertex: the forces on it have a step that is not longer than gravity's
+//   carried  the shortest step of the forces on the vertex is at most gravity's own
 //
 // What this does not do: it acts on nothing (integrator/falling.h does).
 #pragma once
@@ -25,7 +25,7 @@ struct GravitySteps {
   std::vector<std::uint8_t> carried;  ///< by vertex
 };
 
-/// `held`: by vertex. `of_forces`: of each vertex, the shortest step of the forces on it; infinity if there are none.
+/// `held` and `of_forces` are by vertex. `of_forces` is the shortest step of the forces on it, infinity without forces.
 template <class S, int Dim>
 GravitySteps steps_of_gravity(const std::vector<std::uint8_t>& held, std::vector<double> of_forces,
                               const Gravity<S, Dim>& gravity) {
