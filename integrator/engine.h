@@ -12,7 +12,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <iterator>
 #include <limits>
 #include <span>
@@ -21,8 +20,7 @@
 
 #include "integrator/check_model.h"
 #include "integrator/contact.h"
-#include "integrator/falling.h"
-#include "integrator/gravity_steps.h"
+#include "integrator/gravity_events.h"
 #include "integrator/groups.h"
 #include "integrator/kick.h"
 #include "integrator/own_clocks.h"
@@ -67,7 +65,7 @@ class Engine {
     make_particles(model);
     make_scripted(model);
     take_forces(model);
-    make_falling(model);
+    make_gravity(model);
     make_own_clocks();
     make_contact(model);
   }
@@ -83,8 +81,8 @@ class Engine {
       particles_[i].t = t;
     }
     for (Group& slot : slots_) slot.clock.next = first_after(t, slot.clock.step);
-    falling_.begin_window(window_end_after(t));
-    if (t > 0) falling_.resume(t);
+    gravity_.falling().begin_window(window_end_after(t));
+    if (t > 0) gravity_.falling().resume(t);
     due_ = nullptr;
     timeline_.skip_to(t);
     make_own_clocks();
@@ -105,7 +103,7 @@ class Engine {
   const std::vector<Particle<S, Dim>>& particles() const { return particles_; }
   const std::vector<S>& masses() const { return masses_; }
   const S& contact_at_start() const { return contact_at_start_; }
-  const Falling<S, Dim>& falling() const { return falling_; }
+  const Falling<S, Dim>& falling() const { return gravity_.falling(); }
   const ContactType* contact() const { return contact_.get(); }
   ContactType* contact() { return contact_.get(); }
   void show(Activity& activity) {
@@ -218,17 +216,12 @@ class Engine {
     slots_.insert(slots_.end(), groups.begin(), groups.end());
   }
 
-  void make_falling(const Model<S, Dim>& model) {
+  void make_gravity(const Model<S, Dim>& model) {
     if (!model.gravity || model.gravity->acceleration == Vec<S, Dim>::Zero()) return;
-    gravity_steps_ = steps_of_gravity(held_vertices(model), shortest_steps(), *model.gravity);
-    std::vector<Group> groups = gravity_groups(gravity_steps_, clocks_);
+    gravity_ = GravityEvents<S, Dim>(model, shortest_steps(), masses_);
+    gravity_.falling().begin_window(window_end_after(0));
+    std::vector<Group> groups = gravity_groups(gravity_.steps(), clocks_);
     slots_.insert(slots_.begin(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
-    std::vector<double> layer_steps;
-    if (model.contact) {
-      for (const ContactMaterial& m : model.contact->materials) layer_steps.push_back(m.step);
-    }
-    falling_ = Falling<S, Dim>(model.gravity->acceleration, masses_, gravity_steps_.steps, layer_steps);
-    falling_.begin_window(window_end_after(0));
   }
 
   void make_own_clocks() {
@@ -236,7 +229,7 @@ class Engine {
     std::array<Shelf, kinds> shelves;
     std::vector<double> steps;
     std::vector<Calendar::Said> said;
-    Carriers carriers(gravity_steps_);
+    Carriers carriers(gravity_.steps());
     std::uint16_t kind = 0;
     for_each_division([&](const auto& d) {
       shelves[kind] = Shelf(d.list.forces, steps.size());
@@ -274,7 +267,7 @@ class Engine {
   }
 
   /// The same of all that acts on it.
-  std::vector<double> look_steps() const { return falling_.empty() ? shortest_steps() : gravity_steps_.steps; }
+  std::vector<double> look_steps() const { return gravity_.empty() ? shortest_steps() : gravity_.steps().steps; }
 
   // --- The loop ------------------------------------------------------------------------------------------------------
 
@@ -302,8 +295,8 @@ class Engine {
   void start(Recorder& record, Books<S, Dim>& books) {
     const Now<Recorder> now = at<Recorder>(0, record);
     while (timeline_.next_time() <= 0) turn(now);
-    if (!falling_.empty()) {
-      fall(now, all_, books, [&](VertexId i, Account<S, Dim>& account) { falling_.act(now, i, account); });
+    if (!gravity_.empty()) {
+      fall(books, [&](Account<S, Dim>& account) { gravity_.start(now, all_, instant_, account); });
     }
     for (const Group& slot : slots_) {
       if (slot.kind != ForceKind::gravity) fire_slot(now, slot, S(0.5) * S(slot.clock.step), books);
@@ -323,7 +316,7 @@ class Engine {
       contact_->for_each_acting([this](const auto&, const auto&, const S& g, double r, double) {
         contact_at_start_ += S(0.5) * S(r) * g * g;
       });
-      contact_->fire_halves(record, books, script_book_, falling_);
+      contact_->fire_halves(record, books, script_book_, gravity_.falling());
     }
   }
 
@@ -345,7 +338,7 @@ class Engine {
     const double slot_time = slot != nullptr ? slot->clock.time() : std::numeric_limits<double>::infinity();
     const double turn_time = timeline_.next_time();
     const double own_time = own_.empty() ? std::numeric_limits<double>::infinity() : own_.next_time();
-    const double struck_time = falling_.next_struck();
+    const double struck_time = gravity_.falling().next_struck();
     const double force_time = std::min({slot_time, own_time, struck_time});
     if (turn_time <= end && turn_time <= force_time && !contact_before(turn_time)) {
       turn(at<Recorder>(turn_time, record));
@@ -383,7 +376,7 @@ class Engine {
         return true;
       }
       if (layer <= end && layer < force_time) {
-        events_ += contact_->fire_next(record, books, script_book_, falling_);
+        events_ += contact_->fire_next(record, books, script_book_, gravity_.falling());
         return true;
       }
     }
@@ -504,7 +497,9 @@ class Engine {
     } else {
       fire_single_as<false>(blows, account);
     }
-    if (!falling_.empty()) fall_with(record, division, firing);
+    if (!gravity_.empty()) {
+      gravity_.fire_with(at<Recorder>(0, record), std::span<const F>(division.list.forces), firing);
+    }
     if (!contact_ || !contact_->started()) return;
     for (const DueForce& due : firing) {
       look(at<Recorder>(due.t, record), division.list.forces[due.force].vertices);
@@ -523,89 +518,47 @@ class Engine {
 
   // --- Gravity -------------------------------------------------------------------------------------------------------
 
-  /// On many vertices, which outlive this time, as part of its instant. `act(vertex, account)`: acts on one.
-  template <class Recorder, class Act>
-  void fall(const Now<Recorder>& now, std::span<const VertexId> vertices, Books<S, Dim>& books, const Act& act) {
-    const PhaseScope kicking(*activity_, Phase::kick);
-    now.record.reserve(vertices.size());
-    Account<S, Dim> sum;
-    const auto velocity = [&](VertexId i) -> const Vec<S, Dim>& { return particles_[i].v; };
-    const auto fallen = [&](VertexId i) -> const Particle<S, Dim>& {
-      act(i, sum);
-      return particles_[i];
-    };
-    instant_.template begin<false>(ForceKind::gravity, last_of(now.t), vertices, velocity);
-    instant_.template end<false>(fallen);
-    sum.work = S(0);  // the instant's
-    book_fall(sum, books.of(ForceKind::gravity));
-  }
-
   /// What is carried, is looked at when its forces have fired, which they do at the same time. (A certificate of this
   /// time may come between: it sees where things are and how they move now.)
   template <class Recorder>
   void fall_slot(const Now<Recorder>& now, const Group& slot, Books<S, Dim>& books) {
-    const double next = slot.clock.time();
-    fall(now, slot.vertices, books,
-         [&](VertexId i, Account<S, Dim>& account) { falling_.act_at_own(now, i, next, account); });
+    fall(books, [&](Account<S, Dim>& account) { gravity_.fire(now, slot, last_of(now.t), instant_, account); });
     if (!contact_) return;
     const PhaseScope certifying(*activity_, Phase::certificate);
     for (const VertexId i : slot.vertices) {
-      if (gravity_steps_.carried[i] == 0) contact_->look(i, now.t);
+      if (gravity_.steps().carried[i] == 0) contact_->look(i, now.t);
     }
   }
 
-  /// On what contact strikes.
   template <class Recorder>
   void fall_where_struck(const Now<Recorder>& now, Books<S, Dim>& books) {
-    struck_.clear();
-    falling_.take_struck([this](VertexId i) { struck_.push_back(i); });
-    fall_and_look(now, struck_, books);
+    std::span<const VertexId> moved;
+    fall(books, [&](Account<S, Dim>& account) { moved = gravity_.fire_where_struck(now, account); });
+    look(now, moved);
   }
 
-  /// On all, as at the end of every window: what gravity knows of vertices then follows from the time.
   template <class Recorder>
   void fall_at_end(double end, Recorder& record, Books<S, Dim>& books) {
-    if (falling_.empty()) return;
-    falling_.begin_window(window_end_after(end));
-    fall_and_look(at<Recorder>(end, record), all_, books);
+    if (gravity_.empty()) return;
+    const Now<Recorder> now = at<Recorder>(end, record);
+    const double next_end = window_end_after(end);
+    std::span<const VertexId> moved;
+    fall(books, [&](Account<S, Dim>& account) { moved = gravity_.end_window(now, next_end, all_, account); });
+    look(now, moved);
   }
 
-  template <class Recorder>
-  void fall_and_look(const Now<Recorder>& now, std::span<const VertexId> vertices, Books<S, Dim>& books) {
+  /// Counts what `fire(account)` books.
+  template <class Fire>
+  void fall(Books<S, Dim>& books, const Fire& fire) {
     const PhaseScope kicking(*activity_, Phase::kick);
-    now.record.reserve(vertices.size());
-    Account<S, Dim> sum;
-    moved_.clear();
-    for (const VertexId i : vertices) {
-      if (falling_.act(now, i, sum)) moved_.push_back(i);
-    }
-    book_fall(sum, books.of(ForceKind::gravity));
-    look(now, moved_);
-  }
-
-  /// On what these forces carry. Booked by their kind until the window's end: rows may be longer or shorter, and sums
-  /// must not depend on that.
-  template <class Recorder, class F>
-  void fall_with(Recorder& record, const Division<F>& division, std::span<const DueForce> firing) {
-    Account<S, Dim>& account = carried_books_[static_cast<std::size_t>(F::kind)];
+    Account<S, Dim>& account = books.of(ForceKind::gravity);
     const std::uint64_t before = account.events;
-    record.reserve(F::size * firing.size());
-    for (const DueForce& due : firing) {
-      for (unsigned bits = due.carries; bits != 0; bits &= bits - 1) {
-        const VertexId i = division.list.forces[due.force].vertices[static_cast<unsigned>(std::countr_zero(bits))];
-        falling_.act_at_own(at<Recorder>(due.t, record), i, due.next, account);
-      }
-    }
+    fire(account);
     events_ += account.events - before;
   }
 
-  void book_fall(const Account<S, Dim>& sum, Account<S, Dim>& account) {
-    events_ += sum.events;
-    account += sum;
-  }
-
   void close_books(Books<S, Dim>& books) {
-    for (Account<S, Dim>& account : carried_books_) books.of(ForceKind::gravity) += std::exchange(account, {});
+    fall(books, [this](Account<S, Dim>& account) { gravity_.close_books(account); });
     books.sum_contact();
   }
 
@@ -650,13 +603,10 @@ class Engine {
   std::vector<Particle<S, Dim>> particles_;
   std::vector<typename ScriptBook<S, Dim>::ScriptedVertex> scripted_;  ///< by vertex; none without scripts
   std::size_t material_count_ = 0, script_count_ = 0;
-  ScriptBook<S, Dim> script_book_;                          ///< of the window that runs
-  Instant<S, Dim> instant_;                                 ///< of the groups that strike now
-  std::vector<VertexId> all_;                               ///< vertices
-  GravitySteps gravity_steps_;                              ///< nothing without gravity
-  std::vector<VertexId> struck_, moved_;                    ///< for fall_where_struck, fall_and_look
-  std::array<Account<S, Dim>, force_kinds> carried_books_;  ///< of the window, by kind of who carries
-  Falling<S, Dim> falling_;
+  ScriptBook<S, Dim> script_book_;  ///< of the window that runs
+  Instant<S, Dim> instant_;         ///< of the groups that strike now
+  std::vector<VertexId> all_;       ///< vertices
+  GravityEvents<S, Dim> gravity_;
   std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
   Divisions divisions_;
   std::vector<Group> slots_;
