@@ -357,12 +357,11 @@ class Contact {
       now.record.examined(pair, approach.with_corners(blow.course));
     }
     if (!blow.struck) return;
-    for (std::size_t i = 0; i < pair.size(); ++i) {
-      const VertexId v = pair.vertices[i];
-      if (is_struck_[v] || immovable(v) || approach.closest.weights[i] == 0) continue;
+    for_each_struck<double, Dim>(pair, approach.closest, [this](VertexId v) {
+      if (is_struck_[v] || immovable(v)) return;
       is_struck_[v] = 1;
       struck_.push_back(v);
-    }
+    });
   }
 
   ContactSettings settings_;

@@ -208,6 +208,15 @@ template <class S, int Dim, class Recorder>
   }
 }
 
+/// Calls each(vertex) for the vertices of a pair that an impulse between its closest points moves, if they are free. A
+/// vertex of weight 0 is not moved.
+template <class S, int Dim, class Each>
+void for_each_struck(const certificates::Stencil& pair, const certificates::Closest<Dim, S>& closest, Each&& each) {
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    if (closest.weights[i] != S(0)) each(pair.vertices[i]);
+  }
+}
+
 /// Finds the closest points of a pair whose vertices are at position(vertex).
 template <class S, int Dim, class PositionOf>
 void find_closest_of(const certificates::Stencil& pair, const PositionOf& position,

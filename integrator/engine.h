@@ -2,8 +2,7 @@
 //
 // The inside of a Simulation: particles, clocks and the loop over events.
 //
-// Notation: that of integrator/simulation.h, and
-//   division  all forces of one kind, in the order of their numbers
+// Notation: that of integrator/simulation.h and integrator/divisions.h, and
 //   slot      what fires many forces in a row: a group of a division, or gravity on the vertices of one step
 //   carried   of a vertex: gravity acts on it when the force of its shortest step does
 //
@@ -20,6 +19,7 @@
 
 #include "integrator/check_model.h"
 #include "integrator/contact.h"
+#include "integrator/divisions.h"
 #include "integrator/gravity_events.h"
 #include "integrator/groups.h"
 #include "integrator/kick.h"
@@ -29,19 +29,6 @@
 #include "integrator/simulation.h"
 
 namespace noli::integrator {
-
-/// One group of forces that fire together; with clocks of their own, one for each kind and step.
-struct StepGroup {
-  ForceKind kind;
-  double step;
-  std::uint64_t forces;
-};
-
-template <class F>
-struct Division {
-  ForceList<F> list;
-  bool damped = false;  ///< some of them are; then all go the way of damped ones
-};
 
 namespace detail {
 /// Looks for what is not finite after each force.
@@ -144,21 +131,15 @@ class Engine {
       result.push_back({slot.kind, slot.clock.step, slot.end - slot.begin});
     }
     if (clocks_ != Clocks::own) return result;
-    for_each_division([&result]<class F>(const Division<F>& division) {
-      std::vector<double> steps = division.list.steps;
-      std::sort(steps.begin(), steps.end(), std::greater<>());
-      for (std::size_t i = 0; i < steps.size(); ++i) {
-        if (i == 0 || steps[i] != steps[i - 1]) result.push_back({F::kind, steps[i], 0});
-        ++result.back().forces;
-      }
-    });
+    const std::vector<StepGroup> own = groups_by_step(divisions_);
+    result.insert(result.end(), own.begin(), own.end());
     return result;
   }
 
   /// Calls each(division) for all divisions, in the order of kinds.
   template <class Each>
   void for_each_division(Each&& each) const {
-    std::apply([&](const auto&... division) { (each(division), ...); }, divisions_);
+    integrator::for_each_division(divisions_, each);
   }
 
  private:
@@ -218,7 +199,7 @@ class Engine {
 
   void make_gravity(const Model<S, Dim>& model) {
     if (!model.gravity || model.gravity->acceleration == Vec<S, Dim>::Zero()) return;
-    gravity_ = GravityEvents<S, Dim>(model, shortest_steps(), masses_);
+    gravity_ = GravityEvents<S, Dim>(model, steps_of_forces(), masses_);
     gravity_.falling().begin_window(window_end_after(0));
     std::vector<Group> groups = gravity_groups(gravity_.steps(), clocks_);
     slots_.insert(slots_.begin(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
@@ -253,21 +234,13 @@ class Engine {
     }
   }
 
-  /// Of each vertex the shortest step of the forces on it; infinity if it has none or is held.
-  std::vector<double> shortest_steps() const {
-    std::vector<double> steps(particles_.size(), std::numeric_limits<double>::infinity());
-    for_each_division([&](const auto& division) {
-      for (std::size_t i = 0; i < division.list.forces.size(); ++i) {
-        for (const VertexId v : division.list.forces[i].vertices) {
-          if (particles_[v].inverse_mass != S(0)) steps[v] = std::min(steps[v], division.list.steps[i]);
-        }
-      }
-    });
-    return steps;
+  std::vector<double> steps_of_forces() const {
+    return shortest_steps(divisions_, particles_.size(),
+                          [this](VertexId v) { return particles_[v].inverse_mass == S(0); });
   }
 
-  /// The same of all that acts on it.
-  std::vector<double> look_steps() const { return gravity_.empty() ? shortest_steps() : gravity_.steps().steps; }
+  /// The shortest step of all that acts on each vertex.
+  std::vector<double> look_steps() const { return gravity_.empty() ? steps_of_forces() : gravity_.steps().steps; }
 
   // --- The loop ------------------------------------------------------------------------------------------------------
 

@@ -66,9 +66,9 @@ class ReplayedContact {
       const auto blow = integrator::strike_pair(now, examined.pair, approach, firing.terms, firing.h, account);
       record.examined(examined.pair, approach.with_corners(blow.course));
       if (blow.course.acts) ++acted;
-      for (std::size_t k = 0; blow.struck && k < examined.pair.size(); ++k) {
-        if (approach.closest.weights[k] != S(0)) struck_.push_back(examined.pair.vertices[k]);
-      }
+      if (!blow.struck) continue;
+      integrator::for_each_struck<S, Dim>(examined.pair, approach.closest,
+                                          [this](VertexId v) { struck_.push_back(v); });
     }
     account.events += acted;
     for (const VertexId i : struck_) falling.strike(i, firing.material, firing.time);
