@@ -28,11 +28,11 @@
 #include "certificates/stencil.h"
 #include "integrator/books.h"
 #include "integrator/clocks.h"
-#include "integrator/contact_blow.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/contact_settings.h"
 #include "integrator/falling.h"
 #include "integrator/kick.h"
+#include "integrator/layer_fire.h"
 #include "integrator/phase.h"
 
 namespace noli::integrator {
@@ -112,6 +112,7 @@ class Contact {
         look_steps_(std::move(look_steps)),
         layers_(settings.materials.size()),
         greatest_thicknesses_(greatest_thicknesses(settings)),
+        layer_fire_(settings.inclusion_exclusion, mesh),
         is_struck_(particles.size(), 0),
         certificates_(*this, mesh, positions(particles), longest_slice * window_length) {}
 
@@ -173,28 +174,26 @@ class Contact {
     }
   }
 
-  /// Calls each(pair, closest points, g, r(l), h(l)) for all active layers that act where things are now.
+  /// Calls each(pair, closest points, g, r(l) times how often it counts, h(l)) for all active layers that act where
+  /// things are now.
   template <class Each>
   void for_each_acting(Each&& each) const {
-    for_each_active([&](const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l) {
-      const Layer& layer = layers_[material][l - 1];
-      const auto c = closest_of<double, Dim>(pair, [this](VertexId v) { return particles_[v].x; });
-      const double g = c.distance() - layer.terms.thickness;
-      if (g < 0) each(pair, c, g, layer.terms.stiffness, layer.clock.step);
+    const auto position = [this](VertexId v) { return particles_[v].x; };
+    for_each_layer([&](const Layer& layer, std::uint16_t, std::uint32_t) {
+      layer_fire_.for_each_acting(layer.pairs.in_order(), layer.terms, position,
+                                  [&](const certificates::Stencil& pair, const auto& closest, double g, double weight) {
+                                    each(pair, closest, g, weight * layer.terms.stiffness, layer.clock.step);
+                                  });
     });
   }
 
-  /// Calls each(pair, material, l) for all active layers that may act.
+  /// Calls each(pairs, material, l) for all layers that may act: the pairs for which it is active, in the order of
+  /// their keys.
   template <class Each>
   void for_each_active(Each&& each) const {
-    for (std::size_t m = 0; m < layers_.size(); ++m) {
-      const std::size_t count = std::min<std::size_t>(layers_[m].size(), settings_.most_layers);
-      for (std::size_t l = 1; l <= count; ++l) {
-        for (const certificates::Stencil& pair : layers_[m][l - 1].pairs.in_order()) {
-          each(pair, static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l));
-        }
-      }
-    }
+    for_each_layer([&](const Layer& layer, std::uint16_t material, std::uint32_t l) {
+      if (!layer.pairs.empty()) each(layer.pairs.in_order(), material, l);
+    });
   }
   /// Precondition: it is active for a pair, or was.
   LayerTerms terms_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].terms; }
@@ -268,6 +267,17 @@ class Contact {
     PairList pairs;  ///< for which it is active
   };
 
+  /// Calls each(layer, material, l) for all that may act.
+  template <class Each>
+  void for_each_layer(Each&& each) const {
+    for (std::size_t m = 0; m < layers_.size(); ++m) {
+      const std::size_t count = std::min<std::size_t>(layers_[m].size(), settings_.most_layers);
+      for (std::size_t l = 1; l <= count; ++l) {
+        each(layers_[m][l - 1], static_cast<std::uint16_t>(m), static_cast<std::uint32_t>(l));
+      }
+    }
+  }
+
   void drop_if_clear(const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l, double distance,
                      double t) {
     const PhaseScope certifying(*activity_, Phase::certificate);
@@ -304,20 +314,20 @@ class Contact {
     }
     Account<double, Dim>& account = books.contact[material];
     std::size_t acted = 0;
-    for (std::size_t begin = 0; begin < firing.size(); begin += approaches_.size()) {
-      const auto row = firing.subspan(begin, std::min(approaches_.size(), firing.size() - begin));
-      for (std::size_t i = 0; i < row.size(); ++i) find_approach(now, row[i], approaches_[i]);
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        fire_pair(now, account, row[i], approaches_[i], terms, h);
-        const double d = approaches_[i].distance;
-        if (d < terms.thickness) {
-          ++acted;
-          extremes_.add({row[i], t, d, material, l});
-        } else if (d > terms.thickness) {
-          clear_.push_back({begin + i, d});
-        }
+    const auto seen = [&](std::size_t i, const Approach<double, Dim>& approach, const Course& course) {
+      if constexpr (requires { now.record.examined(firing[i], course); }) {
+        now.record.examined(firing[i], approach.with_corners(course));
       }
-    }
+      const double d = approach.distance;
+      if (d < terms.thickness) {
+        ++acted;
+        extremes_.add({firing[i], t, d, material, l});
+      } else if (d > terms.thickness) {
+        clear_.push_back({i, d});
+      }
+    };
+    layer_fire_(now, firing, terms, h, account, seen,
+                [this](const auto& pair, const auto& closest) { add_struck(pair, closest); });
     account.events += acted;
     for (const VertexId i : struck_) falling.strike(i, material, t);
     certify(firing, material, l, t);
@@ -348,16 +358,8 @@ class Contact {
     }
   }
 
-  template <class Recorder>
-  void fire_pair(const Kicked<double, Dim, Recorder>& now, Account<double, Dim>& account,
-                 const certificates::Stencil& pair, const Approach<double, Dim>& approach, const LayerTerms& layer,
-                 double h) {
-    const Blow blow = strike_pair(now, pair, approach, layer, h, account);
-    if constexpr (requires { now.record.examined(pair, blow.course); }) {
-      now.record.examined(pair, approach.with_corners(blow.course));
-    }
-    if (!blow.struck) return;
-    for_each_struck<double, Dim>(pair, approach.closest, [this](VertexId v) {
+  void add_struck(const certificates::Stencil& pair, const certificates::Closest<Dim>& closest) {
+    for_each_struck<double, Dim>(pair, closest, [this](VertexId v) {
       if (is_struck_[v] || immovable(v)) return;
       is_struck_[v] = 1;
       struck_.push_back(v);
@@ -370,9 +372,7 @@ class Contact {
   std::vector<std::vector<Layer>> layers_;                             ///< [material][l - 1]
   std::vector<double> greatest_thicknesses_;                           ///< [group * class_count + class]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
-  /// Of the pairs that fire next: all are found before any of them fires. One by one, each would wait for what the one
-  /// before has just written.
-  std::array<Approach<double, Dim>, 64> approaches_;
+  LayerFire<double, Dim> layer_fire_;
   std::vector<std::uint8_t> is_struck_;  ///< by vertex: by the layer that fires now
   std::vector<VertexId> struck_;         ///< these vertices
   std::vector<Clear> clear_;             ///< pairs of the layer that fires now

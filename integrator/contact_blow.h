@@ -166,7 +166,8 @@ void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil&
 template <std::size_t N, class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_vertices(const Kicked<S, Dim, Recorder>& now,
                                                    const certificates::Stencil& pair, const Approach<S, Dim>& approach,
-                                                   const LayerTerms& layer, double h, Account<S, Dim>& account) {
+                                                   const LayerTerms& layer, double h, const S& weight,
+                                                   Account<S, Dim>& account) {
   Blow blow;
   const auto& [closest, distance] = approach;
   const S g = distance - S(layer.thickness);
@@ -175,13 +176,14 @@ template <std::size_t N, class S, int Dim, class Recorder>
   const S before = opening_now<N>(now, pair, closest);
   blow.course.acts = true;
   blow.course.parts = before > S(0);
-  const std::array<double, 2> shares{1, layer.restitution};  // without a branch that no processor foresees
-  const S push = S(-shares[blow.course.parts]) * S(h) * S(layer.stiffness) * g;
-  const S full = S(-1) * S(h) * S(layer.stiffness) * g;
+  // Without a branch that no processor foresees. What pulls has less to give while it does work, which is on approach.
+  const std::array<double, 2> shares{1, layer.restitution};
+  const S push = S(-shares[blow.course.parts == (weight > S(0))]) * S(h) * S(layer.stiffness) * weight * g;
+  const S full = S(-1) * S(h) * S(layer.stiffness) * weight * g;
   Given<S, Dim, N> given{full, push, closest.r / distance, before};
   blow.struck = push != S(0);
   Friction<S, Dim, N> friction;
-  const bool rubs = blow.struck && layer.friction > 0;
+  const bool rubs = blow.struck && layer.friction > 0 && weight > S(0);
   if (rubs) friction.before = each_of<N>(pair, [&](VertexId i) { return now.particles[i].v; });
   for (std::size_t i = 0; blow.struck && i < N; ++i) {
     kick_vertex<S, Dim>(now, pair.vertices[i], normal_impulse<Dim, S>(closest, given.normal, push, i));
@@ -195,16 +197,16 @@ template <std::size_t N, class S, int Dim, class Recorder>
   return blow;
 }
 
-/// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Room in the recording is the caller's
-/// business.
+/// Fires a layer for a pair, for h seconds. `weight`: how often it counts; where that is less than 0 the layer pulls,
+/// and nothing rubs. Throws ContactLimit at distance 0. Room in the recording is the caller's business.
 template <class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
                                                const Approach<S, Dim>& approach, const LayerTerms& layer, double h,
-                                               Account<S, Dim>& account) {
+                                               const S& weight, Account<S, Dim>& account) {
   switch (pair.size()) {
-    case 2: return strike_vertices<2>(now, pair, approach, layer, h, account);
-    case 3: return strike_vertices<3>(now, pair, approach, layer, h, account);
-    default: return strike_vertices<4>(now, pair, approach, layer, h, account);
+    case 2: return strike_vertices<2>(now, pair, approach, layer, h, weight, account);
+    case 3: return strike_vertices<3>(now, pair, approach, layer, h, weight, account);
+    default: return strike_vertices<4>(now, pair, approach, layer, h, weight, account);
   }
 }
 
@@ -234,12 +236,18 @@ certificates::Closest<Dim, S> closest_of(const certificates::Stencil& pair, cons
   return closest;
 }
 
-/// Where a pair is at the time of an event.
+/// Where a pair is whose vertices are at position(vertex).
+template <class S, int Dim, class PositionOf>
+void find_approach_of(const certificates::Stencil& pair, const PositionOf& position, Approach<S, Dim>& approach) {
+  find_closest_of<S, Dim>(pair, position, approach.closest);
+  approach.distance = approach.closest.distance();
+}
+
+/// The same at the time of an event.
 template <class S, int Dim, class Recorder>
 void find_approach(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, Approach<S, Dim>& approach) {
   const auto position = [&now](VertexId i) -> Vec<S, Dim> { return now.particles[i].at(now.t); };
-  find_closest_of<S, Dim>(pair, position, approach.closest);
-  approach.distance = approach.closest.distance();
+  find_approach_of<S, Dim>(pair, position, approach);
 }
 
 }  // namespace noli::integrator

@@ -68,6 +68,7 @@ struct ContactSettings {
   LayerSchedule schedule;
   std::uint32_t most_layers = 1000;  ///< a pair that needs more ends the run
   std::uint32_t least_layers = 0;    ///< of each pair that is followed; they change nothing but the time it takes
+  bool inclusion_exclusion = false;  ///< cells side by side count once (integrator/inclusion_exclusion.h)
   std::vector<ContactMaterial> materials;
   std::vector<std::uint16_t> groups;  ///< of each vertex: its group, 0, 1, ..., group_count - 1
   std::uint16_t group_count = 1;

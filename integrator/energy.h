@@ -78,10 +78,10 @@ class Ledger {
     if constexpr (std::is_same_v<S, typename Engine<S, Dim, Touching>::ContactType::Scalar>) {
       S potential{};
       engine_.contact()->for_each_acting([&](const certificates::Stencil& pair, const certificates::Closest<Dim, S>& c,
-                                             const S& g, double r, double h) {
-        potential += S(0.5) * S(r) * g * g;
+                                             const S& g, const S& r, double h) {
+        potential += S(0.5) * r * g * g;
         if (!strikes(h)) return;
-        const auto impulses = normal_impulses<Dim, S>(c, c.distance(), S(-0.5) * S(h) * S(r) * g);
+        const auto impulses = normal_impulses<Dim, S>(c, c.distance(), S(-0.5) * S(h) * r * g);
         for (std::size_t i = 0; i < pair.size(); ++i) {
           const VertexId v = pair.vertices[i];
           const Particle<S, Dim>& p = engine_.particles()[v];

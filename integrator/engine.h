@@ -286,8 +286,8 @@ class Engine {
       if (!contact_ || contact_->started()) return;
       contact_->start(time());
       if (windows_ > 0) return;
-      contact_->for_each_acting([this](const auto&, const auto&, const S& g, double r, double) {
-        contact_at_start_ += S(0.5) * S(r) * g * g;
+      contact_->for_each_acting([this](const auto&, const auto&, const S& g, const S& r, double) {
+        contact_at_start_ += S(0.5) * r * g * g;
       });
       contact_->fire_halves(record, books, script_book_, gravity_.falling());
     }

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "integrator/contact.h"
@@ -30,11 +31,11 @@ struct LoggedFiring {
   std::size_t begin = 0, end = 0;
 };
 
-/// A pair that has an active layer at the window's end.
-struct ActivePair {
-  certificates::Stencil pair;
+/// A layer that is active for pairs at the window's end.
+struct ActiveLayer {
   integrator::LayerTerms terms;
   double step;  ///< h(l) [s]
+  std::vector<certificates::Stencil> pairs;
 };
 
 /// A recorder of Engine<double, Dim>.
@@ -54,7 +55,7 @@ class EventLog : public integrator::Uncounted {
   }
 
   /// To be called at the window's end.
-  void add_active(const ActivePair& pair) { active_.push_back(pair); }
+  void add_active(ActiveLayer layer) { active_.push_back(std::move(layer)); }
 
   void clear() {
     recording_.clear();
@@ -66,13 +67,13 @@ class EventLog : public integrator::Uncounted {
   std::span<const integrator::Breakpoint<double, Dim>> breakpoints() const { return recording_.stream(); }
   std::span<const LoggedFiring> firings() const { return firings_; }
   std::span<const Examined> examined() const { return examined_; }
-  std::span<const ActivePair> active() const { return active_; }
+  std::span<const ActiveLayer> active() const { return active_; }
 
  private:
   integrator::Recording<double, Dim> recording_;
   std::vector<LoggedFiring> firings_;
   std::vector<Examined> examined_;
-  std::vector<ActivePair> active_;
+  std::vector<ActiveLayer> active_;
 };
 
 }  // namespace noli::audit

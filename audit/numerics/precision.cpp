@@ -91,8 +91,9 @@ class Audit {
 
   void log_active_pairs() {
     if (engine_.contact() == nullptr) return;
-    engine_.contact()->for_each_active([&](const certificates::Stencil& pair, std::uint16_t material, std::uint32_t l) {
-      log_.add_active({pair, engine_.contact()->terms_of(material, l), engine_.contact()->step_of(material, l)});
+    engine_.contact()->for_each_active([&](const auto& pairs, std::uint16_t material, std::uint32_t l) {
+      const auto& contact = *engine_.contact();
+      log_.add_active({contact.terms_of(material, l), contact.step_of(material, l), {pairs.begin(), pairs.end()}});
     });
   }
 

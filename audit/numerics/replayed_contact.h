@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Contact in a run that does what another run did: layers fire when they did there and for the pairs for which they did
-// there, with the formulas of integrator/contact_blow.h in numbers of type S. Whether a layer acts, between which
+// there, with the formulas of integrator/layer_fire.h in numbers of type S. Whether a layer acts, between which
 // points, with restitution or not, and whether friction stops the slip follows from this run's own positions.
 //
 // Times, thicknesses, stiffnesses and steps are the doubles of the run that is followed.
@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "audit/numerics/event_log.h"
-#include "integrator/contact_blow.h"
 #include "integrator/contact_settings.h"
 #include "integrator/falling.h"
+#include "integrator/layer_fire.h"
 #include "integrator/phase.h"
 
 namespace noli::audit {
@@ -28,9 +28,9 @@ class ReplayedContact {
   using Scalar = S;
   using Particles = std::vector<integrator::Particle<S, Dim>>;
 
-  ReplayedContact(const integrator::ContactSettings&, const Mesh&, Particles& particles, const std::vector<double>&,
-                  double)
-      : particles_(particles) {}
+  ReplayedContact(const integrator::ContactSettings& settings, const Mesh& mesh, Particles& particles,
+                  const std::vector<double>&, double)
+      : particles_(particles), layer_fire_(settings.inclusion_exclusion, mesh) {}
   ReplayedContact(const ReplayedContact&) = delete;
   ReplayedContact& operator=(const ReplayedContact&) = delete;
 
@@ -60,16 +60,19 @@ class ReplayedContact {
     record.reserve(4 * (logged.end - logged.begin));
     integrator::Account<S, Dim>& account = books.contact[firing.material];
     std::size_t acted = 0;
+    pairs_.clear();
     for (const Examined& examined : log_->examined().subspan(logged.begin, logged.end - logged.begin)) {
-      integrator::Approach<S, Dim> approach;
-      integrator::find_approach(now, examined.pair, approach);
-      const auto blow = integrator::strike_pair(now, examined.pair, approach, firing.terms, firing.h, account);
-      record.examined(examined.pair, approach.with_corners(blow.course));
-      if (blow.course.acts) ++acted;
-      if (!blow.struck) continue;
-      integrator::for_each_struck<S, Dim>(examined.pair, approach.closest,
-                                          [this](VertexId v) { struck_.push_back(v); });
+      pairs_.push_back(examined.pair);
     }
+    layer_fire_(
+        now, pairs_, firing.terms, firing.h, account,
+        [&](std::size_t i, const integrator::Approach<S, Dim>& approach, const integrator::Course& course) {
+          record.examined(pairs_[i], approach.with_corners(course));
+          if (course.acts) ++acted;
+        },
+        [this](const certificates::Stencil& pair, const certificates::Closest<Dim, S>& closest) {
+          integrator::for_each_struck<S, Dim>(pair, closest, [this](VertexId v) { struck_.push_back(v); });
+        });
     account.events += acted;
     for (const VertexId i : struck_) falling.strike(i, firing.material, firing.time);
     struck_.clear();
@@ -86,10 +89,12 @@ class ReplayedContact {
   /// As Contact has it; of the pairs that are active there.
   template <class Each>
   void for_each_acting(Each&& each) const {
-    for (const ActivePair& active : log_->active()) {
-      const auto c = integrator::closest_of<S, Dim>(active.pair, [this](VertexId v) { return particles_[v].x; });
-      const S g = c.distance() - S(active.terms.thickness);
-      if (g < S(0)) each(active.pair, c, g, active.terms.stiffness, active.step);
+    const auto position = [this](VertexId v) { return particles_[v].x; };
+    for (const ActiveLayer& active : log_->active()) {
+      layer_fire_.for_each_acting(active.pairs, active.terms, position,
+                                  [&](const auto& pair, const auto& closest, const S& g, const S& weight) {
+                                    each(pair, closest, g, S(weight * S(active.terms.stiffness)), active.step);
+                                  });
     }
   }
 
@@ -99,7 +104,9 @@ class ReplayedContact {
   Particles& particles_;
   const EventLog<Dim>* log_ = nullptr;
   std::size_t next_ = 0;
-  std::vector<VertexId> struck_;  ///< by the layer that fires; some more than once
+  integrator::LayerFire<S, Dim> layer_fire_;
+  std::vector<certificates::Stencil> pairs_;  ///< for which a layer fires
+  std::vector<VertexId> struck_;              ///< by it; some more than once
   bool started_ = false;
 };
 

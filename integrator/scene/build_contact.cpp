@@ -396,6 +396,7 @@ void add_contact(const Scene& scene, const std::vector<BodyMesh>& bodies, const 
   ContactSettings& settings = built.model.contact.emplace();
   settings.schedule = scene.contact->layers;
   settings.most_layers = scene.contact->most_layers;
+  settings.inclusion_exclusion = scene.contact->inclusion_exclusion;
   std::vector<Parts> parts;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     settings.groups.insert(settings.groups.end(), built.bodies[b].vertices, static_cast<std::uint16_t>(b));

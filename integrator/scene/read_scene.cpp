@@ -158,8 +158,12 @@ ContactPair read_contact_pair(const Field& f, const Scene& scene, const SceneCon
 /// are said twice or are excluded, both of two fields that exclude each other, steps longer than the window or above
 /// the limit of stability (unless allow_unstable), exponents that let something through.
 SceneContact read_contact(const Field& f, const Scene& scene) {
-  SceneContact contact{
-      read_values(f, scene.allow_unstable), read_layers(f["layers"]), f["most_layers"].count(), {}, {}};
+  SceneContact contact{read_values(f, scene.allow_unstable),
+                       read_layers(f["layers"]),
+                       f["inclusion_exclusion"].flag(),
+                       f["most_layers"].count(),
+                       {},
+                       {}};
   for (const Field& pair : f["exclude"].items()) contact.excluded.push_back(read_pair(pair, scene.bodies));
   for (const Field& pair : f["pairs"].items()) contact.pairs.push_back(read_contact_pair(pair, scene, contact));
   return contact;

@@ -253,6 +253,7 @@ struct ContactPair {
 struct SceneContact {
   ContactValues values;  ///< of all pairs that say nothing else
   LayerSchedule layers;
+  bool inclusion_exclusion = false;
   std::uint32_t most_layers = 1000;
   std::vector<ContactPair> pairs;  ///< each pair at most once
   std::vector<BodyPair> excluded;  ///< none of `pairs`

@@ -27,7 +27,7 @@ Scene written(const std::string& bodies, const std::string& rest) {
 }
 
 /// A small sheet falls onto a corner of a plate in space: contact of faces and of edges, restitution, friction.
-Scene falling_sheet(const std::string& steps) {
+Scene falling_sheet(const std::string& steps, bool inclusion_exclusion = false) {
   return written(
       R"({"name": "sheet", "mesh": {"grid": {"size": [0.1, 0.1], "cells": [3, 3]}},
           "transform": {"rotate": {"axis": [1, 2, 0], "degrees": 20}, "translate": [0.01, 0.02, 0.03]},
@@ -37,7 +37,8 @@ Scene falling_sheet(const std::string& steps) {
           "transform": {"translate": [0.03, 0.03, 0]},
           "material": {"young": 1e5, "density": 1000, "thickness": 0.001}})",
       R"("duration": 0.02, "window": 0.002, "gravity": [0, 0, -9.81], "steps": ")" + steps +
-          R"(", "contact": {"thickness": 0.003, "restitution": 0.5, "friction": 0.4})");
+          R"(", "contact": {"thickness": 0.003, "restitution": 0.5, "friction": 0.4, "inclusion_exclusion": )" +
+          (inclusion_exclusion ? "true}" : "false}"));
 }
 
 /// Two elastic discs in a small box: neighbouring runs part within half a second.
@@ -122,6 +123,13 @@ TEST(PrecisionAudit, FiftyThreeBitsAreDoubleWithContactInSpace) {
     EXPECT_GT(outcome.impulses, 100U) << steps;
     EXPECT_TRUE(audit(falling_sheet(steps), 8, {{52, true}}).difference) << steps;
   }
+}
+
+TEST(PrecisionAudit, FiftyThreeBitsAreDoubleWithInclusionAndExclusion) {
+  const PrecisionOutcome outcome = audit(falling_sheet("grouped", true), 8, {hardware_double});
+  expect_same(outcome);
+  EXPECT_GT(outcome.impulses, 100U);
+  EXPECT_TRUE(audit(falling_sheet("grouped", true), 8, {{52, true}}).difference);
 }
 
 TEST(PrecisionAudit, FiftyThreeBitsAreDoubleInShippedScenesSlow) {

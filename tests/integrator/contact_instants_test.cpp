@@ -50,7 +50,9 @@ InstantCounts look(Scene scene, int most, bool blind) {
     Books<double, Dim> books;
     engine.run_window(nothing, books, never_stop);
     typename Instants<Dim>::Layers layers;
-    const auto add = [&](const certificates::Stencil& pair, std::uint16_t, std::uint32_t) { ++layers[pair.key]; };
+    const auto add = [&](std::span<const certificates::Stencil> pairs, std::uint16_t, std::uint32_t) {
+      for (const certificates::Stencil& pair : pairs) ++layers[pair.key];
+    };
     if (!blind && engine.contact() != nullptr) engine.contact()->for_each_active(add);
     eye.look(engine.snapshot().x, layers);
   }

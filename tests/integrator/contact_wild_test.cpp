@@ -50,10 +50,11 @@ void expect_no_fault_of_certificates(Model<double, Dim> model, const Ending& end
 }
 
 template <int Dim>
-void try_scene(std::uint64_t seed, Tally& tally) {
+void try_scene(std::uint64_t seed, bool inclusion_exclusion, Tally& tally) {
   SCOPED_TRACE(testing::Message() << Dim << "D, seed " << seed);
   Wild<Dim> wild = wild_scene<Dim>(seed);
   wild.model.contact->most_layers = 10'000;  // ten times as many as by default: what is wild goes deep
+  wild.model.contact->inclusion_exclusion = inclusion_exclusion;
   const Ending ending = test::run_verified(wild.model, test::wild_windows, test::wild_turns);
   const bool done = !ending.stopped();
   ++tally.scenes;
@@ -79,9 +80,9 @@ void try_scene(std::uint64_t seed, Tally& tally) {
 }
 
 template <int Dim>
-void try_scenes(std::span<const std::uint16_t> seeds) {
+void try_scenes(std::span<const std::uint16_t> seeds, bool inclusion_exclusion = false) {
   Tally tally;
-  for (const std::uint16_t seed : seeds) try_scene<Dim>(seed, tally);
+  for (const std::uint16_t seed : seeds) try_scene<Dim>(seed, inclusion_exclusion, tally);
   std::printf(
       "%d scenes in %dD, %.0f windows settled exactly, %.0f impulses, layers to %u; %d to the end, %d out of layers, "
       "%d "
@@ -96,6 +97,14 @@ void try_scenes(std::span<const std::uint16_t> seeds) {
 TEST(WildContact, NothingTouches) {
   try_scenes<3>(std::span(test::wild_seeds_3d).first(12));
   try_scenes<2>(std::span(test::wild_seeds_2d).first(12));
+}
+TEST(WildContact, NothingTouchesWithInclusionAndExclusion) {
+  try_scenes<3>(std::span(test::wild_seeds_3d).first(12), true);
+  try_scenes<2>(std::span(test::wild_seeds_2d).first(12), true);
+}
+TEST(WildContact, SlowNothingTouchesInTwoHundredScenesWithInclusionAndExclusion) {
+  try_scenes<3>(test::wild_seeds_3d, true);
+  try_scenes<2>(test::wild_seeds_2d, true);
 }
 TEST(WildContact, SlowNothingTouchesInTwoHundredScenesInSpace) { try_scenes<3>(test::wild_seeds_3d); }
 TEST(WildContact, SlowNothingTouchesInTwoHundredScenesInThePlane) { try_scenes<2>(test::wild_seeds_2d); }

@@ -110,7 +110,7 @@ std::vector<Json> scenes_with_every_field() {
     ],
     "contact": {"thickness": 0.05, "stiffness": 1000.5, "step": 0.0001, "restitution": 0.5, "friction": 0.25,
                 "layers": {"thickness_exponent": 1, "stiffness_exponent": 4, "step_exponent": 3},
-                "most_layers": 100, "exclude": [["body0", "body0"]], "pairs": [
+                "inclusion_exclusion": true, "most_layers": 100, "exclude": [["body0", "body0"]], "pairs": [
                   {"bodies": ["body2", "body2"], "thickness": 0.05, "stiffness": 1000.5, "step": 0.0001,
                    "restitution": 0.5, "friction": 0.25}]},
     "short": {"/duration": 1}})"),

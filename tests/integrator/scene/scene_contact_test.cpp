@@ -192,7 +192,7 @@ TEST(SceneContact, ClassesOfWhatIsExcludedAreAllExcluded) {
 
 TEST(SceneContact, WhatIsSaidIsTaken) {
   const Json contact = R"({"thickness": 0.05, "stiffness": 200, "stability": 0.1, "newton_restitution": 0.5,
-      "friction": 0.25, "most_layers": 7,
+      "friction": 0.25, "most_layers": 7, "inclusion_exclusion": true,
       "layers": {"thickness_exponent": 0.5, "stiffness_exponent": 2.75, "step_exponent": 1.75}})"_json;
   ContactSettings s = settings(changed(sheet(), "/contact", contact));
   EXPECT_EQ(s.materials[0].thickness, 0.05);
@@ -201,6 +201,7 @@ TEST(SceneContact, WhatIsSaidIsTaken) {
   EXPECT_EQ(s.materials[0].restitution, 0.25);
   EXPECT_EQ(s.materials[0].friction, 0.25);
   EXPECT_EQ(s.most_layers, 7u);
+  EXPECT_TRUE(s.inclusion_exclusion);
   EXPECT_EQ(s.schedule, (LayerSchedule{2, 11, 7}));
   s = settings(changed(sheet(), "/contact", R"({"step": 0.001, "stiffness": 200, "restitution": 0})"_json));
   EXPECT_EQ(s.materials[0].step, 0.001);

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a vertex has to do with faces that lie side by side, counted once (inclusion and exclusion; Li, Ferguson,
+// Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman, "Convergent Incremental Potential Contact", 2023, section 4).
+// If each face gave its own push, a vertex above the inside of one would be pushed aside by its neighbours too, whose
+// nearest points are on their common border, and a flat floor would have bumps along its edges.
+//
+// Notation
+//   cells   the faces that a layer acts on for one vertex (in the plane, and among loose edges: the edges)
+//   k       of a border between cells (edge or vertex): how many of the cells have it
+//   B(x)    the potential of the layer between the vertex and x: r (d - eta)^2 / 2 if d < eta, else 0
+//   weight  1 of a cell, 1 - k of an edge of faces, and of a vertex whatever makes 1 of the sum of the weights of all
+//           that meet there. So where a vertex is nearest to one edge or corner of all cells, that counts once
+// The layer's potential for the vertex is the sum of weight * B. Cells that the layer does not act on need not be
+// known: a border is no nearer than any cell that has it.
+//
+// Each x has its nearest point inside of itself, or on one of its edges or corners. So all that is summed belongs to
+// one of these `sites`; on a flat surface the weights of all but one of them add up to 0, and no rounding is left over.
+//
+// S is double; in audits also multiprecision numbers.
+//
+// What this does not do: pairs of edges (integrator/edge_excess.h).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "certificates/stencil.h"
+#include "integrator/contact_blow.h"
+
+namespace noli::integrator {
+
+/// A site that a layer acts on, and how often.
+template <class S, int Dim>
+struct SiteOfContact {
+  certificates::Stencil pair;  ///< the vertex and the site; its key is that of a cell that has the site
+  Approach<S, Dim> approach;
+  S weight = S(0);  ///< not 0
+};
+
+/// Adds up what happens to one vertex. Kept between vertices for the room it has.
+template <class S, int Dim>
+class InclusionExclusion {
+ public:
+  bool empty() const { return cells_.empty(); }
+  /// Precondition: not empty.
+  VertexId vertex() const { return cells_.front().pair.vertices[0]; }
+  /// Whether the pair belongs to what has been added.
+  bool takes(const certificates::Stencil& pair) const {
+    return empty() || (pair.kind == cells_.front().pair.kind && pair.vertices[0] == vertex());
+  }
+
+  /// Precondition: takes(pair); the layer acts on it.
+  void add(const certificates::Stencil& pair, const Approach<S, Dim>& approach) {
+    cells_.push_back({pair, approach, S(1)});
+  }
+
+  /// Calls each(site) for the sites whose weights do not add up to 0, and forgets all. `position`: of a vertex of the
+  /// mesh. The order follows from the mesh alone.
+  template <class PositionOf, class Each>
+  void take(const S& thickness, const PositionOf& position, Each&& each) {
+    if (cells_.size() == 1) {
+      const SiteOfContact<S, Dim> only = cells_.front();
+      cells_.clear();
+      each(only);
+      return;
+    }
+    find_sites(thickness, position);
+    for (const Site& site : sites_) {
+      if (site.weight != 0) each(contact_at(site, position));
+    }
+    cells_.clear();
+  }
+
+ private:
+  static constexpr VertexId none = static_cast<VertexId>(-1);
+  /// Ascending, `none` at the end.
+  using Corners = std::array<VertexId, 3>;
+
+  struct Site {
+    Corners corners;
+    int weight;
+    std::size_t cell;  ///< that has it; the first of several
+  };
+  struct Border {
+    Corners corners;
+    std::size_t cell;
+  };
+
+  void find_sites(const S& thickness, const auto& position) {
+    sites_.clear();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      sites_.push_back({nearest(cells_[i].pair, cells_[i].approach), 1, i});
+    }
+    const std::size_t cell_size = cells_.front().pair.size() - 1;
+    if (cell_size == 3) add_edges(thickness, position);
+    add_corners(thickness, position, cell_size == 3);
+    std::ranges::stable_sort(sites_, {}, &Site::corners);
+    auto last = sites_.begin();
+    for (auto site = last + 1; site != sites_.end(); ++site) {
+      if (site->corners == last->corners) {
+        last->weight += site->weight;
+      } else {
+        *++last = *site;
+      }
+    }
+    sites_.erase(last + 1, sites_.end());
+  }
+
+  /// Edges that several faces have. Leaves them, and their weights, in shared_.
+  void add_edges(const S& thickness, const auto& position) {
+    borders_.clear();
+    shared_.clear();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const auto& v = cells_[i].pair.vertices;
+      for (const auto& [a, b] : {std::array{v[1], v[2]}, std::array{v[2], v[3]}, std::array{v[1], v[3]}}) {
+        borders_.push_back({{std::min(a, b), std::max(a, b), none}, i});
+      }
+    }
+    for_each_run([&](const Border& edge, int k) {
+      if (k > 1 && add_if_near(edge, 1 - k, thickness, position)) shared_.push_back({edge.corners, 1 - k, edge.cell});
+    });
+  }
+
+  /// Vertices that several cells have. A vertex is no nearer than any edge that has it, so those edges have been added
+  /// if it is.
+  void add_corners(const S& thickness, const auto& position, bool of_faces) {
+    borders_.clear();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const certificates::Stencil& pair = cells_[i].pair;
+      for (std::size_t k = 1; k < pair.size(); ++k) borders_.push_back({{pair.vertices[k], none, none}, i});
+    }
+    for_each_run([&](const Border& corner, int k) {
+      int weight = 1 - k;
+      if (of_faces) {
+        for (const Site& edge : shared_) {
+          const bool has = edge.corners[0] == corner.corners[0] || edge.corners[1] == corner.corners[0];
+          if (has) weight -= edge.weight;
+        }
+      }
+      if (weight != 0) add_if_near(corner, weight, thickness, position);
+    });
+  }
+
+  /// Calls each(border, how often it is there) for all that is in borders_.
+  template <class Each>
+  void for_each_run(Each&& each) {
+    std::ranges::stable_sort(borders_, {}, &Border::corners);
+    for (auto begin = borders_.begin(); begin != borders_.end();) {
+      auto end = begin;
+      while (end != borders_.end() && end->corners == begin->corners) ++end;
+      each(*begin, static_cast<int>(end - begin));
+      begin = end;
+    }
+  }
+
+  bool add_if_near(const Border& border, int weight, const S& thickness, const auto& position) {
+    const certificates::Stencil pair = pair_with(border.corners, border.cell);
+    Approach<S, Dim> approach;
+    find_approach_of<S, Dim>(pair, position, approach);
+    if (!(approach.distance < thickness)) return false;
+    sites_.push_back({nearest(pair, approach), weight, border.cell});
+    return true;
+  }
+
+  /// Which corners have a part in the closest point: that is where it is.
+  static Corners nearest(const certificates::Stencil& pair, const Approach<S, Dim>& approach) {
+    Corners corners{none, none, none};
+    std::size_t count = 0;
+    for (std::size_t i = 1; i < pair.size(); ++i) {
+      if (approach.closest.weights[i] != S(0)) corners[count++] = pair.vertices[i];
+    }
+    std::ranges::sort(corners);
+    return corners;
+  }
+
+  certificates::Stencil pair_with(const Corners& corners, std::size_t cell) const {
+    const auto kind = corners[1] == none ? FeaturePair::vertex_vertex : FeaturePair::vertex_edge;
+    return {kind, {vertex(), corners[0], corners[1] == none ? 0 : corners[1], 0}, cells_[cell].pair.key};
+  }
+
+  SiteOfContact<S, Dim> contact_at(const Site& site, const auto& position) const {
+    const std::size_t cell_size = cells_.front().pair.size() - 1;
+    SiteOfContact<S, Dim> contact{cells_[site.cell].pair, cells_[site.cell].approach, S(site.weight)};
+    if (site.corners[cell_size - 1] != none) return contact;  // the inside of a cell
+    contact.pair = pair_with(site.corners, site.cell);
+    find_approach_of<S, Dim>(contact.pair, position, contact.approach);
+    return contact;
+  }
+
+  std::vector<SiteOfContact<S, Dim>> cells_;
+  std::vector<Site> sites_, shared_;
+  std::vector<Border> borders_;
+};
+
+}  // namespace noli::integrator
