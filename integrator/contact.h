@@ -174,6 +174,10 @@ class Contact {
     }
   }
 
+  /// What friction remembers at a window's end.
+  std::vector<Anchor<double>> anchors(double t) const { return layer_fire_.anchors().after(t); }
+  void restore(std::span<const Anchor<double>> anchors) { layer_fire_.anchors().restore(anchors); }
+
   /// Calls each(pair, closest points, g, r(l) times how often it counts, h(l)) for all active layers that act where
   /// things are now.
   template <class Each>
@@ -293,7 +297,8 @@ class Contact {
   Layer make_layer(std::uint16_t material, std::uint32_t l) const {
     const ContactMaterial& m = settings_.materials[material];
     const LayerSchedule& s = settings_.schedule;
-    const LayerTerms terms{layer_thickness(m, s, l), layer_stiffness(m, s, l), m.restitution, m.friction};
+    const LayerTerms terms{
+        layer_thickness(m, s, l), layer_stiffness(m, s, l), m.restitution, m.friction, 1.5 * m.step, l == 1};
     return {{layer_step(m, s, l), 1}, terms, {}};
   }
 

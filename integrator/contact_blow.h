@@ -16,6 +16,7 @@
 #include <span>
 
 #include "certificates/closest.h"
+#include "integrator/anchors.h"
 #include "integrator/books.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/contact_impulse.h"
@@ -29,6 +30,8 @@ struct LayerTerms {
   double stiffness = 0;    ///< r(l) [N/m]
   double restitution = 1;  ///< e
   double friction = 0;     ///< mu
+  double anchor_life = 0;  ///< [s] (integrator/anchors.h)
+  bool drags = false;      ///< it is the material's first layer, which drags anchors
 };
 
 struct Course {
@@ -88,24 +91,59 @@ struct Friction {
   bool sticks = true;                 ///< it stops all slip
 };
 
-/// Kicks the pair's vertices, which the layer has pushed apart, against their slip, with a magnitude up to `most`.
+/// What bounds and pulls.
+template <class S>
+struct Grip {
+  S most;      ///< magnitude of the impulse, mu J_n [N s]
+  S spring;    ///< h r(l) [N s/m]
+  S reach;     ///< mu |g|: how far from an anchor the spring's force is Coulomb's [m]
+  bool drags;  ///< an anchor that is further than that
+  Anchor<S>& anchor;
+};
+
+/// The slide from the anchor to the closest points. Drags the anchor if it is to be.
+template <int Dim, class S>
+typename Sliding<Dim, S>::Slide slide_from(const Sliding<Dim, S>& sliding, const certificates::Closest<Dim, S>& c,
+                                           std::span<const Vec<S, Dim>> x, Grip<S>& grip) {
+  using std::sqrt;
+  auto slide = sliding.solve(sliding.way_from(grip.anchor.weights, x));
+  if (!grip.drags) return slide;
+  const S length = sqrt(sliding.squared(slide));
+  if (!(length > grip.reach)) return slide;
+  const S share = grip.reach / length;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    grip.anchor.weights[i] = c.weights[i] + share * (grip.anchor.weights[i] - c.weights[i]);
+  }
+  for (S& part : slide) part *= share;
+  return slide;
+}
+
+/// Kicks the pair's vertices, which the layer has pushed apart: against their slip, and back to their anchor.
 template <std::size_t N, class S, int Dim, class Recorder>
 void rub(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, const certificates::Closest<Dim, S>& c,
-         const S& most, Friction<S, Dim, N>& friction) {
+         Grip<S> grip, Friction<S, Dim, N>& friction) {
+  using std::sqrt;
   const auto x = each_of<N>(pair, [&](VertexId i) -> Vec<S, Dim> { return now.particles[i].at(now.t); });
   const auto v = each_of<N>(pair, [&](VertexId i) { return now.particles[i].v; });
   const auto inverse_masses = each_of<N>(pair, [&](VertexId i) { return now.particles[i].inverse_mass; });
-  const Slip<Dim, S> s = slip<Dim, S>(c, x, v);
-  friction.impulses = s.against;
+  for (auto& impulse : friction.impulses) impulse.setZero();
+  const Sliding<Dim, S> sliding(c, x);
+  if (!sliding.possible()) return;
+  const Slip<Dim, S> s = slip<Dim, S>(sliding, v);
   const S yield = yielding<Dim, S>(s, inverse_masses);
-  if (!(s.speed > S(0)) || !(yield > S(0))) {
-    for (auto& impulse : friction.impulses) impulse.setZero();
-    return;
+  auto z = slide_from<Dim, S>(sliding, c, x, grip);
+  for (std::size_t k = 0; k < 2; ++k) {
+    z[k] *= grip.spring;
+    if (yield > S(0)) z[k] += s.rate[k] / yield;
   }
-  const S stop = s.speed / yield, magnitude = std::min(most, stop);
-  for (auto& impulse : friction.impulses) impulse *= magnitude;
+  const S magnitude = sqrt(sliding.squared(z));
+  if (!(magnitude > S(0))) return;
+  friction.sticks = !(grip.most < magnitude);
+  if (!friction.sticks) {
+    for (S& part : z) part *= grip.most / magnitude;
+  }
+  friction.impulses = sliding.against(z);
   for (std::size_t i = 0; i < N; ++i) kick_vertex<S, Dim>(now, pair.vertices[i], friction.impulses[i]);
-  friction.sticks = !(most < stop);
 }
 
 /// What a layer has given a pair, all in one event.
@@ -167,7 +205,7 @@ template <std::size_t N, class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_vertices(const Kicked<S, Dim, Recorder>& now,
                                                    const certificates::Stencil& pair, const Approach<S, Dim>& approach,
                                                    const LayerTerms& layer, double h, const S& weight,
-                                                   Account<S, Dim>& account) {
+                                                   Anchors<S>& anchors, Account<S, Dim>& account) {
   Blow blow;
   const auto& [closest, distance] = approach;
   const S g = distance - S(layer.thickness);
@@ -189,7 +227,11 @@ template <std::size_t N, class S, int Dim, class Recorder>
     kick_vertex<S, Dim>(now, pair.vertices[i], normal_impulse<Dim, S>(closest, given.normal, push, i));
   }
   if (rubs) {
-    rub<N>(now, pair, closest, S(layer.friction) * push, friction);
+    Anchor<S>& anchor = anchors.renew(pair, closest.weights, now.t, layer.anchor_life);
+    rub<N>(now, pair, closest,
+           Grip<S>{S(layer.friction) * push, S(h) * S(layer.stiffness) * weight, S(-layer.friction) * g, layer.drags,
+                   anchor},
+           friction);
     blow.course.sticks = friction.sticks;
     given.friction = &friction;
   }
@@ -202,11 +244,11 @@ template <std::size_t N, class S, int Dim, class Recorder>
 template <class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
                                                const Approach<S, Dim>& approach, const LayerTerms& layer, double h,
-                                               const S& weight, Account<S, Dim>& account) {
+                                               const S& weight, Anchors<S>& anchors, Account<S, Dim>& account) {
   switch (pair.size()) {
-    case 2: return strike_vertices<2>(now, pair, approach, layer, h, weight, account);
-    case 3: return strike_vertices<3>(now, pair, approach, layer, h, weight, account);
-    default: return strike_vertices<4>(now, pair, approach, layer, h, weight, account);
+    case 2: return strike_vertices<2>(now, pair, approach, layer, h, weight, anchors, account);
+    case 3: return strike_vertices<3>(now, pair, approach, layer, h, weight, anchors, account);
+    default: return strike_vertices<4>(now, pair, approach, layer, h, weight, anchors, account);
   }
 }
 

@@ -7,9 +7,10 @@
 //   g         d - eta; the layer acts if g < 0
 //   J_n       s h r(l) |g|: the impulse between the closest points, pushing apart; s = 1 while they approach, e while
 //             they part, so e is the part of the energy that comes back
-//   friction  impulse of magnitude j = min(mu J_n, what stops the slip) against the slip of the closest points along
-//             the features. The slip is that of the points' parameters, which rigid motions do not change; so neither
-//             impulse changes momentum or angular momentum (see slip())
+//   slide     what the parameters of the closest points change by, or their rates. Rigid motions do not change them, so
+//             forces along their gradients change neither momentum nor angular momentum (see Sliding)
+//   friction  impulse z along slides, of magnitude mu J_n at most: what stops the slip, and h r(l) times the slide from
+//             the pair's anchor (integrator/anchors.h) back to it
 //
 // S is double; in audits also multiprecision numbers.
 //
@@ -52,51 +53,99 @@ S opening(const certificates::Closest<Dim, S>& c, std::size_t size, const Veloci
   return sum;
 }
 
-/// The slip of a pair: its speed, and the generalized force of magnitude 1 against it.
+/// How the closest points of a pair can slide along its features, at most in two directions.
+template <int Dim, class S>
+class Sliding {
+ public:
+  using Slide = std::array<S, 2>;  ///< by parameter
+
+  /// c has to stay where it is. Precondition: x are the pair's vertices.
+  Sliding(const certificates::Closest<Dim, S>& c, std::span<const Vec<S, Dim>> x) : c_(c), size_(x.size()) {
+    for (std::size_t k = 0; k < c.slide_count; ++k) b_[k] = x[c.slides[k].to] - x[c.slides[k].from];
+    if (c.slide_count == 0) return;
+    aa_ = b_[0].squaredNorm();
+    if (c.slide_count == 1) return;
+    ab_ = b_[0].dot(b_[1]);
+    bb_ = b_[1].squaredNorm();
+    det_ = aa_ * bb_ - ab_ * ab_;
+  }
+
+  /// Whether anything can slide, and the parameters tell how.
+  bool possible() const { return c_.slide_count == 1 || (c_.slide_count == 2 && det_ > S(0)); }
+
+  /// The slide that moves the closest points by, or at a rate of, `tangent` along the b_k. Precondition: possible().
+  Slide solve(const Slide& tangent) const {
+    if (c_.slide_count == 1) return {tangent[0] / aa_, S(0)};
+    return {(bb_ * tangent[0] - ab_ * tangent[1]) / det_, (aa_ * tangent[1] - ab_ * tangent[0]) / det_};
+  }
+
+  /// b_k . u + (db_k/dt) . r, u = sum w_i v_i: what solve() makes the parameters' rates of.
+  Slide rates(std::span<const Vec<S, Dim>> v) const {
+    Vec<S, Dim> u = c_.weights[0] * v[0];
+    for (std::size_t i = 1; i < size_; ++i) u += c_.weights[i] * v[i];
+    Slide result{S(0), S(0)};
+    for (std::size_t k = 0; k < c_.slide_count; ++k) {
+      const auto [to, from] = c_.slides[k];
+      result[k] = b_[k].dot(u) + (v[to] - v[from]).dot(c_.r);
+    }
+    return result;
+  }
+
+  /// b_k . (sum (weights_i - w_i) x_i): the same of the way from points of other weights to the closest ones.
+  Slide way_from(const std::array<S, 4>& weights, std::span<const Vec<S, Dim>> x) const {
+    Vec<S, Dim> way = (weights[0] - c_.weights[0]) * x[0];
+    for (std::size_t i = 1; i < size_; ++i) way += (weights[i] - c_.weights[i]) * x[i];
+    Slide result{S(0), S(0)};
+    for (std::size_t k = 0; k < c_.slide_count; ++k) result[k] = b_[k].dot(way);
+    return result;
+  }
+
+  /// The square of a slide's length, or of its speed.
+  S squared(const Slide& slide) const {
+    S sum = slide[0] * slide[0] * aa_;
+    if (c_.slide_count == 2) sum += slide[1] * (S(2) * slide[0] * ab_ + slide[1] * bb_);
+    return sum;
+  }
+
+  /// The impulses on the vertices whose work on every motion is -z . rate: along gradients of functions that rigid
+  /// motions leave alone.
+  Impulses<Dim, S> against(const Slide& z) const {
+    Impulses<Dim, S> impulses;
+    for (auto& impulse : impulses) impulse.setZero();
+    for (std::size_t k = 0; k < c_.slide_count; ++k) {
+      for (std::size_t i = 0; i < size_; ++i) impulses[i] -= (z[k] * c_.weights[i]) * b_[k];
+      impulses[c_.slides[k].to] -= z[k] * c_.r;
+      impulses[c_.slides[k].from] += z[k] * c_.r;
+    }
+    return impulses;
+  }
+
+ private:
+  const certificates::Closest<Dim, S>& c_;
+  std::size_t size_;
+  std::array<Vec<S, Dim>, 2> b_;
+  S aa_ = S(0), ab_ = S(0), bb_ = S(0), det_ = S(0);
+};
+
+/// The slip of a pair.
 template <int Dim, class S = double>
 struct Slip {
-  S speed = S(0);              ///< sqrt(rate . (b_j . b_k) rate) [m/s]; 0: nothing slips, or nothing can
+  S speed = S(0);              ///< [m/s]; 0: nothing slips, or nothing can
+  std::array<S, 2> rate{};     ///< of the parameters
   Impulses<Dim, S> against{};  ///< impulse on each vertex, if the friction's is 1
 };
 
-/// With rate the parameters' rates and y = -rate / speed, the force of magnitude 1 that does the work -speed per second
-/// on every motion is sum y_k dc_k/dv_i: c_k = b_k . u + (db_k/dt) . r, u = sum w_i v_i. It is a force along gradients
-/// of functions that rigid motions leave alone.
 template <int Dim, class S>
-Slip<Dim, S> slip(const certificates::Closest<Dim, S>& c, std::span<const Vec<S, Dim>> x,
-                  std::span<const Vec<S, Dim>> v) {
+Slip<Dim, S> slip(const Sliding<Dim, S>& sliding, std::span<const Vec<S, Dim>> v) {
   using std::sqrt;
   Slip<Dim, S> result;
   for (auto& impulse : result.against) impulse.setZero();
-  if (c.slide_count == 0) return result;
-  Vec<S, Dim> u = c.weights[0] * v[0];
-  for (std::size_t i = 1; i < v.size(); ++i) u += c.weights[i] * v[i];
-  std::array<Vec<S, Dim>, 2> b;
-  std::array<S, 2> rhs{}, rate{};
-  for (std::size_t k = 0; k < c.slide_count; ++k) {
-    const auto [to, from] = c.slides[k];
-    b[k] = x[to] - x[from];
-    rhs[k] = b[k].dot(u) + (v[to] - v[from]).dot(c.r);
-  }
-  const S aa = b[0].squaredNorm();
-  if (c.slide_count == 1) {
-    rate[0] = rhs[0] / aa;
-  } else {
-    const S ab = b[0].dot(b[1]), bb = b[1].squaredNorm(), det = aa * bb - ab * ab;
-    if (!(det > S(0))) return result;
-    rate[0] = (bb * rhs[0] - ab * rhs[1]) / det;
-    rate[1] = (aa * rhs[1] - ab * rhs[0]) / det;
-  }
-  S squared(0);
-  for (std::size_t k = 0; k < c.slide_count; ++k) squared += rate[k] * rhs[k];
+  if (!sliding.possible()) return result;
+  result.rate = sliding.solve(sliding.rates(v));
+  const S squared = sliding.squared(result.rate);
   if (!(squared > S(0))) return result;
   result.speed = sqrt(squared);
-  for (std::size_t k = 0; k < c.slide_count; ++k) {
-    const S y = -rate[k] / result.speed;
-    for (std::size_t i = 0; i < v.size(); ++i) result.against[i] += (y * c.weights[i]) * b[k];
-    result.against[c.slides[k].to] += y * c.r;
-    result.against[c.slides[k].from] -= y * c.r;
-  }
+  result.against = sliding.against({result.rate[0] / result.speed, result.rate[1] / result.speed});
   return result;
 }
 

@@ -73,10 +73,16 @@ class Engine {
     due_ = nullptr;
     timeline_.skip_to(t);
     make_own_clocks();
+    if constexpr (has_contact) {
+      if (contact_) contact_->restore(snapshot.anchors);
+    }
   }
 
   Snapshot<S, Dim> snapshot() const {
-    Snapshot<S, Dim> result{windows_, time_, {}, {}};
+    Snapshot<S, Dim> result{windows_, time_, {}, {}, {}};
+    if constexpr (has_contact) {
+      if (contact_) result.anchors = contact_->anchors(time_);
+    }
     for (const Particle<S, Dim>& p : particles_) {
       result.x.push_back(p.x);
       result.v.push_back(p.v);

@@ -48,7 +48,7 @@ class LayerFire {
           seen(begin + i, approach, course);
           continue;
         }
-        const Blow blow = strike_pair(now, row[i], approach, layer, h, S(1), account);
+        const Blow blow = strike_pair(now, row[i], approach, layer, h, S(1), anchors_, account);
         seen(begin + i, approach, blow.course);
         if (blow.struck) struck(row[i], approach.closest);
       }
@@ -56,6 +56,9 @@ class LayerFire {
     fire(joined_, now, layer, h, account, struck);
     fire(excess_, now, layer, h, account, struck);
   }
+
+  const Anchors<S>& anchors() const { return anchors_; }
+  Anchors<S>& anchors() { return anchors_; }
 
   /// Calls each(pair, closest points, g, weight) for what the layer acts on where things are: position(vertex).
   template <class PositionOf, class Each>
@@ -103,11 +106,12 @@ class LayerFire {
     if (sites.empty()) return;
     const auto position = [&now](VertexId i) -> Vec<S, Dim> { return now.particles[i].at(now.t); };
     sites.take(S(layer.thickness), position, [&](const SiteOfContact<S, Dim>& site) {
-      const Blow blow = strike_pair(now, site.pair, site.approach, layer, h, site.weight, account);
+      const Blow blow = strike_pair(now, site.pair, site.approach, layer, h, site.weight, anchors_, account);
       if (blow.struck) struck(site.pair, site.approach.closest);
     });
   }
 
+  Anchors<S> anchors_;  ///< of all materials: a pair has one
   bool joins_;
   /// Of the pairs that fire next: all are found before any of them fires. One by one, each would wait for what the one
   /// before has just written.

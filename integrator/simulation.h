@@ -25,6 +25,7 @@
 #include <vector>
 
 #include <noli/run.h>
+#include "integrator/anchors.h"
 #include "integrator/books.h"
 #include "integrator/contact_extremes.h"
 #include "integrator/model.h"
@@ -39,6 +40,7 @@ struct Snapshot {
   std::uint64_t windows = 0;  ///< done
   double time = 0;            ///< [s]
   std::vector<Vec<S, Dim>> x, v;
+  std::vector<Anchor<S>> anchors;  ///< of friction
 };
 
 /// Energies and momenta at a window's end. Those of pinned and scripted vertices are not in them.

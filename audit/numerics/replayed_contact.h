@@ -40,6 +40,9 @@ class ReplayedContact {
     next_ = 0;
   }
 
+  std::vector<integrator::Anchor<S>> anchors(double t) const { return layer_fire_.anchors().after(t); }
+  void restore(std::span<const integrator::Anchor<S>> anchors) { layer_fire_.anchors().restore(anchors); }
+
   bool started() const { return started_; }
   void start(double) { started_ = true; }
   void show(integrator::Activity&) {}

@@ -9,7 +9,7 @@ namespace noli {
 namespace {
 
 constexpr std::string_view letters = "noli row";
-constexpr std::uint64_t version = 4;
+constexpr std::uint64_t version = 5;
 constexpr std::size_t beginning = letters.size() + sizeof(version);
 
 /// Calls f on each number of a layer, in order.
@@ -103,11 +103,35 @@ StepHistogram take_steps(Numbers& take, double smallest) {
   return steps;
 }
 
+std::vector<integrator::Anchor<double>> take_anchors(Numbers& take) {
+  auto anchors = take_list<integrator::Anchor<double>>(take, 10);
+  for (auto& anchor : anchors) {
+    take(anchor.kind);
+    for (VertexId& v : anchor.vertices) take(v);
+    for (double& weight : anchor.weights) take(weight);
+    take(anchor.until);
+  }
+  return anchors;
+}
+
+/// Throws std::invalid_argument when the bytes are no row.
+Numbers numbers_of(std::string_view bytes) {
+  if (const std::string problem = not_a_row(bytes); !problem.empty()) throw std::invalid_argument(problem);
+  return Numbers(bytes.substr(beginning));
+}
+
 }  // namespace
 
-std::string encode(const SeriesRow& row) {
+std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<double>> anchors) {
   std::string bytes(letters);
   put(bytes, version);
+  put(bytes, static_cast<std::uint64_t>(anchors.size()));
+  for (const auto& anchor : anchors) {
+    put(bytes, static_cast<std::uint64_t>(anchor.kind));
+    for (const VertexId v : anchor.vertices) put(bytes, static_cast<std::uint64_t>(v));
+    for (const double weight : anchor.weights) put(bytes, weight);
+    put(bytes, anchor.until);
+  }
   each_number_of_row(row, [&bytes]<class T>(const T& x) {
     if constexpr (std::is_same_v<T, double>) {
       put(bytes, x);
@@ -131,15 +155,20 @@ std::string encode(const SeriesRow& row) {
 
 std::string not_a_row(std::string_view bytes) {
   if (bytes.size() < beginning || !bytes.starts_with(letters)) {
-    return "its series is no row of version 4, as a run of an earlier Noli has it; expected a run of this version";
+    return "its series is no row of version 5, as a run of an earlier Noli has it; expected a run of this version";
   }
   const auto found = get<std::uint64_t>(bytes.data() + letters.size());
-  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 4";
+  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 5";
+}
+
+std::vector<integrator::Anchor<double>> decode_anchors(std::string_view bytes) {
+  Numbers take = numbers_of(bytes);
+  return take_anchors(take);
 }
 
 SeriesRow decode_row(std::string_view bytes) {
-  if (const std::string problem = not_a_row(bytes); !problem.empty()) throw std::invalid_argument(problem);
-  Numbers take(bytes.substr(beginning));
+  Numbers take = numbers_of(bytes);
+  take_anchors(take);
   SeriesRow row;
   each_number_of_row(row, take);
   row.contact_work = take_list<ContactWork>(take, 3);

@@ -66,15 +66,16 @@ void check_books(const SeriesRow& row, const SeriesRow& before) {
 
 // --- Layers ----------------------------------------------------------------------------------------------------------
 
-void check_vertices(const ActingLayer& layer, const RunScene& scene) {
+/// `what`: has the pair.
+void check_pair(std::string_view what, FeaturePair pair, std::span<const VertexId> all, const RunScene& scene) {
   const bool flat = scene.header.dimension == 2;
-  require(!flat || layer.pair == FeaturePair::vertex_edge || layer.pair == FeaturePair::vertex_vertex,
-          "a layer between a pair of features that 2D has not: {}", name(layer.pair));
-  const std::span<const VertexId> vertices(layer.vertices.data(), point_count(layer.pair));
+  require(!flat || pair == FeaturePair::vertex_edge || pair == FeaturePair::vertex_vertex,
+          "{} between a pair of features that 2D has not: {}", what, name(pair));
+  const std::span<const VertexId> vertices = all.first(point_count(pair));
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    require(vertices[i] < scene.mesh.vertex_count, "a layer at vertex {}; expected one below {}", vertices[i],
+    require(vertices[i] < scene.mesh.vertex_count, "{} at vertex {}; expected one below {}", what, vertices[i],
             scene.mesh.vertex_count);
-    require(std::ranges::count(vertices.first(i), vertices[i]) == 0, "a layer that names a vertex twice: {}",
+    require(std::ranges::count(vertices.first(i), vertices[i]) == 0, "{} that names a vertex twice: {}", what,
             vertices[i]);
   }
 }
@@ -85,7 +86,7 @@ void check_layer(const ActingLayer& layer, const RunWindow& window, const RunSce
   constexpr std::uint64_t most_materials = std::numeric_limits<std::uint16_t>::max();
   require(layer.layer <= most_layers, "layer {}; expected at most {}", layer.layer, most_layers);
   require(layer.material <= most_materials, "material {}; expected at most {}", layer.material, most_materials);
-  check_vertices(layer, scene);
+  check_pair("a layer", layer.pair, layer.vertices, scene);
   require(window.begin <= layer.time && layer.time <= window.end, "a layer acts at {} s; expected {} s to {} s",
           layer.time, window.begin, window.end);
   require(layer.distance >= 0 && std::isfinite(layer.distance),
@@ -141,6 +142,18 @@ void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& sc
   if (before != nullptr) check_books(row, *before);
   check_layers(row, window, scene);
   check_steps(row.steps, window, scene);
+}
+
+void check_anchors(std::span<const integrator::Anchor<double>> anchors, const RunWindow& window,
+                   const RunScene& scene) {
+  for (const auto& anchor : anchors) {
+    check_pair("an anchor", anchor.kind, anchor.vertices, scene);
+    for (const double weight : anchor.weights) {
+      require(std::isfinite(weight), "an anchor with the weight {}; expected a finite one", weight);
+    }
+    require(anchor.until >= window.end && std::isfinite(anchor.until),
+            "an anchor that ends at {} s; expected a time from {} s on", anchor.until, window.end);
+  }
 }
 
 }  // namespace noli

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "certify/runs/run_series.h"
 #include "trajectory/blocks/run_file.h"
@@ -16,5 +17,7 @@ namespace noli {
 
 /// `before`: the row of the window before, none for the first. Throws std::invalid_argument, one line without place.
 void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, const SeriesRow* before);
+/// The same of what friction remembers at the window's end.
+void check_anchors(std::span<const integrator::Anchor<double>> anchors, const RunWindow& window, const RunScene& scene);
 
 }  // namespace noli

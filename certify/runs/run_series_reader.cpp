@@ -26,6 +26,7 @@ void SeriesReader::take_row(const RunWindow& window) {
   try {
     row_ = decode_row(window.state);
     check_row(*row_, window, scene(), before ? &*before : nullptr);
+    check_anchors(decode_anchors(window.state), window, scene());
   } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }

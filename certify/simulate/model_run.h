@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "certify/runs/run_series.h"
 #include "integrator/simulation.h"
 #include "trajectory/blocks/run_file.h"
 
@@ -34,7 +35,8 @@ std::vector<integrator::Vec<double, Dim>> vectors_of(const std::vector<Position>
 /// The state at the end of a window that was read.
 template <int Dim>
 integrator::Snapshot<double, Dim> snapshot_of(const RunWindow& window) {
-  return {window.index + 1, window.end, vectors_of<Dim>(window.positions), vectors_of<Dim>(window.velocities)};
+  return {window.index + 1, window.end, vectors_of<Dim>(window.positions), vectors_of<Dim>(window.velocities),
+          decode_anchors(window.state)};
 }
 
 /// A simulation at a snapshot, or at the beginning when there is none; with contact, the steps of its layers are halved

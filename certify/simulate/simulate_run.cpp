@@ -386,7 +386,7 @@ class CertifiedRun {
   void write(const Candidate<Dim>& window) {
     const PhaseScope writing(activity_, Phase::writing);
     const std::vector<RunFrame> frames = frames_of(window);
-    writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row), frames});
+    writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row, window.anchors), frames});
   }
 
   void commit(const Candidate<Dim>& window) {

@@ -27,6 +27,7 @@ struct IntegratedWindow {
   double energy_before = 0;  ///< [J]
   std::unique_ptr<const WorldLines> lines;
   std::vector<Position> velocities;
+  std::vector<integrator::Anchor<double>> anchors;  ///< at its end
   SeriesRow row;
   std::uint32_t deepest = 0;  ///< layer that was active, so far
 };
@@ -125,7 +126,9 @@ class WindowIntegrator {
     window.deepest = deepest();
     const integrator::PhaseScope recording(activity_, integrator::Phase::recording);
     window.lines = std::make_unique<const WorldLines>(world_lines<Dim>(recording_, model_.x.size()));
-    window.velocities = positions_of<Dim>(simulation_->snapshot().v);
+    const Snapshot after = simulation_->snapshot();
+    window.velocities = positions_of<Dim>(after.v);
+    window.anchors = after.anchors;
     window.row = series_row<Dim>(*simulation_, books, recording_.stream().size(), *window.lines, fixed_, energy_);
     window.row.halvings = halvings_;
     energy_ = window.row.energy();

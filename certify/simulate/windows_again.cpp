@@ -58,7 +58,7 @@ class Again : public WindowsAgain {
     }
     const auto state = simulation_->snapshot();
     const auto there = snapshot_of<Dim>(window);
-    if (state.x != there.x || state.v != there.v) differs(window, "ends in another state than the run has");
+    if (state.x != there.x || state.v != there.v || state.anchors != there.anchors) differs(window, "ends in another state than the run has");
   }
 
   [[noreturn]] void differs(const RunWindow& window, const std::string& problem) const {

@@ -56,7 +56,7 @@ double opening_of(const certificates::Closest<Dim>& c, const NearFeatures<Dim>& 
 /// As integrator/contact.h gives it. `most`: mu J_n.
 template <int Dim>
 Impulses<Dim> slip_rate_friction(const NearFeatures<Dim>& f, const certificates::Closest<Dim>& c, double most) {
-  const Slip<Dim> s = slip<Dim>(c, f.xs(), f.vs());
+  const Slip<Dim> s = slip<Dim>(Sliding<Dim, double>(c, f.xs()), f.vs());
   const double yield = yielding<Dim>(s, f.inverse_masses());
   if (!(s.speed > 0) || !(yield > 0)) return scaled<Dim>(s.against, 0);
   return scaled<Dim>(s.against, std::min(most, s.speed / yield));
@@ -123,7 +123,7 @@ TEST(ContactImpulse, FrictionLowersTheKineticEnergy) {
     const double push = some_push(static_cast<std::uint64_t>(tally[0]) + static_cast<std::uint64_t>(tally[1]));
     auto pushed = f;
     pushed.give(normal_impulses(c, d, push));
-    const Slip<Dim> s = slip<Dim>(c, pushed.xs(), pushed.vs());
+    const Slip<Dim> s = slip<Dim>(Sliding<Dim, double>(c, pushed.xs()), pushed.vs());
     if (c.slide_count == 0) {
       EXPECT_EQ(s.speed, 0);
       ++tally[2];
@@ -151,7 +151,7 @@ TEST(ContactImpulse, FrictionIsAtMostItsCoefficientTimesTheNormalImpulseAndAtMos
     Vec<double, Dim> on_a = Vec<double, Dim>::Zero();
     for (std::size_t i = 0; i < first_size(f.kind); ++i) on_a += friction[i];
     EXPECT_LE(on_a.norm(), 0.5 * push * (1 + 1e-6));
-    const Slip<Dim> s = slip<Dim>(c, f.xs(), f.vs());
+    const Slip<Dim> s = slip<Dim>(Sliding<Dim, double>(c, f.xs()), f.vs());
     double scale = 0;
     for (const auto& v : f.vs()) scale = std::max(scale, v.norm());
     if (s.speed < 1e-6 * scale || !(yielding<Dim>(s, f.inverse_masses()) > 0)) return;
@@ -209,7 +209,7 @@ TEST(ContactImpulse, WhatTurnsAsOneDoesNotSlip) {
   for_pairs_of<3>({FeaturePair::vertex_face, FeaturePair::edge_edge}, [&](auto f, const auto& c, double d) {
     const Vec<double, 3> spin(0.3, -0.8, 0.5);
     for (std::size_t i = 0; i < f.size(); ++i) f.v[i] = spin.cross(f.x[i]);
-    EXPECT_LE(slip<3>(c, f.xs(), f.vs()).speed, 1e-7 * (1 + d));
+    EXPECT_LE(slip<3>(Sliding<3, double>(c, f.xs()), f.vs()).speed, 1e-7 * (1 + d));
     Vec<double, 3> u = Vec<double, 3>::Zero();
     for (std::size_t i = 0; i < f.size(); ++i) u += c.weights[i] * f.v[i];
     if ((u - u.dot(c.r) / (d * d) * c.r).norm() > 0.1 * d) ++mistaken;

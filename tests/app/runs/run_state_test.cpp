@@ -16,18 +16,26 @@
 namespace noli::app_tests {
 namespace {
 
-/// Changes the row of one window of a run, counted from 1.
-void change_row(const std::string& run, std::uint64_t window, const std::function<void(SeriesRow&)>& change) {
+using FrictionAnchors = std::vector<integrator::Anchor<double>>;
+
+/// Changes the state of one window of a run, counted from 1.
+void change_state(const std::string& run, std::uint64_t window,
+                  const std::function<void(SeriesRow&, FrictionAnchors&)>& change) {
   const fs::path file = trajectory_path(run);
   std::uint64_t states = 0;
   write_file(file, testing::changed(bytes_of(file), [&](std::vector<Block>& blocks) {
                for (Block& block : blocks) {
                  if (block.kind != run_kind::state || ++states != window) continue;
                  SeriesRow row = decode_row(block.payload);
-                 change(row);
-                 block.payload = encode(row);
+                 FrictionAnchors anchors = decode_anchors(block.payload);
+                 change(row, anchors);
+                 block.payload = encode(row, anchors);
                }
              }));
+}
+
+void change_row(const std::string& run, std::uint64_t window, const std::function<void(SeriesRow&)>& change) {
+  change_state(run, window, [&](SeriesRow& row, FrictionAnchors&) { change(row); });
 }
 
 struct BadNumber {
@@ -159,6 +167,32 @@ TEST_F(RunState, EnergiesMayBeBeyondAllDoubles) {
     const Process process = run_noli(command);
     EXPECT_EQ(process.exit_code, is_missing(process) ? 3 : 0) << joined(command) << process.err;
   }
+}
+
+TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
+  using Anchor = integrator::Anchor<double>;
+  const Anchor good{FeaturePair::vertex_edge, {0, 1, 2, 0}, {1, -0.5, -0.5, 0}, 0.3125};
+  struct Bad {
+    void (*change)(Anchor&);
+    std::string message;
+  };
+  const std::vector<Bad> all{
+      {[](Anchor& a) { a.kind = FeaturePair::vertex_face; }, "an anchor between a pair of features that 2D has not"},
+      {[](Anchor& a) { a.vertices[2] = 3; }, "an anchor at vertex 3; expected one below 3"},
+      {[](Anchor& a) { a.vertices[2] = 0; }, "an anchor that names a vertex twice"},
+      {[](Anchor& a) { a.weights[1] = not_a_number; }, "an anchor with the weight nan; expected a finite one"},
+      {[](Anchor& a) { a.until = 0.3; }, "an anchor that ends at 0.3 s; expected a time from 0.3125 s on"},
+      {[](Anchor& a) { a.until = infinity; }, "an anchor that ends at inf s"}};
+  for (const Bad& bad : all) {
+    Anchor anchor = good;
+    bad.change(anchor);
+    change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = {anchor}; });
+    const Process process = run_noli({"info", run_path("run")});
+    EXPECT_EQ(process.exit_code, 3) << bad.message;
+    EXPECT_NE(process.err.find("the state of window 5: " + bad.message), std::string::npos) << process.err;
+  }
+  change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = {good}; });
+  EXPECT_EQ(run_noli({"info", run_path("run")}).exit_code, 0);
 }
 
 TEST_F(RunState, HalvingsDoNotGetFewer) {

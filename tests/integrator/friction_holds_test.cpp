@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What friction holds stays where it is, at default steps; what slides, slides by Coulomb's law; and what friction
+// remembers is part of the motion.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "integrator/scene/build_model.h"
+#include "integrator/scene/read_scene.h"
+#include "running.h"
+
+namespace noli::integrator {
+namespace {
+
+const std::string elastic = R"("material": {"young": 1e6, "poisson": 0.3, "density": 500, "thickness": 0.01,
+                                            "damping": 0.001, "bending_damping": 0.001})";
+const std::string rigid = R"("material": {"edge_stiffness": 0, "mass_per_area": 1})";
+
+BuiltScene<3> built(const std::string& bodies, const std::string& rest) {
+  const std::string text = R"({"noli_scene": 1, "window": 0.01, "bodies": [)" + bodies + "], " + rest + "}";
+  return build_model<3>(parse_scene(text, "friction", Form::full));
+}
+
+/// A box on a plane that is level, while gravity leans by atan 1/2. All steps are the defaults.
+BuiltScene<3> box_on_an_incline(double friction, bool inclusion_exclusion = false) {
+  return built(R"({"name": "box", "mesh": {"box": {"size": [0.2, 0.2, 0.1], "cells": [2, 2, 1]}},
+                   "transform": {"rotate": {"axis": [0, 0, 1], "degrees": 5}, "translate": [-0.3, -0.3, 0.0595]}, )" +
+                   elastic + R"(}, {"name": "plane", "mesh": {"grid": {"size": [4, 2], "cells": [1, 1]}},
+                   "transform": {"translate": [1, 0, 0]}, "pin": ["all"], )" +
+                   rigid + "}",
+               R"("duration": 4, "gravity": [4.387165, 0, -8.77433],
+                  "contact": {"thickness": 0.01, "stiffness": 2000, "restitution": 0.25, "friction": )" +
+                   std::to_string(friction) + R"(, "inclusion_exclusion": )" +
+                   (inclusion_exclusion ? "true}" : "false}"));
+}
+
+/// Between two plates that close on it, and hold it up against gravity.
+BuiltScene<3> gripped_box() {
+  const auto plate = [](const char* name, double x) {
+    return std::string(R"({"name": ")") + name +
+           R"(", "mesh": {"grid": {"size": [0.3, 0.3], "cells": [1, 1]}},
+              "transform": {"rotate": {"axis": [0, 1, 0], "degrees": 90}, "translate": [)" +
+           std::to_string(x) + ", 0, 0]}, " + rigid + "}";
+  };
+  const auto script = [](const char* name, double move) {
+    return std::string(R"({"body": ")") + name + R"(", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 0.1, "move": [)" +
+           std::to_string(move) + ", 0, 0]}]}";
+  };
+  return built(R"({"name": "box", "mesh": {"box": {"size": [0.1, 0.1, 0.1], "cells": [1, 1, 1]}},
+                   "transform": {"rotate": {"axis": [1, 0, 0], "degrees": 7}}, )" +
+                   elastic + "}, " + plate("left", -0.0605) + ", " + plate("right", 0.0605),
+               R"("duration": 4, "gravity": [0, 0, -9.81], "scripts": [)" + script("left", 0.004) + ", " +
+                   script("right", -0.004) +
+                   R"(], "contact": {"thickness": 0.01, "stiffness": 2000, "restitution": 0.25, "friction": 0.6,
+                                     "exclude": [["left", "right"]]})");
+}
+
+/// Mean of a coordinate of the first body's vertices.
+double mean_place(const Simulation<double, 3>& simulation, std::size_t vertices, int axis) {
+  const auto s = simulation.snapshot();
+  double sum = 0;
+  for (std::size_t i = 0; i < vertices; ++i) sum += s.x[i][axis];
+  return sum / static_cast<double>(vertices);
+}
+
+/// Speed of the first body, averaged over a second, after a second of settling [m/s].
+double creep(const BuiltScene<3>& scene, int axis) {
+  Simulation<double, 3> simulation(scene.model);
+  test::run(simulation, 100);
+  const double before = mean_place(simulation, scene.bodies[0].vertices, axis);
+  test::run(simulation, 100);
+  return mean_place(simulation, scene.bodies[0].vertices, axis) - before;
+}
+
+TEST(FrictionHolds, ABoxOnAnIncline) {
+  for (const bool inclusion_exclusion : {false, true}) {
+    const double speed = creep(box_on_an_incline(0.55, inclusion_exclusion), 0);
+    std::printf("a box on an incline creeps %.3g mm/s%s\n", 1000 * speed,
+                inclusion_exclusion ? " with inclusion and exclusion" : "");
+    EXPECT_LT(std::abs(speed), 1e-5);
+  }
+  EXPECT_GT(creep(box_on_an_incline(0.45), 0), 0.1);
+}
+
+TEST(FrictionHolds, ABoxBetweenTwoPlates) {
+  const double speed = creep(gripped_box(), 2);
+  std::printf("a box between two plates creeps %.3g mm/s\n", 1000 * speed);
+  EXPECT_LT(std::abs(speed), 1e-5);
+}
+
+// --- Part of the motion ----------------------------------------------------------------------------------------------
+
+/// What a simulation that goes on from the snapshot of another one does in so many windows.
+Snapshot<double, 3> gone_on(const Model<double, 3>& model, const Snapshot<double, 3>& from, std::uint64_t windows) {
+  Simulation<double, 3> simulation(model, from);
+  test::run(simulation, windows);
+  return simulation.snapshot();
+}
+
+TEST(FrictionHolds, GoesOnFromASnapshotAsIfNothingHadHappened) {
+  const BuiltScene<3> scene = box_on_an_incline(0.55);
+  Simulation<double, 3> simulation(scene.model);
+  test::run(simulation, 40);
+  Snapshot<double, 3> half = simulation.snapshot();
+  EXPECT_GE(half.anchors.size(), 8U);
+  test::run(simulation, 10);
+  test::expect_same(gone_on(scene.model, half, 10), simulation.snapshot());
+  EXPECT_EQ(gone_on(scene.model, half, 10).anchors, simulation.snapshot().anchors);
+  half.anchors.clear();
+  EXPECT_NE(gone_on(scene.model, half, 10).x, simulation.snapshot().x);
+}
+
+TEST(FrictionHolds, LayersActivatedInTimeEqualLayersThatAlwaysAre) {
+  BuiltScene<3> scene = box_on_an_incline(0.55);
+  Simulation<double, 3> lazy(scene.model);
+  scene.model.contact->least_layers = 10;
+  Simulation<double, 3> eager(scene.model);
+  test::run(lazy, 20);
+  test::run(eager, 20);
+  test::expect_same(lazy.snapshot(), eager.snapshot());
+  EXPECT_EQ(lazy.snapshot().anchors, eager.snapshot().anchors);
+}
+
+/// A plate and a box that slips on it, both free.
+TEST(FrictionHolds, KeepsBothMomenta) {
+  const BuiltScene<3> scene = built(
+      R"({"name": "box", "mesh": {"box": {"size": [0.1, 0.1, 0.1], "cells": [1, 1, 1]}}, "velocity": [0.3, 0.1, -0.5],
+                "transform": {"rotate": {"axis": [0, 0, 1], "degrees": 7}, "translate": [0, 0, 0.07]}, )" +
+          elastic + R"(}, {"name": "plate", "mesh": {"grid": {"size": [0.4, 0.4], "cells": [2, 2]}}, )" + elastic + "}",
+      R"("duration": 4, "contact": {"thickness": 0.01, "stiffness": 2000, "restitution": 0.25, "friction": 0.4})");
+  Simulation<double, 3> simulation(scene.model);
+  const auto before = simulation.state();
+  const auto books = test::run(simulation, 20);
+  const auto after = simulation.state();
+  EXPECT_LT(books.of(ForceKind::contact).damping_work, -1e-4) << "it rubs";
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13 * before.speeds);
+  EXPECT_LT((after.angular_momentum - before.angular_momentum).norm(), 1e-12 * before.moments);
+}
+
+}  // namespace
+}  // namespace noli::integrator
