@@ -26,7 +26,7 @@ const std::vector<std::string> scenes_with_contact = {
     "billiard",      "bounce",       "bowline",   "compactor",   "curtains",        "drape_mesh",
     "drape_sphere",  "graded_sheet", "incline",   "nails",       "plane_compactor", "plane_compactor_elastic",
     "plane_curtain", "plane_nails",  "reef_knot", "restitution", "ring_in_box",     "sphere_plate",
-    "stack",         "through_ring"};
+    "stack",         "through_ring", "trefoil"};
 
 TEST(Instants, AreLookedAtOfEachSceneWithContact) {
   std::set<std::string> names;

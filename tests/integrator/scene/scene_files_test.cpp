@@ -57,6 +57,7 @@ TEST(ShippedScenes, AreThoseOfTheList) {
                                        "stretched_sheet",
                                        "swinging_cloth",
                                        "through_ring",
+                                       "trefoil",
                                        "twisted_rod"};
   EXPECT_TRUE(std::includes(names.begin(), names.end(), expected.begin(), expected.end()));
 }
