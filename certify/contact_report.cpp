@@ -68,6 +68,7 @@ Json contact_json(const integrator::ContactSettings& settings, std::span<const i
     materials[m]["more_pairs"] = bodies.more;
   }
   return {{"most_layers", settings.most_layers},
+          {"inclusion_exclusion", settings.inclusion_exclusion},
           {"layers", {s.thickness_quarters, s.stiffness_quarters, s.step_quarters}},
           {"materials", materials}};
 }

@@ -5,8 +5,8 @@
 // closest when it began to, and is pulled back to it as by a spring (Cundall and Strack, "A discrete numerical model for
 // granular assemblies", 1979), until that would take more than Coulomb's friction; then the anchor is dragged along.
 //
-// An anchor begins with the first impulse that a pair rubs with, and lasts for as long as others follow, each within
-// `life` of the one before. It is a property of the motion: certificates know nothing of it.
+// An anchor begins when a layer with friction first acts on a pair, and lasts for as long as layers do again, each time
+// within `life` of the one before. It is a property of the motion: certificates know nothing of it.
 //
 // What this does not do: forces (integrator/contact_impulse.h).
 #pragma once
@@ -40,7 +40,7 @@ class Anchors {
     if (all_.size() >= most_) forget(t);
     Anchor<S>& anchor = all_[Key{pair.kind, pair.vertices}];
     if (!(t <= anchor.until)) anchor = {pair.kind, pair.vertices, weights, t};
-    anchor.until = t + life;
+    anchor.until = std::max(anchor.until, t + life);
     return anchor;
   }
 

@@ -4,6 +4,7 @@
 //
 // Notation: that of integrator/contact_settings.h, and
 //   layer     of a material: (material, l). All pairs for which it is active fire together, in the order of their keys
+//             (integrator/layer_fire.h)
 // Layer l fires at the times k h(l) of the run, whenever a pair joined it, and writes only where it acts. So a run in
 // which layers are activated when they are needed is, bit for bit, the run in which they always were (design, "What an
 // event may write").
@@ -112,7 +113,7 @@ class Contact {
         look_steps_(std::move(look_steps)),
         layers_(settings.materials.size()),
         greatest_thicknesses_(greatest_thicknesses(settings)),
-        layer_fire_(settings.inclusion_exclusion, mesh),
+        layer_fire_(settings.inclusion_exclusion),
         is_struck_(particles.size(), 0),
         certificates_(*this, mesh, positions(particles), longest_slice * window_length) {}
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "certificates/closest.h"
@@ -37,7 +38,7 @@ struct LayerTerms {
 struct Course {
   bool acts = false;         ///< g < 0
   bool parts = false;        ///< the closest points part, so that restitution counts
-  bool sticks = false;       ///< friction stops all slip
+  bool sticks = false;       ///< friction does all that it would: the slip ends, the anchor pulls
   std::uint8_t corners = 0;  ///< bit i: vertex i has a part in the closest points
 
   friend bool operator==(const Course&, const Course&) = default;
@@ -88,7 +89,15 @@ template <class S, int Dim, std::size_t N>
 struct Friction {
   Impulses<Dim, S> impulses;          ///< all zero if nothing slips
   std::array<Vec<S, Dim>, N> before;  ///< velocities before the layer fired
-  bool sticks = true;                 ///< it stops all slip
+  bool sticks = true;                 ///< nothing bounds it
+};
+
+/// How a pair is struck, where it is not a contact of its own (integrator/inclusion_exclusion.h).
+template <class S>
+struct Strength {
+  S weight = S(1);            ///< how often it counts; where that is less than 0 the layer pulls, and nothing rubs
+  std::optional<bool> parts;  ///< the contact parts, so that restitution counts; absent: if this pair does
+  S rubbing = S(1);           ///< what friction's bound is multiplied by
 };
 
 /// What bounds and pulls.
@@ -204,7 +213,7 @@ void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil&
 template <std::size_t N, class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_vertices(const Kicked<S, Dim, Recorder>& now,
                                                    const certificates::Stencil& pair, const Approach<S, Dim>& approach,
-                                                   const LayerTerms& layer, double h, const S& weight,
+                                                   const LayerTerms& layer, double h, const Strength<S>& strength,
                                                    Anchors<S>& anchors, Account<S, Dim>& account) {
   Blow blow;
   const auto& [closest, distance] = approach;
@@ -213,25 +222,23 @@ template <std::size_t N, class S, int Dim, class Recorder>
   if (!(distance > S(0))) throw ContactLimit(pair, now.t);
   const S before = opening_now<N>(now, pair, closest);
   blow.course.acts = true;
-  blow.course.parts = before > S(0);
-  // Without a branch that no processor foresees. What pulls has less to give while it does work, which is on approach.
-  const std::array<double, 2> shares{1, layer.restitution};
-  const S push = S(-shares[blow.course.parts == (weight > S(0))]) * S(h) * S(layer.stiffness) * weight * g;
-  const S full = S(-1) * S(h) * S(layer.stiffness) * weight * g;
+  blow.course.parts = strength.parts.value_or(before > S(0));
+  const std::array<double, 2> shares{1, layer.restitution};  // without a branch that no processor foresees
+  const S spring = S(h) * S(layer.stiffness) * strength.weight;
+  const S push = S(-shares[blow.course.parts]) * spring * g, full = S(-1) * spring * g;
   Given<S, Dim, N> given{full, push, closest.r / distance, before};
   blow.struck = push != S(0);
   Friction<S, Dim, N> friction;
-  const bool rubs = blow.struck && layer.friction > 0 && weight > S(0);
+  const bool rubs = layer.friction > 0 && strength.weight > S(0);
   if (rubs) friction.before = each_of<N>(pair, [&](VertexId i) { return now.particles[i].v; });
   for (std::size_t i = 0; blow.struck && i < N; ++i) {
     kick_vertex<S, Dim>(now, pair.vertices[i], normal_impulse<Dim, S>(closest, given.normal, push, i));
   }
   if (rubs) {
     Anchor<S>& anchor = anchors.renew(pair, closest.weights, now.t, layer.anchor_life);
-    rub<N>(now, pair, closest,
-           Grip<S>{S(layer.friction) * push, S(h) * S(layer.stiffness) * weight, S(-layer.friction) * g, layer.drags,
-                   anchor},
-           friction);
+    const Grip<S> grip{S(layer.friction) * strength.rubbing * push, strength.rubbing * spring, S(-layer.friction) * g,
+                       layer.drags, anchor};
+    rub<N>(now, pair, closest, grip, friction);
     blow.course.sticks = friction.sticks;
     given.friction = &friction;
   }
@@ -239,16 +246,17 @@ template <std::size_t N, class S, int Dim, class Recorder>
   return blow;
 }
 
-/// Fires a layer for a pair, for h seconds. `weight`: how often it counts; where that is less than 0 the layer pulls,
-/// and nothing rubs. Throws ContactLimit at distance 0. Room in the recording is the caller's business.
+/// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Room in the recording is the caller's
+/// business.
 template <class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
                                                const Approach<S, Dim>& approach, const LayerTerms& layer, double h,
-                                               const S& weight, Anchors<S>& anchors, Account<S, Dim>& account) {
+                                               const Strength<S>& strength, Anchors<S>& anchors,
+                                               Account<S, Dim>& account) {
   switch (pair.size()) {
-    case 2: return strike_vertices<2>(now, pair, approach, layer, h, weight, anchors, account);
-    case 3: return strike_vertices<3>(now, pair, approach, layer, h, weight, anchors, account);
-    default: return strike_vertices<4>(now, pair, approach, layer, h, weight, anchors, account);
+    case 2: return strike_vertices<2>(now, pair, approach, layer, h, strength, anchors, account);
+    case 3: return strike_vertices<3>(now, pair, approach, layer, h, strength, anchors, account);
+    default: return strike_vertices<4>(now, pair, approach, layer, h, strength, anchors, account);
   }
 }
 

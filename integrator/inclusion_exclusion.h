@@ -16,6 +16,9 @@
 //
 // Each x has its nearest point inside of itself, or on one of its edges or corners. So all that is summed belongs to
 // one of these `sites`; on a flat surface the weights of all but one of them add up to 0, and no rounding is left over.
+// (Within rounding of a border cells may disagree about where the nearest point is. Their weights still add up to 1.)
+//
+// All sites of a vertex are one contact: restitution is decided, and friction bounded, for their sum.
 //
 // S is double; in audits also multiprecision numbers.
 //
@@ -40,6 +43,12 @@ struct SiteOfContact {
   certificates::Stencil pair;  ///< the vertex and the site; its key is that of a cell that has the site
   Approach<S, Dim> approach;
   S weight = S(0);  ///< not 0
+
+  /// Of a layer of stiffness 1. Precondition: it acts.
+  S potential(const S& thickness) const {
+    const S g = approach.distance - thickness;
+    return S(0.5) * g * g;
+  }
 };
 
 /// Adds up what happens to one vertex. Kept between vertices for the room it has.
@@ -47,6 +56,8 @@ template <class S, int Dim>
 class InclusionExclusion {
  public:
   bool empty() const { return cells_.empty(); }
+  /// Precondition: not empty.
+  bool has_faces() const { return cells_.front().pair.kind == FeaturePair::vertex_face; }
   /// Precondition: not empty.
   VertexId vertex() const { return cells_.front().pair.vertices[0]; }
   /// Whether the pair belongs to what has been added.
@@ -59,19 +70,18 @@ class InclusionExclusion {
     cells_.push_back({pair, approach, S(1)});
   }
 
-  /// Calls each(site) for the sites whose weights do not add up to 0, and forgets all. `position`: of a vertex of the
-  /// mesh. The order follows from the mesh alone.
-  template <class PositionOf, class Each>
-  void take(const S& thickness, const PositionOf& position, Each&& each) {
+  /// Puts the sites whose weights do not add up to 0 in place of what `result` has, and forgets all. `position`: of a
+  /// vertex of the mesh. The order follows from the mesh alone. Precondition: not empty.
+  template <class PositionOf>
+  void take(const S& thickness, const PositionOf& position, std::vector<SiteOfContact<S, Dim>>& result) {
+    result.clear();
     if (cells_.size() == 1) {
-      const SiteOfContact<S, Dim> only = cells_.front();
-      cells_.clear();
-      each(only);
-      return;
-    }
-    find_sites(thickness, position);
-    for (const Site& site : sites_) {
-      if (site.weight != 0) each(contact_at(site, position));
+      result.push_back(cells_.front());
+    } else {
+      find_sites(thickness, position);
+      for (const Site& site : sites_) {
+        if (site.weight != 0) result.push_back(contact_at(site, position));
+      }
     }
     cells_.clear();
   }

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "certificates/stencil.h"
 #include "integrator/contact_blow.h"
@@ -18,43 +20,83 @@
 
 namespace noli::integrator {
 
+/// What lies side by side, together: takes pairs that a layer acts on, in the order of their keys, and makes contacts of
+/// them.
+template <class S, int Dim>
+class JoinedContacts {
+ public:
+  using Sites = std::span<const SiteOfContact<S, Dim>>;
+
+  static bool joins(const certificates::Stencil& pair) { return pair.kind != FeaturePair::vertex_vertex; }
+
+  /// Calls each(sites of one contact) for what is complete. Precondition: joins(pair).
+  template <class PositionOf, class Each>
+  void add(const certificates::Stencil& pair, const Approach<S, Dim>& approach, const S& thickness,
+           const PositionOf& position, Each&& each) {
+    if (!cells_.takes(pair)) take_cells(thickness, position, each);
+    if (pair.kind != FeaturePair::edge_edge) return cells_.add(pair, approach);
+    find_excess<S, Dim>({pair, approach, S(1)}, thickness, known_, contact_);
+    if (!contact_.empty()) each(Sites(contact_));
+  }
+
+  /// The same of what is left.
+  template <class PositionOf, class Each>
+  void finish(const S& thickness, const PositionOf& position, Each&& each) {
+    if (!cells_.empty()) take_cells(thickness, position, each);
+    known_.clear();
+  }
+
+ private:
+  template <class PositionOf, class Each>
+  void take_cells(const S& thickness, const PositionOf& position, Each&& each) {
+    const bool of_faces = cells_.has_faces();
+    cells_.take(thickness, position, contact_);
+    if (contact_.empty()) return;
+    if (of_faces) known_.add(contact_, thickness);
+    each(Sites(contact_));
+  }
+
+  InclusionExclusion<S, Dim> cells_;
+  SitesOfVertices<S, Dim> known_;
+  std::vector<SiteOfContact<S, Dim>> contact_;
+};
+
 template <class S, int Dim>
 class LayerFire {
  public:
   /// `joins`: what lies side by side counts once.
-  LayerFire(bool joins, const Mesh& mesh)
-      : joins_(joins),
-        faces_of_edges_(joins && Dim == 3 ? FacesOfEdges(mesh) : FacesOfEdges()),
-        excess_(faces_of_edges_) {}
-  LayerFire(const LayerFire&) = delete;
-  LayerFire& operator=(const LayerFire&) = delete;
+  explicit LayerFire(bool joins) : joins_(joins) {}
 
   /// Fires for h seconds. `pairs`: in the order of their keys. Calls seen(i, approach, course) for pairs[i], each once,
   /// and struck(pair, closest points) for what gets an impulse. Of pairs that are joined `course` says whether the
-  /// layer acts on them and between which points. Throws ContactLimit at distance 0. Room in the recording is the caller's
-  /// business.
+  /// layer acts on them and between which points. Throws ContactLimit at distance 0. Room in the recording is the
+  /// caller's business: for all vertices of the pairs.
   template <class Recorder, class Seen, class Struck>
   void operator()(const Kicked<S, Dim, Recorder>& now, std::span<const certificates::Stencil> pairs,
                   const LayerTerms& layer, double h, Account<S, Dim>& account, Seen&& seen, Struck&& struck) {
+    const S thickness(layer.thickness);
+    const auto position = [&now](VertexId i) -> Vec<S, Dim> { return now.particles[i].at(now.t); };
+    const auto contact = [&](std::span<const SiteOfContact<S, Dim>> sites) {
+      fire(now, sites, layer, h, account, struck);
+    };
     for (std::size_t begin = 0; begin < pairs.size(); begin += approaches_.size()) {
       const auto row = pairs.subspan(begin, std::min(approaches_.size(), pairs.size() - begin));
       for (std::size_t i = 0; i < row.size(); ++i) find_approach(now, row[i], approaches_[i]);
       for (std::size_t i = 0; i < row.size(); ++i) {
         const Approach<S, Dim>& approach = approaches_[i];
-        if (joins_ && row[i].kind != FeaturePair::vertex_vertex) {
+        if (joins_ && JoinedContacts<S, Dim>::joins(row[i])) {
           Course course;
-          course.acts = approach.distance < S(layer.thickness);
-          if (course.acts) join(now, row[i], approach, layer, h, account, struck);
+          course.acts = approach.distance < thickness;
+          if (course.acts) joined_.add(row[i], approach, thickness, position, contact);
           seen(begin + i, approach, course);
           continue;
         }
-        const Blow blow = strike_pair(now, row[i], approach, layer, h, S(1), anchors_, account);
+        const Blow blow = strike_pair(now, row[i], approach, layer, h, Strength<S>{}, anchors_, account);
         seen(begin + i, approach, blow.course);
         if (blow.struck) struck(row[i], approach.closest);
       }
     }
-    fire(joined_, now, layer, h, account, struck);
-    fire(excess_, now, layer, h, account, struck);
+    if (joins_) joined_.finish(thickness, position, contact);
   }
 
   const Anchors<S>& anchors() const { return anchors_; }
@@ -65,60 +107,74 @@ class LayerFire {
   void for_each_acting(std::span<const certificates::Stencil> pairs, const LayerTerms& layer,
                        const PositionOf& position, Each&& each) const {
     const S thickness(layer.thickness);
-    InclusionExclusion<S, Dim> joined;
-    EdgeExcess<S, Dim> excess(faces_of_edges_);
-    const auto take = [&](auto& sites) {
-      if (sites.empty()) return;
-      sites.take(thickness, position, [&](const SiteOfContact<S, Dim>& site) {
+    JoinedContacts<S, Dim> joined;
+    const auto contact = [&](std::span<const SiteOfContact<S, Dim>> sites) {
+      for (const SiteOfContact<S, Dim>& site : sites) {
         each(site.pair, site.approach.closest, S(site.approach.distance - thickness), site.weight);
-      });
+      }
     };
     for (const certificates::Stencil& pair : pairs) {
       Approach<S, Dim> approach;
       find_approach_of<S, Dim>(pair, position, approach);
       if (!(approach.distance < thickness)) continue;
-      if (!joins_ || pair.kind == FeaturePair::vertex_vertex) {
-        each(pair, approach.closest, S(approach.distance - thickness), S(1));
-      } else if (pair.kind == FeaturePair::edge_edge) {
-        excess.add(pair, approach);
+      if (joins_ && JoinedContacts<S, Dim>::joins(pair)) {
+        joined.add(pair, approach, thickness, position, contact);
       } else {
-        if (!joined.takes(pair)) take(joined);
-        joined.add(pair, approach);
+        each(pair, approach.closest, S(approach.distance - thickness), S(1));
       }
     }
-    take(joined);
-    take(excess);
+    if (joins_) joined.finish(thickness, position, contact);
   }
 
  private:
+  /// Fires for the sites of one contact.
   template <class Recorder, class Struck>
-  void join(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, const Approach<S, Dim>& approach,
-            const LayerTerms& layer, double h, Account<S, Dim>& account, Struck&& struck) {
-    if (pair.kind == FeaturePair::edge_edge) return excess_.add(pair, approach);
-    if (!joined_.takes(pair)) fire(joined_, now, layer, h, account, struck);
-    joined_.add(pair, approach);
-  }
-
-  /// Fires for all `sites` together.
-  template <class Sites, class Recorder, class Struck>
-  void fire(Sites& sites, const Kicked<S, Dim, Recorder>& now, const LayerTerms& layer, double h,
-            Account<S, Dim>& account, Struck&& struck) {
-    if (sites.empty()) return;
-    const auto position = [&now](VertexId i) -> Vec<S, Dim> { return now.particles[i].at(now.t); };
-    sites.take(S(layer.thickness), position, [&](const SiteOfContact<S, Dim>& site) {
-      const Blow blow = strike_pair(now, site.pair, site.approach, layer, h, site.weight, anchors_, account);
+  void fire(const Kicked<S, Dim, Recorder>& now, std::span<const SiteOfContact<S, Dim>> sites, const LayerTerms& layer,
+            double h, Account<S, Dim>& account, Struck&& struck) {
+    Strength<S> strength = strength_of_all(now, sites, S(layer.thickness));
+    for (const SiteOfContact<S, Dim>& site : sites) {
+      strength.weight = site.weight;
+      const Blow blow = strike_pair(now, site.pair, site.approach, layer, h, strength, anchors_, account);
       if (blow.struck) struck(site.pair, site.approach.closest);
-    });
+    }
   }
 
-  Anchors<S> anchors_;  ///< of all materials: a pair has one
+  /// Whether the sites part, all together: whether the layer's potential falls. And what share of what pushes them
+  /// apart is left when what pulls is taken off.
+  template <class Recorder>
+  static Strength<S> strength_of_all(const Kicked<S, Dim, Recorder>& now, std::span<const SiteOfContact<S, Dim>> sites,
+                                     const S& thickness) {
+    using std::sqrt;
+    Strength<S> all;
+    if (sites.size() == 1) return all;
+    S power(0), pushes(0);
+    Vec<S, Dim> net = Vec<S, Dim>::Zero();
+    const VertexId first = sites.front().pair.vertices[0];
+    for (const SiteOfContact<S, Dim>& site : sites) {
+      const auto& [closest, distance] = site.approach;
+      if (!(distance > S(0))) throw ContactLimit(site.pair, now.t);
+      const S push = site.weight * (thickness - distance), along = push / distance;
+      power += along * opening<Dim, S>(closest, site.pair.size(), [&](std::size_t i) -> const Vec<S, Dim>& {
+                 return now.particles[site.pair.vertices[i]].v;
+               });
+      if (push > S(0)) pushes += push;
+      // Of a pair of edges, an end of the second one is on the other side.
+      const bool turned = sites.front().pair.kind == FeaturePair::edge_edge &&
+                          site.pair.kind != FeaturePair::edge_edge && site.pair.vertices[0] != first &&
+                          site.pair.vertices[0] != sites.front().pair.vertices[1];
+      net += (turned ? S(-along) : along) * closest.r;
+    }
+    all.parts = power > S(0);
+    if (pushes > S(0)) all.rubbing = std::min<S>(S(1), sqrt(net.squaredNorm()) / pushes);
+    return all;
+  }
+
+  Anchors<S> anchors_;  ///< of all materials
   bool joins_;
   /// Of the pairs that fire next: all are found before any of them fires. One by one, each would wait for what the one
   /// before has just written.
   std::array<Approach<S, Dim>, 64> approaches_;
-  InclusionExclusion<S, Dim> joined_;
-  FacesOfEdges faces_of_edges_;
-  EdgeExcess<S, Dim> excess_;
+  JoinedContacts<S, Dim> joined_;
 };
 
 }  // namespace noli::integrator

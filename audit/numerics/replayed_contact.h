@@ -28,9 +28,9 @@ class ReplayedContact {
   using Scalar = S;
   using Particles = std::vector<integrator::Particle<S, Dim>>;
 
-  ReplayedContact(const integrator::ContactSettings& settings, const Mesh& mesh, Particles& particles,
+  ReplayedContact(const integrator::ContactSettings& settings, const Mesh&, Particles& particles,
                   const std::vector<double>&, double)
-      : particles_(particles), layer_fire_(settings.inclusion_exclusion, mesh) {}
+      : particles_(particles), layer_fire_(settings.inclusion_exclusion) {}
   ReplayedContact(const ReplayedContact&) = delete;
   ReplayedContact& operator=(const ReplayedContact&) = delete;
 

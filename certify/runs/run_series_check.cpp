@@ -149,10 +149,11 @@ void check_anchors(std::span<const integrator::Anchor<double>> anchors, const Ru
   for (const auto& anchor : anchors) {
     check_pair("an anchor", anchor.kind, anchor.vertices, scene);
     for (const double weight : anchor.weights) {
-      require(std::isfinite(weight), "an anchor with the weight {}; expected a finite one", weight);
+      require(std::abs(weight) <= 1, "an anchor with the weight {}; expected one from -1 to 1", weight);
     }
-    require(anchor.until >= window.end && std::isfinite(anchor.until),
-            "an anchor that ends at {} s; expected a time from {} s on", anchor.until, window.end);
+    const double latest = window.end + 1.5 * scene.header.window_length;  // no layer's step is longer than a window
+    require(anchor.until >= window.end && anchor.until <= latest,
+            "an anchor that ends at {} s; expected a time from {} s to {} s", anchor.until, window.end, latest);
   }
 }
 

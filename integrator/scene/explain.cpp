@@ -66,7 +66,7 @@ class Survey {
     say(some([](auto& c) { return c.material.restitution < 1; }), "restitution", "it is 1 everywhere");
     say(some([](auto& c) { return c.material.friction > 0; }), "friction", "its coefficient is 0 everywhere");
     say(scene_.contact->inclusion_exclusion, "inclusion and exclusion",
-        "\"inclusion_exclusion\" is not set: each face pushes for itself");
+        "\"inclusion_exclusion\" is not set: each pair of features pushes for itself");
     for (const BodyPair& pair : scene_.contact->excluded) {
       left_out(fmt::format("contact of {} and {}", scene_.bodies[pair[0]].name, scene_.bodies[pair[1]].name),
                "\"exclude\" names them: they may go through each other");

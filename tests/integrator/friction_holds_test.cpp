@@ -85,6 +85,17 @@ TEST(FrictionHolds, ABoxOnAnIncline) {
   EXPECT_GT(creep(box_on_an_incline(0.45), 0), 0.1);
 }
 
+/// With restitution 0 a layer gives nothing while things part, and yet the anchor stays.
+TEST(FrictionHolds, WhateverTheRestitution) {
+  for (const double restitution : {0.0, 0.05, 1.0}) {
+    BuiltScene<3> scene = box_on_an_incline(0.55);
+    for (ContactMaterial& material : scene.model.contact->materials) material.restitution = restitution;
+    const double speed = creep(scene, 0);
+    std::printf("with a restitution of %.2f it creeps %.3g mm/s\n", restitution, 1000 * speed);
+    EXPECT_LT(std::abs(speed), restitution < 1 ? 1e-5 : 1);
+  }
+}
+
 TEST(FrictionHolds, ABoxBetweenTwoPlates) {
   const double speed = creep(gripped_box(), 2);
   std::printf("a box between two plates creeps %.3g mm/s\n", 1000 * speed);

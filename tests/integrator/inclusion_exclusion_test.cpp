@@ -81,12 +81,14 @@ Sum joined(const Neighbourhood& n, double eta, const std::vector<std::size_t>& o
   }
   Sum sum;
   if (joined.empty()) return sum;
-  joined.take(eta, position, [&](const SiteOfContact<double, 3>& site) {
+  std::vector<SiteOfContact<double, 3>> sites;
+  joined.take(eta, position, sites);
+  for (const SiteOfContact<double, 3>& site : sites) {
     const double g = site.approach.distance - eta;
     sum.potential += site.weight * 0.5 * g * g;
     sum.force -= site.weight * g / site.approach.distance * site.approach.closest.r;
     ++sum.sites;
-  });
+  }
   return sum;
 }
 Sum joined(const Neighbourhood& n, double eta) {
@@ -236,7 +238,7 @@ struct LayerSum {
 
 /// Of a layer of stiffness 1.
 LayerSum layer_of(const Patches& patches, const std::vector<certificates::Stencil>& pairs, bool joins) {
-  const LayerFire<double, 3> layer(joins, patches.mesh);
+  const LayerFire<double, 3> layer(joins);
   LayerSum sum{0, std::vector<Vec<double, 3>>(patches.x.size(), Vec<double, 3>::Zero()), 0};
   layer.for_each_acting(
       pairs, {first_layer, 1}, [&](VertexId v) { return patches.x[v]; },
@@ -411,6 +413,104 @@ TEST(FlatFloor, ABoxLeavesAsItCame) {
   std::printf("a box leaves %.3g degrees off the vertical; where each pair pushes for itself, %.3g\n", once, each);
   EXPECT_LT(once, 1e-6);
   EXPECT_GT(each, 5);
+}
+
+// --- Creases ---------------------------------------------------------------------------------------------------------
+
+struct Groove {
+  double slope = 0.1, restitution = 1, friction = 0;
+  Vec<double, 3> v{0, 0, 0}, gravity{0, 0, 0};
+  int windows = 0;
+};
+
+/// The velocity of a point of 1 kg, at first 15 mm above the bottom of a groove of two wide faces along y.
+Vec<double, 3> velocity_in(const Groove& o, bool inclusion_exclusion) {
+  Model<double, 3> groove;
+  groove.mesh.vertex_count = 4;
+  groove.mesh.faces = {{0, 1, 2}, {1, 0, 3}};
+  groove.x = {{0, -8, 0}, {0, 8, 0}, {3, 0, 3 * o.slope}, {-3, 0, 3 * o.slope}};
+  groove.v.assign(4, Vec<double, 3>::Zero());
+  groove.mass.assign(4, 1);
+  auto model =
+      test::both(test::moved(test::points<3>({{0, 0, 0.015}}, 1), {0, 0, 0}, o.v), test::held(std::move(groove)));
+  model.gravity = Gravity<double, 3>{o.gravity, 1e-4};
+  model = test::with_contact(std::move(model), {first_layer, 1000, 0.02, o.restitution, o.friction});
+  model.contact->inclusion_exclusion = inclusion_exclusion;
+  Simulation<double, 3> simulation(model);
+  test::run(simulation, static_cast<std::uint64_t>(o.windows));
+  return simulation.snapshot().v[0];
+}
+
+/// What pulls there is has to lose as much as what pushes, or nothing would leave.
+TEST(Crease, ReturnsItsShareOfTheEnergy) {
+  for (const double restitution : {1.0, 0.25, 0.01}) {
+    const Groove down{.restitution = restitution, .v = {0, 0, -0.5}, .windows = restitution < 0.1 ? 60 : 20};
+    for (const bool once : {false, true}) {
+      const double speed = velocity_in(down, once)[2];
+      EXPECT_NEAR(speed, 0.5 * std::sqrt(restitution), 0.02 * std::sqrt(restitution)) << once;
+    }
+  }
+}
+
+/// Two walls together rub as much as their push together: along the groove it slides as on a plane.
+TEST(Crease, RubsByItsPushAsAWhole) {
+  const Groove along{.restitution = 0.25, .friction = 0.4, .gravity = {0, 6, -10}, .windows = 60};
+  const double before = velocity_in(along, true)[1];
+  Groove longer = along;
+  longer.windows = 110;
+  const double gained = velocity_in(longer, true)[1] - before;
+  EXPECT_NEAR(gained, 0.5 * (6 - 0.4 * 10), 0.03);
+  Groove steeper = longer;
+  steeper.friction = 0.7;
+  EXPECT_NEAR(velocity_in(steeper, true)[1], 0, 1e-3);
+}
+
+// --- Part of the motion ----------------------------------------------------------------------------------------------
+
+Model<double, 3> sheets_that_collide() {
+  Model<double, 3> model = test::with_contact(test::colliding_sheets(3, 2), {0.03, 200, 0.05, 0.5, 0.4});
+  model.contact->inclusion_exclusion = true;
+  return model;
+}
+
+TEST(InclusionExclusion, LayersActivatedInTimeEqualLayersThatAlwaysAre) {
+  Model<double, 3> model = sheets_that_collide();
+  Simulation<double, 3> lazy(model);
+  model.contact->least_layers = 8;
+  Simulation<double, 3> eager(model);
+  model.contact->inclusion_exclusion = false;
+  Simulation<double, 3> each(model);
+  const auto books = test::run(lazy, 12);
+  test::run(eager, 12);
+  test::run(each, 12);
+  EXPECT_GT(books.of(ForceKind::contact).events, 1000U);
+  test::expect_same(lazy.snapshot(), eager.snapshot());
+  EXPECT_NE(lazy.snapshot().x, each.snapshot().x);
+}
+
+TEST(InclusionExclusion, GoesOnFromASnapshotAsIfNothingHadHappened) {
+  const Model<double, 3> model = sheets_that_collide();
+  Simulation<double, 3> simulation(model);
+  test::run(simulation, 6);
+  const auto half = simulation.snapshot();
+  EXPECT_FALSE(half.anchors.empty());
+  test::run(simulation, 6);
+  Simulation<double, 3> other(model, half);
+  test::run(other, 6);
+  test::expect_same(other.snapshot(), simulation.snapshot());
+}
+
+TEST(InclusionExclusion, KeepsMomentaAndItsBooks) {
+  const Model<double, 3> model = sheets_that_collide();
+  Simulation<double, 3> simulation(model);
+  const auto before = simulation.state();
+  const auto books = test::run(simulation, 12);
+  const auto after = simulation.state();
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13 * before.speeds);
+  EXPECT_LT((after.angular_momentum - before.angular_momentum).norm(), 1e-12 * before.moments);
+  double work = 0;
+  for (const auto& account : books.accounts) work += account.work + account.damping_work + account.restitution_work;
+  EXPECT_NEAR(after.kinetic - before.kinetic, work, 1e-10 * before.kinetic);
 }
 
 /// In the plane: the same on a floor of four edges in a row, near their ends.

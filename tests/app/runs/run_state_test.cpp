@@ -180,8 +180,8 @@ TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
       {[](Anchor& a) { a.kind = FeaturePair::vertex_face; }, "an anchor between a pair of features that 2D has not"},
       {[](Anchor& a) { a.vertices[2] = 3; }, "an anchor at vertex 3; expected one below 3"},
       {[](Anchor& a) { a.vertices[2] = 0; }, "an anchor that names a vertex twice"},
-      {[](Anchor& a) { a.weights[1] = not_a_number; }, "an anchor with the weight nan; expected a finite one"},
-      {[](Anchor& a) { a.until = 0.3; }, "an anchor that ends at 0.3 s; expected a time from 0.3125 s on"},
+      {[](Anchor& a) { a.weights[1] = not_a_number; }, "an anchor with the weight nan; expected one from -1 to 1"},
+      {[](Anchor& a) { a.until = 0.3; }, "an anchor that ends at 0.3 s; expected a time from 0.3125 s to"},
       {[](Anchor& a) { a.until = infinity; }, "an anchor that ends at inf s"}};
   for (const Bad& bad : all) {
     Anchor anchor = good;
