@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include <noli/errors.h>
 #include <noli/export.h>
 #include "app/commands.h"
 #include "app/notes.h"
@@ -26,13 +30,14 @@ constexpr const char* export_footer =
     "  noli export runs/cloth --fps 60 -o frames/%05d.ply\n"
     "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens\n"
     "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv\n"
-    "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5";
+    "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5 --size 1280x720 --zoom cloth";
 
 struct ExportArguments {
   ExportRequest frames;
   std::optional<std::string> figure;
   std::optional<double> at;
   std::optional<Position> from;
+  std::string size, zoom;  ///< empty: not given
   std::string time_limit;
 };
 
@@ -52,6 +57,22 @@ ExitCode paint(const report::PictureRequest& request) {
   return ExitCode::holds;
 }
 
+/// "1280x720". Throws UsageError.
+std::optional<std::array<std::size_t, 2>> size_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  constexpr std::size_t least = 16, most = 8192;
+  std::array<std::size_t, 2> size{};
+  const char* const end = text.data() + text.size();
+  const auto [x, wide] = std::from_chars(text.data(), end, size[0]);
+  const bool separated = wide == std::errc() && x != end && *x == 'x';
+  const auto [rest, tall] = std::from_chars(separated ? x + 1 : end, end, size[1]);
+  const bool whole = separated && tall == std::errc() && rest == end;
+  if (!whole || std::ranges::any_of(size, [](std::size_t n) { return n < least || n > most; })) {
+    throw UsageError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from {} to {}", text, least, most));
+  }
+  return size;
+}
+
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   begin_work(arguments.time_limit);
@@ -59,7 +80,10 @@ ExitCode run(const ExportArguments& arguments) {
   if (arguments.at || arguments.figure) {
     require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
   }
-  if (arguments.at) return paint({request.run, *arguments.at, arguments.from, request.pattern});
+  if (arguments.at) {
+    return paint(
+        {request.run, *arguments.at, arguments.from, size_of(arguments.size), arguments.zoom, request.pattern});
+  }
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern});
   const ExportOutcome outcome = run_export(request);
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
@@ -100,6 +124,12 @@ Command add_export(CLI::App& app) {
   at->excludes(fps)->excludes(figure);
   command->add_option("--from", arguments->from, "Direction in which the eye is, for --at: x y z, or x,y,z")
       ->delimiter(',')
+      ->needs(at);
+  command->add_option("--size", arguments->size, "Pixels of the picture, for --at; else 640 wide")
+      ->type_name("WxH")
+      ->needs(at);
+  command->add_option("--zoom", arguments->zoom, "A body that fills the picture, for --at; else all that moves is seen")
+      ->type_name("BODY")
       ->needs(at);
   add_time_limit_option(*command, arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h");
   return {command, [arguments] { return run(*arguments); }};

@@ -89,7 +89,7 @@ class Canvas {
       : frame_(frame), looks_(looks_of(frame.mesh, fixed)), eye_(unit(to_vec(view.from))) {
     right_ = unit(cross(to_vec(view.up), eye_));
     up_ = cross(eye_, right_);
-    project(view.width);
+    project(view);
     depth_.assign(width_ * height_, -std::numeric_limits<double>::infinity());
     colour_.assign(width_ * height_, paper);
   }
@@ -105,22 +105,29 @@ class Canvas {
   }
 
  private:
+  /// Whether a vertex has to be in the picture.
+  bool is_shown(std::size_t v, const View& view, bool only_walls) const {
+    if (view.count > 0) return view.first <= v && v - view.first < view.count;
+    return !looks_.is_wall[v] || only_walls || frame_.mesh.faces.empty();
+  }
+
   /// Right, down, towards the eye, in samples.
-  void project(std::size_t pixels) {
+  void project(const View& view) {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     const bool only_walls = std::find(looks_.is_wall.begin(), looks_.is_wall.end(), false) == looks_.is_wall.end();
     for (std::size_t v = 0; v < frame_.positions.size(); ++v) {
       const Vec3 x = to_vec(frame_.positions[v]);
       at_.emplace_back(x.dot(right_), -x.dot(up_), x.dot(eye_));
-      if (looks_.is_wall[v] && !only_walls && !frame_.mesh.faces.empty()) continue;
+      if (!is_shown(v, view, only_walls)) continue;
       low = low.cwiseMin(at_.back());
       high = high.cwiseMax(at_.back());
     }
     if (at_.empty()) low = high = Vec3::Zero();
-    const double wide = high[0] - low[0], tall = high[1] - low[1];
-    const double aspect = std::clamp(wide > 0 ? tall / wide : greatest_aspect, least_aspect, greatest_aspect);
-    width_ = pixels * samples;
-    height_ = static_cast<std::size_t>(std::lround(static_cast<double>(pixels) * aspect)) * samples;
+    const double wide = high[0] - low[0], tall = high[1] - low[1], pixels = static_cast<double>(view.width);
+    const double shape = std::clamp(wide > 0 ? tall / wide : greatest_aspect, least_aspect, greatest_aspect);
+    const double aspect = view.height > 0 ? static_cast<double>(view.height) / pixels : shape;
+    width_ = view.width * samples;
+    height_ = static_cast<std::size_t>(std::lround(pixels * aspect)) * samples;
     const double extent = std::max({wide, tall / aspect, std::numeric_limits<double>::min()});
     const double scale = static_cast<double>(width_) * (1 - 2 * margin) / extent;
     for (Vec3& p : at_) {

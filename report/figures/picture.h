@@ -8,6 +8,7 @@
 // Parts of the mesh that hang together have a colour each; parts of which nothing is free are grey. Faces are lit from
 // the eye's upper left, alike on both sides, and their edges are darker where there is room for them.
 // Fixed parts of four vertices or fewer are floors and walls: only their borders are drawn, and they need not be seen.
+// With `count` the picture is as large as what is shown, and the rest is drawn as far as it reaches into it.
 //
 // What this does not do: no perspective, no shadows, and nothing is decided by it.
 #pragma once
@@ -23,7 +24,10 @@ namespace noli::report {
 struct View {
   Position from{0.8, -1.4, 0.7};  ///< the direction in which the eye is; of any length but zero
   Position up{0, 0, 1};           ///< not along `from`
-  std::size_t width = 640;        ///< [pixels]; the height follows from what is seen
+  std::size_t width = 640;        ///< [pixels]
+  std::size_t height = 0;         ///< [pixels]; 0: it follows from what is seen
+  /// What the picture shows: of the vertices [first, first + count); count 0: all but floors and walls.
+  std::size_t first = 0, count = 0;
 };
 
 /// Rows from top to bottom; red, green, blue.

@@ -28,6 +28,17 @@ void check(const PictureRequest& request) {
   make_writable_folder(request.output.parent_path(), "-o");
 }
 
+BodyNames::Body body_of(const PictureRequest& request) {
+  const std::vector<BodyNames::Body> bodies = read_log(request.run).names.bodies();
+  std::string names;
+  for (const BodyNames::Body& body : bodies) {
+    if (body.name == request.zoom) return body;
+    names += (names.empty() ? "" : ", ") + body.name;
+  }
+  throw UsageError(fmt::format("--zoom {}: expected a body of the run{}", request.zoom,
+                               names.empty() ? ", whose log names none" : ": " + names));
+}
+
 View view_of(const PictureRequest& request, std::uint32_t dimension) {
   View view;
   if (dimension == 2) {
@@ -35,6 +46,15 @@ View view_of(const PictureRequest& request, std::uint32_t dimension) {
     view.up = {0, 1, 0};
   }
   if (request.from) view.from = *request.from;
+  if (request.size) {
+    view.width = (*request.size)[0];
+    view.height = (*request.size)[1];
+  }
+  if (!request.zoom.empty()) {
+    const BodyNames::Body body = body_of(request);
+    view.first = body.first;
+    view.count = body.vertices;
+  }
   // From straight above, what is ahead is up.
   if (view.from[0] == 0 && view.from[1] == 0) view.up = {0, 1, 0};
   return view;

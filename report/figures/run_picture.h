@@ -5,8 +5,10 @@
 // What this does not do: like frames, a picture is a sample of the motion, not the certified motion.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include <noli/mesh.h>
 
@@ -16,6 +18,9 @@ struct PictureRequest {
   std::filesystem::path run;
   double time = 0;               ///< [s]
   std::optional<Position> from;  ///< direction in which the eye is; its own for each dimension
+  /// Width and height [pixels]; without it, 640 and what the shape of what is seen asks for.
+  std::optional<std::array<std::size_t, 2>> size;
+  std::string zoom;              ///< the name of a body that fills the picture; empty: all that moves is seen
   std::filesystem::path output;  ///< ends in .png
 };
 
@@ -25,7 +30,8 @@ struct PictureOutcome {
 };
 
 /// Throws InputError (no run, a damaged one, one that does not have that time), UsageError (the output's name or place,
-/// a direction that is none, built without a library for pictures), std::system_error (disk).
+/// a direction that is none, a body that the
+/// run does not name, built without a library for pictures), std::system_error (disk).
 PictureOutcome run_picture(const PictureRequest& request);
 
 }  // namespace noli::report

@@ -121,6 +121,29 @@ TEST_F(ExportPicture, IsWrittenOfATimeOfTheRun) {
   }
 }
 
+TEST_F(ExportPicture, HasTheSizeAndTheBodyThatAreAskedFor) {
+  Json json = hanging_sheet();
+  json["bodies"].push_back(json["bodies"][0]);
+  json["bodies"][0]["name"] = "near";
+  json["bodies"][1]["name"] = "far";
+  json["bodies"][1]["transform"]["translate"] = {9, 0, 0};
+  ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("r")}).exit_code, 0);
+  std::map<std::string, std::string> of_body;
+  for (const char* body : {"", "near", "far"}) {
+    std::vector<std::string> options{"--at", "0.2", "--size", "320x200", "-o", run_path("p.png"), "--force"};
+    if (*body != 0) options.insert(options.end(), {"--zoom", body});
+    const Process result = export_at(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(result.out.starts_with("picture width 320 height 200 ")) << result.out;
+    of_body[body] = bytes_of(run_path("p.png"));
+    EXPECT_EQ(big_endian(of_body[body], 16), 320U);
+    EXPECT_EQ(big_endian(of_body[body], 20), 200U);
+  }
+  EXPECT_NE(of_body["near"], of_body[""]);
+  EXPECT_NE(of_body["far"], of_body["near"]) << "another colour";
+  EXPECT_GT(of_body["near"].size(), of_body[""].size()) << "a sheet that fills the picture has more in it";
+}
+
 TEST_F(ExportPicture, BadInputIsNamed) {
   ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("r")}).exit_code, 0);
   const auto expect_refused = [&](const std::vector<std::string>& options, const char* what) {
@@ -135,6 +158,11 @@ TEST_F(ExportPicture, BadInputIsNamed) {
   expect_refused({"--at", "0.1", "--fps", "3", "-o", run_path("p.png")}, "--fps");
   expect_refused({"--at", "0.1", "--from", "1,0", "-o", run_path("p.png")}, "--from");
   expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "--at");
+  for (const char* size : {"640", "640x", "x480", "640x480x3", "15x100", "100x8193", "-5x100", "a"}) {
+    expect_refused({"--at", "0.1", "--size", size, "-o", run_path("p.png")}, "expected WIDTHxHEIGHT in pixels");
+  }
+  expect_refused({"--at", "0.1", "--zoom", "nobody", "-o", run_path("p.png")}, "expected a body of the run");
+  expect_refused({"--zoom", "sheet", "-o", run_path("p.png")}, "--at");
 }
 
 #endif

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/runs/knots.h"
 #include "tests/app/runs/simulate_fixture.h"
 #include "trajectory/blocks/run_file.h"
 
@@ -105,6 +106,64 @@ TEST_F(StressSlow, APressGoesToFourTenthsOfAMillimetre) {
     ASSERT_LT(p[2], 0.0004);
   }
   EXPECT_TRUE(std::ranges::is_sorted(heights(x, 0, 3, 25)));
+}
+
+TEST_F(StressSlow, SixWallsCrushASheetToATenth) {
+  expect_whole(simulate("crush", "400s"));
+  EXPECT_GT(explained()["deepest"]["layer"], 5);
+  const std::vector<Position> x = end();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] =
+        std::ranges::minmax(std::span(x).first(289), {}, [axis](const Position& p) { return p[axis]; });
+    EXPECT_LT(high[axis] - low[axis], 0.012) << "walls that began 0.12 m apart";
+    EXPECT_GT(high[axis] - low[axis], 0.0115);
+  }
+}
+
+TEST_F(StressSlow, InterlockedRingsArePulled) {
+  expect_whole(simulate("rings", "100s"));
+  const std::vector<Position> x = end();
+  constexpr std::size_t segments = 36, sides = 8;
+  std::vector<Curve> rings(3);
+  for (std::size_t ring = 0; ring < 3; ++ring) {
+    for (std::size_t i = 0; i < segments; ++i) {
+      Position mean{};
+      for (std::size_t j = 0; j < sides; ++j) {
+        for (std::size_t d = 0; d < 3; ++d) mean[d] += x[(ring * segments + i) * sides + j][d] / sides;
+      }
+      rings[ring].push_back(mean);
+    }
+    const auto [low, high] = std::ranges::minmax(rings[ring], {}, [](const Position& p) { return p[0]; });
+    EXPECT_GT(high[0] - low[0], 0.105) << "of 0.1 m: ring " << ring + 1 << " is stretched";
+  }
+  EXPECT_EQ(std::abs(linking_number(rings[0], rings[1])), 1);
+  EXPECT_EQ(std::abs(linking_number(rings[1], rings[2])), 1);
+  EXPECT_EQ(linking_number(rings[0], rings[2]), 0);
+}
+
+TEST_F(StressSlow, AnObstacleSwellsUnderACloth) {
+  expect_whole(simulate("swell", "100s"));
+  const std::vector<Position> x = end();
+  const auto height = [](const Position& p) { return p[2]; };
+  const double hill = std::ranges::max(std::span(x).subspan(289), {}, height)[2];
+  EXPECT_NEAR(hill, 0.05, 1e-6) << "the last of the OBJ files";
+  EXPECT_GT(std::ranges::max(std::span(x).first(289), {}, height)[2], hill);
+  EXPECT_GT(mean_height(std::span(x).first(289)), 0.02) << "it lies on the hill, and began at 4 mm";
+}
+
+/// Lifted by 0.1 m up to 1.4 s, then held for ten seconds.
+TEST_F(StressSlow, ABoxIsGrippedLiftedAndHeld) {
+  expect_whole(simulate("grip", "200s"));
+  RunReader reader(run_path("run"));
+  double lifted = 0, held = 0;
+  while (const auto window = reader.next_window()) {
+    const double height = mean_height(std::span(window->positions).first(26));
+    if (window->end <= 1.5) lifted = height;
+    held = height;
+  }
+  std::printf("held at %.6f m, after ten seconds at %.6f m\n", lifted, held);
+  EXPECT_GT(lifted, 0.145);
+  EXPECT_NEAR(held, lifted, 1e-6) << "a ten-thousandth of a millimetre a second";
 }
 
 /// The deeper the layers, the more there is to do: this one does not come to its end in any time. Its windows end
