@@ -30,7 +30,8 @@ constexpr const char* export_footer =
     "  noli export runs/cloth --fps 60 -o frames/%05d.ply\n"
     "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens\n"
     "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv\n"
-    "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5 --size 1280x720 --zoom cloth";
+    "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5 --size 1280x720 --zoom cloth\n"
+    "  noli export runs/cloth --fps 24 -o film/%04d.png --size 1280x720      pictures of one view, for a film";
 
 struct ExportArguments {
   ExportRequest frames;
@@ -85,7 +86,13 @@ ExitCode run(const ExportArguments& arguments) {
         {request.run, *arguments.at, arguments.from, size_of(arguments.size), arguments.zoom, request.pattern});
   }
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern});
-  const ExportOutcome outcome = run_export(request);
+  const bool film = request.pattern.ends_with(".png");
+  const bool seen = arguments.from || !arguments.size.empty() || !arguments.zoom.empty();
+  if (seen && !film) {
+    throw UsageError("--from, --size, --zoom: are of pictures; expected --at, or -o with a pattern that ends in .png");
+  }
+  const ExportOutcome outcome =
+      film ? report::run_film({request, arguments.from, size_of(arguments.size), arguments.zoom}) : run_export(request);
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
                                  digits17(outcome.end), !outcome.interrupted);
   if (!outcome.pvd.empty()) text += fmt::format("Series: {}\n", outcome.pvd);
@@ -109,9 +116,9 @@ Command add_export(CLI::App& app) {
   auto* const fps = command->add_option("--fps", request->fps, "Frames a second of simulated time");
   fps->check(is_positive())->capture_default_str();
   command
-      ->add_option(
-          "-o,--output", request->pattern,
-          "Names of the files, e.g. frames/%05d.ply (.obj, .vtu); of a figure or picture, its file (.svg, .csv; .png)")
+      ->add_option("-o,--output", request->pattern,
+                   "Names of the files, e.g. frames/%05d.ply (.obj, .vtu; .png: a film); of a figure or picture, its "
+                   "file (.svg, .csv; .png)")
       ->required()
       ->type_name("PATTERN");
   command->add_flag("--force", request->force,
@@ -122,15 +129,11 @@ Command add_export(CLI::App& app) {
   figure->excludes(fps)->type_name("NAME");
   auto* const at = command->add_option("--at", arguments->at, "A picture of this time, in seconds (.png)");
   at->excludes(fps)->excludes(figure);
-  command->add_option("--from", arguments->from, "Direction in which the eye is, for --at: x y z, or x,y,z")
-      ->delimiter(',')
-      ->needs(at);
-  command->add_option("--size", arguments->size, "Pixels of the picture, for --at; else 640 wide")
-      ->type_name("WxH")
-      ->needs(at);
-  command->add_option("--zoom", arguments->zoom, "A body that fills the picture, for --at; else all that moves is seen")
-      ->type_name("BODY")
-      ->needs(at);
+  command->add_option("--from", arguments->from, "Direction in which the eye is, of pictures: x y z, or x,y,z")
+      ->delimiter(',');
+  command->add_option("--size", arguments->size, "Pixels of a picture; else 640 wide")->type_name("WxH");
+  command->add_option("--zoom", arguments->zoom, "A body that fills the picture; else all that moves is seen")
+      ->type_name("BODY");
   add_time_limit_option(*command, arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h");
   return {command, [arguments] { return run(*arguments); }};
 }

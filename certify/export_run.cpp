@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <noli/errors.h>
+#include "certify/export_frames.h"
 #include "certify/result_file.h"
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_log_facts.h"
@@ -26,7 +27,6 @@ namespace {
 struct Pattern {
   std::string before, after;
   std::size_t width = 0;
-  FrameFormat format = FrameFormat::ply;
 
   std::filesystem::path file(std::uint64_t i) const { return fmt::format("{}{:0{}}{}", before, i, width, after); }
   std::filesystem::path folder() const { return file(0).parent_path(); }
@@ -45,14 +45,16 @@ struct Pattern {
 };
 
 [[noreturn]] void refuse(const std::string& pattern) {
-  throw UsageError("-o " + pattern + ": expected a name with one %d or %05d that ends in .ply, .obj or .vtu");
+  throw UsageError("-o " + pattern + ": expected a name with one %d or %05d that ends in .ply, .obj, .vtu or .png");
 }
 
-FrameFormat format_of(const std::string& pattern) {
+FrameWriter writer_of(const std::string& pattern) {
   const std::string ending = std::filesystem::path(pattern).extension().string();
-  if (ending == ".ply") return FrameFormat::ply;
-  if (ending == ".obj") return FrameFormat::obj;
-  if (ending == ".vtu") return FrameFormat::vtu;
+  if (ending == ".ply") {
+    return [](const Frame& frame, const auto& path) { write_ply(path, frame, PlyEncoding::binary_little_endian); };
+  }
+  if (ending == ".obj") return [](const Frame& frame, const auto& path) { write_obj(path, frame); };
+  if (ending == ".vtu") return [](const Frame& frame, const auto& path) { write_vtu(path, frame); };
   refuse(pattern);
 }
 
@@ -64,13 +66,13 @@ Pattern parse_pattern(const std::string& text) {
   const std::string width = text.substr(percent + 1, d - percent - 1);
   const bool digits = width.size() <= 3 && width.find_first_not_of("0123456789") == std::string::npos;
   if (!digits || (!width.empty() && width[0] != '0') || text.find('/', d) != std::string::npos) refuse(text);
-  return {text.substr(0, percent), text.substr(d + 1), width.empty() ? 0 : std::stoul(width), format_of(text)};
+  return {text.substr(0, percent), text.substr(d + 1), width.empty() ? 0 : std::stoul(width)};
 }
 
 class Export {
  public:
-  explicit Export(const ExportRequest& request)
-      : request_(request), pattern_(parse_pattern(request.pattern)), reader_(open_run(request.run)) {
+  Export(const ExportRequest& request, const FrameWriter& write)
+      : request_(request), write_(write), pattern_(parse_pattern(request.pattern)), reader_(open_run(request.run)) {
     find_earlier();
     make_writable_folder(pattern_.folder(), "-o");
   }
@@ -84,7 +86,7 @@ class Export {
       outcome_.end = window->end;
     }
     outcome_.open_window = !outcome_.interrupted && reader_.open_window().has_value();
-    if (pattern_.format == FrameFormat::vtu) write_series();
+    if (has_series()) write_series();
     remove_earlier();
     return std::move(outcome_);
   }
@@ -96,7 +98,7 @@ class Export {
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error)) {
       const std::filesystem::path path = folder / entry.path().filename();
-      const bool series = pattern_.format == FrameFormat::vtu && path == pvd_path();
+      const bool series = has_series() && path == pvd_path();
       if (!series && !pattern_.number(path)) continue;
       if (entry.is_directory(error)) throw UsageError("-o " + path.string() + ": is a folder; expected a file");
       if (!series) earlier_.push_back(path);
@@ -112,16 +114,14 @@ class Export {
     }
   }
 
+  /// Whether there is a file for ParaView that names the frames.
+  bool has_series() const { return pattern_.after.ends_with(".vtu"); }
+
   void write_frames(const RunWindow& window) {
-    if (!window.lines) return write_recorded(window);
-    constexpr double most = 1e6;
-    if (!(window.end * request_.fps <= most)) {
-      throw UsageError(
-          fmt::format("--fps {}: expected at most {:.0f} frames up to {} s", request_.fps, most, window.end));
-    }
-    for_each_frame_time(window.index, window.begin, window.end, request_.fps, [&](double t) {
+    for_each_frame(window, request_.fps, [&](double t, const std::vector<Position>& positions) {
       if (is_interrupted()) return false;
-      write(t, sample(*window.lines, t));
+      times_.push_back(t);
+      write_({reader_.mesh(), positions}, pattern_.file(outcome_.frames++));
       return true;
     });
   }
@@ -129,24 +129,6 @@ class Export {
   bool is_interrupted() {
     outcome_.interrupted = outcome_.interrupted || stop_asked().has_value();
     return outcome_.interrupted;
-  }
-
-  /// Of a run that recorded frames alone: those, whatever was asked for.
-  void write_recorded(const RunWindow& window) {
-    for (const RunFrame& frame : window.frames) write(frame.time, frame.positions);
-  }
-
-  void write(double time, const std::vector<Position>& positions) {
-    times_.push_back(time);
-    write({reader_.mesh(), positions}, pattern_.file(outcome_.frames++));
-  }
-
-  void write(const Frame& frame, const std::filesystem::path& path) const {
-    switch (pattern_.format) {
-      case FrameFormat::ply: return write_ply(path, frame, PlyEncoding::binary_little_endian);
-      case FrameFormat::obj: return write_obj(path, frame);
-      case FrameFormat::vtu: return write_vtu(path, frame);
-    }
   }
 
   /// Beside the frames, named like them without the number.
@@ -166,6 +148,7 @@ class Export {
   }
 
   const ExportRequest& request_;
+  const FrameWriter& write_;
   Pattern pattern_;
   SeriesReader reader_;
   std::vector<std::filesystem::path> earlier_;
@@ -175,6 +158,8 @@ class Export {
 
 }  // namespace
 
-ExportOutcome run_export(const ExportRequest& request) { return Export(request)(); }
+ExportOutcome export_frames(const ExportRequest& request, const FrameWriter& write) { return Export(request, write)(); }
+
+ExportOutcome run_export(const ExportRequest& request) { return export_frames(request, writer_of(request.pattern)); }
 
 }  // namespace noli

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// At which times a run has frames: at i / rate, i = 0, 1, 2, ...
+// Which frames a run has: those that it recorded, or at the times i / rate, i = 0, 1, 2, ...
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
+
+#include <noli/errors.h>
+#include "trajectory/blocks/run_file.h"
+#include "trajectory/sample.h"
 
 namespace noli {
 
@@ -18,6 +24,24 @@ void for_each_frame_time(std::uint64_t index, double begin, double end, double r
     if (t > end) return;
     if ((t > begin || (index == 0 && t == begin)) && !each(t)) return;
   }
+}
+
+/// Calls each(time, positions) for the frames of a window that was read; of a run that recorded frames alone, for
+/// those, whatever the rate. each() says whether to go on. Throws UsageError where there are too many.
+template <class Each>
+void for_each_frame(const RunWindow& window, double rate, const Each& each) {
+  if (!window.lines) {
+    for (const RunFrame& frame : window.frames) {
+      if (!each(frame.time, frame.positions)) return;
+    }
+    return;
+  }
+  constexpr double most = 1e6;
+  if (!(window.end * rate <= most)) {
+    throw UsageError(fmt::format("--fps {}: expected at most {:.0f} frames up to {} s", rate, most, window.end));
+  }
+  for_each_frame_time(window.index, window.begin, window.end, rate,
+                      [&](double t) { return each(t, sample(*window.lines, t)); });
 }
 
 }  // namespace noli

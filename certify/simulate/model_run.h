@@ -32,7 +32,7 @@ std::vector<integrator::Vec<double, Dim>> vectors_of(const std::vector<Position>
   return result;
 }
 
-/// The state at the end of a window that was read.
+/// The state at the end of a window that was read. Precondition: its state is a row, as SeriesReader::row() requires.
 template <int Dim>
 integrator::Snapshot<double, Dim> snapshot_of(const RunWindow& window) {
   return {window.index + 1, window.end, vectors_of<Dim>(window.positions), vectors_of<Dim>(window.velocities),

@@ -230,8 +230,8 @@ class CertifiedRun {
     Snapshot<double, Dim> last;
     double energy = 0;
     while (const auto window = reader.next_window()) {
-      last = snapshot_of<Dim>(*window);
       const SeriesRow& row = reader.row();
+      last = snapshot_of<Dim>(*window);
       retries_ = Retries(row.halvings);
       watch_.add(row);
       energy = row.energy();

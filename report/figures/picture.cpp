@@ -94,6 +94,9 @@ class Canvas {
     colour_.assign(width_ * height_, paper);
   }
 
+  /// What fills the picture.
+  const Extent& seen() const { return seen_; }
+
   Picture paint() {
     for (const auto& face : frame_.mesh.faces) {
       if (!looks_.is_wall[face[0]]) paint_face(face);
@@ -111,28 +114,37 @@ class Canvas {
     return !looks_.is_wall[v] || only_walls || frame_.mesh.faces.empty();
   }
 
+  /// Of what the view shows, in metres: before at_ is in samples.
+  Extent extent(const View& view) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Extent all{infinity, infinity, -infinity, -infinity};
+    const bool only_walls = std::find(looks_.is_wall.begin(), looks_.is_wall.end(), false) == looks_.is_wall.end();
+    for (std::size_t v = 0; v < at_.size(); ++v) {
+      if (!is_shown(v, view, only_walls)) continue;
+      all = {std::min(all.left, at_[v][0]), std::min(all.top, at_[v][1]), std::max(all.right, at_[v][0]),
+             std::max(all.bottom, at_[v][1])};
+    }
+    return at_.empty() ? Extent() : all;
+  }
+
   /// Right, down, towards the eye, in samples.
   void project(const View& view) {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    const bool only_walls = std::find(looks_.is_wall.begin(), looks_.is_wall.end(), false) == looks_.is_wall.end();
-    for (std::size_t v = 0; v < frame_.positions.size(); ++v) {
-      const Vec3 x = to_vec(frame_.positions[v]);
+    for (const Position& position : frame_.positions) {
+      const Vec3 x = to_vec(position);
       at_.emplace_back(x.dot(right_), -x.dot(up_), x.dot(eye_));
-      if (!is_shown(v, view, only_walls)) continue;
-      low = low.cwiseMin(at_.back());
-      high = high.cwiseMax(at_.back());
     }
-    if (at_.empty()) low = high = Vec3::Zero();
-    const double wide = high[0] - low[0], tall = high[1] - low[1], pixels = static_cast<double>(view.width);
+    seen_ = view.extent ? *view.extent : extent(view);
+    const Extent& seen = seen_;
+    const double wide = seen.right - seen.left, tall = seen.bottom - seen.top, pixels = static_cast<double>(view.width);
     const double shape = std::clamp(wide > 0 ? tall / wide : greatest_aspect, least_aspect, greatest_aspect);
     const double aspect = view.height > 0 ? static_cast<double>(view.height) / pixels : shape;
     width_ = view.width * samples;
     height_ = static_cast<std::size_t>(std::lround(pixels * aspect)) * samples;
-    const double extent = std::max({wide, tall / aspect, std::numeric_limits<double>::min()});
-    const double scale = static_cast<double>(width_) * (1 - 2 * margin) / extent;
+    const double longest = std::max({wide, tall / aspect, std::numeric_limits<double>::min()});
+    const double scale = static_cast<double>(width_) * (1 - 2 * margin) / longest;
     for (Vec3& p : at_) {
-      p[0] = scale * (p[0] - 0.5 * (low[0] + high[0])) + 0.5 * static_cast<double>(width_);
-      p[1] = scale * (p[1] - 0.5 * (low[1] + high[1])) + 0.5 * static_cast<double>(height_);
+      p[0] = scale * (p[0] - 0.5 * (seen.left + seen.right)) + 0.5 * static_cast<double>(width_);
+      p[1] = scale * (p[1] - 0.5 * (seen.top + seen.bottom)) + 0.5 * static_cast<double>(height_);
       p[2] *= scale;
     }
   }
@@ -238,12 +250,17 @@ class Canvas {
   Looks looks_;
   Vec3 eye_, right_, up_;
   std::vector<Vec3> at_;
+  Extent seen_;
   std::size_t width_ = 0, height_ = 0;  ///< in samples
   std::vector<double> depth_;
   std::vector<Colour> colour_;
 };
 
 }  // namespace
+
+Extent extent_of(const Frame& frame, const std::vector<bool>& fixed, const View& view) {
+  return Canvas(frame, fixed, view).seen();
+}
 
 Picture draw(const Frame& frame, const std::vector<bool>& fixed, const View& view) {
   return Canvas(frame, fixed, view).paint();

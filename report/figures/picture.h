@@ -15,11 +15,17 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <noli/mesh.h>
 
 namespace noli::report {
+
+/// Of a parallel projection, right and down [m].
+struct Extent {
+  double left = 0, top = 0, right = 0, bottom = 0;
+};
 
 struct View {
   Position from{0.8, -1.4, 0.7};  ///< the direction in which the eye is; of any length but zero
@@ -28,6 +34,7 @@ struct View {
   std::size_t height = 0;         ///< [pixels]; 0: it follows from what is seen
   /// What the picture shows: of the vertices [first, first + count); count 0: all but floors and walls.
   std::size_t first = 0, count = 0;
+  std::optional<Extent> extent = std::nullopt;  ///< fills the picture instead, as in a film
 };
 
 /// Rows from top to bottom; red, green, blue.
@@ -35,6 +42,9 @@ struct Picture {
   std::size_t width = 0, height = 0;
   std::vector<std::uint8_t> bytes;
 };
+
+/// How much of the view what it shows takes. Arguments, errors: those of draw().
+Extent extent_of(const Frame& frame, const std::vector<bool>& fixed, const View& view);
 
 /// `fixed`: one for each vertex. Throws std::invalid_argument when the view is none.
 Picture draw(const Frame& frame, const std::vector<bool>& fixed, const View& view);

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include <noli/errors.h>
+#include "certify/export_frames.h"
 #include "certify/result_file.h"
+#include "certify/runs/frame_times.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
@@ -20,26 +23,32 @@
 namespace noli::report {
 namespace {
 
+void require_pictures() {
+  if (!can_write_png()) throw UsageError("-o: this noli was built without pictures (NOLI_WITH_PNG=OFF)");
+}
+
 void check(const PictureRequest& request) {
-  if (!can_write_png()) throw UsageError("--at: this noli was built without pictures (NOLI_WITH_PNG=OFF)");
+  require_pictures();
   if (request.output.extension() != ".png") {
     throw UsageError("-o " + request.output.string() + ": expected a name that ends in .png");
   }
   make_writable_folder(request.output.parent_path(), "-o");
 }
 
-BodyNames::Body body_of(const PictureRequest& request) {
-  const std::vector<BodyNames::Body> bodies = read_log(request.run).names.bodies();
+BodyNames::Body body_of(const std::filesystem::path& run, const std::string& wanted) {
+  const std::vector<BodyNames::Body> bodies = read_log(run).names.bodies();
   std::string names;
   for (const BodyNames::Body& body : bodies) {
-    if (body.name == request.zoom) return body;
+    if (body.name == wanted) return body;
     names += (names.empty() ? "" : ", ") + body.name;
   }
-  throw UsageError(fmt::format("--zoom {}: expected a body of the run{}", request.zoom,
+  throw UsageError(fmt::format("--zoom {}: expected a body of the run{}", wanted,
                                names.empty() ? ", whose log names none" : ": " + names));
 }
 
-View view_of(const PictureRequest& request, std::uint32_t dimension) {
+/// `request`: has from, size and zoom.
+template <class Request>
+View view_of(const Request& request, const std::filesystem::path& run, std::uint32_t dimension) {
   View view;
   if (dimension == 2) {
     view.from = {0, 0, 1};
@@ -51,7 +60,7 @@ View view_of(const PictureRequest& request, std::uint32_t dimension) {
     view.height = (*request.size)[1];
   }
   if (!request.zoom.empty()) {
-    const BodyNames::Body body = body_of(request);
+    const BodyNames::Body body = body_of(run, request.zoom);
     view.first = body.first;
     view.count = body.vertices;
   }
@@ -99,16 +108,50 @@ RunFrame frame_at(SeriesReader& reader, const PictureRequest& request) {
                    fmt::format("goes up to {} s; expected a time of it, found {} s", end, request.time));
 }
 
+std::vector<bool> fixed_of(const RunScene& scene) { return {scene.labels.begin(), scene.labels.end()}; }
+
+/// What all frames of a run take of a view.
+Extent extent_of_run(const ExportRequest& request, const View& view) {
+  SeriesReader reader = open_run(request.run);
+  const std::vector<bool> fixed = fixed_of(reader.scene());
+  std::optional<Extent> all;
+  while (const auto window = reader.next_window()) {
+    end_if_stopped();
+    for_each_frame(*window, request.fps, [&](double, const std::vector<Position>& positions) {
+      const Extent one = extent_of({reader.mesh(), positions}, fixed, view);
+      if (!all) all = one;
+      all = {std::min(all->left, one.left), std::min(all->top, one.top), std::max(all->right, one.right),
+             std::max(all->bottom, one.bottom)};
+      return true;
+    });
+  }
+  return all.value_or(Extent());
+}
+
 }  // namespace
+
+ExportOutcome run_film(const FilmRequest& request) {
+  require_pictures();
+  const SeriesReader reader = open_run(request.frames.run);
+  const std::vector<bool> fixed = fixed_of(reader.scene());
+  try {
+    View view = view_of(request, request.frames.run, reader.header().dimension);
+    view.extent = extent_of_run(request.frames, view);
+    return export_frames(request.frames, [&](const Frame& frame, const std::filesystem::path& path) {
+      replace_file(path, png(draw(frame, fixed, view)));
+    });
+  } catch (const std::invalid_argument&) {
+    throw UsageError("--from: expected a direction other than zero");
+  }
+}
 
 PictureOutcome run_picture(const PictureRequest& request) {
   check(request);
   SeriesReader reader = open_run(request.run);
   const RunFrame frame = frame_at(reader, request);
-  const auto& labels = reader.scene().labels;
-  const std::vector<bool> fixed(labels.begin(), labels.end());
+  const std::vector<bool> fixed = fixed_of(reader.scene());
   try {
-    const View view = view_of(request, reader.header().dimension);
+    const View view = view_of(request, request.run, reader.header().dimension);
     const Picture picture = draw({reader.mesh(), frame.positions}, fixed, view);
     replace_file(request.output, png(picture));
     return {frame.time, picture.width, picture.height};

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include <noli/export.h>
 #include <noli/mesh.h>
 
 namespace noli::report {
@@ -28,6 +29,17 @@ struct PictureOutcome {
   double time = 0;  ///< of the picture [s]; of a run that recorded frames alone, that of the nearest one
   std::size_t width = 0, height = 0;
 };
+
+/// A picture of each frame of a run, all of one view: names by a pattern as in noli/export.h, that ends in .png.
+struct FilmRequest {
+  ExportRequest frames;
+  std::optional<Position> from;
+  std::optional<std::array<std::size_t, 2>> size;
+  std::string zoom;
+};
+
+/// Errors: those of run_picture() and run_export().
+ExportOutcome run_film(const FilmRequest& request);
 
 /// Throws InputError (no run, a damaged one, one that does not have that time), UsageError (the output's name or place,
 /// a direction that is none, a body that the

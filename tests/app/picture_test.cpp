@@ -144,6 +144,32 @@ TEST_F(ExportPicture, HasTheSizeAndTheBodyThatAreAskedFor) {
   EXPECT_GT(of_body["near"].size(), of_body[""].size()) << "a sheet that fills the picture has more in it";
 }
 
+/// A sheet that falls: in a film it comes down, where pictures of single times have it in the middle.
+TEST_F(ExportPicture, AFilmHasOneViewOfAllFrames) {
+  for (const char* record : {"full", "frames"}) {
+    Json json = hanging_sheet();
+    json["record"] = record;
+    json["frame_rate"] = 20;
+    json["bodies"][0].erase("pin");
+    ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("r"), "--force"}).exit_code, 0);
+    const std::vector<std::string> options{"--fps",  "20", "--size", "160x120", "-o", run_path("film/%02d.png"),
+                                           "--force"};
+    const Process result = export_at(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(result.out.starts_with("frames 6 ")) << result.out;
+    std::set<std::string> different;
+    for (int i = 0; i < 6; ++i) {
+      const std::string png = bytes_of(run_path("film/0" + std::to_string(i) + ".png"));
+      EXPECT_EQ(big_endian(png, 16), 160U);
+      EXPECT_EQ(big_endian(png, 20), 120U);
+      different.insert(png);
+    }
+    EXPECT_EQ(different.size(), 6U);
+    EXPECT_EQ(export_at({"--at", "0", "--size", "160x120", "-o", run_path("p.png"), "--force"}).exit_code, 0);
+    EXPECT_EQ(different.count(bytes_of(run_path("p.png"))), 0U) << "it shows the whole fall";
+  }
+}
+
 TEST_F(ExportPicture, BadInputIsNamed) {
   ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("r")}).exit_code, 0);
   const auto expect_refused = [&](const std::vector<std::string>& options, const char* what) {
@@ -157,12 +183,15 @@ TEST_F(ExportPicture, BadInputIsNamed) {
   expect_refused({"--at", "0.1", "--from", "0", "0", "0", "-o", run_path("p.png")}, "--from");
   expect_refused({"--at", "0.1", "--fps", "3", "-o", run_path("p.png")}, "--fps");
   expect_refused({"--at", "0.1", "--from", "1,0", "-o", run_path("p.png")}, "--from");
-  expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "--at");
+  expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "with one %d");
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--from", "0,0,1"}, {"--size", "64x64"}, {"--zoom", "sheet"}}) {
+    expect_refused({option[0], option[1], "-o", run_path("%d.ply")}, "are of pictures; expected --at");
+  }
   for (const char* size : {"640", "640x", "x480", "640x480x3", "15x100", "100x8193", "-5x100", "a"}) {
     expect_refused({"--at", "0.1", "--size", size, "-o", run_path("p.png")}, "expected WIDTHxHEIGHT in pixels");
   }
   expect_refused({"--at", "0.1", "--zoom", "nobody", "-o", run_path("p.png")}, "expected a body of the run");
-  expect_refused({"--zoom", "sheet", "-o", run_path("p.png")}, "--at");
 }
 
 #endif

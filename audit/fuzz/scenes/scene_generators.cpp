@@ -143,6 +143,7 @@ class SceneMaker {
     if (random_.one_in(3)) contact["friction"] = static_cast<double>(random_.below(5)) / 4;
     if (e_.most_layers != 1000) contact["most_layers"] = e_.most_layers;
     if (random_.one_in(8)) contact["exclude"] = SceneJson::array({SceneJson::array({"body0", "body1"})});
+    if (random_.one_in(4)) contact["inclusion_exclusion"] = true;
     return contact;
   }
 
