@@ -81,18 +81,14 @@ ExitCode run(const ExportArguments& arguments) {
   if (arguments.at || arguments.figure) {
     require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
   }
-  if (arguments.at) {
-    return paint(
-        {request.run, *arguments.at, arguments.from, size_of(arguments.size), arguments.zoom, request.pattern});
-  }
+  const report::PictureView view{arguments.from, size_of(arguments.size), arguments.zoom};
+  if (arguments.at) return paint({request.run, *arguments.at, view, request.pattern});
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern});
   const bool film = request.pattern.ends_with(".png");
-  const bool seen = arguments.from || !arguments.size.empty() || !arguments.zoom.empty();
-  if (seen && !film) {
+  if (!film && (view.from || view.size || !view.zoom.empty())) {
     throw UsageError("--from, --size, --zoom: are of pictures; expected --at, or -o with a pattern that ends in .png");
   }
-  const ExportOutcome outcome =
-      film ? report::run_film({request, arguments.from, size_of(arguments.size), arguments.zoom}) : run_export(request);
+  const ExportOutcome outcome = film ? report::run_film({request, view}) : run_export(request);
   std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
                                  digits17(outcome.end), !outcome.interrupted);
   if (!outcome.pvd.empty()) text += fmt::format("Series: {}\n", outcome.pvd);

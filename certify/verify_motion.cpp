@@ -197,7 +197,7 @@ class RunVerification : private Verification {
   bool reproduce(RunWindow& window) {
     if (!again_) return true;
     const Stopwatch watch;
-    auto lines = again_->next(window, reader_.row().halvings);
+    auto lines = again_->next(window, reader_.state());
     outcome_.reproduce_seconds += watch.seconds();
     if (lines) window.lines = std::move(lines);
     return window.lines.has_value() && !stopped();

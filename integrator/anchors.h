@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What friction remembers. Friction that only stops slip lets things creep: each impulse is bounded by that of the normal
-// force at its time, and what it could not stop then stays. So each pair that rubs has an anchor, the points that were
-// closest when it began to, and is pulled back to it as by a spring (Cundall and Strack, "A discrete numerical model for
-// granular assemblies", 1979), until that would take more than Coulomb's friction; then the anchor is dragged along.
+// What friction remembers. Friction that only stops slip lets things creep: each impulse is bounded by that of the
+// normal force at its time, and what it could not stop then stays. So each pair that rubs has an anchor, the points
+// that were closest when it began to, and is pulled back to it as by a spring (Cundall and Strack, "A discrete
+// numerical model for granular assemblies", 1979), until that would take more than Coulomb's friction; then the anchor
+// is dragged along.
 //
 // An anchor begins when a layer with friction first acts on a pair, and lasts for as long as layers do again, each time
 // within `life` of the one before. It is a property of the motion: certificates know nothing of it.
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -27,7 +29,7 @@ struct Anchor {
   FeaturePair kind{};
   std::array<VertexId, 4> vertices{};
   std::array<S, 4> weights{};  ///< of the closest points, as in certificates/closest.h
-  double until = -1;           ///< when it ends if nothing renews it [s]
+  double until = 0;            ///< when it ends if nothing renews it [s]
 
   friend bool operator==(const Anchor&, const Anchor&) = default;
 };
@@ -35,20 +37,22 @@ struct Anchor {
 template <class S>
 class Anchors {
  public:
-  /// The anchor of a pair that rubs at time t; a new one at the closest points where there is none.
-  Anchor<S>& renew(const certificates::Stencil& pair, const std::array<S, 4>& weights, double t, double life) {
+  /// The anchor's weights of a pair that a layer acts on at time t. A pair that has no anchor gets one, at its closest
+  /// points.
+  std::array<S, 4>& renew(const certificates::Stencil& pair, const std::array<S, 4>& closest, double t, double life) {
     if (all_.size() >= most_) forget(t);
-    Anchor<S>& anchor = all_[Key{pair.kind, pair.vertices}];
-    if (!(t <= anchor.until)) anchor = {pair.kind, pair.vertices, weights, t};
-    anchor.until = std::max(anchor.until, t + life);
-    return anchor;
+    const auto [found, is_new] = all_.try_emplace(Key{pair.kind, pair.vertices}, Held{closest, t});
+    Held& held = found->second;
+    if (!is_new && held.until < t) held = {closest, t};
+    held.until = std::max(held.until, t + life);
+    return held.weights;
   }
 
   /// Those that last beyond a time, in an order of their own.
   std::vector<Anchor<S>> after(double t) const {
     std::vector<Anchor<S>> result;
-    for (const auto& [key, anchor] : all_) {
-      if (t <= anchor.until) result.push_back(anchor);
+    for (const auto& [key, held] : all_) {
+      if (t <= held.until) result.push_back({key.kind, key.vertices, held.weights, held.until});
     }
     std::ranges::sort(result, {}, [](const Anchor<S>& a) { return Key{a.kind, a.vertices}; });
     return result;
@@ -57,7 +61,7 @@ class Anchors {
   /// Begins with these.
   void restore(std::span<const Anchor<S>> anchors) {
     all_.clear();
-    for (const Anchor<S>& anchor : anchors) all_[Key{anchor.kind, anchor.vertices}] = anchor;
+    for (const Anchor<S>& a : anchors) all_[Key{a.kind, a.vertices}] = {a.weights, a.until};
   }
 
  private:
@@ -66,9 +70,13 @@ class Anchors {
     std::array<VertexId, 4> vertices;
     friend auto operator<=>(const Key&, const Key&) = default;
   };
+  struct Held {
+    std::array<S, 4> weights;
+    double until;
+  };
   struct Hash {
     std::size_t operator()(const Key& key) const {
-      std::uint64_t hash = static_cast<std::uint64_t>(key.kind);
+      auto hash = static_cast<std::uint64_t>(key.kind);
       for (const VertexId v : key.vertices) hash = (hash ^ v) * 0x9e3779b97f4a7c15;
       return hash ^ hash >> 32;
     }
@@ -79,7 +87,7 @@ class Anchors {
     most_ = std::max<std::size_t>(1024, 2 * all_.size());
   }
 
-  std::unordered_map<Key, Anchor<S>, Hash> all_;
+  std::unordered_map<Key, Held, Hash> all_;
   std::size_t most_ = 1024;  ///< when it is time to forget
 };
 

@@ -103,11 +103,11 @@ struct Strength {
 /// What bounds and pulls.
 template <class S>
 struct Grip {
-  S most;      ///< magnitude of the impulse, mu J_n [N s]
-  S spring;    ///< h r(l) [N s/m]
-  S reach;     ///< mu |g|: how far from an anchor the spring's force is Coulomb's [m]
-  bool drags;  ///< an anchor that is further than that
-  Anchor<S>& anchor;
+  S most;                    ///< magnitude of the impulse, mu J_n [N s]
+  S spring;                  ///< h r(l) [N s/m]
+  S reach;                   ///< mu |g|: how far from an anchor the spring's force is Coulomb's [m]
+  bool drags;                ///< an anchor that is further than that
+  std::array<S, 4>& anchor;  ///< its weights
 };
 
 /// The slide from the anchor to the closest points. Drags the anchor if it is to be.
@@ -115,13 +115,13 @@ template <int Dim, class S>
 typename Sliding<Dim, S>::Slide slide_from(const Sliding<Dim, S>& sliding, const certificates::Closest<Dim, S>& c,
                                            std::span<const Vec<S, Dim>> x, Grip<S>& grip) {
   using std::sqrt;
-  auto slide = sliding.solve(sliding.way_from(grip.anchor.weights, x));
+  auto slide = sliding.solve(sliding.way_from(grip.anchor, x));
   if (!grip.drags) return slide;
   const S length = sqrt(sliding.squared(slide));
   if (!(length > grip.reach)) return slide;
   const S share = grip.reach / length;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    grip.anchor.weights[i] = c.weights[i] + share * (grip.anchor.weights[i] - c.weights[i]);
+    grip.anchor[i] = c.weights[i] + share * (grip.anchor[i] - c.weights[i]);
   }
   for (S& part : slide) part *= share;
   return slide;
@@ -235,7 +235,7 @@ template <std::size_t N, class S, int Dim, class Recorder>
     kick_vertex<S, Dim>(now, pair.vertices[i], normal_impulse<Dim, S>(closest, given.normal, push, i));
   }
   if (rubs) {
-    Anchor<S>& anchor = anchors.renew(pair, closest.weights, now.t, layer.anchor_life);
+    std::array<S, 4>& anchor = anchors.renew(pair, closest.weights, now.t, layer.anchor_life);
     const Grip<S> grip{S(layer.friction) * strength.rubbing * push, strength.rubbing * spring, S(-layer.friction) * g,
                        layer.drags, anchor};
     rub<N>(now, pair, closest, grip, friction);

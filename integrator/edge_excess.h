@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pair of edges adds to what vertices and faces already do. An edge that crosses another one above a flat mesh is
-// no nearer to it than its ends are, or than those of the other one; all that its own push would do is to make bumps.
-// On a ridge it is nearer, and nothing else keeps it away.
+// What a pair of edges adds to what vertices and faces already do. An edge that crosses another one above a flat mesh
+// is no nearer to it than its ends are, or than those of the other one; all that its own push would do is to make
+// bumps. On a ridge it is nearer, and nothing else keeps it away.
 //
 // Notation
 //   b       the potential of the layer between the edges: r (d - eta)^2 / 2 if d < eta, else 0
@@ -23,10 +23,12 @@
 // S is double; in audits also multiprecision numbers.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include <noli/mesh.h>
 #include "certificates/stencil.h"
 #include "integrator/inclusion_exclusion.h"
 

@@ -20,8 +20,8 @@
 
 namespace noli::integrator {
 
-/// What lies side by side, together: takes pairs that a layer acts on, in the order of their keys, and makes contacts of
-/// them.
+/// What lies side by side, together: takes pairs that a layer acts on, in the order of their keys, and makes contacts
+/// of them.
 template <class S, int Dim>
 class JoinedContacts {
  public:
@@ -149,7 +149,7 @@ class LayerFire {
     if (sites.size() == 1) return all;
     S power(0), pushes(0);
     Vec<S, Dim> net = Vec<S, Dim>::Zero();
-    const VertexId first = sites.front().pair.vertices[0];
+    const certificates::Stencil& of = sites.front().pair;
     for (const SiteOfContact<S, Dim>& site : sites) {
       const auto& [closest, distance] = site.approach;
       if (!(distance > S(0))) throw ContactLimit(site.pair, now.t);
@@ -159,9 +159,8 @@ class LayerFire {
                });
       if (push > S(0)) pushes += push;
       // Of a pair of edges, an end of the second one is on the other side.
-      const bool turned = sites.front().pair.kind == FeaturePair::edge_edge &&
-                          site.pair.kind != FeaturePair::edge_edge && site.pair.vertices[0] != first &&
-                          site.pair.vertices[0] != sites.front().pair.vertices[1];
+      const VertexId v = site.pair.vertices[0];
+      const bool turned = of.kind == FeaturePair::edge_edge && (v == of.vertices[2] || v == of.vertices[3]);
       net += (turned ? S(-along) : along) * closest.r;
     }
     all.parts = power > S(0);

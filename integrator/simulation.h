@@ -100,8 +100,8 @@ class Simulation {
   State<S, Dim> state() const;
   /// What state() at time 0 does not know: contact's potential there [J]. Known from the first window on, else 0.
   S contact_at_start() const;
-  /// The velocities of this time: those of the snapshot less half of the kicks that act now. Without friction a run that
-  /// begins with them goes on as this one does; with their negatives, back.
+  /// The velocities of this time: those of the snapshot less half of the kicks that act now. Without friction a run
+  /// that begins with them goes on as this one does; with their negatives, back.
   std::vector<Vec<S, Dim>> mean_velocities() const;
   /// Forces fired since time 0 of this object, start kicks included.
   std::uint64_t events() const;

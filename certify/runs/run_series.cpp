@@ -114,12 +114,6 @@ std::vector<integrator::Anchor<double>> take_anchors(Numbers& take) {
   return anchors;
 }
 
-/// Throws std::invalid_argument when the bytes are no row.
-Numbers numbers_of(std::string_view bytes) {
-  if (const std::string problem = not_a_row(bytes); !problem.empty()) throw std::invalid_argument(problem);
-  return Numbers(bytes.substr(beginning));
-}
-
 }  // namespace
 
 std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<double>> anchors) {
@@ -161,15 +155,12 @@ std::string not_a_row(std::string_view bytes) {
   return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 5";
 }
 
-std::vector<integrator::Anchor<double>> decode_anchors(std::string_view bytes) {
-  Numbers take = numbers_of(bytes);
-  return take_anchors(take);
-}
-
-SeriesRow decode_row(std::string_view bytes) {
-  Numbers take = numbers_of(bytes);
-  take_anchors(take);
-  SeriesRow row;
+WindowState decode_state(std::string_view bytes) {
+  if (const std::string problem = not_a_row(bytes); !problem.empty()) throw std::invalid_argument(problem);
+  Numbers take(bytes.substr(beginning));
+  WindowState state;
+  state.anchors = take_anchors(take);
+  SeriesRow& row = state.row;
   each_number_of_row(row, take);
   row.contact_work = take_list<ContactWork>(take, 3);
   for (ContactWork& work : row.contact_work) {
@@ -178,7 +169,7 @@ SeriesRow decode_row(std::string_view bytes) {
   row.script_work = take_list<double>(take, 1);
   for (double& x : row.script_work) take(x);
   row.steps = take_steps(take, row.steps.smallest);
-  return row;
+  return state;
 }
 
 double left_of_change(const SeriesRow& row, double energy_before) { return row.energy() - energy_before - row.given(); }

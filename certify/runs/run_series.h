@@ -6,12 +6,12 @@
 // log.
 //
 // Bytes, all numbers little-endian of 8 bytes: the text "noli row", the version 5; the number of anchors of friction at
-// the window's end, and for each its kind of pair, four vertices, four weights, and the time up to which it lasts, which
-// whoever resumes needs (integrator/anchors.h); then each field in the order of
-// SeriesRow: doubles; events, breakpoints, halvings; the two layers, each as layer, material, pair, four vertices,
-// time, distance; the least step; the number of materials of contact, and for each the works of its potential, of
-// friction, of restitution; the number of scripts, and the work of each; the number of bins, and for each its number
-// (of a signed integer the two's complement) and its ticks.
+// the window's end, and for each its kind of pair, four vertices, four weights, and the time up to which it lasts,
+// which whoever resumes needs (integrator/anchors.h); then each field in the order of SeriesRow: doubles; events,
+// breakpoints, halvings; the two layers, each as layer, material, pair, four vertices, time, distance; the least step;
+// the number of materials of contact, and for each the works of its potential, of friction, of restitution; the number
+// of scripts, and the work of each; the number of bins, and for each its number (of a signed integer the two's
+// complement) and its ticks.
 //
 // The version is also that of the motion: a run that began with another one would go on differently. Version 4 had no
 // anchors; in version 3 gravity had a clock of its own.
@@ -30,14 +30,18 @@
 
 namespace noli {
 
-/// Bytes of a row, and of what friction remembers.
+/// What a run says of a window, and what friction remembers at its end.
+struct WindowState {
+  SeriesRow row;
+  std::vector<integrator::Anchor<double>> anchors;
+};
+
+/// Its bytes.
 std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<double>> anchors);
 /// Why bytes are no row of this version, as those of an earlier one or of another program are not; empty if they are.
 std::string not_a_row(std::string_view bytes);
 /// Throws std::invalid_argument when the bytes are no row. Its numbers are not checked: run_series_reader.h does.
-SeriesRow decode_row(std::string_view bytes);
-/// The same of the anchors.
-std::vector<integrator::Anchor<double>> decode_anchors(std::string_view bytes);
+WindowState decode_state(std::string_view bytes);
 
 ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action);
 

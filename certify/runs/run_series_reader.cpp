@@ -20,21 +20,21 @@ std::optional<RunWindow> SeriesReader::next_window() {
 }
 
 void SeriesReader::take_row(const RunWindow& window) {
-  const std::optional<SeriesRow> before = std::exchange(row_, std::nullopt);
+  const std::optional<WindowState> before = std::exchange(state_, std::nullopt);
   why_none_ = not_a_row(window.state);
   if (!why_none_.empty()) return;
   try {
-    row_ = decode_row(window.state);
-    check_row(*row_, window, scene(), before ? &*before : nullptr);
-    check_anchors(decode_anchors(window.state), window, scene());
+    state_ = decode_state(window.state);
+    check_row(state_->row, window, scene(), before ? &before->row : nullptr);
+    check_anchors(state_->anchors, window, scene());
   } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }
 }
 
-const SeriesRow& SeriesReader::row() const {
-  if (!row_) refuse(why_none_);
-  return *row_;
+const WindowState& SeriesReader::state() const {
+  if (!state_) refuse(why_none_);
+  return *state_;
 }
 
 void SeriesReader::refuse(const std::string& problem) const {

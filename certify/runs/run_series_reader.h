@@ -23,15 +23,16 @@ class SeriesReader : public RunReader {
   std::optional<RunWindow> next_window();
 
   /// Of the window read last. Throws InputError when its state is no row of this version.
-  const SeriesRow& row() const;
+  const WindowState& state() const;
+  const SeriesRow& row() const { return state().row; }
 
  private:
   void take_row(const RunWindow& window);
   [[noreturn]] void refuse(const std::string& problem) const;
 
   std::filesystem::path run_;
-  std::optional<SeriesRow> row_;
-  std::string why_none_;  ///< why there is no row
+  std::optional<WindowState> state_;
+  std::string why_none_;  ///< why there is none
 };
 
 }  // namespace noli

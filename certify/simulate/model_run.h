@@ -32,11 +32,11 @@ std::vector<integrator::Vec<double, Dim>> vectors_of(const std::vector<Position>
   return result;
 }
 
-/// The state at the end of a window that was read. Precondition: its state is a row, as SeriesReader::row() requires.
+/// The state at the end of a window that was read. `state`: its own.
 template <int Dim>
-integrator::Snapshot<double, Dim> snapshot_of(const RunWindow& window) {
+integrator::Snapshot<double, Dim> snapshot_of(const RunWindow& window, const WindowState& state) {
   return {window.index + 1, window.end, vectors_of<Dim>(window.positions), vectors_of<Dim>(window.velocities),
-          decode_anchors(window.state)};
+          state.anchors};
 }
 
 /// A simulation at a snapshot, or at the beginning when there is none; with contact, the steps of its layers are halved

@@ -35,8 +35,7 @@ Found<Dim> find_window(const ReproduceRequest& request) {
       found.halvings = reader.row().halvings;
       return found;
     }
-    reader.row();  // refuses what snapshot_of() cannot read
-    found.before = snapshot_of<Dim>(*window);
+    found.before = snapshot_of<Dim>(*window, reader.state());
   }
   throw InputError(
       request.run.string(), "",

@@ -231,7 +231,7 @@ class CertifiedRun {
     double energy = 0;
     while (const auto window = reader.next_window()) {
       const SeriesRow& row = reader.row();
-      last = snapshot_of<Dim>(*window);
+      last = snapshot_of<Dim>(*window, reader.state());
       retries_ = Retries(row.halvings);
       watch_.add(row);
       energy = row.energy();
@@ -386,7 +386,8 @@ class CertifiedRun {
   void write(const Candidate<Dim>& window) {
     const PhaseScope writing(activity_, Phase::writing);
     const std::vector<RunFrame> frames = frames_of(window);
-    writer_->append_window({window.index, *window.lines, window.velocities, encode(window.row, window.anchors), frames});
+    writer_->append_window(
+        {window.index, *window.lines, window.velocities, encode(window.row, window.anchors), frames});
   }
 
   void commit(const Candidate<Dim>& window) {

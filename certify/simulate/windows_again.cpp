@@ -25,13 +25,15 @@ class Again : public WindowsAgain {
   Again(fs::path run, integrator::Model<double, Dim> model, std::function<bool()> stop)
       : run_(std::move(run)), model_(std::move(model)), stop_(std::move(stop)) {}
 
-  std::optional<WorldLines> next(const RunWindow& window, std::uint64_t halvings) override {
+  std::optional<WorldLines> next(const RunWindow& window, const WindowState& state) override {
+    const std::uint64_t halvings = state.row.halvings;
     if (!simulation_ || halvings != halvings_) simulation_.emplace(simulation_at<Dim>(model_, before_, halvings));
     halvings_ = halvings;
     if (!integrate(window)) return std::nullopt;
     WorldLines lines = integrator::world_lines<Dim>(recording_, model_.x.size());
-    require_same(window, lines);
-    before_ = snapshot_of<Dim>(window);
+    integrator::Snapshot<double, Dim> there = snapshot_of<Dim>(window, state);
+    require_same(window, lines, there);
+    before_ = std::move(there);
     return lines;
   }
 
@@ -49,16 +51,17 @@ class Again : public WindowsAgain {
     return true;
   }
 
-  void require_same(const RunWindow& window, const WorldLines& lines) const {
+  void require_same(const RunWindow& window, const WorldLines& lines,
+                    const integrator::Snapshot<double, Dim>& there) const {
     const Sha256Digest expected = window.lines ? lines_hash(Dim, *window.lines) : window.lines_hash;
     const Sha256Digest found = lines_hash(Dim, lines);
     if (found != expected) {
       differs(window, fmt::format("has world lines with SHA-256 {}; expected {}, which the run has", hex(found),
                                   hex(expected)));
     }
-    const auto state = simulation_->snapshot();
-    const auto there = snapshot_of<Dim>(window);
-    if (state.x != there.x || state.v != there.v || state.anchors != there.anchors) differs(window, "ends in another state than the run has");
+    const auto here = simulation_->snapshot();
+    if (here.x != there.x || here.v != there.v || here.anchors != there.anchors)
+      differs(window, "ends in another state than the run has");
   }
 
   [[noreturn]] void differs(const RunWindow& window, const std::string& problem) const {

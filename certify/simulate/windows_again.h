@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 
+#include "certify/runs/run_series.h"
 #include "trajectory/blocks/run_file.h"
 
 namespace noli {
@@ -26,9 +27,9 @@ class WindowsAgain {
                                           const std::function<bool()>& stop);
   virtual ~WindowsAgain() = default;
 
-  /// The world lines of the window behind the one before; nothing when `stop` said so. `halvings`: of its row. Throws
+  /// The world lines of the window behind the one before; nothing when `stop` said so. `state`: its own. Throws
   /// InputError when their hash, or the state that they end in, is not the one that the run has.
-  virtual std::optional<WorldLines> next(const RunWindow& window, std::uint64_t halvings) = 0;
+  virtual std::optional<WorldLines> next(const RunWindow& window, const WindowState& state) = 0;
 };
 
 }  // namespace noli

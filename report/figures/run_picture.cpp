@@ -46,21 +46,19 @@ BodyNames::Body body_of(const std::filesystem::path& run, const std::string& wan
                                names.empty() ? ", whose log names none" : ": " + names));
 }
 
-/// `request`: has from, size and zoom.
-template <class Request>
-View view_of(const Request& request, const std::filesystem::path& run, std::uint32_t dimension) {
+View view_of(const PictureView& asked, const std::filesystem::path& run, std::uint32_t dimension) {
   View view;
   if (dimension == 2) {
     view.from = {0, 0, 1};
     view.up = {0, 1, 0};
   }
-  if (request.from) view.from = *request.from;
-  if (request.size) {
-    view.width = (*request.size)[0];
-    view.height = (*request.size)[1];
+  if (asked.from) view.from = *asked.from;
+  if (asked.size) {
+    view.width = (*asked.size)[0];
+    view.height = (*asked.size)[1];
   }
-  if (!request.zoom.empty()) {
-    const BodyNames::Body body = body_of(run, request.zoom);
+  if (!asked.zoom.empty()) {
+    const BodyNames::Body body = body_of(run, asked.zoom);
     view.first = body.first;
     view.count = body.vertices;
   }
@@ -135,7 +133,7 @@ ExportOutcome run_film(const FilmRequest& request) {
   const SeriesReader reader = open_run(request.frames.run);
   const std::vector<bool> fixed = fixed_of(reader.scene());
   try {
-    View view = view_of(request, request.frames.run, reader.header().dimension);
+    View view = view_of(request.view, request.frames.run, reader.header().dimension);
     view.extent = extent_of_run(request.frames, view);
     return export_frames(request.frames, [&](const Frame& frame, const std::filesystem::path& path) {
       replace_file(path, png(draw(frame, fixed, view)));
@@ -151,7 +149,7 @@ PictureOutcome run_picture(const PictureRequest& request) {
   const RunFrame frame = frame_at(reader, request);
   const std::vector<bool> fixed = fixed_of(reader.scene());
   try {
-    const View view = view_of(request, request.run, reader.header().dimension);
+    const View view = view_of(request.view, request.run, reader.header().dimension);
     const Picture picture = draw({reader.mesh(), frame.positions}, fixed, view);
     replace_file(request.output, png(picture));
     return {frame.time, picture.width, picture.height};

@@ -15,13 +15,18 @@
 
 namespace noli::report {
 
-struct PictureRequest {
-  std::filesystem::path run;
-  double time = 0;               ///< [s]
+/// How a picture shows a run.
+struct PictureView {
   std::optional<Position> from;  ///< direction in which the eye is; its own for each dimension
   /// Width and height [pixels]; without it, 640 and what the shape of what is seen asks for.
   std::optional<std::array<std::size_t, 2>> size;
-  std::string zoom;              ///< the name of a body that fills the picture; empty: all that moves is seen
+  std::string zoom;  ///< the name of a body that fills the picture; empty: all that moves is seen
+};
+
+struct PictureRequest {
+  std::filesystem::path run;
+  double time = 0;  ///< [s]
+  PictureView view;
   std::filesystem::path output;  ///< ends in .png
 };
 
@@ -30,20 +35,18 @@ struct PictureOutcome {
   std::size_t width = 0, height = 0;
 };
 
-/// A picture of each frame of a run, all of one view: names by a pattern as in noli/export.h, that ends in .png.
+/// Throws InputError (no run, a damaged one, one that does not have that time), UsageError (the output's name or place,
+/// a direction of length zero, a body that the run does not name, built without a library for pictures),
+/// std::system_error (disk).
+PictureOutcome run_picture(const PictureRequest& request);
+
+/// Pictures of all frames of a run, in one view: named by a pattern as in noli/export.h that ends in .png.
 struct FilmRequest {
   ExportRequest frames;
-  std::optional<Position> from;
-  std::optional<std::array<std::size_t, 2>> size;
-  std::string zoom;
+  PictureView view;
 };
 
 /// Errors: those of run_picture() and run_export().
 ExportOutcome run_film(const FilmRequest& request);
-
-/// Throws InputError (no run, a damaged one, one that does not have that time), UsageError (the output's name or place,
-/// a direction that is none, a body that the
-/// run does not name, built without a library for pictures), std::system_error (disk).
-PictureOutcome run_picture(const PictureRequest& request);
 
 }  // namespace noli::report

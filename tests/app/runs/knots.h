@@ -33,8 +33,7 @@ inline Position seen_aslant(const Position& p) {
           0.36 * p[0] + 0.48 * p[1] + 0.8 * p[2]};
 }
 
-/// Of segments i of a and j of b; `last`: of each curve, one more than its last segment, which for a closed one goes back to the
-/// beginning.
+/// Of segments i of a and j of b, if they cross. The last segment goes back to the beginning.
 inline void add_crossing(const Curve& a, std::size_t i, const Curve& b, std::size_t j, std::vector<Crossing>& to) {
   const Position p = a[i], q = a[(i + 1) % a.size()], r = b[j], s = b[(j + 1) % b.size()];
   const double ax = q[0] - p[0], ay = q[1] - p[1], bx = s[0] - r[0], by = s[1] - r[1];

@@ -26,10 +26,9 @@ void change_state(const std::string& run, std::uint64_t window,
   write_file(file, testing::changed(bytes_of(file), [&](std::vector<Block>& blocks) {
                for (Block& block : blocks) {
                  if (block.kind != run_kind::state || ++states != window) continue;
-                 SeriesRow row = decode_row(block.payload);
-                 FrictionAnchors anchors = decode_anchors(block.payload);
-                 change(row, anchors);
-                 block.payload = encode(row, anchors);
+                 WindowState state = decode_state(block.payload);
+                 change(state.row, state.anchors);
+                 block.payload = encode(state.row, state.anchors);
                }
              }));
 }

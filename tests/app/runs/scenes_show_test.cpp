@@ -205,7 +205,7 @@ TEST_F(SceneShowsSlow, TheCurtainsSwingAgain) {
       greatest = std::max(greatest, mean(x, 1));
     }
   }
-  std::printf("the curtains rise to %.2f m below their rail, and swing %.2f m\n", -highest, greatest - least);
+  std::printf("the middle of a curtain rises to %.2f m above the rail; it swings %.2f m\n", highest, greatest - least);
   EXPECT_GT(highest, -0.7) << "the strike lifts them";
   EXPECT_GT(greatest - least, 0.1);
   for (std::size_t sheet = 0; sheet < 2; ++sheet) {
