@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <vector>
 
+#include <noli/errors.h>
 #include "certify/body_names.h"
 
 namespace noli {
@@ -29,6 +32,18 @@ Json contact_json(const FeatureContact& contact) {
   const auto begin = contact.vertices.begin(), middle = begin + first_size(contact.pair);
   const std::vector<VertexId> first(begin, middle), second(middle, begin + point_count(contact.pair));
   return {{"pair", name(contact.pair)}, {"features", Json::array({first, second})}};
+}
+
+Json contact_json(const ListedContact& listed) {
+  Json json = contact_json(listed.contact);
+  if (const auto face = face_of(listed)) json["face"] = *face;
+  json["cells"] = listed.cells;
+  if (!listed.bodies[0].empty() || !listed.bodies[1].empty()) json["bodies"] = listed.bodies;
+  json["kind"] = name(listed.kind);
+  json["step"] = listed.step;
+  json["time"] = listed.time;
+  json["point"] = listed.point;
+  return json;
 }
 
 Json counts_json(const ContactCounts& counts) {
@@ -77,10 +92,34 @@ std::string contact_text(const FeatureContact& contact) {
   return BodyNames().pair(contact.pair, contact.vertices, "meets");
 }
 
-std::string pair_in_short(const FeatureContact& contact, std::optional<std::uint32_t> face) {
-  const bool numbered = face && contact.pair == FeaturePair::vertex_face;
-  if (numbered) return fmt::format("vertex {} × face {}", contact.vertices[0], *face);
+std::string pair_in_short(const FeatureContact& contact) {
   return BodyNames().pair(contact.pair, contact.vertices, "×");
+}
+
+std::string pair_in_short(const ListedContact& listed) {
+  const FeatureContact& contact = listed.contact;
+  const std::size_t first = first_size(contact.pair);
+  const std::span<const VertexId> all(contact.vertices.data(), point_count(contact.pair));
+  std::array<std::string, 2> names = {BodyNames().feature(all.first(first)), BodyNames().feature(all.subspan(first))};
+  if (const auto face = face_of(listed)) names[1] = fmt::format("face {}", *face);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!listed.bodies[i].empty()) names[i] += fmt::format(" ({})", on_one_line(listed.bodies[i]));
+  }
+  return names[0] + " × " + names[1];
+}
+
+std::string who_and_where(const ListedContact& listed, int dimension) {
+  std::string point;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+    if (!std::isfinite(listed.point[d])) return pair_in_short(listed);
+    point += (d == 0 ? "" : ", ") + digits4(listed.point[d]);
+  }
+  return fmt::format("{} at ({})", pair_in_short(listed), point);
+}
+
+std::optional<std::uint32_t> face_of(const ListedContact& listed) {
+  if (listed.contact.pair != FeaturePair::vertex_face || listed.cells[1].empty()) return std::nullopt;
+  return listed.cells[1].front();
 }
 
 }  // namespace noli

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <noli/findings.h>
 #include <noli/run.h>
 #include "certify/json.h"
 #include "integrator/contact_settings.h"
@@ -28,6 +29,9 @@ struct MeetingBodies {
   std::uint64_t more = 0;                           ///< that are not told
 };
 
+/// The same with cells, bodies, kind, step, time and point.
+Json contact_json(const ListedContact& listed);
+
 /// What the layers of a model are: {"most_layers": n, "layers": [4 a, 4 b, 4 c], "materials": [...]}; where there are
 /// several materials, each with "pairs" and "more_pairs" of MeetingBodies. `built`: one for each material.
 Json contact_json(const integrator::ContactSettings& settings, std::span<const integrator::BuiltContact> built);
@@ -41,7 +45,16 @@ Json counts_json(const ContactCounts& counts);
 /// "edge 1-2 meets edge 7-9"
 std::string contact_text(const FeatureContact& contact);
 
-/// "edge 1-2 × edge 7-9"; a face by its number, if it is known.
-std::string pair_in_short(const FeatureContact& contact, std::optional<std::uint32_t> face = std::nullopt);
+/// "edge 1-2 × edge 7-9"
+std::string pair_in_short(const FeatureContact& contact);
+
+/// "vertex 12 (shirt) × face 7 (floor)": a face by its number, and bodies where they have names.
+std::string pair_in_short(const ListedContact& listed);
+
+/// "vertex 12 (shirt) × face 7 (floor) at (0.12, 0.98, -0.31)"
+std::string who_and_where(const ListedContact& listed, int dimension);
+
+/// The number of the face of a contact between a vertex and a face, the first if several have its vertices.
+std::optional<std::uint32_t> face_of(const ListedContact& listed);
 
 }  // namespace noli

@@ -11,16 +11,6 @@
 #include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
-namespace {
-
-/// Kind and time of a contact that was found.
-FirstInStep exactly(const FeatureContact& contact, const AnyQuery& query) {
-  const auto found = visit(query, [](const auto& typed) { return first_contact(typed); });
-  if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
-  return {contact, found->kind, found->time.lower()};
-}
-
-}  // namespace
 
 SequenceVerifier::SequenceVerifier(Mesh mesh, SequenceOptions options)
     : mesh_(std::move(mesh)), options_(std::move(options)) {}
@@ -56,10 +46,10 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;
-  StepResult result{std::move(static_cast<Findings&>(found)), {}, std::move(found.proof)};
+  StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
   const bool any_at_begin = std::exchange(meeting_at_end_, !options_.at_rest && found.contact_count() > 0);
-  if (any_at_begin && meeting_at_end_) drop_contacts_at_begin(x_t0, result);
-  if (found.first) result.first = exactly(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
+  result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, result);
+  if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   return result;
 }
 
@@ -76,13 +66,14 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
 }
 
 /// What meets where a later step begins met where the step before ended, and was counted there. Those pairs are the
-/// ones that meet when everything rests where the step begins.
-void SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result) {
+/// ones that meet when everything rests where the step begins. Whether there are any.
+bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result) {
   VerifyOptions options = step_options();
   options.first_only = false;
   options.max_reports = 0;
   const VerifyResult resting = verify_between(x_t0, x_t0, options);
   drop_met_before(result, resting, options_.dimension, x_t0);
+  return resting.contact_count() > 0;
 }
 
 }  // namespace noli

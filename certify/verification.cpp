@@ -2,8 +2,12 @@
 #include "certify/verification.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <noli/contact.h>
+#include <noli/time_of_impact.h>
 
 namespace noli {
 
@@ -15,6 +19,12 @@ AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const 
     query.x_t1[i] = x_t1[contact.vertices[i]];
   }
   return query;
+}
+
+FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query) {
+  const auto found = visit(query, [](const auto& typed) { return first_contact(typed); });
+  if (!found) throw std::logic_error("two parts of the kernel disagree on a contact");
+  return {contact, found->kind, found->time.lower()};
 }
 
 void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x) {
@@ -31,24 +41,33 @@ void drop_met_before(Findings& found, const Findings& resting, int dimension, st
   });
 }
 
-void Verification::add(const Findings& found) {
-  outcome_.steps.push_back({found.contacts, found.initial_intersections});
+void Verification::add(const Findings& found, std::optional<ListedContact> first, bool goes_on,
+                       const ContactList::Exactly& exactly) {
+  const std::size_t step = outcome_.steps.size() + 1;
+  if (first) first->step = step;
+  if (!outcome_.first) outcome_.first = first;
+  if (goes_on) first.reset();  // it may be one of those that go on
+  listed_.add(step, first, found.reports, exactly);
+  outcome_.steps.push_back({found.contacts, found.initial_intersections, goes_on, std::move(first)});
   for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += found.contacts[i];
   outcome_.initial_intersections += found.initial_intersections;
   outcome_.stages += found.stages;
   outcome_.obligations += found.obligations;
   outcome_.cell_pairs += found.cell_pairs;
-  const std::size_t step = outcome_.steps.size();
-  for (const auto& contact : found.reports) {
-    if (outcome_.reports.size() < request_.max_reports) outcome_.reports.push_back({step, contact});
-  }
   for (const auto& pair : found.initial_reports) {
     if (outcome_.initial_reports.size() < request_.max_reports) outcome_.initial_reports.push_back({step, pair});
   }
 }
 
-void Verification::add_first(const FeatureContact& contact, ContactKind kind, double time, const Mesh& mesh) {
-  if (!outcome_.first) outcome_.first = First{contact, outcome_.steps.size(), kind, time, face_of(mesh, contact)};
+void Verification::list_contacts(const Mesh& mesh, const BodyNames& names) {
+  outcome_.reports = listed_.take();
+  std::vector<ListedContact*> all;
+  for (ListedContact& listed : outcome_.reports) all.push_back(&listed);
+  for (StepCounts& step : outcome_.steps) {
+    if (step.first) all.push_back(&*step.first);
+  }
+  if (outcome_.first) all.push_back(&*outcome_.first);
+  name_owners(mesh, names, all);
 }
 
 void Verification::search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,

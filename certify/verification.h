@@ -7,7 +7,9 @@
 #include <span>
 #include <string_view>
 
+#include <noli/sequence.h>
 #include <noli/verify.h>
+#include "certify/listed_contacts.h"
 #include "certify/proofs/step_proofs.h"
 #include "certify/queries/any_query.h"
 
@@ -17,22 +19,26 @@ namespace noli {
 AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
                   std::span<const Position> x_t1);
 
+/// Kind and time of a contact that was found; `query`: its features.
+FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query);
+
 /// Takes away what was counted in the step before: what meets where this one begins. `resting`: what is found of all
 /// vertices at rest there, in x, with no reports.
 void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x);
 
 class Verification {
  protected:
-  explicit Verification(const VerifyRequest& request) : request_(request) {}
+  explicit Verification(const VerifyRequest& request) : request_(request), listed_(request.max_reports) {}
 
   bool stopped() { return outcome_.stop_for(request_); }
   /// Whether what was found is all that was asked for.
   bool enough() const { return outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going); }
 
-  /// Of the next step.
-  void add(const Findings& found);
-  /// Where there is no first contact yet. `time`: within the step, or of the run.
-  void add_first(const FeatureContact& contact, ContactKind kind, double time, const Mesh& mesh);
+  /// Of the next step. `first`: the contact with which it begins. `goes_on`: contacts of the step before do, and are
+  /// not counted again.
+  void add(const Findings& found, std::optional<ListedContact> first, bool goes_on, const ContactList::Exactly& exactly);
+  /// Lists contacts with their cells and bodies. Call it when all steps have been added.
+  void list_contacts(const Mesh& mesh, const BodyNames& names);
 
   /// Finds the proof of the last step, in which nothing touches. If something is too near, it finds a witness instead,
   /// and in the first step the largest least distance that holds.
@@ -55,6 +61,7 @@ class Verification {
 
   const VerifyRequest& request_;
   VerifyOutcome outcome_;
+  ContactList listed_;
 };
 
 }  // namespace noli

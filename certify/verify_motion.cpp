@@ -19,6 +19,7 @@
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
 #include "integrator/scene/scene.h"
+#include "proofs/prover/windows/window_features.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
@@ -228,13 +229,19 @@ class RunVerification : private Verification {
       tell("verify", std::min(1.0, done / static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1))));
     };
     WindowResult result = verifier_->verify(*window.lines, deciding);
-    const bool drop = meeting_at_end_ && result.contact_count() > 0;
+    const bool may_go_on = meeting_at_end_ && result.contact_count() > 0;
     meeting_at_end_ = result.contact_count() > 0;
-    if (drop) drop_contacts_at_begin(window, result);
+    const bool goes_on = may_go_on && drop_contacts_at_begin(window, result);
     outcome_.complete = result.complete;
-    add(result);
-    if (const auto& first = result.first) add_first(first->contact, first->kind, first->lower(), reader_.mesh());
+    add_window(*window.lines, result, goes_on);
     if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(window, result);
+  }
+
+  void add_window(const WorldLines& lines, const WindowResult& result, bool goes_on) {
+    const auto listed = [&](const FirstInWindow& first) { return listed_in_window(first, lines, outcome_.dimension); };
+    const ExactlyInWindow exactly{&lines, outcome_.dimension};
+    const auto first = result.first ? std::optional(listed(*result.first)) : std::nullopt;
+    add(result, first, goes_on, [&](const FeatureContact& contact) { return listed(exactly(contact)); });
   }
 
   void prove(RunWindow& window, const WindowResult& result) {
@@ -269,13 +276,15 @@ class RunVerification : private Verification {
     lines_->commit();
   }
 
-  /// What meets where a window begins was counted in the window before.
-  void drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
+  /// What meets where a window begins was counted in the window before. Whether anything does.
+  bool drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
     const std::vector<Position> x = beginning_of(*window.lines);
     WindowOptions resting = options();
     resting.first_only = false;
     resting.max_reports = 0;
-    drop_met_before(result, verifier_->verify(WorldLines::from_frames(x, x), resting), outcome_.dimension, x);
+    const WindowResult met = verifier_->verify(WorldLines::from_frames(x, x), resting);
+    drop_met_before(result, met, outcome_.dimension, x);
+    return met.contact_count() > 0;
   }
 
   void conclude() {
@@ -292,6 +301,7 @@ class RunVerification : private Verification {
     // A run of which nothing was committed yet proves nothing.
     if (outcome_.steps.empty()) outcome_.complete = false;
     set_verdict(ended_);
+    list_contacts(reader_.mesh(), log_.names);
   }
 
   /// Not of a run that was killed while it was verified.

@@ -21,6 +21,7 @@
 #include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/merge.h"
+#include "trajectory/sample.h"
 #include "trajectory/stop.h"
 
 namespace noli {
@@ -196,9 +197,30 @@ class SequenceVerification : private Verification {
     if (by_verifier && request_.open_proof_at_once) begin_proof();
     const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
     outcome_.complete = result.complete;
-    add(result);
-    if (const auto& first = result.first) add_first(first->contact, first->kind, first->time, verifier_->mesh());
+    add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
     if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(result);
+  }
+
+  AnyQuery query(const FeatureContact& contact) const {
+    return query_of(contact, outcome_.dimension, sequence_.x_t0(), sequence_.x_t1());
+  }
+
+  ListedContact exactly(const FeatureContact& contact) const {
+    const FirstInStep found = first_in_step(contact, query(contact));
+    return listed(contact, found.kind, found.time);
+  }
+
+  std::optional<ListedContact> first_of(const StepResult& result) const {
+    if (!result.first) return std::nullopt;
+    return listed(result.first->contact, result.first->kind, result.first->time);
+  }
+
+  ListedContact listed(const FeatureContact& contact, ContactKind kind, double time) const {
+    const AnyQuery moving = query(contact);
+    std::array<Position, 4> x{};
+    for (std::size_t i = 0; i < moving.size(); ++i) x[i] = sample_between(moving.x_t0[i], moving.x_t1[i], time);
+    const std::span<const Position> corners(x.data(), moving.size());
+    return {contact, 0, kind, time, meeting_point(contact.pair, outcome_.dimension, corners), {}, {}};
   }
 
   void prove(const StepResult& result) {
@@ -234,6 +256,7 @@ class SequenceVerification : private Verification {
   void conclude() {
     stopped();
     set_verdict(outcome_.steps.size() == outcome_.steps_total);
+    if (verifier_) list_contacts(verifier_->mesh(), BodyNames());
     put_notes();
     outcome_.inputs = inputs_.take_facts();
   }
@@ -263,18 +286,6 @@ class SequenceVerification : private Verification {
 };
 
 }  // namespace
-
-std::optional<std::uint32_t> face_of(const Mesh& mesh, const FeatureContact& contact) {
-  if (contact.pair != FeaturePair::vertex_face) return std::nullopt;
-  std::array<VertexId, 3> wanted = {contact.vertices[1], contact.vertices[2], contact.vertices[3]};
-  std::ranges::sort(wanted);
-  const auto found = std::ranges::find_if(mesh.faces, [&](std::array<VertexId, 3> face) {
-    std::ranges::sort(face);
-    return face == wanted;
-  });
-  if (found == mesh.faces.end()) return std::nullopt;
-  return static_cast<std::uint32_t>(found - mesh.faces.begin());
-}
 
 void VerifyRequest::put_in_order() {
   OrderedFrames in_order = order_frames(std::move(frames), order);

@@ -34,12 +34,11 @@ std::uint64_t refused_window(const SimulateOutcome& outcome) { return outcome.wi
 
 /// Nothing if there was no contact.
 Json first_json(const SimulateOutcome& outcome) {
-  if (!outcome.contact || !outcome.contact->first) return nullptr;
-  Json json = contact_json(outcome.contact->first->contact);
-  json["kind"] = noli::name(outcome.contact->first->kind);
+  if (!outcome.first) return nullptr;
+  Json json = contact_json(*outcome.first);
+  json.erase("step");
   json["names"] = outcome.first_names;
   json["window"] = refused_window(outcome);
-  json["time"] = outcome.contact->first->time;
   return json;
 }
 
@@ -116,7 +115,7 @@ std::string end_text(const SimulateOutcome& outcome) {
       if (outcome.windows == 0) return "No window was asked for.";
       return nothing_touches(outcome.not_compared, "from beginning to end");
     case RunEnd::contact: {
-      const FirstInStep& first = *outcome.contact->first;
+      const ListedContact& first = *outcome.first;
       return fmt::format(
           "Contact in window {}: first {} ({}), {}, at {} s ({} pairs of features in the window). The window is not "
           "part of the run.",
@@ -169,8 +168,8 @@ std::string place(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done: return fmt::format("{}: {}", committed, nothing_touches_in_short(outcome.not_compared));
     case RunEnd::contact: {
-      const FirstInStep& first = *outcome.contact->first;
-      return fmt::format("{}  t = {} s  {}", at, digits4(first.time), pair_in_short(first.contact));
+      const ListedContact& first = *outcome.first;
+      return fmt::format("{}  t = {} s  {}", at, digits4(first.time), who_and_where(first, outcome.dimension));
     }
     case RunEnd::too_near:
       return fmt::format("{}  t = {} s  {}", at, digits4(outcome.limit->time), outcome.first_names);

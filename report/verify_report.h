@@ -17,4 +17,10 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome);
 /// a time and two features.
 Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome);
 
+/// How many pairs each stage decided, and obligations and pairs of cells.
+Json work_json(const VerifyOutcome& outcome);
+
+/// How many threads verify.
+int threads_used(const VerifyRequest& request);
+
 }  // namespace noli::report

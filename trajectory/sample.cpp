@@ -16,21 +16,24 @@ double fraction(double a, double b, double t) {
 /// Between a and b, whatever the rounding.
 double between(double a, double b, double s) { return std::clamp(std::lerp(a, b, s), std::min(a, b), std::max(a, b)); }
 
-Position sample_vertex(const WorldLines& lines, VertexId v, double t) {
+}  // namespace
+
+Position sample_between(const Position& a, const Position& b, double s) {
+  return {between(a[0], b[0], s), between(a[1], b[1], s), between(a[2], b[2], s)};
+}
+
+Position sample(const WorldLines& lines, VertexId v, double t) {
   const std::size_t k = lines.segment_at(v, t);
   const auto times = lines.times(v);
   const Position &a = lines.positions(v)[k], &b = lines.positions(v)[k + 1];
   if (t == times[k]) return a;
   if (t == times[k + 1]) return b;
-  const double s = fraction(times[k], times[k + 1], t);
-  return {between(a[0], b[0], s), between(a[1], b[1], s), between(a[2], b[2], s)};
+  return sample_between(a, b, fraction(times[k], times[k + 1], t));
 }
-
-}  // namespace
 
 std::vector<Position> sample(const WorldLines& lines, double t) {
   std::vector<Position> positions(lines.vertex_count());
-  for (VertexId v = 0; v < positions.size(); ++v) positions[v] = sample_vertex(lines, v, t);
+  for (VertexId v = 0; v < positions.size(); ++v) positions[v] = sample(lines, v, t);
   return positions;
 }
 

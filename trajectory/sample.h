@@ -18,4 +18,10 @@ namespace noli {
 /// first_time() <= t <= last_time().
 std::vector<Position> sample(const WorldLines& lines, double t);
 
+/// That of one vertex.
+Position sample(const WorldLines& lines, VertexId v, double t);
+
+/// Between a and b, whatever the rounding: a for s = 0, b for s = 1. Precondition: 0 <= s <= 1.
+Position sample_between(const Position& a, const Position& b, double s);
+
 }  // namespace noli

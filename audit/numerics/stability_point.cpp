@@ -214,8 +214,8 @@ class Asking {
     // Scenes begin in their shape at rest: what the first window's end has is what the beginning had, and the work.
     double work = 0;
     for (const auto& [name, column] : energy) {
-      const auto is = [&name](const char* list) {
-        return name.starts_with(list) && name.find("_of_material_") == name.npos;
+      const auto is = [&quantity = name](const char* list) {
+        return quantity.starts_with(list) && quantity.find("_of_material_") == quantity.npos;
       };
       if (is("work_") || is("damping_work_") || is("held_work_") || is("restitution_work")) work += column[0];
     }

@@ -14,6 +14,7 @@
 #include <noli/errors.h>
 #include "certify/body_names.h"
 #include "certify/contact_report.h"
+#include "certify/listed_contacts.h"
 #include "certify/not_compared.h"
 #include "certify/proofs/prove_run.h"
 #include "certify/runs/frame_times.h"
@@ -58,7 +59,7 @@ struct Candidate : IntegratedWindow<Dim> {
 
 /// A window that was refused, without the exact form of its first time.
 StepResult as_step(WindowResult window) {
-  StepResult step{std::move(static_cast<Findings&>(window)), {}, {}};
+  StepResult step{std::move(static_cast<Findings&>(window)), {}, false, nullptr};
   if (window.first) step.first = FirstInStep{window.first->contact, window.first->kind, window.first->lower()};
   return step;
 }
@@ -349,8 +350,11 @@ class CertifiedRun {
     }
     if (roll_back(window, result)) return Settled::rolled_back;
     outcome_.end = RunEnd::contact;
-    if (result.first)
+    if (result.first) {
       outcome_.first_names = names_.pair(result.first->contact.pair, result.first->contact.vertices, "meets");
+      std::array first = {&outcome_.first.emplace(listed_in_window(*result.first, *window.lines, Dim))};
+      name_owners(built_.model.mesh, names_, first);
+    }
     outcome_.contact = as_step(std::move(result));
     return Settled::yes;
   }

@@ -24,6 +24,7 @@
 
 #include <noli/contact.h>
 #include <noli/mesh.h>
+#include <noli/time_of_impact.h>
 
 namespace noli {
 
@@ -41,6 +42,20 @@ struct FeatureContact {
   friend bool operator==(const FeatureContact& a, const FeatureContact& b) {
     return a.pair == b.pair && a.vertices == b.vertices;
   }
+};
+
+/// A contact that is listed: what meets, when and where it begins.
+struct ListedContact {
+  FeatureContact contact;
+  std::size_t step = 0;  ///< from 1
+  ContactKind kind = ContactKind::touching;
+  double time = 0;   ///< the largest double not above the exact time; in [0, 1] of its step, in seconds for a run
+  Position point{};  ///< where they meet at that time, rounded
+  /// The cells that each feature is part of, in ascending order, at most `most_cells` of them.
+  std::array<std::vector<std::uint32_t>, 2> cells;
+  std::array<std::string, 2> bodies;  ///< of each feature, by name; empty where bodies have no names
+
+  static constexpr std::size_t most_cells = 64;
 };
 
 /// Two cells (numbered as in Mesh) whose vertex-disjoint parts meet at the beginning of the step.

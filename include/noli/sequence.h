@@ -66,6 +66,7 @@ struct FirstInStep {
 /// Initial intersections are those of the first frame, or of each one at rest.
 struct StepResult : Findings {
   std::optional<FirstInStep> first;
+  bool goes_on = false;  ///< features met where the step begins: they were counted before, and may be `first`
   std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions
 };
 
@@ -93,7 +94,7 @@ class SequenceVerifier {
  private:
   VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                               const VerifyOptions& options);
-  void drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result);
+  bool drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result);
 
   Mesh mesh_;
   SequenceOptions options_;

@@ -104,6 +104,7 @@ struct SimulateOutcome {
   double time = 0;                            ///< of the last commit [s]
   std::uint64_t events = 0, breakpoints = 0;  ///< of this call
   std::optional<StepResult> contact;          ///< of the window that was refused; times are in seconds
+  std::optional<ListedContact> first;         ///< its first one
   NotCompared not_compared;
   std::string first_names;  ///< the features of its first one, or of `limit`, by body and number
   std::optional<PairTooNear> limit;

@@ -102,24 +102,6 @@ constexpr std::string_view name(Verdict verdict) {
   return "";
 }
 
-/// The first pair of features that meets.
-struct First {
-  FeatureContact contact;
-  std::size_t step = 0;  ///< from 1
-  ContactKind kind = ContactKind::touching;
-  double time = 0;  ///< the largest double not above the exact time; in [0, 1] of its step, in seconds for a run
-  std::optional<std::uint32_t> face;  ///< of vertex_face: its number in the mesh
-};
-
-/// The number of the face of a contact between a vertex and a face, the first if several have its vertices.
-std::optional<std::uint32_t> face_of(const Mesh& mesh, const FeatureContact& contact);
-
-/// Listed contacts of one step.
-struct Listed {
-  std::size_t step = 0;  ///< from 1
-  FeatureContact contact;
-};
-
 struct ListedInitial {
   std::size_t step = 0;  ///< from 1
   InitialIntersection pair;
@@ -135,6 +117,12 @@ struct ListedNear {
 struct StepCounts {
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
+  /// Features meet where the step begins, and were counted in the step before. Which of the others is first is unknown.
+  bool goes_on = false;
+  std::optional<ListedContact> first;  ///< of its contacts, unless some go on
+
+  std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
+  bool touches() const { return contact_count() + initial_intersections > 0; }
 };
 
 /// How a run ended, as its log and its scene say. Nothing else follows from it.
@@ -166,8 +154,10 @@ struct VerifyOutcome {
   std::optional<RunEnding> ending;  ///< of a run
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
-  std::optional<First> first;
-  std::vector<Listed> reports;
+  std::optional<ListedContact> first;
+  /// Contacts, at most max_reports of them, shared as evenly as can be by the steps that have any. Of each step first
+  /// the one with which it begins, where that is known, then others in the order of noli/findings.h.
+  std::vector<ListedContact> reports;
   std::vector<ListedInitial> initial_reports;
   StageCounters stages;
   std::uint64_t obligations = 0;
