@@ -17,14 +17,15 @@ namespace noli::app {
 namespace {
 
 constexpr const char* ccd_footer =
-    "Each query is decided exactly. Where a file has labels (the truth, a last column of 0 or 1), they are compared: "
-    "exit 1 when one\n"
-    "disagrees. A row is a point: x numerator, x denominator, y .., z .. [, label]; a query is its points at t = 0, "
+    "Each query is decided exactly. Where a file has labels, a last column of 0 or 1, they are compared with "
+    "the answers; exit 1 when one disagrees.\n"
+    "\n"
+    "A row is a point: x numerator, x denominator, y .., z .. [, label]. A query is its points at t = 0, "
     "then at t = 1. Lines that begin with # are skipped.\n"
     "Examples:\n"
     "  noli ccd unit-tests-edge-edge-0.csv unit-tests-vertex-face-0.csv\n"
     "  noli ccd queries.csv --kind vertex-face --json result.json\n"
-    "  noli ccd drawing-vertex-edge.csv --dimension 2 --times";
+    "  noli ccd drawing-vertex-edge.csv --dimension 2 --times\n";
 
 const std::map<std::string, FeaturePair> kinds = {{"vertex-face", FeaturePair::vertex_face},
                                                   {"edge-edge", FeaturePair::edge_edge},
@@ -138,7 +139,8 @@ ExitCode run(CcdArguments& arguments) {
 }  // namespace
 
 Command add_ccd(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("ccd", "Decide files of queries; compare with their labels");
+  CLI::App* const command =
+      app.add_subcommand("ccd", "Decide single queries from files, and compare with their labels");
   command->footer(ccd_footer);
   const auto arguments = std::make_shared<CcdArguments>();
   CcdRequest& request = arguments->request;

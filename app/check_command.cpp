@@ -23,32 +23,31 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* check_footer =
-    "Runs the checker, a separate small program that trusts nothing of this one (proofs/FORMAT.md, proofs/checker).\n"
-    "What has to be proved is your choice, not the proof's. Unless you ask for something else: frames in motion (or "
-    "the run), all\n"
-    "steps, every cell, no merged vertices, nothing left out but what the run's scene leaves out, no least distance. A "
-    "proof of less\n"
-    "is rejected, and so is a witness against more. Ask field by field:\n"
+    "Runs the checker: a small program of its own, which trusts nothing of noli.\n"
+    "\n"
+    "You choose what has to be proved, not the proof. Unless you ask for something else, that is: frames in "
+    "motion (or the run), all steps, every cell, no merged vertices, nothing left out except what the run's "
+    "scene leaves out, no least distance. A proof of less is rejected, and so is a witness against more. Ask "
+    "for one field at a time:\n"
     "  --require motion=rest       each frame by itself (noli verify --static)\n"
     "  --require dimension=2       z does not count (--dimension 2)\n"
     "  --require steps=5           the first five steps, or windows\n"
     "  --require strict            also the features of one cell (--strict)\n"
     "  --require points            also vertices without a cell (--points)\n"
-    "  --require distance=0.001    at least so far apart (--min-distance); ring=2: see --min-distance-from-ring\n"
-    "  --require merged=12         so many vertices may be merged (--merge-identical), together with cells=HASH\n"
+    "  --require distance=0.001    at least so far apart (--min-distance); ring=2 for its ring\n"
+    "  --require merged=12         so many vertices may be merged; together with cells=HASH\n"
     "  --require excluded=1-2 --require cells=HASH    pairs of labels that may be left out (--ignore)\n"
     "  --require empty             fewer than two cells that could touch\n"
-    "or all at once by the file that `noli verify --claim-out CLAIM.json` writes. proofs/FORMAT.md, section 6, has the "
-    "order.\n"
+    "or for all of them with the file that `noli verify --claim-out CLAIM.json` writes.\n"
+    "\n"
     "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
-    "answer\n"
-    "(--time-limit, Ctrl-C); 3 anything else.\n"
+    "answer (--time-limit, Ctrl-C); 3 anything else.\n"
     "Examples:\n"
     "  noli check proof.noli before.ply after.ply\n"
-    "  noli check proof.noli rest.ply --require motion=rest\n"
     "  noli check proof.noli frames/*.ply --claim claim.json\n"
+    "  noli check proof.noli rest.ply --require motion=rest\n"
     "  noli check runs/cloth                      its proof.blocks, about its trajectory.blocks\n"
-    "  noli check proof.noli runs/cloth --verified";
+    "  noli check proof.noli runs/cloth --verified\n";
 
 struct CheckArguments {
   std::vector<fs::path> files;

@@ -17,16 +17,16 @@ namespace noli::app {
 namespace {
 
 constexpr const char* explain_footer =
-    "Of a scene: prints the defaults that were taken, what will be active and what is left out and why, steps, events "
-    "a second, "
-    "bytes and warnings. Nothing is simulated.\n"
-    "Of a run, from its files: how deep layers of contact went and how near things came (exactly, where world lines "
-    "were\n"
-    "recorded), events, certificates, where time went, windows that were rolled back, energy.\n"
+    "Of a scene: the defaults taken, what will be active, what is left out and why, steps, events a second, "
+    "bytes, warnings. Nothing is simulated.\n"
+    "\n"
+    "Of a run, from its files: how deep the layers of contact went, how near things came (exactly, where "
+    "world lines were recorded), events, certificates, where the time went, windows that were rolled back, "
+    "energy.\n"
     "Examples:\n"
     "  noli explain scenes/swinging_cloth.json\n"
     "  noli explain scenes/stiff_inset.json --short --json -\n"
-    "  noli explain runs/curtains";
+    "  noli explain runs/curtains\n";
 
 struct ExplainArguments {
   std::filesystem::path scene;
@@ -62,8 +62,7 @@ ExitCode run(const ExplainArguments& arguments) {
 }  // namespace
 
 Command add_explain(CLI::App& app) {
-  CLI::App* const command =
-      app.add_subcommand("explain", "What a scene will do, and what it will not; or how a run went");
+  CLI::App* const command = app.add_subcommand("explain", "What will a scene do? How did a run go?");
   command->footer(explain_footer);
   const auto arguments = std::make_shared<ExplainArguments>();
   command->add_option("scene", arguments->scene, "A scene, or the folder of a run")

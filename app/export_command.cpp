@@ -22,16 +22,17 @@ namespace noli::app {
 namespace {
 
 constexpr const char* export_footer =
-    "Frames are samples: straight lines between them are not the certified motion, the world lines of the run are.\n"
-    "Figures: step-histogram (how long the steps of vertices are over time), energy, momentum; a picture or, as CSV, "
-    "the\n"
-    "numbers.\n"
+    "Frames are samples: straight lines between them are not the certified motion; the world lines of the "
+    "run are.\n"
+    "\n"
+    "Figures: step-histogram (how long the steps of vertices are over time), energy, momentum. A figure is a "
+    "picture (.svg) or its numbers (.csv).\n"
     "Examples:\n"
     "  noli export runs/cloth --fps 60 -o frames/%05d.ply\n"
     "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens\n"
-    "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv\n"
     "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5 --size 1280x720 --zoom cloth\n"
-    "  noli export runs/cloth --fps 24 -o film/%04d.png --size 1280x720      pictures of one view, for a film";
+    "  noli export runs/cloth --fps 24 -o film/%04d.png --size 1280x720   a film\n"
+    "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv\n";
 
 struct ExportArguments {
   ExportRequest frames;
@@ -104,7 +105,7 @@ ExitCode run(const ExportArguments& arguments) {
 }  // namespace
 
 Command add_export(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("export", "Frames of a run, for other programs, and figures of it");
+  CLI::App* const command = app.add_subcommand("export", "Write frames, pictures, films and figures of a run");
   command->footer(export_footer);
   const auto arguments = std::make_shared<ExportArguments>();
   ExportRequest* const request = &arguments->frames;

@@ -23,14 +23,14 @@ namespace noli::app {
 namespace {
 
 constexpr const char* info_footer =
-    "For meshes (PLY, OBJ): format, counts, extent, what is degenerate. For queries (CSV): how many, how many with a "
-    "label. For the folder of a run: windows, times, breakpoints, bytes, and whether the file is whole. For proofs: "
-    "what they claim, steps, times, bytes.\n"
+    "Meshes (PLY, OBJ): format, counts, extent, what is degenerate. Queries (CSV): how many, and how many "
+    "have a label. Runs: windows, times, breakpoints, bytes, and whether the files are whole. Proofs: what "
+    "they claim, steps, times, bytes.\n"
     "Examples:\n"
     "  noli info frame.ply\n"
     "  noli info frames/*.obj --json info.json\n"
     "  noli info unit-tests-edge-edge-0.csv\n"
-    "  noli info runs/cloth runs/cloth/proof.blocks";
+    "  noli info runs/cloth runs/cloth/proof.blocks\n";
 
 struct InfoArguments {
   std::vector<std::filesystem::path> files;
@@ -118,7 +118,7 @@ ExitCode run(const InfoArguments& arguments) {
 }  // namespace
 
 Command add_info(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("info", "What is in a file");
+  CLI::App* const command = app.add_subcommand("info", "What is in a file or a run?");
   command->footer(info_footer);
   const auto arguments = std::make_shared<InfoArguments>();
   command->add_option("files", arguments->files, "PLY, OBJ or CSV files, proofs, or folders of runs")

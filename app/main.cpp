@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <string>
 #include <system_error>
@@ -13,54 +14,69 @@
 #include <noli/errors.h>
 #include <noli/version.h>
 #include "app/commands.h"
+#include "app/help.h"
 #include "app/output.h"
 #include "app/process.h"
+#include "app/wrong_usage.h"
 #include "trajectory/stop.h"
 
 namespace noli::app {
 namespace {
 
-constexpr const char* description = "Noli proves that things that move do not touch: exact answers, no tolerance.";
+constexpr const char* description = "did anything touch? Exact answers, with proofs.";
 constexpr const char* program_footer =
-    "Exit codes: 0 what was asked holds; 1 it does not; 2 undecided (limit, interrupt); 3 the input or the command "
-    "line is at\n"
-    "fault; 4 an internal check failed, or the machine did.\n"
+    "Exit codes: 0 what was asked holds; 1 it does not; 2 undecided (a limit, an interruption);\n"
+    "3 the input or the command line is at fault; 4 an internal check failed, or the machine did.\n"
     "Examples:\n"
-    "  noli verify before.ply after.ply       did anything touch between these frames?\n"
-    "  noli verify frames/*.ply --json out.json\n"
-    "  noli check proof.noli frames/*.ply     does a proof hold?\n"
-    "  noli ccd edge-edge-queries.csv         decide queries, compare with their labels\n"
-    "  noli simulate scene.json -o run        run a scene, certified window by window\n"
-    "  noli info frame.obj                    what is in a file\n"
-    "  noli report run -o report.html         a page about it, for a browser\n"
-    "  noli schema verify                     the JSON Schema of a result\n"
-    "  noli fuzz queries --for 60s --seed 1   adversarial queries, kernel against oracle\n"
-    "  noli audit ccd --library lib.so edge-edge-queries.csv   somebody else's library against the truth\n"
-    "  noli audit self                        all that noli has to look at itself with\n"
-    "`noli COMMAND --help` says more.";
+    "  noli verify before.ply after.ply              did anything touch between these frames?\n"
+    "  noli verify frames/*.ply --json result.json   the same for a sequence, with a result for programs\n"
+    "  noli report result.json frames/*.ply -o report.html   where, as a page for a browser\n"
+    "  noli check proof.noli frames/*.ply            does a proof hold?\n"
+    "  noli simulate scene.json -o run               run a scene, certified window by window\n"
+    "  noli fuzz queries --library ./mine.so         look for wrong answers of a collision library\n"
+    "  noli audit ccd --library ./mine.so edge-edge.csv      compare a library with the exact truth\n"
+    "  noli help verify                              all about one command\n";
 
 ExitCode complain(ExitCode code, const std::string& message) {
-  std::fputs(fmt::format("noli: {}\n", on_one_line(message)).c_str(), stderr);
+  std::fputs(fmt::format("noli: error: {}\n", on_one_line(message)).c_str(), stderr);
   return code;
 }
 
-/// CLI11 describes a fault in a line or two; the user gets one.
-std::string joined_lines(std::string text) {
-  for (char& c : text) c = c == '\n' ? ' ' : c;
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
+/// `noli help COMMAND...`
+Command add_help(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("help", "Print the help of a command");
+  const auto words = std::make_shared<std::vector<std::string>>();
+  command->add_option("command", *words, "A command, with its subcommand")->type_name("COMMAND");
+  command->footer("Examples:\n  noli help verify\n  noli help fuzz queries\n");
+  return {command, [&app, words] {
+            std::vector<std::string> rest;
+            CLI::App& named = named_command(app, *words, rest);
+            if (!rest.empty()) throw UsageError(unknown_command(named, rest.front()));
+            write_standard_output(named.help());
+            return ExitCode::holds;
+          }};
+}
+
+/// A command that needs another one, without it: the help says what there is. Not 0, for scripts that forgot a word.
+ExitCode show_help(const CLI::App& command) {
+  write_standard_output(command.help());
+  return ExitCode::bad_input;
 }
 
 ExitCode parse_and_run(int argc, char** argv) {
   CLI::App app(description, "noli");
+  use_help(app);
   app.footer(program_footer);
   app.require_subcommand(1);
-  app.set_version_flag("--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
+  app.set_version_flag("-V,--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
   std::vector<Command> commands = {
-      add_verify(app),  add_check(app),  add_ccd(app),    add_info(app),   add_simulate(app),
-      add_explain(app), add_export(app), add_report(app), add_schema(app),
+      add_verify(app), add_check(app),  add_simulate(app), add_explain(app),
+      add_export(app), add_report(app), add_info(app),     add_ccd(app),
   };
   std::ranges::move(add_audits(app), std::back_inserter(commands));
+  commands.push_back(add_schema(app));
+  commands.push_back(add_help(app));
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -70,7 +86,9 @@ ExitCode parse_and_run(int argc, char** argv) {
     write_standard_output(version_text());
     return ExitCode::holds;
   } catch (const CLI::ParseError& error) {
-    return complain(ExitCode::bad_input, joined_lines(error.what()) + " (see noli --help)");
+    if (const auto wrong = wrong_usage(app, arguments, error)) return complain(ExitCode::bad_input, *wrong);
+    std::vector<std::string> rest;
+    return show_help(named_command(app, arguments, rest));
   }
   for (const Command& command : commands) {
     if (command.parser->parsed()) return command.run();

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include <noli/errors.h>
+#include "app/help.h"
 #include "app/process.h"
 
 namespace noli::app {
@@ -41,21 +42,28 @@ CLI::Validator numbers(bool (*accepts)(double), const char* what) {
 void add_output_options(CLI::App& command, OutputOptions& options) {
   command
       .add_option("--json", options.json,
-                  "Write everything as JSON to this file; '-': to standard output, in place of the text")
-      ->type_name("OUT");
+                  "Write the whole result as JSON to this file; '-': to standard output, instead of the text")
+      ->type_name("OUT")
+      ->group(group::output);
   auto* const porcelain =
-      command.add_flag("--porcelain", options.porcelain, "Print one line of key=value pairs, for programs");
-  auto* const quiet = command.add_flag("-q,--quiet", options.quiet, "Print no result: the exit code says it");
-  auto* const verbose = command.add_flag("-v,--verbose", options.verbose, "Print all that was looked at and done");
+      command.add_flag("--porcelain", options.porcelain, "Print one line of key=value pairs, for programs")
+          ->group(group::output);
+  auto* const quiet =
+      command.add_flag("-q,--quiet", options.quiet, "Print nothing: the exit code says it")->group(group::output);
+  auto* const verbose =
+      command
+          .add_flag("-v,--verbose", options.verbose, "Print also the statement, each file, each contact, and the work")
+          ->group(group::output);
   quiet->excludes(porcelain)->excludes(verbose);
   verbose->excludes(porcelain);
-  command.add_flag("--force", options.force, "Outputs may replace files that exist");
+  command.add_flag("--force", options.force, "Outputs may replace files that exist")->group(group::output);
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "How many threads; 0: all there are")
       ->check(CLI::Range(0, 1024))
-      ->type_name("N");
+      ->type_name("N")
+      ->group(group::limits);
 }
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
@@ -97,7 +105,7 @@ std::chrono::nanoseconds parse_duration(const std::string& text, const std::stri
 }
 
 void add_time_limit_option(CLI::App& command, std::string& text, const std::string& help) {
-  command.add_option("--time-limit", text, help)->type_name("TIME");
+  command.add_option("--time-limit", text, help)->type_name("TIME")->group(group::limits);
 }
 
 std::optional<std::chrono::steady_clock::time_point> begin_work(const std::string& text) {
@@ -114,8 +122,8 @@ void add_order_option(CLI::App& command, FrameOrder& order) {
       .add_option_function<std::string>(
           "--order",
           [&order](const std::string& word) { order = word == "natural" ? FrameOrder::natural : FrameOrder::given; },
-          "natural: sort frames by the numbers in their names; given: take them as they are. Without it, names given "
-          "against their numbers are an error")
+          "natural sorts frames by the numbers in their names, given takes them as they are. Without it, frames given "
+          "against these numbers are an error")
       ->check(CLI::IsMember({"natural", "given"}))
       ->type_name("natural|given");
 }
@@ -125,10 +133,11 @@ void add_polygons_option(CLI::App& command, PolygonRule& polygons) {
       .add_option_function<std::string>(
           "--polygons",
           [&polygons](const std::string& word) { polygons = word == "fan" ? PolygonRule::fan : PolygonRule::refuse; },
-          "fan (the default): cut faces of more than three corners into triangles that begin at the first corner; "
-          "refuse: they are an error")
+          "fan (the default) cuts faces of more than three corners into triangles that begin at the first corner; "
+          "refuse makes them an error")
       ->check(CLI::IsMember({"fan", "refuse"}))
-      ->type_name("fan|refuse");
+      ->type_name("fan|refuse")
+      ->group(group::question);
 }
 
 }  // namespace noli::app

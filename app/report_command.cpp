@@ -32,16 +32,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* report_footer =
-    "One page with everything in it, for any browser, without a network: verdict and statement, the motion with its "
-    "contacts, energies,\n"
-    "steps and gaps over time, tables of audits and pictures. Inputs in any order: the folder of one run; results that "
-    "noli wrote with\n"
-    "--json; the frames that one of them, of verify, is about; pictures (.svg). Nothing is decided again.\n"
+    "Writes one page with everything in it, for any browser, without a network: verdict, motion and "
+    "contacts, statement, energies, steps and gaps over time, tables of audits, pictures. It decides nothing "
+    "again.\n"
+    "\n"
+    "Inputs come in any order: one run; results that noli wrote with --json; the frames that a result of "
+    "`noli verify` is about; pictures (.svg).\n"
     "Examples:\n"
-    "  noli report runs/cloth -o cloth.html\n"
     "  noli verify a.ply b.ply --json ab.json; noli report ab.json a.ply b.ply -o ab.html\n"
+    "  noli report runs/cloth -o cloth.html\n"
     "  noli verify runs/cloth --json cloth.json; noli report runs/cloth cloth.json -o cloth.html\n"
-    "  noli report audit.json audit.svg -o audit.html";
+    "  noli report audit.json audit.svg -o audit.html\n";
 
 constexpr double most_rate = 1000;  ///< frames a second
 
@@ -244,7 +245,8 @@ ExitCode run(const ReportArguments& arguments) {
 }  // namespace
 
 Command add_report(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("report", "A page about a run, a verdict or an audit, for a browser");
+  CLI::App* const command =
+      app.add_subcommand("report", "Write a page about a run, a verdict or an audit, for a browser");
   command->footer(report_footer);
   const auto arguments = std::make_shared<ReportArguments>();
   command->add_option("inputs", arguments->inputs, "A run; results (--json); frames; pictures")

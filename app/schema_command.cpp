@@ -15,11 +15,12 @@ namespace noli::app {
 namespace {
 
 constexpr const char* schema_footer =
-    "Each result that --json writes names its schema and version: \"schema\": \"noli-verify\", \"version\": 1.\n"
+    "Each result that --json writes names its schema and version: \"schema\": \"noli-verify\", \"version\": "
+    "1.\n"
     "Examples:\n"
     "  noli schema                         the names\n"
     "  noli schema verify > verify.json    what `noli verify --json` writes\n"
-    "  noli schema scene                   what `noli simulate` reads";
+    "  noli schema scene                   what `noli simulate` reads\n";
 
 std::string names() {
   std::string lines;
@@ -43,7 +44,7 @@ ExitCode run(const std::optional<std::string>& name) {
 }  // namespace
 
 Command add_schema(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("schema", "Print the JSON Schema of a result or an input");
+  CLI::App* const command = app.add_subcommand("schema", "Print the JSON Schema of a result or a scene");
   command->footer(schema_footer);
   const auto name = std::make_shared<std::optional<std::string>>();
   command->add_option("name", *name, "Which one; without it, the names are listed")->type_name("NAME");

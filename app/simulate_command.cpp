@@ -35,26 +35,24 @@ ExitCode exit_code(const SimulateOutcome& outcome) {
 }
 
 constexpr const char* simulate_footer =
-    "Each window of simulated time is verified exactly before it is committed to the run, so what is in a run never\n"
-    "contains a contact. Where one comes, the run ends (exit 1) with the features, the kind and the exact first time; "
-    "the\n"
-    "windows before it stay. Interrupted runs (Ctrl-C, exit 2) go on with --resume, and end with the same bytes. A "
-    "run\n"
-    "that was stopped while its model was built has no folder yet: begin it again. One that\n"
-    "has all its windows is done, whenever the interruption came. Windows count from 1. The bytes to come are said "
-    "before\n"
-    "a run begins; a disk that will not hold them is an error (exit 4).\n"
-    "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), not_finite\n"
-    "(numbers run out), unstable (all windows are there, but steps have led the energy astray by more than a "
-    "twentieth)\n"
-    "(1); undecided (interrupted, or out of time: 2).\n"
+    "Each window of simulated time is verified exactly before it is committed, so a run never contains a "
+    "contact. Where one comes, the run ends with the features, the kind and the exact first time; the "
+    "windows before it stay.\n"
+    "\n"
+    "An interrupted run (Ctrl-C) goes on with --resume, and ends with the same bytes. A run that was stopped "
+    "while its model was built has no folder yet: begin it again. The bytes to come are printed before a run "
+    "begins; a disk that cannot hold them is an error (exit 4). Windows count from 1.\n"
+    "\n"
+    "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), "
+    "not_finite (numbers overflow), unstable (all windows are there, but the energy is off by more than a "
+    "twentieth) (1); undecided (interrupted, or out of time: 2).\n"
     "Examples:\n"
     "  noli simulate scenes/swinging_cloth.json -o runs/cloth\n"
     "  noli simulate scenes/swinging_cloth.json --short -o runs/short\n"
-    "  noli simulate scene.json -o run --until 2.5 --json result.json\n"
     "  noli simulate scene.json -o run --resume\n"
+    "  noli simulate scene.json -o run --until 2.5 --json result.json\n"
     "  noli simulate scene.json -o run --until 20 --past-duration --resume\n"
-    "  noli simulate scene.json --reproduce run --window 3 -o window3.block    of a run with \"record\": \"frames\"";
+    "  noli simulate scene.json --reproduce run --window 3 -o window3.block\n";
 
 struct SimulateArguments {
   SimulateRequest request;

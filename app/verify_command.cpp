@@ -12,6 +12,7 @@
 #include <noli/errors.h>
 #include <noli/verify.h>
 #include "app/commands.h"
+#include "app/help.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
@@ -33,26 +34,26 @@ namespace noli::app {
 namespace {
 
 constexpr const char* verify_footer =
-    "Decides every step from one frame to the next exactly, and stops after the first step that has a contact.\n"
-    "A separate checker, which trusts nothing of this program, checks the proof. The last line is the verdict:\n"
-    "  proved      the checker accepted the proof: nothing touches           exit 0\n"
-    "  no_contact  decided exactly, but not checked (--no-check)             exit 0\n"
-    "  contact     something touches; the line names step, time, features    exit 1\n"
-    "  too_near    with --min-distance: something comes nearer than that     exit 1\n"
-    "  undecided   a limit was reached, or the run was interrupted           exit 2\n"
-    "Steps count from 1 (for a run, they are its windows). Times are in [0, 1] of their step (for a run, in seconds).\n"
+    "Decides each step from one frame to the next exactly: every vertex moves along a straight line, and "
+    "coordinates are taken as they are. A separate checker then checks the proof. The last line is the "
+    "verdict:\n"
+    "  proved      the checker accepted the proof: nothing touches            exit 0\n"
+    "  no_contact  decided exactly, but not checked (--no-check)              exit 0\n"
+    "  contact     something touches; the line names step, time and features  exit 1\n"
+    "  too_near    with --min-distance: something comes nearer than that      exit 1\n"
+    "  undecided   a limit was reached, or the work was interrupted           exit 2\n"
+    "Steps count from 1; of a run they are its windows. Times are in [0, 1] of their step, in seconds for a "
+    "run.\n"
     "Examples:\n"
     "  noli verify before.ply after.ply\n"
+    "  noli verify cloth_*.obj --order natural       cloth_2 before cloth_10, unlike in a shell\n"
     "  noli verify frames/*.obj --keep-going --json result.json\n"
-    "  noli verify cloth_*.obj --order natural       cloth_2 before cloth_10, which a shell puts first\n"
-    "  noli verify rest.ply --static --strict        does this mesh intersect itself?\n"
+    "  noli verify a.ply b.ply --proof ab.noli       anybody can check it: noli check ab.noli a.ply b.ply\n"
+    "  noli verify rest.ply --static                 does this mesh intersect itself?\n"
     "  noli verify a.ply b.ply --json - | jq .first\n"
-    "  noli verify a.ply b.ply --proof ab.noli       and a proof that anybody can check: noli check ab.noli a.ply "
-    "b.ply\n"
-    "  noli verify a.ply b.ply --time-limit 10s --threads 1\n"
-    "  noli verify runs/cloth                        a run of `noli simulate` again, from its files alone\n"
-    "  noli verify runs/cloth --follow               one that is being written, window by window to its end\n"
-    "  noli verify runs/ring --reproduce             one that recorded frames: its windows are integrated again";
+    "  noli verify runs/cloth                        a run of `noli simulate`, from its files alone\n"
+    "  noli verify runs/cloth --follow               the same while it is written\n"
+    "  noli verify runs/ring --reproduce             a run that recorded frames only\n";
 
 struct VerifyArguments {
   VerifyRequest request;
@@ -305,72 +306,94 @@ ExitCode run(VerifyArguments& arguments) {
   return exit_code(outcome.verdict);
 }
 
+/// What a first use needs.
 void add_options(CLI::App& command, VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
-  command.add_option("frames", request.frames, "PLY or OBJ files, in the order of time; or the folder of one run")
+  command.add_option("frames", request.frames, "PLY or OBJ files in the order of time, or the folder of one run")
       ->required()
-      ->type_name("FRAMES | RUN");
+      ->type_name("FRAMES|RUN");
   add_order_option(command, request.order);
-  add_polygons_option(command, request.polygons);
+  auto* const keep_going = command.add_flag("--keep-going", request.keep_going,
+                                            "Go through all steps instead of stopping at the first with contacts");
+  command.add_flag("--first-only", request.first_only, "Stop at any contact; counts are then lower bounds")
+      ->excludes(keep_going);
+  command.add_option("--proof", request.proof, "Write the proof to this file, for `noli check`")->type_name("OUT");
+  command.add_flag_callback(
+      "--no-check", [&request] { request.check = false; },
+      "Skip the checker, and the proof unless --proof asks for it: the verdict is then no_contact, not proved");
   add_output_options(command, arguments.results);
   add_threads_option(command, request.threads);
-  command.add_option("--max-reports", request.max_reports, "List at most so many contacts; counts are always exact")
+  command
+      .add_option("--max-reports", request.max_reports,
+                  "List at most so many contacts, shared fairly by the steps; counts are always exact")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
-      ->type_name("N");
+      ->type_name("N")
+      ->group(group::limits);
   add_time_limit_option(command, arguments.time_limit);
-  command.add_option("--min-distance", request.min_distance, "Features have to be more than this apart")
+}
+
+/// What changes the claim.
+void add_question_options(CLI::App& command, VerifyArguments& arguments) {
+  VerifyRequest& request = arguments.request;
+  const auto flag = [&command](const char* name, bool& value, const char* help) {
+    command.add_flag(name, value, help)->group(group::question);
+  };
+  flag("--static", request.constant_motion, "Take each frame by itself, at rest: does a mesh intersect itself?");
+  command.add_option("--min-distance", request.min_distance, "Features must stay more than this apart")
       ->check(is_positive())
-      ->type_name("DISTANCE");
+      ->type_name("DISTANCE")
+      ->group(group::question);
   command
       .add_option("--min-distance-from-ring", request.ring,
                   "Features fewer than K mesh edges apart need only be disjoint")
       ->check(CLI::Range(1, 255))
-      ->type_name("K");
+      ->type_name("K")
+      ->group(group::question);
   command
       .add_option(
           "--ignore", request.ignore,
-          "Pairs of groups of vertices whose cells are not compared, a JSON file: {\"groups\": {\"a\": [[0, 99]], "
-          "\"b\": [[100, 120], 130]}, \"ignore\": [[\"a\", \"b\"]]}")
-      ->type_name("GROUPS.json");
-  command.add_option("--proof", request.proof, "Write the proof there, a file that `noli check` checks")
-      ->type_name("OUT");
+          "Groups of vertices whose cells are not compared, a JSON file: {\"groups\": {\"a\": [[0, 99]], \"b\": "
+          "[[100, 120], 130]}, \"ignore\": [[\"a\", \"b\"]]}")
+      ->type_name("GROUPS.json")
+      ->group(group::question);
+  flag("--strict", request.strict, "Also compare the features of one cell with each other");
+  flag("--points", request.points, "Treat vertices without a face or edge as particles; else they are ignored");
+  flag("--merge-identical", request.merge_identical,
+       "Merge vertices whose coordinates are equal in all frames; reads the frames twice");
+  command
+      .add_option(
+          "--dimension", request.dimension,
+          "2 ignores z. Default: 2 if all z of the first two frames are equal, else 3; a later frame that leaves "
+          "the plane is then an error")
+      ->check(is_dimension())
+      ->type_name("2|3")
+      ->group(group::question);
+  add_polygons_option(command, request.polygons);
   command
       .add_option("--claim-out", arguments.claim_out,
-                  "Write there what is asked, a file for `noli check --claim`, so that no proof can claim less")
-      ->type_name("CLAIM.json");
-  command
-      .add_option("--dimension", request.dimension,
-                  "2 or 3; by default 2 if all z of the first two frames are equal, else 3. A later frame that leaves "
-                  "the plane is then refused")
-      ->check(is_dimension())
-      ->type_name("2|3");
+                  "Write the claim to this file; with `noli check --claim` no proof can claim less")
+      ->type_name("CLAIM.json")
+      ->group(group::question);
 }
 
 void add_run_options(CLI::App& command, VerifyRequest& request) {
-  command.add_flag("--follow", request.follow,
-                   "Of a run that is being written: verify each further window once it is committed, to the run's end");
-  auto* const again = command.add_flag("--reproduce", request.reproduce,
-                                       "Integrate the windows of a run again, one after another, and verify them when "
-                                       "their world lines have the run's hashes; nothing is kept");
+  constexpr const char* runs = "Runs of noli simulate";
+  command
+      .add_flag("--follow", request.follow,
+                "Verify a run while it is written, each window when it is committed, to the run's end")
+      ->group(runs);
+  auto* const again =
+      command
+          .add_flag("--reproduce", request.reproduce,
+                    "Of a run that recorded frames: integrate its windows again, and verify them if their hashes agree")
+          ->group(runs);
   command
       .add_option("--scene-folder", request.scene_folder,
-                  "With --reproduce: where the file of the scene was, if it names meshes in files")
+                  "The folder of the scene's file, if the scene names meshes in files")
       ->needs(again)
-      ->type_name("FOLDER");
-}
-
-void add_flags(CLI::App& command, VerifyRequest& request) {
-  auto* keep_going = command.add_flag("--keep-going", request.keep_going, "Go through all steps, contacts or not");
-  command.add_flag("--first-only", request.first_only, "Be content with the first contact found")->excludes(keep_going);
-  command.add_flag("--strict", request.strict, "Also compare the features of one cell with each other");
-  command.add_flag("--points", request.points, "Vertices that nothing refers to are particles");
-  command.add_flag("--static", request.constant_motion, "Each frame by itself, at rest");
-  command.add_flag("--merge-identical", request.merge_identical,
-                   "Make one vertex of those whose coordinates are equal in all frames (reads them twice)");
-  command.add_flag_callback(
-      "--no-check", [&request] { request.check = false; },
-      "Do without the checker, and without a proof if --proof does not ask for one: the verdict stays no_contact");
+      ->type_name("FOLDER")
+      ->group(runs);
 }
 
 }  // namespace
@@ -380,8 +403,8 @@ Command add_verify(CLI::App& app) {
   command->footer(verify_footer);
   const auto arguments = std::make_shared<VerifyArguments>();
   add_options(*command, *arguments);
+  add_question_options(*command, *arguments);
   add_run_options(*command, arguments->request);
-  add_flags(*command, arguments->request);
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -36,7 +36,8 @@ class Verification {
 
   /// Of the next step. `first`: the contact with which it begins. `goes_on`: contacts of the step before do, and are
   /// not counted again.
-  void add(const Findings& found, std::optional<ListedContact> first, bool goes_on, const ContactList::Exactly& exactly);
+  void add(const Findings& found, std::optional<ListedContact> first, bool goes_on,
+           const ContactList::Exactly& exactly);
   /// Lists contacts with their cells and bodies. Call it when all steps have been added.
   void list_contacts(const Mesh& mesh, const BodyNames& names);
 

@@ -17,9 +17,7 @@
 namespace noli::report {
 namespace {
 
-Json first_json(const VerifyOutcome& outcome) {
-  return outcome.first ? contact_json(*outcome.first) : Json(nullptr);
-}
+Json first_json(const VerifyOutcome& outcome) { return outcome.first ? contact_json(*outcome.first) : Json(nullptr); }
 
 Json reports_json(const VerifyOutcome& outcome) {
   Json list = Json::array();

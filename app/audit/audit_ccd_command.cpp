@@ -26,22 +26,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* audit_ccd_footer =
-    "Asks libraries of continuous collision detection each query of the files, and compares with what is exactly true: "
-    "false positives,\n"
-    "false negatives, times of impact that are late or early, failures, crashes, hangs, memory that grows, time per "
-    "query (also as a\n"
-    "multiple of the textbook method's). A library has two functions of C, declared in include/noli/ccd_plugin.h; it "
-    "runs in a process of\n"
-    "its own. With --frames a whole pipeline: the library's search for candidates, a third function, and its query for "
-    "each of them, against\n"
-    "all contacts between the two frames. audit/CCD.md has a worked example. Exit 0: no finding (false positives and "
-    "early times are none);\n"
-    "1: findings; 2: interrupted or out of time; 3: a library or file is not as it has to be.\n"
+    "Asks libraries of continuous collision detection each query of the files, and compares the answers with "
+    "the exact truth: false positives, false negatives, late and early times of impact, failures, crashes, "
+    "hangs, memory that grows, and time per query, also as a multiple of the textbook method's.\n"
+    "\n"
+    "A library has two C functions, declared in noli/ccd_plugin.h, and runs in a process of its own. With "
+    "--frames the whole pipeline is audited: a third function searches for candidates, and all contacts "
+    "between the two frames are the truth.\n"
+    "\n"
+    "Exit codes: 0 no finding (false positives and early times are allowed); 1 findings; 2 interrupted or "
+    "out of time; 3 a library or a file is at fault.\n"
     "Examples:\n"
     "  noli audit ccd --library ./mine.so unit-tests-edge-edge-0.csv unit-tests-vertex-face-0.csv\n"
-    "  noli audit ccd --library ./mine.so --library ./theirs.so --tolerance 1e-6,1e-3 queries-edge-edge.csv --svg "
-    "out.svg\n"
-    "  noli audit ccd --library ./mine.so --frames before.ply after.ply";
+    "  noli audit ccd --library ./mine.so --library ./theirs.so --tolerance 1e-6,1e-3 q-edge-edge.csv\n"
+    "  noli audit ccd --library ./mine.so queries-edge-edge.csv --svg wrong-against-time.svg\n"
+    "  noli audit ccd --library ./mine.so --frames before.ply after.ply\n";
 
 struct AuditArguments {
   audit::AuditRequest request;
@@ -102,7 +101,7 @@ ExitCode run(AuditArguments& arguments) {
 
 Command add_audit_ccd(CLI::App& audit) {
   CLI::App* const command =
-      audit.add_subcommand("ccd", "Libraries of continuous collision detection, against the truth");
+      audit.add_subcommand("ccd", "Compare libraries of continuous collision detection with the truth");
   command->footer(audit_ccd_footer);
   const auto arguments = std::make_shared<AuditArguments>();
   audit::AuditRequest& request = arguments->request;

@@ -25,16 +25,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* integrator_footer =
-    "Each scene by several methods, with longer and shorter steps: this integrator, with a step for each force and in "
-    "groups; Verlet's method,\n"
-    "with one step for all; implicit Euler, for context. Errors of trajectory, energy and momentum, at the ends of "
-    "windows, against a reference\n"
-    "with much shorter steps, and what each run took. Without a scene: a uniform sheet and a graded one. "
-    "audit/INTEGRATOR.md has a worked example.\n"
-    "Exit 0: measured; 1: the values of a run became infinite or NaN; 2: interrupted.\n"
+    "Runs each scene by several methods with longer and shorter steps: this integrator, with a step for each "
+    "force and with steps in groups; Verlet's method, with one step for all; implicit Euler, for context. It "
+    "reports the errors of trajectory, energy and momentum at the ends of windows, against a reference with "
+    "much shorter steps, and the time of each run.\n"
+    "\n"
+    "Exit codes: 0 measured; 1 the values of a run became infinite or NaN; 2 interrupted.\n"
     "Examples:\n"
     "  noli audit integrator --svg integrator.svg\n"
-    "  noli audit integrator scenes/stiff_inset.json --short --windows 5 --json result.json";
+    "  noli audit integrator scenes/stiff_inset.json --short --windows 5 --json result.json\n";
 
 struct IntegratorArguments {
   audit::IntegratorOptions options;
@@ -80,8 +79,7 @@ ExitCode run(IntegratorArguments& arguments) {
 }  // namespace
 
 Command add_audit_integrator(CLI::App& audit) {
-  CLI::App* const command =
-      audit.add_subcommand("integrator", "Error against run time, beside the methods one would write instead");
+  CLI::App* const command = audit.add_subcommand("integrator", "Error against run time, beside the usual methods");
   command->footer(integrator_footer);
   const auto arguments = std::make_shared<IntegratorArguments>();
   audit::IntegratorOptions& options = arguments->options;

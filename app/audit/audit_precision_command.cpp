@@ -25,18 +25,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* precision_footer =
-    "Runs the scene in double and, event by event in the same order, in MPFR numbers of other precisions: how far "
-    "apart "
-    "positions,\n"
-    "energies and momenta come, when the order of events would be another, what of the energy error is rounding and "
-    "what truncation.\n"
-    "53 bits with the exponents of double are always run: they have to yield the bits of double. audit/PRECISION.md "
-    "has "
-    "a worked\n"
-    "example. Exit 0: they do (same); 1: they do not (differs); 2: not all windows were run (undecided).\n"
+    "Runs a scene in double and, event by event in the same order, in MPFR numbers of other precisions. It "
+    "reports how far positions, energies and momenta come apart, when the order of events would differ, and "
+    "which part of the energy error is rounding and which is truncation. 53 bits with the exponents of "
+    "double always run too, and must yield the bits of double.\n"
+    "\n"
+    "Exit codes: 0 they do (same); 1 they do not (differs); 2 not all windows were run (undecided).\n"
     "Examples:\n"
     "  noli audit precision scenes/bounce.json --until 2\n"
-    "  noli audit precision scenes/swinging_cloth.json --short --bits 53,256 --svg cloth.svg --json cloth.result.json";
+    "  noli audit precision scenes/swinging_cloth.json --short --bits 53,256 --svg cloth.svg\n";
 
 struct PrecisionArguments {
   audit::PrecisionRequest request;
@@ -102,7 +99,7 @@ ExitCode run(PrecisionArguments& arguments) {
 }  // namespace
 
 Command add_audit_precision(CLI::App& audit) {
-  CLI::App* const command = audit.add_subcommand("precision", "How far double precision carries a scene");
+  CLI::App* const command = audit.add_subcommand("precision", "How far does double precision carry a scene?");
   command->footer(precision_footer);
   const auto arguments = std::make_shared<PrecisionArguments>();
   command->add_option("scene", arguments->scene, "A scene, as for `noli simulate`")

@@ -30,16 +30,15 @@ using audit::SelfPart;
 using audit::SelfReport;
 
 constexpr const char* self_footer =
-    "All that noli has to look at itself with: its rounding self-test, the labelled queries in $NOLI_DATA, each fuzzer "
-    "for a time, and proofs of\n"
-    "what it ships, through each checker that is there. One page of figures. What cannot be done, because something is "
-    "not there, is named as\n"
-    "skipped and not counted as held. audit/SELF.md has a worked example.\n"
-    "Exit 0: all that was done held; 1: something failed; 2: interrupted, or, with --require-all, something was "
-    "skipped.\n"
+    "Runs what noli can check about itself: the self-test of its rounding, the labelled queries of "
+    "$NOLI_DATA, each fuzzer for a while, and proofs through each checker that is installed. What cannot run "
+    "is named as skipped, and does not count as held.\n"
+    "\n"
+    "Exit codes: 0 all that ran held; 1 something failed; 2 interrupted or, with --require-all, something "
+    "was skipped.\n"
     "Examples:\n"
     "  noli audit self\n"
-    "  noli audit self --for 10m --data data --scenes scenes --require-all --json self.json";
+    "  noli audit self --for 10m --data data --scenes scenes --require-all --json self.json\n";
 
 struct SelfArguments {
   audit::SelfOptions options;
@@ -145,7 +144,7 @@ ExitCode run(SelfArguments& arguments) {
 }  // namespace
 
 Command add_audit_self(CLI::App& audit) {
-  CLI::App* const command = audit.add_subcommand("self", "All that noli has to look at itself with, on one page");
+  CLI::App* const command = audit.add_subcommand("self", "All that noli can check about itself, on one page");
   command->footer(self_footer);
   const auto arguments = std::make_shared<SelfArguments>();
   audit::SelfOptions& options = arguments->options;

@@ -32,18 +32,17 @@ using audit::StabilityResult;
 using audit::StabilityRow;
 
 constexpr const char* stability_footer =
-    "Small scenes and pairs of frames, each row from the ordinary to the extreme in one quantity: stiffness, mass, "
-    "thickness, speed, offset,\n"
-    "magnitude, slivers, subnormals, steps, resonance; with contact and without. Each point is run by the `noli` "
-    "program as a user would, and\n"
-    "looked at: does it get to its end, is it verified again, are energy and momentum kept, does it resume with the "
-    "same bytes? What does\n"
-    "not must not exit with 0. audit/STABILITY.md has the promises, the table, and a worked example.\n"
-    "Exit 0: whatever failed failed closed; 1: a finding, whose input is kept in --out; 2: interrupted.\n"
+    "Each row takes small scenes or pairs of frames from the ordinary to the extreme in one quantity: "
+    "stiffness, mass, thickness, speed, offset, magnitude, slivers, subnormals, steps, resonance; with and "
+    "without contact. Each point runs the `noli` program as a user would, and looks at the result. Does the "
+    "run end? Is it verified again? Are energy and momentum kept? Does it resume with the same bytes? "
+    "Whatever fails must not exit with 0.\n"
+    "\n"
+    "Exit codes: 0 whatever failed failed closed; 1 a finding, whose input is kept in --out; 2 interrupted.\n"
     "Examples:\n"
     "  noli audit stability\n"
     "  noli audit stability --row offset --row offset-contact --json result.json\n"
-    "  noli audit stability --program build/asan/app/noli --point-limit 2m";
+    "  noli audit stability --program build/asan/app/noli --point-limit 2m\n";
 
 struct StabilityArguments {
   audit::StabilityOptions options;
@@ -195,7 +194,7 @@ ExitCode run(StabilityArguments& arguments) {
 }  // namespace
 
 Command add_audit_stability(CLI::App& audit) {
-  CLI::App* const command = audit.add_subcommand("stability", "How far noli goes, and how it ends where it does not");
+  CLI::App* const command = audit.add_subcommand("stability", "How far does noli go, and how does it end beyond that?");
   command->footer(stability_footer);
   const auto arguments = std::make_shared<StabilityArguments>();
   command->add_option("--row", arguments->rows, "This row alone; may be given more than once")

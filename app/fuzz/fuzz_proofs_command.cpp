@@ -28,21 +28,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* proofs_footer =
-    "Breaks good proofs in many ways, with and without putting checksums and hashes right again. Both checkers have to "
-    "say the same\n"
-    "of a mutant, and none may be accepted whose claim is false: that is decided by an oracle that does not look at "
-    "the "
-    "proof.\n"
-    "Without a proof of your own: proofs of small motions (noli fuzz trajectories) made for it. Exit 0: no finding; 1: "
-    "findings;\n"
-    "2: interrupted. With --count the result depends on the seed and the proofs alone. audit/FUZZ-PROOFS.md says "
-    "more.\n"
+    "Damages good proofs in many ways, with and without repairing checksums and hashes. Both checkers must "
+    "give the same answer, and none may accept a proof whose claim is false; an oracle that never looks at "
+    "the proof decides that. Without a proof of your own, proofs of small motions are made first.\n"
+    "\n"
+    "With --count the result depends on the seed and the proofs alone. Exit codes: 0 no finding; 1 findings; "
+    "2 interrupted.\n"
     "Examples:\n"
     "  noli fuzz proofs --for 60s --seed 1\n"
     "  noli fuzz proofs proof.noli before.ply after.ply --count 100000\n"
     "  noli fuzz proofs runs/chain/proof.blocks runs/chain --verified-every 1\n"
     "  noli fuzz proofs --replay fuzz-findings/seed1-block3-index2\n"
-    "  noli fuzz proofs --minimise fuzz-findings/seed1-block3-index2 --out smaller";
+    "  noli fuzz proofs --minimise fuzz-findings/seed1-block3-index2 --out smaller\n";
 
 constexpr std::size_t most_candidates = 20'000;  // of --minimise
 
@@ -238,7 +235,7 @@ ExitCode again(const ProofsArguments& arguments) {
 }  // namespace
 
 Command add_fuzz_proofs(CLI::App& fuzz) {
-  CLI::App* const command = fuzz.add_subcommand("proofs", "Broken proofs, on which both checkers have to agree");
+  CLI::App* const command = fuzz.add_subcommand("proofs", "Damaged proofs: both checkers must agree");
   command->footer(proofs_footer);
   const auto arguments = std::make_shared<ProofsArguments>();
   command->add_option("files", arguments->files, "A proof, then the PLY or OBJ files, or the run, that it is about")

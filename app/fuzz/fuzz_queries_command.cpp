@@ -30,27 +30,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* queries_footer =
-    "Adversarial queries made backwards from a known contact, each decided by the kernel and by a slow independent "
-    "oracle: contact, distance\n"
-    "(within a bound or not, and when first), and the failure time of a certificate for two of its points. With "
-    "--library somebody else's\n"
-    "library is asked instead (include/noli/ccd_plugin.h), in a process of its own, and the kernel is the truth: "
-    "contacts that it misses,\n"
-    "times that are late or none, failures, crashes, hangs; of a library that claims to be --exact also false "
-    "positives and early times.\n"
-    "What is found is shrunk and saved as a file that `noli ccd` and `noli audit ccd` read, labelled with the truth "
-    "about contact and with the\n"
-    "command that asks it again. audit/FUZZ.md has a worked example and says what each generator attacks. With --count "
-    "the result depends on\n"
-    "the seed alone (and the corpus, where there is one). Exit 0: no finding; 1: findings; 2: interrupted; 3: a "
-    "library or file is not as it\n"
-    "has to be.\n"
+    "Makes adversarial queries backwards from a known contact. The kernel and a slow, independent oracle "
+    "decide each: contact, distance within a bound and when first, and the failure time of a certificate for "
+    "two of its points.\n"
+    "\n"
+    "With --library somebody else's library is asked instead, and the kernel is the truth. The library has "
+    "the functions of noli/ccd_plugin.h and runs in a process of its own. Findings are missed contacts, late "
+    "or absent times, failures, crashes and hangs; of an --exact library also false positives and early "
+    "times. Each finding is shrunk and saved as a file that `noli ccd` and `noli audit ccd` read, labelled "
+    "with the truth and with the command that asks it again.\n"
+    "\n"
+    "With --count the result depends on the seed alone, and on the corpus if there is one. Exit codes: 0 no "
+    "finding; 1 findings; 2 interrupted; 3 a library or file is at fault.\n"
     "Examples:\n"
-    "  noli fuzz queries --for 60s --seed 1\n"
-    "  noli fuzz queries --count 1000000 --threads 2 --out findings --corpus corpus --json result.json\n"
     "  noli fuzz queries --library ./mine.so --for 60s --tolerance 1e-6\n"
     "  noli fuzz queries --library ./mine.so --minimise queries-edge-edge.csv\n"
-    "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv";
+    "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv\n"
+    "  noli fuzz queries --for 60s --seed 1                the kernel itself\n"
+    "  noli fuzz queries --count 1000000 --threads 2 --corpus corpus --json result.json\n";
 
 struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon, AgainArguments {
   std::size_t max_findings = audit::FuzzSettings().max_findings;
@@ -251,8 +248,8 @@ ExitCode run(FuzzArguments& arguments) {
 }  // namespace
 
 Command add_fuzz_queries(CLI::App& fuzz) {
-  CLI::App* const command = fuzz.add_subcommand(
-      "queries", "Contact, distance, failure times of two features: kernel against oracle, or somebody's library");
+  CLI::App* const command =
+      fuzz.add_subcommand("queries", "Single queries: a library against the truth, or the kernel against its oracle");
   command->footer(queries_footer);
   const auto arguments = std::make_shared<FuzzArguments>();
   add_fuzz_options(*command, *arguments, "queries");

@@ -23,18 +23,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* scenes_footer =
-    "Small scenes with one thing about them extreme: each is simulated, its run verified and its proof checked, and "
-    "simulated again\n"
-    "with an interruption, after which it has to go on with the same bytes. Some are wrong in one place, which the "
-    "message has to name.\n"
-    "A finding is made smaller and saved as a scene, with the command that shows it again. Exit 0: no finding; 1: "
-    "findings; 2:\n"
-    "interrupted. With --count the scenes depend on the seed alone. audit/FUZZ-SCENES.md says more.\n"
+    "Makes small scenes with one extreme property. Each is simulated, its run verified and its proof "
+    "checked; then it is simulated again with an interruption, after which it must resume to the same bytes. "
+    "Some scenes are wrong in one place, which the message must name. A finding is shrunk and saved as a "
+    "scene, with the command that shows it again.\n"
+    "\n"
+    "With --count the scenes depend on the seed alone. Exit codes: 0 no finding; 1 findings; 2 interrupted.\n"
     "Examples:\n"
     "  noli fuzz scenes --for 60s --seed 1\n"
     "  noli fuzz scenes --count 10000 --json result.json\n"
     "  noli fuzz scenes --replay fuzz-findings/seed1-block3-index2-fast/scene.json\n"
-    "  noli fuzz scenes --minimise scene.json --out smaller";
+    "  noli fuzz scenes --minimise scene.json --out smaller\n";
 
 struct ScenesArguments {
   FuzzArgumentsInCommon common;
@@ -132,7 +131,7 @@ ExitCode again(const ScenesArguments& arguments) {
 
 Command add_fuzz_scenes(CLI::App& fuzz_app) {
   CLI::App* const command =
-      fuzz_app.add_subcommand("scenes", "Extreme and invalid scenes, through simulate, verify, check and resume");
+      fuzz_app.add_subcommand("scenes", "Extreme and invalid scenes: simulate, verify, check, resume");
   command->footer(scenes_footer);
   const auto arguments = std::make_shared<ScenesArguments>();
   add_fuzz_options(*command, arguments->common, "scenes");

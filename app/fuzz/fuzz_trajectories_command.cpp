@@ -23,24 +23,25 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* trajectories_footer =
-    "Motions of small meshes whose contacts are planted at a known time and place, or missed by one unit:\n"
-    "written as PLY or OBJ, read back, given to `noli verify`, and its proof or witness to both checkers. A\n"
-    "wrong answer is made smaller and saved as frames, with the command that shows it again. With --library\n"
-    "somebody else's library is asked instead (include/noli/ccd_plugin.h), in a process of its own, step by\n"
-    "step, as a whole pipeline: its search for candidates (all pairs, if it has none), then its query for each\n"
-    "of them. Findings are contacts that are no candidates or are missed, times that are late or none,\n"
-    "failures, crashes, hangs, leaks; of a library that claims to be --exact also false positives and early\n"
-    "times. Exit 0: no finding; 1: findings; 2: interrupted; 3: a library or folder is not as it has to be.\n"
-    "With --count and without a corpus the result depends on the seed alone. audit/FUZZ-TRAJECTORIES.md says\n"
-    "more.\n"
+    "Makes motions of small meshes whose contacts are planted at a known time and place, or missed by one "
+    "unit in the last place. Each is written as PLY or OBJ, read back and verified; both checkers see its "
+    "proof or witness. A wrong answer is shrunk and saved as frames, with the command that shows it again.\n"
+    "\n"
+    "With --library the motions go through somebody else's pipeline instead, step by step: its search for "
+    "candidates (all pairs, if it has none), then its query for each of them. The library has the functions "
+    "of noli/ccd_plugin.h and runs in a process of its own. Findings are contacts that are missed or are no "
+    "candidates, late or absent times, failures, crashes, hangs and leaks; of an --exact library also false "
+    "positives and early times.\n"
+    "\n"
+    "With --count and without a corpus the result depends on the seed alone. Exit codes: 0 no finding; 1 "
+    "findings; 2 interrupted; 3 a library or folder is at fault.\n"
     "Examples:\n"
     "  noli fuzz trajectories --for 60s --seed 1\n"
+    "  noli fuzz trajectories --library ./mine.so --for 60s --tolerance 1e-6\n"
     "  noli fuzz trajectories --count 100000 --threads 2 --corpus corpus --json result.json\n"
     "  noli fuzz trajectories --family last_ulp --family landing --count 10000\n"
     "  noli fuzz trajectories --replay fuzz-findings/seed1-block3-index7-border\n"
-    "  noli fuzz trajectories --minimise fuzz-findings/seed1-block3-index7-border --out smaller\n"
-    "  noli fuzz trajectories --library ./mine.so --for 60s --tolerance 1e-6\n"
-    "  noli fuzz trajectories --library ./mine.so --replay fuzz-findings/late-seed1-block3-index7-border";
+    "  noli fuzz trajectories --minimise fuzz-findings/seed1-block3-index7-border --out smaller\n";
 
 struct TrajectoriesArguments : LibraryMotionArguments {
   std::uint64_t verified_every = 1;
@@ -147,8 +148,8 @@ ExitCode run(TrajectoriesArguments& arguments) {
 }  // namespace
 
 Command add_fuzz_trajectories(CLI::App& fuzz_app) {
-  CLI::App* const command = fuzz_app.add_subcommand(
-      "trajectories", "Motions with planted contacts, through files, verifier, proof and both checkers, or a library");
+  CLI::App* const command =
+      fuzz_app.add_subcommand("trajectories", "Whole motions with planted contacts: noli, or a library's pipeline");
   command->footer(trajectories_footer);
   const auto arguments = std::make_shared<TrajectoriesArguments>();
   add_fuzz_options(*command, arguments->common, "motions");
