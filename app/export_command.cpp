@@ -15,6 +15,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "certify/runs/run_folder.h"
+#include "report/figures/contact_export.h"
 #include "report/figures/run_figure.h"
 #include "report/figures/run_picture.h"
 
@@ -29,6 +30,8 @@ constexpr const char* export_footer =
     "picture (.svg) or its numbers (.csv).\n"
     "Examples:\n"
     "  noli export runs/cloth --fps 60 -o frames/%05d.ply\n"
+    "  noli export result.json -o hits.vtu       the first contact that noli verify found, marked\n"
+    "  noli export result.json -o first.png      a picture of it\n"
     "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens\n"
     "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5 --size 1280x720 --zoom cloth\n"
     "  noli export runs/cloth --fps 24 -o film/%04d.png --size 1280x720   a film\n"
@@ -38,6 +41,7 @@ struct ExportArguments {
   ExportRequest frames;
   std::optional<std::string> figure;
   std::optional<double> at;
+  std::optional<std::size_t> contact;
   std::optional<Position> from;
   std::string size, zoom;  ///< empty: not given
   std::string time_limit;
@@ -75,9 +79,26 @@ std::optional<std::array<std::size_t, 2>> size_of(const std::string& text) {
   return size;
 }
 
+/// One contact of a result.
+ExitCode show_contact(const ExportArguments& arguments) {
+  const ExportRequest& request = arguments.frames;
+  if (arguments.at || arguments.figure || !arguments.zoom.empty()) {
+    throw UsageError("--at, --figure, --zoom: are for runs; expected none of them with a result");
+  }
+  require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
+  const report::ContactExport shown = report::export_contact(
+      {request.run, arguments.contact.value_or(0), {arguments.from, size_of(arguments.size), ""}, request.pattern});
+  write_standard_output(
+      fmt::format("contact step {} time {} cells {}\n", shown.step, digits17(shown.time), shown.cells));
+  return ExitCode::holds;
+}
+
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   begin_work(arguments.time_limit);
+  if (request.run.extension() == ".json") return show_contact(arguments);
+  if (arguments.contact)
+    throw UsageError("--contact: is for a result of noli verify (--json); expected no run with it");
   note_if_being_written(request.run);
   if (arguments.at || arguments.figure) {
     require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
@@ -109,13 +130,15 @@ Command add_export(CLI::App& app) {
   command->footer(export_footer);
   const auto arguments = std::make_shared<ExportArguments>();
   ExportRequest* const request = &arguments->frames;
-  command->add_option("run", request->run, "The folder of a run")->required()->type_name("RUN");
+  command->add_option("run", request->run, "The folder of a run, or a result of `noli verify --json` with a contact")
+      ->required()
+      ->type_name("RUN|RESULT.json");
   auto* const fps = command->add_option("--fps", request->fps, "Frames a second of simulated time");
   fps->check(is_positive())->capture_default_str();
   command
       ->add_option("-o,--output", request->pattern,
-                   "Names of the files, e.g. frames/%05d.ply (.obj, .vtu; .png: a film); of a figure or picture, its "
-                   "file (.svg, .csv; .png)")
+                   "Frames: a pattern such as frames/%05d.ply (or .obj, .vtu; .png for a film). A picture: .png; a "
+                   "figure: .svg, .csv; a contact: .vtu, .png")
       ->required()
       ->type_name("PATTERN");
   command->add_flag("--force", request->force,
@@ -131,6 +154,13 @@ Command add_export(CLI::App& app) {
   command->add_option("--size", arguments->size, "Pixels of a picture; else 640 wide")->type_name("WxH");
   command->add_option("--zoom", arguments->zoom, "A body that fills the picture; else all that moves is seen")
       ->type_name("BODY");
+  command
+      ->add_option("--contact", arguments->contact,
+                   "Of a result: which of the listed contacts, from 1; default: the first")
+      ->check(whole_number(1, 1'000'000'000))
+      ->excludes(at)
+      ->excludes(figure)
+      ->type_name("N");
   add_time_limit_option(*command, arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h");
   return {command, [arguments] { return run(*arguments); }};
 }

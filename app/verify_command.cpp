@@ -22,8 +22,10 @@
 #include "certify/proofs/checker.h"
 #include "certify/proofs/claim.h"
 #include "certify/proofs/lines_pipe.h"
+#include "certify/result_file.h"
 #include "certify/runs/run_folder.h"
 #include "certify/stopwatch.h"
+#include "report/verify_ci.h"
 #include "report/verify_report.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
@@ -51,13 +53,15 @@ constexpr const char* verify_footer =
     "  noli verify a.ply b.ply --proof ab.noli       anybody can check it: noli check ab.noli a.ply b.ply\n"
     "  noli verify rest.ply --static                 does this mesh intersect itself?\n"
     "  noli verify a.ply b.ply --json - | jq .first\n"
+    "  noli verify frames/*.ply --junit noli.xml     for continuous integration\n"
     "  noli verify runs/cloth                        a run of `noli simulate`, from its files alone\n"
     "  noli verify runs/cloth --follow               the same while it is written\n"
     "  noli verify runs/ring --reproduce             a run that recorded frames only\n";
 
 struct VerifyArguments {
   VerifyRequest request;
-  std::optional<std::filesystem::path> claim_out;
+  std::optional<std::filesystem::path> claim_out, junit;
+  bool github = false;  ///< annotations for GitHub Actions on standard output
   std::string time_limit;
   OutputOptions results;
 };
@@ -83,6 +87,10 @@ std::vector<OutputFile> outputs_of(const VerifyArguments& arguments) {
   if (const auto& claim = arguments.claim_out) {
     if (*claim == "-") throw UsageError("--claim-out -: expected the name of a file");
     files.push_back({"--claim-out", *claim});
+  }
+  if (const auto& junit = arguments.junit) {
+    if (*junit == "-") throw UsageError("--junit -: expected the name of a file");
+    files.push_back({"--junit", *junit});
   }
   return files;
 }
@@ -284,6 +292,9 @@ ExitCode run(VerifyArguments& arguments) {
   auto inputs = request.frames;
   if (request.ignore) inputs.push_back(*request.ignore);
   const Output output(arguments.results, inputs, outputs_of(arguments));
+  if (arguments.github && arguments.results.json == "-") {
+    throw UsageError("--github, --json -: both write to standard output; expected one of them");
+  }
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
@@ -300,6 +311,8 @@ ExitCode run(VerifyArguments& arguments) {
   } else if (arguments.claim_out) {
     write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
   }
+  if (arguments.junit) write_result(*arguments.junit, report::verify_junit(request, outcome));
+  if (arguments.github) write_standard_output(report::verify_annotations(request, outcome));
   // The JSON of 10,000 frames takes more memory than all else.
   Json json = arguments.results.json ? report::verify_json(request, outcome) : Json::object();
   output.write("verify", report::verify_answer(request, outcome), std::move(json));
@@ -322,6 +335,12 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       "--no-check", [&request] { request.check = false; },
       "Skip the checker, and the proof unless --proof asks for it: the verdict is then no_contact, not proved");
   add_output_options(command, arguments.results);
+  command.add_option("--junit", arguments.junit, "Write a JUnit file, with a test case for each step")
+      ->type_name("OUT.xml")
+      ->group(group::output);
+  command.add_flag("--github", arguments.github, "Print annotations for GitHub Actions above the result")
+      ->excludes(command.get_option("--porcelain"))
+      ->group(group::output);
   add_threads_option(command, request.threads);
   command
       .add_option("--max-reports", request.max_reports,

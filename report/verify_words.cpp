@@ -39,14 +39,6 @@ std::string why_ended(const RunEnding& ending) {
   return on_one_line(*ending.why);
 }
 
-const char* why_incomplete(const VerifyOutcome& outcome) {
-  if (outcome.no_proof) return "no proof was found";
-  if (outcome.near) return "something is about as near as the least distance, but no witness was found";
-  if (outcome.interrupted) return "interrupted";
-  if (outcome.steps_total == 0) return "no window was committed";
-  return outcome.out_of_time ? "time limit" : "first contact only";
-}
-
 const char* step_word(const VerifyRequest& request) {
   if (request.run) return "window";
   return request.constant_motion ? "frame" : "step";
@@ -117,21 +109,16 @@ class Place {
                             : "accepted by the checker";
   }
 
-  std::string step(std::size_t number) const {
-    const std::string frames = step_frames(request_, number);
-    return fmt::format("{} {}{}", step_word(request_), number, frames.empty() ? "" : " (" + frames + ")");
-  }
-
   std::string contact() const {
     if (outcome_.first) {
       const ListedContact& first = *outcome_.first;
-      return fmt::format("{}  t = {}{}  {}{}", step(first.step), digits4(first.time), request_.run ? " s" : "",
-                         who_and_where(first, outcome_.dimension), rests_on());
+      return fmt::format("{}  t = {}{}  {}{}", step_name(request_, first.step), digits4(first.time),
+                         request_.run ? " s" : "", who_and_where(first, outcome_.dimension), rests_on());
     }
     if (outcome_.initial_reports.empty()) return "from the beginning" + rests_on();
     const auto& [number, pair] = outcome_.initial_reports.front();
-    return fmt::format("{}  from its beginning  cell {} × cell {}{}", step(number), pair.first_cell, pair.second_cell,
-                       rests_on());
+    return fmt::format("{}  from its beginning  cell {} × cell {}{}", step_name(request_, number), pair.first_cell,
+                       pair.second_cell, rests_on());
   }
 
   /// What the checker's witness rests on that is not asked by default: "; z does not count".
@@ -143,8 +130,9 @@ class Place {
   std::string near() const {
     const TooNear& pair = outcome_.near->pair;
     const std::string ring = request_.ring > 1 ? fmt::format(", {} mesh edges or more away", request_.ring) : "";
-    return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart{}", step(outcome_.near->step),
-                       digits4(pair.time), pair.first_cell, pair.second_cell, digits17(request_.min_distance), ring);
+    return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart{}",
+                       step_name(request_, outcome_.near->step), digits4(pair.time), pair.first_cell, pair.second_cell,
+                       digits17(request_.min_distance), ring);
   }
 
   const VerifyRequest& request_;
@@ -375,6 +363,19 @@ class Words {
 };
 
 }  // namespace
+
+const char* why_incomplete(const VerifyOutcome& outcome) {
+  if (outcome.no_proof) return "no proof was found";
+  if (outcome.near) return "something is about as near as the least distance, but no witness was found";
+  if (outcome.interrupted) return "interrupted";
+  if (outcome.steps_total == 0) return "no window was committed";
+  return outcome.out_of_time ? "time limit" : "first contact only";
+}
+
+std::string step_name(const VerifyRequest& request, std::size_t number) {
+  const std::string frames = step_frames(request, number);
+  return fmt::format("{} {}{}", step_word(request), number, frames.empty() ? "" : " (" + frames + ")");
+}
 
 void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, Answer& answer) {
   Words(request, outcome, answer)();

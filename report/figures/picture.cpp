@@ -26,6 +26,9 @@ constexpr double wall_width = 4;    ///< of the borders of walls [samples]
 constexpr double dot_width = 12;    ///< of loose points [samples]
 constexpr double least_aspect = 0.3, greatest_aspect = 1.5;
 constexpr Colour paper{1, 1, 1}, grey{0.72, 0.72, 0.70};
+constexpr std::array<Colour, 2> mark_colours{{{0.85, 0.10, 0.12}, {0.98, 0.78, 0.10}}};
+constexpr Colour ink{0.05, 0.05, 0.05};
+constexpr double in_front = 1e9;  ///< depth of what nothing hides [samples]
 constexpr std::array<Colour, 6> palette{{{0.36, 0.56, 0.80},
                                          {0.90, 0.62, 0.32},
                                          {0.45, 0.68, 0.42},
@@ -86,7 +89,7 @@ Looks looks_of(const Mesh& mesh, const std::vector<bool>& fixed) {
 class Canvas {
  public:
   Canvas(const Frame& frame, const std::vector<bool>& fixed, const View& view)
-      : frame_(frame), looks_(looks_of(frame.mesh, fixed)), eye_(unit(to_vec(view.from))) {
+      : frame_(frame), looks_(looks_of(frame.mesh, fixed)), marks_(view.marks), eye_(unit(to_vec(view.from))) {
     right_ = unit(cross(to_vec(view.up), eye_));
     up_ = cross(eye_, right_);
     project(view);
@@ -104,6 +107,8 @@ class Canvas {
     paint_walls();
     for (const auto& [a, b] : frame_.mesh.edges) paint_line(at_[a], at_[b], thick_width, looks_.colours[a]);
     for (const VertexId v : frame_.mesh.points) paint_line(at_[v], at_[v], dot_width, looks_.colours[v]);
+    for (const Mark& mark : marks_) paint_mark(mark);
+    if (focus_) paint_line(*focus_, *focus_, dot_width, ink);
     return picture();
   }
 
@@ -134,6 +139,7 @@ class Canvas {
       at_.emplace_back(x.dot(right_), -x.dot(up_), x.dot(eye_));
     }
     seen_ = view.extent ? *view.extent : extent(view);
+    if (view.focus) seen_ = around(*view.focus);
     const Extent& seen = seen_;
     const double wide = seen.right - seen.left, tall = seen.bottom - seen.top, pixels = static_cast<double>(view.width);
     const double shape = std::clamp(wide > 0 ? tall / wide : greatest_aspect, least_aspect, greatest_aspect);
@@ -147,6 +153,15 @@ class Canvas {
       p[1] = scale * (p[1] - 0.5 * (seen.top + seen.bottom)) + 0.5 * static_cast<double>(height_);
       p[2] *= scale;
     }
+    if (view.focus) {
+      focus_ = Vec3(0.5 * static_cast<double>(width_), 0.5 * static_cast<double>(height_), 3 * in_front);
+    }
+  }
+
+  Extent around(const Focus& focus) const {
+    const Vec3 x = to_vec(focus.centre);
+    const double right = x.dot(right_), down = -x.dot(up_);
+    return {right - focus.radius, down - focus.radius, right + focus.radius, down + focus.radius};
   }
 
   /// Calls each(column, row) for the samples in a box that are on the canvas.
@@ -168,7 +183,22 @@ class Canvas {
     for (std::size_t c = 0; c < 3; ++c) colour_[k][c] = colour[c] * light;
   }
 
-  void paint_face(const std::array<VertexId, 3>& face) {
+  void paint_mark(const Mark& mark) {
+    const Mesh& mesh = frame_.mesh;
+    const Colour& colour = mark_colours[static_cast<std::size_t>(mark.side)];
+    const auto near = [&](VertexId v) -> Vec3 { return at_[v] + Vec3(0, 0, in_front); };
+    if (mark.cell < mesh.faces.size()) return paint_face(mesh.faces[mark.cell], colour, in_front);
+    const std::size_t edge = mark.cell - mesh.faces.size();
+    if (edge < mesh.edges.size()) {
+      return paint_line(near(mesh.edges[edge][0]), near(mesh.edges[edge][1]), thick_width, colour);
+    }
+    const VertexId point = mesh.points[edge - mesh.edges.size()];
+    paint_line(near(point), near(point), dot_width, colour);
+  }
+
+  void paint_face(const std::array<VertexId, 3>& face) { paint_face(face, looks_.colours[face[0]], 0); }
+
+  void paint_face(const std::array<VertexId, 3>& face, const Colour& colour, double nearer) {
     const Vec3 &a = at_[face[0]], &b = at_[face[1]], &c = at_[face[2]];
     const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if (twice_area == 0) return;
@@ -183,7 +213,7 @@ class Canvas {
                       const double u = 1 - v - w;
                       if (u < 0 || v < 0 || w < 0) return;
                       const bool on_line = std::min({u * heights[0], v * heights[1], w * heights[2]}) < line_width;
-                      put(i, j, u * a[2] + v * b[2] + w * c[2], looks_.colours[face[0]],
+                      put(i, j, u * a[2] + v * b[2] + w * c[2] + nearer, colour,
                           lines && on_line ? 0.72 * light : light);
                     });
   }
@@ -248,6 +278,8 @@ class Canvas {
 
   const Frame& frame_;
   Looks looks_;
+  const std::vector<Mark>& marks_;
+  std::optional<Vec3> focus_;  ///< in samples
   Vec3 eye_, right_, up_;
   std::vector<Vec3> at_;
   Extent seen_;

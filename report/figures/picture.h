@@ -27,6 +27,18 @@ struct Extent {
   double left = 0, top = 0, right = 0, bottom = 0;
 };
 
+/// A point and what is around it.
+struct Focus {
+  Position centre{};
+  double radius = 0;  ///< [m]
+};
+
+/// A cell in the colour of one of two sides, 0 or 1.
+struct Mark {
+  std::uint32_t cell = 0;  ///< as the mesh numbers them
+  int side = 0;
+};
+
 struct View {
   Position from{0.8, -1.4, 0.7};  ///< the direction in which the eye is; of any length but zero
   Position up{0, 0, 1};           ///< not along `from`
@@ -35,6 +47,8 @@ struct View {
   /// What the picture shows: of the vertices [first, first + count); count 0: all but floors and walls.
   std::size_t first = 0, count = 0;
   std::optional<Extent> extent = std::nullopt;  ///< fills the picture instead, as in a film
+  std::optional<Focus> focus = std::nullopt;    ///< fills the picture instead
+  std::vector<Mark> marks = {};                 ///< cells that stand out, before all others
 };
 
 /// Rows from top to bottom; red, green, blue.

@@ -16,16 +16,13 @@
 #include "certify/runs/run_series_reader.h"
 #include "report/figures/picture.h"
 #include "report/figures/png.h"
+#include "report/figures/run_frame.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
 #include "trajectory/write_file.h"
 
 namespace noli::report {
 namespace {
-
-void require_pictures() {
-  if (!can_write_png()) throw UsageError("-o: this noli was built without pictures (NOLI_WITH_PNG=OFF)");
-}
 
 void check(const PictureRequest& request) {
   require_pictures();
@@ -47,63 +44,13 @@ BodyNames::Body body_of(const std::filesystem::path& run, const std::string& wan
 }
 
 View view_of(const PictureView& asked, const std::filesystem::path& run, std::uint32_t dimension) {
-  View view;
-  if (dimension == 2) {
-    view.from = {0, 0, 1};
-    view.up = {0, 1, 0};
-  }
-  if (asked.from) view.from = *asked.from;
-  if (asked.size) {
-    view.width = (*asked.size)[0];
-    view.height = (*asked.size)[1];
-  }
+  View view = view_from(asked, static_cast<int>(dimension));
   if (!asked.zoom.empty()) {
     const BodyNames::Body body = body_of(run, asked.zoom);
     view.first = body.first;
     view.count = body.vertices;
   }
-  // From straight above, what is ahead is up.
-  if (view.from[0] == 0 && view.from[1] == 0) view.up = {0, 1, 0};
   return view;
-}
-
-/// Keeps the frame that is nearest to the time asked for.
-class Nearest {
- public:
-  explicit Nearest(double time) : time_(time) {}
-
-  void add(const RunWindow& window) {
-    for (const RunFrame& frame : window.frames) add(frame.time, frame.positions);
-    if (window.lines && window.begin <= time_ && time_ <= window.end) add(time_, sample(*window.lines, time_));
-  }
-  bool found() const { return found_; }
-  bool is_passed(const RunWindow& window) const { return found_ && window.end > time_ + std::abs(best_.time - time_); }
-  const RunFrame& best() const { return best_; }
-
- private:
-  void add(double time, const std::vector<Position>& positions) {
-    if (found_ && !(std::abs(time - time_) < std::abs(best_.time - time_))) return;
-    best_ = {time, positions};
-    found_ = true;
-  }
-
-  double time_;
-  RunFrame best_;
-  bool found_ = false;
-};
-
-RunFrame frame_at(SeriesReader& reader, const PictureRequest& request) {
-  Nearest nearest(request.time);
-  double end = 0;
-  while (const auto window = reader.next_window()) {
-    end_if_stopped();
-    end = window->end;
-    nearest.add(*window);
-    if (nearest.is_passed(*window)) break;
-  }
-  if (nearest.found() && request.time >= 0 && request.time <= end) return nearest.best();
-  throw InputError(request.run.string(), "",
-                   fmt::format("goes up to {} s; expected a time of it, found {} s", end, request.time));
 }
 
 std::vector<bool> fixed_of(const RunScene& scene) { return {scene.labels.begin(), scene.labels.end()}; }
@@ -128,6 +75,26 @@ Extent extent_of_run(const ExportRequest& request, const View& view) {
 
 }  // namespace
 
+void require_pictures() {
+  if (!can_write_png()) throw UsageError("-o: this noli was built without pictures (NOLI_WITH_PNG=OFF)");
+}
+
+View view_from(const PictureView& asked, int dimension) {
+  View view;
+  if (dimension == 2) {
+    view.from = {0, 0, 1};
+    view.up = {0, 1, 0};
+  }
+  if (asked.from) view.from = *asked.from;
+  if (asked.size) {
+    view.width = (*asked.size)[0];
+    view.height = (*asked.size)[1];
+  }
+  // From straight above, what is ahead is up.
+  if (view.from[0] == 0 && view.from[1] == 0) view.up = {0, 1, 0};
+  return view;
+}
+
 ExportOutcome run_film(const FilmRequest& request) {
   require_pictures();
   const SeriesReader reader = open_run(request.frames.run);
@@ -146,7 +113,7 @@ ExportOutcome run_film(const FilmRequest& request) {
 PictureOutcome run_picture(const PictureRequest& request) {
   check(request);
   SeriesReader reader = open_run(request.run);
-  const RunFrame frame = frame_at(reader, request);
+  const RunFrame frame = run_frame_at(reader, request.run, request.time);
   const std::vector<bool> fixed = fixed_of(reader.scene());
   try {
     const View view = view_of(request.view, request.run, reader.header().dimension);

@@ -12,6 +12,7 @@
 
 #include <noli/export.h>
 #include <noli/mesh.h>
+#include "report/figures/picture.h"
 
 namespace noli::report {
 
@@ -22,6 +23,12 @@ struct PictureView {
   std::optional<std::array<std::size_t, 2>> size;
   std::string zoom;  ///< the name of a body that fills the picture; empty: all that moves is seen
 };
+
+/// Throws UsageError in a build without a library for pictures.
+void require_pictures();
+
+/// Direction and size; `zoom` is about runs.
+View view_from(const PictureView& asked, int dimension);
 
 struct PictureRequest {
   std::filesystem::path run;

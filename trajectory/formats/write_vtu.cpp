@@ -50,7 +50,7 @@ std::string append_array(std::string& appended, std::string_view attributes, std
 
 }  // namespace
 
-std::string format_vtu(const Frame& frame) {
+std::string format_vtu(const Frame& frame, const std::optional<CellData>& data) {
   const VtkCells cells = vtk_cells(frame.mesh);
   std::string appended;
   std::string text =
@@ -65,7 +65,14 @@ std::string format_vtu(const Frame& frame) {
                        std::span<const std::uint64_t>(cells.connectivity));
   text += append_array(appended, "type=\"Int64\" Name=\"offsets\"", std::span<const std::uint64_t>(cells.offsets));
   text += append_array(appended, "type=\"UInt8\" Name=\"types\"", std::span<const std::uint8_t>(cells.types));
-  text += "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n";
+  text += "      </Cells>\n";
+  if (data) {
+    text += fmt::format("      <CellData Scalars=\"{}\">\n", data->name);
+    text += append_array(appended, fmt::format("type=\"UInt8\" Name=\"{}\"", data->name),
+                         std::span<const std::uint8_t>(data->values));
+    text += "      </CellData>\n";
+  }
+  text += "    </Piece>\n  </UnstructuredGrid>\n";
   return text + "  <AppendedData encoding=\"base64\">\n_" + appended + "\n  </AppendedData>\n</VTKFile>\n";
 }
 
@@ -80,7 +87,9 @@ std::string format_pvd(std::span<const PvdEntry> entries) {
   return text + "  </Collection>\n</VTKFile>\n";
 }
 
-void write_vtu(const std::filesystem::path& path, const Frame& frame) { write_file(path, format_vtu(frame)); }
+void write_vtu(const std::filesystem::path& path, const Frame& frame, const std::optional<CellData>& data) {
+  write_file(path, format_vtu(frame, data));
+}
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {
   write_file(path, format_pvd(entries));

@@ -5,16 +5,25 @@
 // nothing refers to are points without a cell. Numbers are appended data in base64, so doubles keep all their bits.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <noli/mesh.h>
 
 namespace noli {
 
-/// The bytes of the file. Precondition: as many positions as vertices.
-std::string format_vtu(const Frame& frame);
+/// A number for each cell, under a name without characters of markup.
+struct CellData {
+  std::string name;
+  std::vector<std::uint8_t> values;
+};
+
+/// The bytes of the file. Precondition: as many positions as vertices, and as many values as cells.
+std::string format_vtu(const Frame& frame, const std::optional<CellData>& data = std::nullopt);
 
 struct PvdEntry {
   double time = 0;   ///< seconds
@@ -24,7 +33,8 @@ struct PvdEntry {
 std::string format_pvd(std::span<const PvdEntry> entries);
 
 /// Write the file, or replace it. Throw std::system_error when it cannot be written in full.
-void write_vtu(const std::filesystem::path& path, const Frame& frame);
+void write_vtu(const std::filesystem::path& path, const Frame& frame,
+               const std::optional<CellData>& data = std::nullopt);
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries);
 
 }  // namespace noli

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/figures/contact_export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <noli/errors.h>
+#include "certify/result_file.h"
+#include "certify/runs/run_log_facts.h"
+#include "certify/runs/run_series_reader.h"
+#include "report/figures/picture.h"
+#include "report/figures/png.h"
+#include "report/figures/run_frame.h"
+#include "report/report_inputs.h"
+#include "report/report_results.h"
+#include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/write_vtu.h"
+#include "trajectory/sample.h"
+#include "trajectory/write_file.h"
+
+namespace noli::report {
+namespace {
+
+/// The part of a picture around the contact, in lengths of the longest edge that meets.
+constexpr double around = 4;
+
+struct Contact {
+  std::size_t step = 0;  ///< from 1
+  double time = 0;
+  Position point{};
+  std::array<std::vector<std::uint32_t>, 2> cells;
+};
+
+class ContactOf {
+ public:
+  explicit ContactOf(const ContactExportRequest& request)
+      : path_(request.result), result_(read_result(request.result)) {
+    if (!is_of_verify(result_)) refuse("is no result of noli verify; expected what noli verify --json wrote");
+    try {
+      contact_ = parsed(chosen(request.number));
+    } catch (const Json::exception& error) {
+      refuse(fmt::format("lists a contact that noli verify does not write so: {}", error.what()));
+    }
+  }
+
+  const Contact& contact() const { return contact_; }
+
+  /// Where everything is at the time of contact.
+  Frame frame() const {
+    const ResultInputs about(result_, path_);
+    return verified_steps(result_, path_).run ? frame_of_run(about) : frame_between(about);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(path_.string(), "", what); }
+
+  const Json& chosen(std::size_t number) const {
+    const Json& listed = result_.at("reports").at("contacts");
+    if (number > listed.size()) {
+      refuse(fmt::format("lists {} contacts; expected a number up to that, found --contact {}", listed.size(), number));
+    }
+    if (number > 0) return listed.at(number - 1);
+    if (result_.at("first").is_null()) refuse("has no contact; expected a result with the verdict contact");
+    return result_.at("first");
+  }
+
+  Contact parsed(const Json& json) const {
+    if (!json.contains("point")) refuse("was written by an older noli, which lists no points; verify again");
+    Contact contact{json.at("step").get<std::size_t>(), json.at("time").get<double>(), {}, {}};
+    contact.point = json.at("point").get<Position>();
+    contact.cells = json.at("cells").get<std::array<std::vector<std::uint32_t>, 2>>();
+    return contact;
+  }
+
+  std::filesystem::path file(std::size_t k) const {
+    const Json& inputs = result_.at("inputs");
+    if (k >= inputs.size())
+      refuse(fmt::format("has a contact in step {}, but {} inputs", contact_.step, inputs.size()));
+    return inputs.at(k).at("file").get<std::string>();
+  }
+
+  Frame frame_of_run(const ResultInputs& about) const {
+    const std::filesystem::path run = file(0).parent_path();
+    about.require_run(run);
+    SeriesReader reader = open_run(run);
+    const RunFrame frame = run_frame_at(reader, run, contact_.time);
+    return {reader.mesh(), frame.positions};
+  }
+
+  Frame frame_between(const ResultInputs& about) const {
+    if (contact_.step == 0) refuse("lists a contact in step 0");
+    const std::size_t before = contact_.step - 1;
+    const bool at_rest = verified_steps(result_, path_).at_rest;
+    Frame frame = frame_number(before, about);
+    if (at_rest) return frame;
+    const Frame after = frame_number(contact_.step, about);
+    if (after.mesh != frame.mesh) refuse("names two frames of different meshes");
+    const double s = std::clamp(contact_.time, 0.0, 1.0);
+    for (std::size_t v = 0; v < frame.positions.size(); ++v) {
+      frame.positions[v] = sample_between(frame.positions[v], after.positions[v], s);
+    }
+    return frame;
+  }
+
+  Frame frame_number(std::size_t k, const ResultInputs& about) const {
+    FrameInputs inputs({file(k)});
+    Frame frame = inputs.read(0);
+    about.require_frame(k, inputs.facts()[0]);
+    return frame;
+  }
+
+  const std::filesystem::path& path_;
+  Json result_;
+  Contact contact_;
+};
+
+std::vector<VertexId> corners_of(const Mesh& mesh, std::uint32_t cell) {
+  if (cell < mesh.faces.size()) return {mesh.faces[cell].begin(), mesh.faces[cell].end()};
+  const std::size_t edge = cell - mesh.faces.size();
+  if (edge < mesh.edges.size()) return {mesh.edges[edge].begin(), mesh.edges[edge].end()};
+  return {mesh.points[edge - mesh.edges.size()]};
+}
+
+/// Those of both features; a cell of both counts to the first.
+std::vector<Mark> marks_of(const Contact& contact, const Mesh& mesh) {
+  std::vector<Mark> marks;
+  for (int side = 0; side < 2; ++side) {
+    for (const std::uint32_t cell : contact.cells[static_cast<std::size_t>(side)]) {
+      if (cell < mesh.cell_count()) marks.push_back({cell, side});
+    }
+  }
+  return marks;
+}
+
+double radius_around(const Frame& frame, const std::vector<Mark>& marks) {
+  double longest = 0;
+  for (const Mark& mark : marks) {
+    const std::vector<VertexId> corners = corners_of(frame.mesh, mark.cell);
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      const Position &a = frame.positions[corners[i]], &b = frame.positions[corners[i + 1]];
+      longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+    }
+  }
+  return longest > 0 ? around * longest : 1;
+}
+
+CellData cell_data(const Mesh& mesh, const std::vector<Mark>& marks) {
+  CellData data{"contact", std::vector<std::uint8_t>(mesh.cell_count(), 0)};
+  for (const Mark& mark : marks) {
+    if (data.values[mark.cell] == 0) data.values[mark.cell] = static_cast<std::uint8_t>(mark.side + 1);
+  }
+  return data;
+}
+
+bool in_plane(const Frame& frame) {
+  return std::ranges::all_of(frame.positions, [&](const Position& x) { return x[2] == frame.positions[0][2]; });
+}
+
+void paint(const ContactExportRequest& request, const Contact& contact, const Frame& frame,
+           const std::vector<Mark>& marks) {
+  View view = view_from(request.view, in_plane(frame) ? 2 : 3);
+  if (view.height == 0) view.height = view.width * 3 / 4;
+  view.focus = Focus{contact.point, radius_around(frame, marks)};
+  view.marks = marks;
+  try {
+    replace_file(request.output, png(draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view)));
+  } catch (const std::invalid_argument&) {
+    throw UsageError("--from: expected a direction other than zero");
+  }
+}
+
+void check(const ContactExportRequest& request, bool picture) {
+  if (!picture && request.output.extension() != ".vtu") {
+    throw UsageError("-o " + request.output.string() + ": expected a name that ends in .vtu or .png for a contact");
+  }
+  if (picture) require_pictures();
+  make_writable_folder(request.output.parent_path(), "-o");
+}
+
+}  // namespace
+
+ContactExport export_contact(const ContactExportRequest& request) {
+  const bool picture = request.output.extension() == ".png";
+  check(request, picture);
+  const ContactOf result(request);
+  const Contact& contact = result.contact();
+  const Frame frame = result.frame();
+  const std::vector<Mark> marks = marks_of(contact, frame.mesh);
+  if (picture) {
+    paint(request, contact, frame, marks);
+  } else {
+    replace_file(request.output, format_vtu(frame, cell_data(frame.mesh, marks)));
+  }
+  return {contact.step, contact.time, marks.size()};
+}
+
+}  // namespace noli::report

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/verify_ci.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <noli/errors.h>
+#include "certify/contact_report.h"
+#include "report/verify_words.h"
+#include "trajectory/text.h"
+
+namespace noli::report {
+namespace {
+
+constexpr std::size_t most_annotations = 10;  ///< GitHub shows no more of a step
+
+/// What is wrong with a step; nothing: nothing touches in it.
+std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
+  const StepCounts& step = outcome.steps[k];
+  if (outcome.near && outcome.near->step == k + 1) {
+    return fmt::format("cells {} and {} are not more than {} apart", outcome.near->pair.first_cell,
+                       outcome.near->pair.second_cell, digits17(request.min_distance));
+  }
+  if (!step.touches()) return "";
+  std::string text;
+  if (step.contact_count() > 0) text = fmt::format("{} pairs of features meet", step.contact_count());
+  if (step.initial_intersections > 0) {
+    text += fmt::format("{}{} pairs of cells intersect at the first time", text.empty() ? "" : ", ",
+                        step.initial_intersections);
+  }
+  if (!step.first) return text;
+  return fmt::format("{}; the first at t = {}{}: {}", text, digits17(step.first->time), request.run ? " s" : "",
+                     who_and_where(*step.first, outcome.dimension));
+}
+
+/// Whether step k, from 0, was decided to its end.
+bool is_decided(const VerifyOutcome& outcome, std::size_t k) {
+  return k + 1 < outcome.steps.size() || (k + 1 == outcome.steps.size() && outcome.complete);
+}
+
+std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
+  const std::string head =
+      fmt::format("    <testcase classname=\"noli.verify\" name=\"{}\"", escaped_markup(step_name(request, k + 1)));
+  const std::string fault = k < outcome.steps.size() ? fault_of(request, outcome, k) : "";
+  if (!fault.empty()) {
+    return fmt::format("{}>\n      <failure type=\"{}\" message=\"{}\"/>\n    </testcase>\n", head,
+                       name(outcome.verdict), escaped_markup(fault));
+  }
+  if (is_decided(outcome, k)) return head + "/>\n";
+  const std::string why = outcome.touches() && outcome.complete
+                              ? "not looked at: verification stopped at an earlier contact (--keep-going)"
+                              : fmt::format("undecided: {}", why_incomplete(outcome));
+  return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head, escaped_markup(why));
+}
+
+/// Of a message; of a property also the two characters that end it.
+std::string escaped(const std::string& text, bool property) {
+  std::string out;
+  for (const char c : text) {
+    const bool special = c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ','));
+    out += special ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
+  }
+  return out;
+}
+
+std::string annotation(const char* level, const std::string& title, const std::string& message) {
+  return fmt::format("::{} title={}::{}\n", level, escaped(title, true), escaped(message, false));
+}
+
+}  // namespace
+
+std::string verify_junit(const VerifyRequest& request, const VerifyOutcome& outcome) {
+  std::string cases;
+  std::size_t failures = 0, skipped = 0;
+  const std::size_t count = std::max(outcome.steps_total, outcome.steps.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::string one = case_of(request, outcome, k);
+    failures += one.find("<failure ") != std::string::npos ? 1 : 0;
+    skipped += one.find("<skipped ") != std::string::npos ? 1 : 0;
+    cases += one;
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"noli verify\" tests=\"{}\" "
+      "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}  </testsuite>\n</testsuites>\n",
+      count, failures, skipped, cases);
+}
+
+std::string verify_annotations(const VerifyRequest& request, const VerifyOutcome& outcome) {
+  std::string lines;
+  std::size_t left_out = 0, written = 0;
+  for (std::size_t k = 0; k < outcome.steps.size(); ++k) {
+    const std::string fault = fault_of(request, outcome, k);
+    if (fault.empty()) continue;
+    if (written == most_annotations) {
+      ++left_out;
+      continue;
+    }
+    ++written;
+    lines += annotation("error", "noli: " + step_name(request, k + 1), fault);
+  }
+  if (left_out > 0) lines += annotation("warning", "noli", fmt::format("{} more steps have contacts", left_out));
+  if (written > 0) return lines;
+  if (outcome.verdict == Verdict::undecided) {
+    return annotation(
+        "error", "noli: undecided",
+        fmt::format("{} of {} steps begun: {}", outcome.steps.size(), outcome.steps_total, why_incomplete(outcome)));
+  }
+  return annotation("notice", "noli: " + std::string(name(outcome.verdict)),
+                    fmt::format("{} steps: nothing touches", outcome.steps_total));
+}
+
+}  // namespace noli::report
