@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -17,6 +18,7 @@
 #include "app/help.h"
 #include "app/output.h"
 #include "app/process.h"
+#include "app/terminal.h"
 #include "app/wrong_usage.h"
 #include "trajectory/stop.h"
 
@@ -38,7 +40,8 @@ constexpr const char* program_footer =
     "  noli help verify                              all about one command\n";
 
 ExitCode complain(ExitCode code, const std::string& message) {
-  std::fputs(fmt::format("noli: error: {}\n", on_one_line(message)).c_str(), stderr);
+  std::fputs(fmt::format("noli: {} {}\n", inked("error:", Ink::red, STDERR_FILENO), on_one_line(message)).c_str(),
+             stderr);
   return code;
 }
 

@@ -2,6 +2,7 @@
 #include "app/notes.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <noli/errors.h>
+#include "app/terminal.h"
 #include "trajectory/blocks/folder_lock.h"
 
 namespace noli::app {
@@ -19,7 +21,8 @@ constexpr std::size_t most_notes = 10;
 }  // namespace
 
 void tell_note(const std::string& note) {
-  std::fputs(fmt::format("noli: note: {}.\n", on_one_line(note)).c_str(), stderr);
+  std::fputs(fmt::format("noli: {} {}.\n", inked("note:", Ink::cyan, STDERR_FILENO), on_one_line(note)).c_str(),
+             stderr);
 }
 
 void tell_notes(const integrator::Explanation& explanation) {

@@ -11,7 +11,9 @@
 #include <noli/errors.h>
 #include <noli/version.h>
 #include "app/schema_texts.h"
+#include "app/terminal.h"
 #include "certify/result_file.h"
+#include "report/report_verdict.h"
 
 namespace noli::app {
 namespace {
@@ -24,6 +26,16 @@ Json version_of(std::string_view schema) {
   throw std::logic_error("no schema of this name");
 }
 
+std::string verdict_in_colour(const report::Answer& answer) {
+  switch (report::tone_of(answer.verdict())) {
+    case report::Tone::good: return inked(answer.verdict_word(), Ink::green, STDOUT_FILENO);
+    case report::Tone::bad: return inked(answer.verdict_word(), Ink::red, STDOUT_FILENO);
+    case report::Tone::open: return inked(answer.verdict_word(), Ink::yellow, STDOUT_FILENO);
+    case report::Tone::neutral: break;
+  }
+  return answer.verdict_word();
+}
+
 }  // namespace
 
 Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs, std::vector<OutputFile> others)
@@ -34,7 +46,10 @@ Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& 
 
 std::string Output::words(const report::Answer& answer) const {
   if (options_.quiet) return "";
-  return options_.porcelain ? answer.porcelain() : answer.words(options_.verbose);
+  if (options_.porcelain) return answer.porcelain();
+  const std::string behind = answer.behind_verdict();
+  return answer.words_above(options_.verbose) + verdict_in_colour(answer) + (behind.empty() ? "" : "  " + behind) +
+         '\n';
 }
 
 void Output::write(std::string_view schema, const report::Answer& answer, Json json) const {

@@ -19,20 +19,23 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows a share of the work in [0, 1], at most ten times a second. Calls must not overlap.
-  void show(double share);
+  /// Shows a share of the work in [0, 1], what it is at (a few words, or nothing), and about how long the rest takes, at
+  /// most ten times a second. Calls must not overlap.
+  void show(double share, const std::string& at = "");
 
  private:
+  std::string left(double share) const;
+
   std::string label_;
   bool terminal_;
   bool shown_ = false;
-  Stopwatch since_last_;
+  Stopwatch since_begin_, since_last_;
 };
 
 /// One bar after another, for work that tells what it does.
 class ProgressBars {
  public:
-  void show(std::string_view work, double share);
+  void show(std::string_view work, double share, const std::string& at = "");
 
  private:
   std::string work_;

@@ -262,6 +262,16 @@ class MotionFile {
   Descriptor file_;
 };
 
+/// "step 3 of 11, cloth_4.obj": which part of the work a share of it is.
+std::string where(const VerifyRequest& request, std::string_view work, double share) {
+  if (request.run || request.frames.size() < 3) return "";
+  const std::size_t count = request.frames.size() - (work == "look" || request.constant_motion ? 0 : 1);
+  const auto done = static_cast<std::size_t>(share * static_cast<double>(count));
+  const std::size_t number = std::min(done + 1, count), frame = request.frames.size() - count + number - 1;
+  return fmt::format("{} {} of {}, {}", work == "look" ? "frame" : "step", number, count,
+                     on_one_line(request.frames[frame].filename().string()));
+}
+
 VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
   const MotionFile motion(request);
   try {
@@ -303,7 +313,7 @@ ExitCode run(VerifyArguments& arguments) {
   ProofRoute route(request);
   request.stop = &interrupted();
   std::optional<ProgressBars> bars(std::in_place);
-  request.progress = [&bars](std::string_view work, double share) { bars->show(work, share); };
+  request.progress = [&](std::string_view work, double share) { bars->show(work, share, where(request, work, share)); };
   const VerifyOutcome outcome = verify(request, route);
   bars.reset();
   if (arguments.claim_out && outcome.claim.cells.empty()) {

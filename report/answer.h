@@ -49,8 +49,14 @@ class Answer {
 
   /// `verdict=WORD key=value ...`, one line.
   std::string porcelain() const;
-  /// The text, the details if they are wanted, what to do, and as the last line the verdict in capitals and its place.
-  std::string words(bool verbose) const;
+  /// The text, the details if they are wanted, and what to do: all above the last line.
+  std::string words_above(bool verbose) const;
+  /// The verdict in capitals: "NO FINDING".
+  std::string verdict_word() const;
+  /// The verdict as programs know it: "no_finding".
+  const std::string& verdict() const { return verdict_; }
+  /// What stands behind the verdict in the last line.
+  std::string behind_verdict() const;
   /// The last line: "NO FINDING  queries 10, findings 0".
   std::string last_line() const;
 

@@ -322,17 +322,35 @@ class Words {
   /// What a user does now.
   std::string next() const {
     switch (outcome_.verdict) {
-      case Verdict::contact:
-        if (!request_.keep_going && outcome_.steps.size() < outcome_.steps_total) {
-          return "--keep-going counts the contacts of all steps.";
-        }
-        return "write the result with --json OUT.json; noli report OUT.json and the same inputs shows where.";
-      case Verdict::undecided: return outcome_.out_of_time ? "give it more time (--time-limit)." : "";
-      case Verdict::too_near:
-      case Verdict::no_contact:
-      case Verdict::proved: return "";
+      case Verdict::contact: return after_contact();
+      case Verdict::undecided: return after_stop();
+      case Verdict::too_near: return after_too_near();
+      case Verdict::no_contact: return request_.check ? "" : "without --no-check a separate checker checks the proof.";
+      case Verdict::proved: return request_.proof ? "" : "--proof OUT.noli keeps the proof, which anybody can check.";
     }
     return "";
+  }
+
+  std::string after_contact() const {
+    const bool more = !request_.keep_going && outcome_.steps.size() < outcome_.steps_total;
+    const std::string steps = more ? "; --keep-going counts the contacts of all steps" : "";
+    return "--json result.json keeps the result, and noli export result.json -o first.png is a picture of it" + steps +
+           ".";
+  }
+
+  std::string after_stop() const {
+    if (outcome_.out_of_time) return "give it more time (--time-limit).";
+    if (outcome_.interrupted) return "run it again; nothing of an interrupted verification is kept.";
+    if (outcome_.near || outcome_.no_proof) return "ask for a smaller distance (--min-distance).";
+    return "";
+  }
+
+  std::string after_too_near() const {
+    if (outcome_.largest_distance) {
+      return fmt::format("ask for at most {} (--min-distance){}.", digits17(outcome_.largest_distance->allowed),
+                         request_.ring == 1 ? ", or leave out neighbours (--min-distance-from-ring)" : "");
+    }
+    return "ask for a smaller distance (--min-distance).";
   }
 
   void statement() {
