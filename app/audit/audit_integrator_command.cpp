@@ -30,7 +30,7 @@ constexpr const char* integrator_footer =
     "with one step for all; implicit Euler, for context. Errors of trajectory, energy and momentum, at the ends of "
     "windows, against a reference\n"
     "with much shorter steps, and what each run took. Without a scene: a uniform sheet and a graded one. "
-    "audit/INTEGRATOR.md has a worked example.\n"
+    "docs/audit/integrator.md has a worked example.\n"
     "Exit 0: measured; 1: the values of a run became infinite or NaN; 2: interrupted.\n"
     "Examples:\n"
     "  noli audit integrator --svg integrator.svg\n"

@@ -34,7 +34,7 @@ constexpr const char* self_footer =
     "for a time, and proofs of\n"
     "what it ships, through each checker that is there. One page of figures. What cannot be done, because something is "
     "not there, is named as\n"
-    "skipped and not counted as held. audit/SELF.md has a worked example.\n"
+    "skipped and not counted as held. docs/audit/self.md has a worked example.\n"
     "Exit 0: all that was done held; 1: something failed; 2: interrupted, or, with --require-all, something was "
     "skipped.\n"
     "Examples:\n"

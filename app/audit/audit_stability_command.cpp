@@ -38,7 +38,7 @@ constexpr const char* stability_footer =
     "program as a user would, and\n"
     "looked at: does it get to its end, is it verified again, are energy and momentum kept, does it resume with the "
     "same bytes? What does\n"
-    "not must not exit with 0. audit/STABILITY.md has the promises, the table, and a worked example.\n"
+    "not must not exit with 0. docs/audit/stability.md has the promises, the table, and a worked example.\n"
     "Exit 0: whatever failed failed closed; 1: a finding, whose input is kept in --out; 2: interrupted.\n"
     "Examples:\n"
     "  noli audit stability\n"

@@ -35,7 +35,7 @@ constexpr const char* proofs_footer =
     "proof.\n"
     "Without a proof of your own: proofs of small motions (noli fuzz trajectories) made for it. Exit 0: no finding; 1: "
     "findings;\n"
-    "2: interrupted. With --count the result depends on the seed and the proofs alone. audit/FUZZ-PROOFS.md says "
+    "2: interrupted. With --count the result depends on the seed and the proofs alone. docs/audit/fuzz-proofs.md says "
     "more.\n"
     "Examples:\n"
     "  noli fuzz proofs --for 60s --seed 1\n"

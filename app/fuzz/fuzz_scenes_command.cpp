@@ -29,7 +29,7 @@ constexpr const char* scenes_footer =
     "message has to name.\n"
     "A finding is made smaller and saved as a scene, with the command that shows it again. Exit 0: no finding; 1: "
     "findings; 2:\n"
-    "interrupted. With --count the scenes depend on the seed alone. audit/FUZZ-SCENES.md says more.\n"
+    "interrupted. With --count the scenes depend on the seed alone. docs/audit/fuzz-scenes.md says more.\n"
     "Examples:\n"
     "  noli fuzz scenes --for 60s --seed 1\n"
     "  noli fuzz scenes --count 10000 --json result.json\n"

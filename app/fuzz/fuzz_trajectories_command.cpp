@@ -31,7 +31,7 @@ constexpr const char* trajectories_footer =
     "of them. Findings are contacts that are no candidates or are missed, times that are late or none,\n"
     "failures, crashes, hangs, leaks; of a library that claims to be --exact also false positives and early\n"
     "times. Exit 0: no finding; 1: findings; 2: interrupted; 3: a library or folder is not as it has to be.\n"
-    "With --count and without a corpus the result depends on the seed alone. audit/FUZZ-TRAJECTORIES.md says\n"
+    "With --count and without a corpus the result depends on the seed alone. docs/audit/fuzz-trajectories.md says\n"
     "more.\n"
     "Examples:\n"
     "  noli fuzz trajectories --for 60s --seed 1\n"
