@@ -148,8 +148,12 @@ def intro(path):
 def cpp():
     parts = []
     for path in sorted((ROOT / "include/noli").glob("*.h")):
-        parts.append(f"## noli/{path.name}\n\n```text\n{intro(path)}\n```\n")
-        parts.append(f"```{{doxygenfile}} {path.name}\n:sections: innerclass enum func var typedef define user-defined\n```\n")
+        parts.append(f"## noli/{path.name}\n")
+        if path.name == "ccd_plugin.h":  # C, with comments that Doxygen does not read
+            parts.append(f"```{{literalinclude}} /../include/noli/{path.name}\n:language: c\n```\n")
+        else:
+            parts.append(f"```text\n{intro(path)}\n```\n")
+            parts.append(f"```{{doxygenfile}} {path.name}\n```\n")
     return "\n".join(parts)
 
 
