@@ -5,7 +5,10 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <span>
+#include <sstream>
 
 namespace noli::app_tests {
 
@@ -22,6 +25,62 @@ std::string up_to(const std::string& text, const std::string& end) { return text
 std::string last_line(const std::string& text) {
   const std::string whole = text.substr(0, text.find_last_not_of('\n') + 1);
   return whole.substr(whole.find_last_of('\n') + 1);
+}
+
+std::vector<std::string> split_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string block_text(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+/// The lines of a fenced block, up to its end.
+std::vector<std::string> rest_of_block(std::istream& page) {
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(page, line) && line != "```";) lines.push_back(line);
+  return lines;
+}
+
+/// Nothing if the block names no file.
+std::vector<TutorialStep> file_of(const std::vector<std::string>& block) {
+  const std::string caption = ":caption: ";
+  if (block.size() < 2 || !block[0].starts_with(caption) || !block[1].empty()) return {};
+  return {{block[0].substr(caption.size()), block_text({block.begin() + 2, block.end()}), {}}};
+}
+
+std::vector<TutorialStep> commands_of(const std::vector<std::string>& block) {
+  std::vector<TutorialStep> commands;
+  for (const std::string& line : block) {
+    if (line.starts_with("$ ")) {
+      commands.push_back({"", line.substr(2), {}});
+    } else if (!commands.empty()) {
+      commands.back().printed.push_back(line);
+    }
+  }
+  return commands;
+}
+
+bool lines_are_like(std::span<const std::string> expected, std::span<const std::string> lines) {
+  if (expected.empty()) return lines.empty();
+  if (expected.front() != "...") {
+    return !lines.empty() && is_like(expected.front(), lines.front()) &&
+           lines_are_like(expected.subspan(1), lines.subspan(1));
+  }
+  for (std::size_t skipped = 0; skipped <= lines.size(); ++skipped) {
+    if (lines_are_like(expected.subspan(1), lines.subspan(skipped))) return true;
+  }
+  return false;
+}
+
+/// The compiler that the tests are built with, where a tutorial says `cc`.
+std::string with_compiler(const std::string& line) {
+  return line.starts_with("cc ") ? std::string(NOLI_C_COMPILER) + line.substr(2) : line;
 }
 
 }  // namespace
@@ -75,6 +134,62 @@ void expect_worked_example(const std::vector<ExampleCommand>& commands,
     const auto [out, code] = shell("cd '" + std::string(NOLI_SOURCE_DIR) + "' && " + line);
     EXPECT_EQ(up_to(last_line(out), end), up_to(said, end)) << line;
     last_code = std::to_string(code);
+  }
+}
+
+std::vector<TutorialStep> tutorial(const std::string& page) {
+  std::ifstream document(std::string(NOLI_SOURCE_DIR) + "/" + page);
+  std::vector<TutorialStep> steps;
+  for (std::string line; std::getline(document, line);) {
+    if (!line.starts_with("```")) continue;
+    const std::vector<std::string> block = rest_of_block(document);
+    const std::vector<TutorialStep> more = line == "```console" ? commands_of(block) : file_of(block);
+    steps.insert(steps.end(), more.begin(), more.end());
+  }
+  return steps;
+}
+
+bool is_like(const std::string& expected, const std::string& line) {
+  const std::string any = "...";
+  const std::size_t first = expected.find(any);
+  if (first == std::string::npos) return line == expected;
+  if (!line.starts_with(expected.substr(0, first))) return false;
+  std::size_t at = first;  // in the line: all before it is matched
+  std::size_t begin = first + any.size();
+  for (std::size_t end = expected.find(any, begin); end != std::string::npos; end = expected.find(any, begin)) {
+    const std::string part = expected.substr(begin, end - begin);
+    const std::size_t found = line.find(part, at);
+    if (found == std::string::npos) return false;
+    at = found + part.size();
+    begin = end + any.size();
+  }
+  const std::string last = expected.substr(begin);
+  return line.size() >= at + last.size() && line.ends_with(last);
+}
+
+bool are_like(const std::vector<std::string>& expected, const std::vector<std::string>& lines) {
+  return lines_are_like(std::span<const std::string>(expected), std::span<const std::string>(lines));
+}
+
+void expect_tutorial(const std::string& page, const std::string& folder) {
+  const std::string programs = std::filesystem::path(NOLI_COMMAND).parent_path().string();
+  const std::string begin =
+      "cd '" + folder + "' && export NOLI='" + NOLI_SOURCE_DIR + "' PATH='" + programs + "':\"$PATH\" && ";
+  const std::vector<TutorialStep> steps = tutorial(page);
+  EXPECT_FALSE(steps.empty()) << page;
+  std::string last_code;
+  for (const TutorialStep& step : steps) {
+    if (!step.file.empty()) {
+      std::ofstream(folder + "/" + step.file) << step.text;
+    } else if (step.text == "echo $?") {
+      EXPECT_EQ(block_text(step.printed), last_code + "\n") << page;
+    } else {
+      const auto [out, code] = shell(begin + with_compiler(step.text));
+      EXPECT_TRUE(are_like(step.printed, split_lines(out))) << page << ": " << step.text << "\nprints\n"
+                                                            << out << "expected\n"
+                                                            << block_text(step.printed);
+      last_code = std::to_string(code);
+    }
   }
 }
 

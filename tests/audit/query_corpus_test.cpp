@@ -135,7 +135,7 @@ TEST(CommittedCorpus, KernelAndOracleAgree) {
 
 /// What a page says of the generators is what the generators say.
 TEST(QueryGenerators, AreDocumented) {
-  std::ifstream file(std::string(NOLI_SOURCE_DIR) + "/audit/FUZZ.md");
+  std::ifstream file(std::string(NOLI_SOURCE_DIR) + "/docs/audit/fuzz.md");
   std::stringstream page;
   page << file.rdbuf();
   for (const QueryGenerator& generator : query_generators()) {

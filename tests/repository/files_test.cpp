@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -83,6 +85,14 @@ TEST(Files, HeadersAreReadOnce) {
     if (file.extension() != ".h") continue;
     EXPECT_NE(read_text(file).find("\n#pragma once\n"), std::string::npos) << file;
   }
+}
+
+/// The manual is in docs/.
+TEST(Files, TheReadmeIsAPage) {
+  std::istringstream readme(read_text(fs::path(NOLI_SOURCE_DIR) / "README.md"));
+  const auto words = std::distance(std::istream_iterator<std::string>(readme), std::istream_iterator<std::string>());
+  EXPECT_GT(words, 300);
+  EXPECT_LE(words, 900);
 }
 
 }  // namespace

@@ -97,6 +97,19 @@ TEST_F(Setup, WhatBuildsNoliAloneNeedsNoTools) {
   EXPECT_EQ(setup("--demo").exit_code, 3);
 }
 
+TEST_F(Setup, TheDocumentationNeedsSphinxAndWhatBuildsNoli) {
+  packages("python3-sphinx");
+  user(1000);
+  EXPECT_EQ(setup().exit_code, 0);
+  EXPECT_EQ(setup("--demo").exit_code, 0);
+  EXPECT_EQ(setup("--docs").exit_code, 3);
+  EXPECT_EQ(setup("--all").exit_code, 3);
+  packages("libcgal-dev");
+  EXPECT_EQ(setup("--docs").exit_code, 3);
+  packages("coq");
+  EXPECT_EQ(setup("--docs").exit_code, 0);
+}
+
 TEST_F(Setup, RefusesWhatItDoesNotKnow) {
   packages("nothing");
   user(0);

@@ -91,7 +91,7 @@ TEST_F(AuditIntegrator, BadInputIsRefused) {
 }
 
 TEST_F(AuditIntegrator, TheWorkedExampleIsTrue) {
-  const auto commands = worked_example("audit/INTEGRATOR.md");
+  const auto commands = worked_example("docs/audit/integrator.md");
   ASSERT_GE(commands.size(), 2u);
   expect_worked_example(
       commands, {{"build/release/app/noli", NOLI_COMMAND}, {"build/integrator.svg", folder.path("integrator.svg")}});

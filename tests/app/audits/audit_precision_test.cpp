@@ -118,7 +118,7 @@ TEST(AuditPrecision, KeepsWhatItHasWhenInterrupted) {
 
 TEST(AuditPrecision, TheWorkedExampleIsTrue) {
   const Folder folder;
-  const auto commands = worked_example("audit/PRECISION.md", "## A worked example");
+  const auto commands = worked_example("docs/audit/precision.md", "## A worked example");
   ASSERT_EQ(commands.size(), 2u);
   expect_worked_example(commands,
                         {{"build/release/app/noli", NOLI_COMMAND}, {"build/bounce.svg", folder.path("b.svg")}});

@@ -135,7 +135,7 @@ TEST_F(AuditSelf, ACtrlCEndsIt) {
 
 TEST_F(AuditSelf, TheWorkedExampleIsTrue) {
   // How many parts there are depends on whether there is Coq.
-  const auto commands = worked_example("audit/SELF.md");
+  const auto commands = worked_example("docs/audit/self.md");
   ASSERT_EQ(commands.size(), 2u);
   const std::string without_data = std::string("env -u NOLI_DATA ") + NOLI_COMMAND;
   expect_worked_example(commands, {{"build/release/app/noli", without_data}, {"build/self", folder.path("self")}},

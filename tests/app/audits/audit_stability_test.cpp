@@ -156,7 +156,7 @@ TEST_F(AuditStability, BadInputIsRefused) {
 }
 
 TEST_F(AuditStability, TheWorkedExampleIsTrue) {
-  const auto commands = worked_example("audit/STABILITY.md");
+  const auto commands = worked_example("docs/audit/stability.md");
   ASSERT_EQ(commands.size(), 3u);
   expect_worked_example(commands, {{"build/release/app/noli", NOLI_COMMAND}});
 }
@@ -165,7 +165,7 @@ TEST_F(AuditStability, TheWorkedExampleIsTrue) {
 TEST_F(AuditStability, TheTableOfThePageIsTrueSlow) {
   const Process process = run_noli({"audit", "stability", "--out", folder.path("findings")});
   EXPECT_EQ(process.exit_code, 0) << process.out;
-  const std::string page = read_text(std::string(NOLI_SOURCE_DIR) + "/audit/STABILITY.md");
+  const std::string page = read_text(std::string(NOLI_SOURCE_DIR) + "/docs/audit/stability.md");
   std::istringstream lines(process.out);
   int rows = 0;
   for (std::string line; std::getline(lines, line);) {

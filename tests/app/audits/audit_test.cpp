@@ -342,7 +342,7 @@ TEST_F(AuditCcd, TheWorkedExampleIsTrue) {
 #if defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the thread sanitizer's own memory grows with each query, and is told as a leak";
 #endif
-  const auto commands = worked_example("audit/CCD.md", "## A worked example");
+  const auto commands = worked_example("docs/audit/ccd.md", "## A worked example");
   ASSERT_EQ(commands.size(), 4u);
   expect_worked_example(commands, {{"cc ", std::string(NOLI_C_COMPILER) + " "},
                                    {"build/release/app/noli", NOLI_COMMAND},
@@ -383,7 +383,7 @@ TEST_F(AuditCcdOfOthers, Fcl) {
   EXPECT_EQ(audit["times"], 2);
 }
 
-/// What it answers depends on the unit of length (audit/CCD.md).
+/// What it answers depends on the unit of length (docs/audit/ccd.md).
 TEST_F(AuditCcdOfOthers, FclTakesSmallVolumesForNone) {
   if (!is_built("fcl")) GTEST_SKIP() << "skipped: the plug-in over FCL, which is not built (NOLI_WITH_FCL)";
   const Json audit = json_of(command(plugin("fcl"), divided_by("4096")), 1)["audits"][0];
@@ -406,7 +406,7 @@ struct Expected {
   std::array<int, 6> wrong;  ///< false positives and negatives of each file
 };
 
-/// What the methods answer to real queries is what their authors and others have measured (audit/CCD.md).
+/// What the methods answer to real queries is what their authors and others have measured (docs/audit/ccd.md).
 TEST_F(AuditCcdOfOthers, MethodsErrAsMeasuredSlow) {
   std::vector<std::string> words = {"audit", "ccd"};
   for (const char* const name :

@@ -208,7 +208,7 @@ TEST_F(FuzzLibrary, RefusesWhatCannotBe) {
 }
 
 TEST_F(FuzzLibrary, TheWorkedExampleIsTrue) {
-  const auto commands = worked_example("audit/FUZZ.md", "## Queries");
+  const auto commands = worked_example("docs/audit/fuzz.md", "## Queries");
   ASSERT_GE(commands.size(), 4u);
   expect_worked_example(commands, {{"build/release/app/noli", NOLI_COMMAND},
                                    {"build/release/audit/ccd/plugins", NOLI_CCD_PLUGINS},
@@ -224,7 +224,7 @@ const Json& simplest(const Json& reports) {
   });
 }
 
-/// A row of the table in audit/FUZZ.md.
+/// A row of the table in docs/audit/fuzz.md.
 void print_row(const std::string& name, const Json& document, const Json& finding) {
   std::printf("| `%s` | %s, %s | %d | %.1f | %d |\n", name.c_str(), finding["finding"].get<std::string>().c_str(),
               finding["contact"].get<std::string>().c_str(), document["queries"].get<int>(),

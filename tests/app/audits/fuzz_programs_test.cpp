@@ -410,9 +410,9 @@ TEST(FuzzPrograms, TheWorkedExamplesAreTrue) {
   const std::vector<std::pair<std::string, std::string>> here = {{"build/release/app/noli", NOLI_COMMAND},
                                                                  {"build/findings", folder.path("findings")},
                                                                  {"build/fall.noli", folder.path("fall.noli")}};
-  expect_example("audit/FUZZ-TRAJECTORIES.md", 3, here);
-  expect_example("audit/FUZZ-PROOFS.md", 2, here);
-  expect_example("audit/FUZZ-SCENES.md", 3, here);
+  expect_example("docs/audit/fuzz-trajectories.md", 3, here);
+  expect_example("docs/audit/fuzz-proofs.md", 2, here);
+  expect_example("docs/audit/fuzz-scenes.md", 3, here);
 }
 
 }  // namespace

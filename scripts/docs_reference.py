@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the parts of the documentation that are made from the program, the schemas and the headers.
+
+    docs_reference.py NOLI FOLDER
+
+FOLDER gets commands.md (each `--help`), scene.md and results.md (schemas/) and cpp.md (include/noli, for Breathe).
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def help_of(noli, words):
+    done = subprocess.run([noli, *words, "--help"], check=True, capture_output=True, text=True)
+    return done.stdout
+
+
+def subcommands(text):
+    """The names below the line "Subcommands:"."""
+    block = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.MULTILINE)
+    return re.findall(r"^  ([a-z][a-z-]*) ", block.group(1), re.MULTILINE) if block else []
+
+
+def commands(noli, words=()):
+    text = help_of(noli, words)
+    title = " ".join(["noli", *words])
+    parts = [f"## `{title}`\n\n```text\n{text.strip()}\n```\n"]
+    for name in subcommands(text):
+        parts += commands(noli, (*words, name))
+    return parts
+
+
+def cell(text):
+    """Text that stays within one cell of a table; names in backticks stay code."""
+    return re.sub(r"[*<>\[\]]", lambda match: "\\" + match[0], str(text).replace("|", "\\|").replace("\n", " "))
+
+
+def literal(value):
+    return f"`{json.dumps(value, ensure_ascii=False)}`".replace("|", "\\|")
+
+
+def reference_name(schema):
+    return schema["$ref"].rsplit("/", 1)[-1]
+
+
+def type_of(schema, link):
+    if "$ref" in schema:
+        name = reference_name(schema)
+        return f"[{name}](#{anchor(name)})" if link else f"`{name}`"
+    if "const" in schema:
+        return literal(schema["const"])
+    if "enum" in schema:
+        return ", ".join(literal(value) for value in schema["enum"])
+    for several in ("oneOf", "anyOf"):
+        if several in schema:
+            return " or ".join(dict.fromkeys(type_of(part, link) for part in schema[several]))
+    kind = schema.get("type", "any")
+    if isinstance(kind, list):
+        return " or ".join(kind)
+    if kind == "array" and isinstance(schema.get("items"), dict):
+        kind = "array of " + type_of(schema["items"], link)
+    def number(value):
+        return str(value) if isinstance(value, int) else f"{value:g}"
+
+    low = schema.get("minimum", schema.get("exclusiveMinimum"))
+    high = schema.get("maximum", schema.get("exclusiveMaximum"))
+    if low is not None:
+        kind += f", {'at least' if 'minimum' in schema else 'above'} {number(low)}"
+    if high is not None:
+        kind += f", {'at most' if 'maximum' in schema else 'below'} {number(high)}"
+    return kind
+
+
+def anchor(name):
+    """As MyST makes the anchor of the heading `name`."""
+    return name.lower()
+
+
+def description_of(schema):
+    parts = [schema.get("description", "")]
+    if "unit" in schema:
+        parts.append(f"[{schema['unit']}]")
+    return " ".join(part for part in parts if part)
+
+
+def members(schema, link, defaults):
+    required = schema.get("required", [])
+    head = ["member", "value", "meaning"] + (["default"] if defaults else [])
+    rows = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    for name, member in schema.get("properties", {}).items():
+        row = [f"`{name}`", type_of(member, link), cell(description_of(member))]
+        if defaults:
+            default = literal(member["default"]) if "default" in member else ""
+            row.append("required" if name in required else default)
+        rows.append("| " + " | ".join(row) + " |")
+    return "\n".join(rows) + "\n"
+
+
+def definition(name, schema):
+    parts = [f"### {name}\n"]
+    if "description" in schema:
+        parts.append(cell(description_of(schema)) + "\n")
+    if "properties" in schema:
+        parts.append(members(schema, True, True))
+    else:
+        parts.append("Value: " + type_of(schema, True) + ".\n")
+    for several in ("oneOf", "anyOf"):
+        for number, part in enumerate(schema.get(several, []), start=1):
+            if "properties" in part:
+                parts.append(f"Form {number}:\n\n" + members(part, True, True))
+    return "\n".join(parts)
+
+
+def scene():
+    schema = json.loads((ROOT / "schemas/scene.json").read_text(encoding="utf-8"))
+    parts = ["## The scene\n", members(schema, True, True), "## Its parts\n"]
+    parts += [definition(name, part) for name, part in schema["$defs"].items()]
+    return "\n".join(parts)
+
+
+def results():
+    parts = []
+    for path in sorted((ROOT / "schemas").glob("*.json")):
+        if path.stem == "scene":
+            continue
+        schema = json.loads(path.read_text(encoding="utf-8"))
+        parts.append(f"## {path.stem}\n")
+        parts.append(cell(schema.get("description", schema.get("title", ""))) + "\n")
+        parts.append(members(schema, False, False))
+    return "\n".join(parts)
+
+
+def intro(path):
+    """The comment at the head of a header, without the line of the licence."""
+    lines = []
+    for line in path.read_text(encoding="utf-8").splitlines()[1:]:
+        if line.startswith(("#pragma", "#include", "/* NOLINT")):
+            break
+        lines.append(re.sub(r"^(//|/\*| \*/?) ?", "", line))
+    return "\n".join(lines).strip()
+
+
+def cpp():
+    parts = []
+    for path in sorted((ROOT / "include/noli").glob("*.h")):
+        parts.append(f"## noli/{path.name}\n")
+        if path.name == "ccd_plugin.h":  # C, with comments that Doxygen does not read
+            parts.append(f"```{{literalinclude}} /../include/noli/{path.name}\n:language: c\n```\n")
+        else:
+            parts.append(f"```text\n{intro(path)}\n```\n")
+            parts.append(f"```{{doxygenfile}} {path.name}\n```\n")
+    return "\n".join(parts)
+
+
+def main():
+    noli, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in {
+        "commands": "\n".join(commands(noli)),
+        "scene": scene(),
+        "results": results(),
+        "cpp": cpp(),
+    }.items():
+        (folder / f"{name}.md").write_text(text, encoding="utf-8")
+
+
+main()
