@@ -125,6 +125,18 @@ Json check_json(const CheckerVersion& checker, const fs::path& proof, const std:
           {"words", verdict.words}};
 }
 
+std::string next_step(const CheckerVerdict& verdict, bool plain) {
+  const bool names_remedy = first_line(verdict.words).find("asks for that") != std::string::npos;
+  switch (verdict.code) {
+    case 0: return plain ? "--verified asks the checker whose soundness is proved in Coq." : "";
+    case 1: return "noli verify with the same frames or run tells all contacts and where they are.";
+    default:
+      return names_remedy
+                 ? ""
+                 : "check that these are the frames of the proof, or make it again: noli verify ... --proof OUT.";
+  }
+}
+
 /// The checker's first line without its verdict is the place; the line for programs is among the details.
 report::Answer check_answer(const Json& json, const CheckerVersion& checker, const CheckerVerdict& verdict,
                             const std::vector<std::string>& notes) {
@@ -136,6 +148,7 @@ report::Answer check_answer(const Json& json, const CheckerVersion& checker, con
   answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
   const std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
+  answer.next = next_step(verdict, checker.name == "noli_check");
   return answer;
 }
 

@@ -139,20 +139,20 @@ std::string options(const CLI::App& app) {
   return out;
 }
 
-std::string help(const CLI::App* app, const std::string& /*name*/, CLI::AppFormatMode /*mode*/) {
-  const auto [details, examples] = parts_of(app->get_footer());
-  std::string out = full_name(*app) + ": " + app->get_description() + "\n\n" + usage(*app);
+}  // namespace
+
+std::string help_of(const CLI::App& app) {
+  const auto [details, examples] = parts_of(app.get_footer());
+  std::string out = full_name(app) + ": " + app.get_description() + "\n\n" + usage(app);
   if (!examples.empty()) out += "\nExamples:\n" + examples;
   if (out.back() != '\n') out += '\n';
-  out += arguments(*app) + commands(*app) + options(*app);
+  out += arguments(app) + commands(app) + options(app);
   if (!details.empty()) out += '\n' + wrapped(details);
   return out;
 }
 
-}  // namespace
-
 void use_help(CLI::App& app) {
-  app.formatter_fn(help);
+  app.formatter_fn([](const CLI::App* command, const std::string&, CLI::AppFormatMode) { return help_of(*command); });
   app.get_help_ptr()->description("Print this help");
 }
 

@@ -21,6 +21,9 @@ inline constexpr const char* limits = "Limits";
 /// Makes this the help of a command and of all below it that are added later.
 void use_help(CLI::App& app);
 
+/// The help of this command; CLI::App::help() is that of the command below it that was given.
+std::string help_of(const CLI::App& app);
+
 /// "--until SECONDS", "FRAMES | RUN"
 std::string option_in_words(const CLI::Option& option);
 

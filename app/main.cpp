@@ -55,14 +55,14 @@ Command add_help(CLI::App& app) {
             std::vector<std::string> rest;
             CLI::App& named = named_command(app, *words, rest);
             if (!rest.empty()) throw UsageError(unknown_command(named, rest.front()));
-            write_standard_output(named.help());
+            write_standard_output(help_of(named));
             return ExitCode::holds;
           }};
 }
 
 /// A command that needs another one, without it: the help says what there is. Not 0, for scripts that forgot a word.
 ExitCode show_help(const CLI::App& command) {
-  write_standard_output(command.help());
+  write_standard_output(help_of(command));
   return ExitCode::bad_input;
 }
 

@@ -75,7 +75,7 @@ timer_t timer_of_limit() {
 }
 
 void* or_end(void* memory) {
-  if (memory == nullptr) end_with("noli: out of memory\n");
+  if (memory == nullptr) end_with("noli: error: out of memory\n");
   return memory;
 }
 
@@ -84,10 +84,10 @@ void* or_end(void* memory) {
   try {
     if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::bad_alloc&) {
-    end_with("noli: out of memory\n");
+    end_with("noli: error: out of memory\n");
   } catch (...) {
   }
-  end_with("noli: internal error: terminated\n");
+  end_with("noli: error: internal error: terminated\n");
 }
 
 void* gmp_allocate(std::size_t size) { return or_end(std::malloc(size)); }

@@ -198,7 +198,10 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
                          outcome.begun   ? " --resume"
                          : request.force ? " --force"
                                          : "");
-    case RunEnd::done: return "";
+    case RunEnd::done:
+      return outcome.windows > 0
+                 ? fmt::format("noli report {0} -o {0}.html shows the run; noli explain {0} tells how it went.", run)
+                 : "";
   }
   return "";
 }

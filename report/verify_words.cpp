@@ -24,7 +24,7 @@ namespace noli::report {
 namespace {
 
 /// Rows that leave room for the verdict on a screen of 24 lines.
-constexpr std::size_t most_rows = 8, most_intersections = 3;
+constexpr std::size_t most_rows = 5, most_intersections = 3;
 
 /// Why a run has not come to the end of its scene.
 std::string why_ended(const RunEnding& ending) {
@@ -187,18 +187,20 @@ class Words {
     std::vector<std::size_t> rows;
     for (std::size_t k = 0; k < outcome_.steps.size(); ++k) {
       if (outcome_.steps[k].contact_count() == 0) continue;
-      if (rows.size() < most_rows) frames_width = std::max(frames_width, columns(step_frames(request_, k + 1)));
+      frames_width = std::max(frames_width, columns(step_frames(request_, k + 1)));
       rows.push_back(k);
     }
-    for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) row(rows[i], frames_width);
-    if (rows.size() > most_rows) line("  ... and {} more; --json OUT has them all", rows.size() - most_rows);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      (i < most_rows ? answer_.text : answer_.details) += row(rows[i], frames_width);
+    if (rows.size() > most_rows) line("  ... and {} more (-v)", rows.size() - most_rows);
   }
 
-  void row(std::size_t k, std::size_t frames_width) {
+  std::string row(std::size_t k, std::size_t frames_width) const {
     const StepCounts& step = outcome_.steps[k];
     const std::string frames = step_frames(request_, k + 1);
     const std::string gap = frames.empty() ? "" : "  " + frames + std::string(frames_width - columns(frames), ' ');
-    line("  {} {:>4}{}  {:>7}  {}", step_word(request_), k + 1, gap, step.contact_count(), how_it_begins(step));
+    return fmt::format("  {} {:>4}{}  {:>7}  {}\n", step_word(request_), k + 1, gap, step.contact_count(),
+                       how_it_begins(step));
   }
 
   std::string how_it_begins(const StepCounts& step) const {

@@ -171,19 +171,12 @@ const std::vector<BadLine> bad_lines = {
     {"missing_queries", {"ccd", "/nowhere/edge-edge.csv"}, {"/nowhere/edge-edge.csv"}},
     {"unknown_kind", {"ccd", "/nowhere/queries.csv", "--kind", "edge-face"}, {"edge-face"}},
     {"missing_info", {"info", "/nowhere/frame.obj"}, {"/nowhere/frame.obj"}},
-    {"fuzz_what", {"fuzz"}, {}},
     {"fuzz_count", {"fuzz", "queries", "--count", "0"}, {"--count"}},
     {"fuzz_duration", {"fuzz", "queries", "--for", "1y"}, {"--for"}},
     {"fuzz_seed", {"fuzz", "queries", "--seed", "x"}, {"--seed"}},
     {"fuzz_out", {"fuzz", "queries", "--for", "1s", "--out", "/nowhere/deep/findings"}, {"/nowhere/deep/findings"}}};
 
 INSTANTIATE_TEST_SUITE_P(All, BadLines, testing::ValuesIn(bad_lines), [](const auto& test) { return test.param.name; });
-
-TEST(BadInput, NoArgumentsAtAllAreRefused) {
-  const Process process = run_noli({});
-  EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("noli --help"), std::string::npos);
-}
 
 TEST(BadInput, AMeshOfNothingIsRefused) {
   const Folder folder;

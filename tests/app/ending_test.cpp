@@ -166,7 +166,7 @@ TEST(Ending, TooLittleMemoryIsNoSuccess) {
   options.address_space = 300'000'000;
   const Process process = run_noli({"verify", path, path, "--points"}, options);
   EXPECT_EQ(process.exit_code, 4) << process.out << process.err;
-  EXPECT_EQ(process.err, "noli: out of memory\n");
+  EXPECT_EQ(process.err, "noli: error: out of memory\n");
 }
 
 TEST(Ending, ALimitIsHeardWhateverSignalsWereKeptFromIt) {

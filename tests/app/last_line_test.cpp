@@ -29,14 +29,17 @@ class LastLine : public Simulate {
 bool starts(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
 
 TEST_F(LastLine, NamesStepFilesTimeAndFeatures) {
-  EXPECT_EQ(last(verify({1, 0.5, -0.5})), "CONTACT  step 2 (b.ply → c.ply)  t = 0.5  vertex 3 × face 0");
+  EXPECT_EQ(last(verify({1, 0.5, -0.5})), "CONTACT  step 2 (b.ply → c.ply)  t = 0.5  vertex 3 × face 0 at (1, 1, 0)");
 }
 
 TEST_F(LastLine, NeverRoundsATimeToTheEndOfItsStep) {
-  // From 1 to -1e-9: the contact is just before the end.
-  EXPECT_EQ(last(verify({1, -1e-9})), "CONTACT  step 1 (a.ply → b.ply)  t = 0.9999  vertex 3 × face 0");
-  EXPECT_EQ(last(verify({0.375, -0.25})), "CONTACT  step 1 (a.ply → b.ply)  t = 0.6  vertex 3 × face 0");
-  EXPECT_EQ(last(verify({1, 0})), "CONTACT  step 1 (a.ply → b.ply)  t = 1  vertex 3 × face 0");
+  const auto expect = [](const std::string& line, const std::string& time) {
+    EXPECT_TRUE(starts(line, "CONTACT  step 1 (a.ply → b.ply)  t = " + time + "  vertex 3 × face 0 at (1, 1, "))
+        << line;
+  };
+  expect(last(verify({1, -1e-9})), "0.9999");  // the contact is just before the end
+  expect(last(verify({0.375, -0.25})), "0.6");
+  expect(last(verify({1, 0})), "1");
 }
 
 TEST_F(LastLine, SaysWhoAcceptedAProof) {
@@ -80,8 +83,11 @@ TEST_F(LastLine, StatementAndWorkAreForWhoAsks) {
 
 TEST_F(LastLine, TellsWhatToDoAboveAContact) {
   const std::string out = run_noli(verify({1, 0.5, -0.5, 1})).out;
-  EXPECT_NE(out.find("\nNext: --keep-going counts the contacts of all steps.\n"), std::string::npos) << out;
-  EXPECT_EQ(run_noli(verify({1, 0.5})).out.find("Next:"), std::string::npos);
+  EXPECT_NE(out.find("\nNext: --json result.json keeps the result, "), std::string::npos) << out;
+  EXPECT_NE(out.find("; --keep-going counts the contacts of all steps.\n"), std::string::npos) << out;
+  const std::string all = run_noli(verify({1, 0.5, -0.5, 1}, {"--keep-going"})).out;
+  EXPECT_EQ(all.find("--keep-going"), std::string::npos) << all;
+  EXPECT_NE(run_noli(verify({1, 0.5})).out.find("\nNext: --proof OUT.noli keeps the proof"), std::string::npos);
 }
 
 TEST_F(LastLine, PorcelainIsOneLineOfPairs) {

@@ -37,6 +37,38 @@ void add_square(Frame& frame, double x, double y, double size) {
 
 const View front{{0, -1, 0}, {0, 0, 1}, 90};
 
+TEST(Picture, MarksStandBeforeAllElse) {
+  Frame frame;
+  add_square(frame, 0, 0, 1);  // nearer to the eye
+  add_square(frame, 0, 1, 1);  // hidden by it
+  View view = front;
+  const std::vector<bool> fixed(frame.mesh.vertex_count, false);
+  const std::array<int, 3> plain = pixel(draw(frame, fixed, view), 0.7, 0.7);
+  view.marks = {{2, 0}};  // the lower right half of the hidden square
+  const std::array<int, 3> marked = pixel(draw(frame, fixed, view), 0.7, 0.7);
+  EXPECT_NE(marked, plain);
+  EXPECT_GT(marked[0], 2 * marked[2]);  // red
+  EXPECT_GT(marked[0], 2 * marked[1]);
+  view.marks = {{2, 1}};
+  const std::array<int, 3> other = pixel(draw(frame, fixed, view), 0.7, 0.7);
+  EXPECT_GT(other[1], 2 * other[2]);  // yellow
+}
+
+TEST(Picture, FocusFillsThePicture) {
+  Frame frame;
+  add_square(frame, 0, 0, 1);
+  View view = front;
+  view.height = 90;
+  const std::vector<bool> fixed(frame.mesh.vertex_count, false);
+  view.focus = report::Focus{{0, 0, 0}, 0.25};  // a corner: a quarter of the picture
+  const Picture picture = draw(frame, fixed, view);
+  EXPECT_FALSE(is_white(pixel(picture, 0.9, 0.1)));
+  EXPECT_TRUE(is_white(pixel(picture, 0.1, 0.1)));
+  EXPECT_TRUE(is_white(pixel(picture, 0.9, 0.9)));
+  const std::array<int, 3> dot = pixel(picture, 0.5, 0.5);
+  EXPECT_LT(dot[0] + dot[1] + dot[2], 200);
+}
+
 TEST(Picture, TheNearerOfTwoIsSeen) {
   Frame frame;
   add_square(frame, 0, 0, 1);

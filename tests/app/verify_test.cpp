@@ -59,9 +59,9 @@ TEST_F(Verify, CountsEveryContactAndFindsTheFirst) {
   EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
   EXPECT_EQ(json["initial_intersections"], 0);
   EXPECT_EQ(json["first_time"], 0.25);
-  const Json first = {
-      {"pair", "vertex_face"}, {"features", {{3}, {0, 1, 2}}}, {"face", 0}, {"kind", "crossing"}, {"step", 1},
-      {"time", 0.25}};
+  const Json first = {{"pair", "vertex_face"}, {"features", {{3}, {0, 1, 2}}}, {"face", 0},
+                      {"cells", {{1}, {0}}},   {"kind", "crossing"},           {"step", 1},
+                      {"time", 0.25},          {"point", {1.0, 1.0, 0.0}}};
   EXPECT_EQ(json["first"], first);
   EXPECT_EQ(json["steps"], 1);
   EXPECT_EQ(json["faces"], 2);
@@ -73,7 +73,9 @@ TEST_F(Verify, CountsEveryContactAndFindsTheFirst) {
 TEST_F(Verify, PrintsTheFirstTimeWith17DigitsRoundedDown) {
   // From 1 to -2: the contact is at 1/3, and the double below it is 0.33333333333333331.
   const Process process = run_noli(frames({1, -2}));
-  EXPECT_NE(process.out.find(" at time 0.33333333333333331.\n"), std::string::npos) << process.out;
+  EXPECT_NE(process.out.find("  t = 0.3333  vertex 3 × face 0"), std::string::npos) << process.out;
+  const std::string all = run_noli(with(frames({1, -2}), {"-v"})).out;
+  EXPECT_NE(all.find("  t = 0.33333333333333331  crossing  vertex 3 × face 0 at (1, 1, "), std::string::npos) << all;
   const Process json = run_noli(with(frames({1, -2}), {"--json", "-"}));
   EXPECT_NE(json.out.find("\"first_time\": 0.33333333333333331,"), std::string::npos) << json.out;
 }
@@ -135,7 +137,7 @@ TEST_F(Verify, ListsNoMoreThanAskedButCountsAll) {
   EXPECT_EQ(json["reports"]["contacts"].size(), 2u);
   EXPECT_EQ(json["reports"]["left_out"], 1);
   EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
-  EXPECT_NE(run_noli(arguments).out.find("... and 1 more"), std::string::npos);
+  EXPECT_NE(run_noli(with(arguments, {"-v"})).out.find("... and 1 more (--max-reports)"), std::string::npos);
 }
 
 TEST_F(Verify, TakesASingleFrameAtRest) {

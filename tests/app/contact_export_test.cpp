@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `noli export RESULT.json`: a contact as a grid or as a picture.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "tests/support/temporary_folder.h"
+
+namespace noli::app_tests {
+namespace {
+
+class ContactExport : public testing::Test {
+ protected:
+  /// A result of frames in which the upper triangle goes through the lower one.
+  std::string result(std::vector<std::string> more = {}) const {
+    const std::string path = folder.path("result.json");
+    std::vector<std::string> words = {
+        "verify", folder.write("a.ply", two_triangles(1)), folder.write("b.ply", two_triangles(-1)), "--json", path,
+        "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    run_noli(words);
+    return path;
+  }
+
+  Process export_to(const std::string& output, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"export", folder.path("result.json"), "-o", folder.path(output)};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_noli(words);
+  }
+
+  void expect_refused(const Process& process, const std::string& part) const {
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(process.err.find(part), std::string::npos) << process.err;
+  }
+
+  Folder folder;
+};
+
+/// At the time of contact the upper triangle is where the lower one is: 1 for its face, 2 for the other.
+TEST_F(ContactExport, WritesTheGridAtTheTimeOfContact) {
+  result();
+  const Process process = export_to("hits.vtu");
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(process.out, "contact step 1 time 0.5 cells 2\n");
+  const std::string grid = test::read_text(folder.path("hits.vtu"));
+  EXPECT_NE(grid.find("<CellData Scalars=\"contact\">"), std::string::npos);
+  const std::string marks = "AgAAAAAAAAACAQ==";  // two bytes: 2, 1
+  EXPECT_NE(grid.find(marks), std::string::npos) << grid;
+}
+
+TEST_F(ContactExport, PaintsBothSidesInTheirColours) {
+#ifdef NOLI_WITH_PNG
+  result();
+  EXPECT_EQ(export_to("first.png", {"--size", "200x150"}).exit_code, 0);
+  EXPECT_EQ(test::read_text(folder.path("first.png")).substr(1, 3), "PNG");
+#else
+  result();
+  expect_refused(export_to("first.png"), "NOLI_WITH_PNG");
+#endif
+}
+
+TEST_F(ContactExport, ShowsWhichOneIsAskedFor) {
+  result();
+  EXPECT_EQ(export_to("third.vtu", {"--contact", "3"}).exit_code, 0);
+  expect_refused(export_to("fourth.vtu", {"--contact", "4"}), "lists 3 contacts");
+}
+
+TEST_F(ContactExport, RefusesFramesThatHaveChanged) {
+  result();
+  folder.write("b.ply", two_triangles(-2));
+  expect_refused(export_to("hits.vtu"), "is about other frames");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("hits.vtu")));
+}
+
+TEST_F(ContactExport, RefusesResultsWithoutContact) {
+  const std::string path = folder.path("result.json");
+  run_noli(
+      {"verify", folder.write("a.ply", two_triangles(1)), folder.write("b.ply", two_triangles(2)), "--json", path});
+  expect_refused(export_to("hits.vtu"), "has no contact");
+  folder.write("result.json", "{}");
+  expect_refused(export_to("hits.vtu"), "is no result of noli verify");
+}
+
+TEST_F(ContactExport, RefusesWhatIsForRuns) {
+  result();
+  expect_refused(export_to("hits.ply"), "ends in .vtu or .png");
+  expect_refused(export_to("hits.png", {"--at", "1"}), "are for runs");
+}
+
+TEST_F(ContactExport, ReplacesNothingUnlessForced) {
+  result();
+  folder.write("hits.vtu", "mine");
+  expect_refused(export_to("hits.vtu"), "hits.vtu");
+  EXPECT_EQ(test::read_text(folder.path("hits.vtu")), "mine");
+  EXPECT_EQ(export_to("hits.vtu", {"--force"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace noli::app_tests
