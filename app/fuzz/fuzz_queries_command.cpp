@@ -45,11 +45,13 @@ constexpr const char* queries_footer =
     "Examples:\n"
     "  noli fuzz queries --library ./mine.so --for 60s --tolerance 1e-6\n"
     "  noli fuzz queries --library ./mine.so --minimise queries-edge-edge.csv\n"
-    "  noli fuzz queries --replay findings/seed1-block7-index3-edge-edge.csv\n"
+    "  noli fuzz queries --library ./mine.so --replay fuzz-findings/*.csv\n"
     "  noli fuzz queries --for 60s --seed 1                the kernel itself\n"
     "  noli fuzz queries --count 1000000 --threads 2 --corpus corpus --json result.json\n";
 
-struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon, AgainArguments {
+struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon {
+  std::vector<std::string> replay;
+  std::optional<std::string> minimise;
   std::size_t max_findings = audit::FuzzSettings().max_findings;
   bool out_given = false;
 };
@@ -64,7 +66,8 @@ std::string again(const FuzzArguments& arguments, const fs::path& file) {
 std::vector<fs::path> inputs(const FuzzArguments& arguments) {
   std::vector<fs::path> files;
   if (arguments.asks_a_library()) files.push_back(arguments.asked.path);
-  if (arguments.given()) files.emplace_back(arguments.saved());
+  files.insert(files.end(), arguments.replay.begin(), arguments.replay.end());
+  if (arguments.minimise) files.emplace_back(*arguments.minimise);
   return files;
 }
 
@@ -149,26 +152,47 @@ std::string not_asked_text(const OneFile& file) {
                                  file.queries().size());
 }
 
-/// Decides the queries of a file again. Throws InputError.
+/// What a replay found, in all files.
+struct Replayed {
+  std::vector<std::string> differences;
+  std::size_t queries = 0, not_asked = 0;
+  bool probe = false;
+  std::string text;
+};
+
+Replayed replay_files(const FuzzArguments& arguments) {
+  Replayed all;
+  const bool one = arguments.replay.size() == 1;
+  for (const std::string& path : arguments.replay) {
+    const OneFile file(arguments, path);
+    for (const std::string& difference : file.differences()) {
+      all.differences.push_back(one ? difference : on_one_line(path) + ": " + difference);
+      all.text += all.differences.back() + '\n';
+    }
+    all.queries += file.asked();
+    all.not_asked += file.queries().size() - file.asked();
+    all.probe = all.probe || file.queries().at(0).probe.has_value();
+    all.text += not_asked_text(file);
+    if (interrupted()) break;
+  }
+  return all;
+}
+
+/// Decides the queries of files again. Throws InputError.
 ExitCode replay(const FuzzArguments& arguments) {
   const Output output(arguments.results, inputs(arguments));
-  const OneFile file(arguments, *arguments.replay);
-  const std::vector<std::string> differences = file.differences();
-  const std::size_t queries = file.asked();
-  const bool undecided = interrupted() || (queries < file.queries().size() && differences.empty());
+  const Replayed found = replay_files(arguments);
+  const auto& [differences, queries, not_asked, probe, text] = found;
+  const bool undecided = interrupted() || (not_asked > 0 && differences.empty());
   const char* const word = undecided                    ? "undecided"
                            : !differences.empty()       ? "finding"
                            : arguments.asks_a_library() ? "no_finding"
                                                         : "no_difference";
-  const Json json = {{"verdict", word},
-                     {"queries", queries},
-                     {"not_asked", file.queries().size() - queries},
-                     {"findings", differences.size()},
-                     {"probe", file.queries().at(0).probe.has_value()},
-                     {"differences", differences}};
+  const Json json = {{"verdict", word},        {"queries", queries},
+                     {"not_asked", not_asked}, {"findings", differences.size()},
+                     {"probe", probe},         {"differences", differences}};
   report::Answer answer(json, {"queries", "findings"});
-  for (const std::string& difference : differences) answer.text += difference + '\n';
-  answer.text += not_asked_text(file);
+  answer.text = text;
   output.write("fuzz-replay", answer, json);
   return fuzz_exit_code(undecided, !differences.empty());
 }
@@ -230,7 +254,7 @@ ExitCode run(const FuzzArguments& arguments, Options options, const Output& outp
 
 ExitCode run(FuzzArguments& arguments) {
   settle_library(arguments);
-  if (arguments.replay) return replay(arguments);
+  if (!arguments.replay.empty()) return replay(arguments);
   if (arguments.minimise) return minimise(arguments);
   const Output output = begin_fuzzing(arguments, inputs(arguments));
   if (!arguments.asks_a_library()) {
@@ -260,7 +284,7 @@ Command add_fuzz_queries(CLI::App& fuzz) {
   add_library_options(*command, *arguments, "the kernel");
   CLI::Option* const out = command->get_option("--out");
   CLI::Option* const again =
-      command->add_option("--replay", arguments->replay, "Decide the queries of this file again instead")
+      command->add_option("--replay", arguments->replay, "Decide the queries of these files again instead")
           ->type_name("FILE");
   CLI::Option* const smaller = command
                                    ->add_option("--minimise", arguments->minimise,

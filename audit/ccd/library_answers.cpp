@@ -29,13 +29,15 @@ std::string words(const ExactContact& exact) {
   return fmt::format("they meet at {:.17g} ({})", exact.time, name(exact.kind));
 }
 
-std::optional<FaultFound> fault_of_time(double time, const ExactContact& exact, bool knows_times) {
+std::optional<FaultFound> fault_of_time(double time, const ExactContact& exact, bool knows_times,
+                                        double late_tolerance) {
   const auto found = [&](LibraryFault fault) {
     return FaultFound{fault, exact.kind, fmt::format("{}: {:.17g}, {}", name(fault), time, words(exact))};
   };
   if (std::isnan(time)) return knows_times ? std::optional(found(LibraryFault::no_time)) : std::nullopt;
   if (!(time >= 0 && time <= 1)) return found(LibraryFault::bad_time);
-  if (time == exact.time) return std::nullopt;
+  const bool near_enough = time > exact.time && time - exact.time <= late_tolerance;
+  if (time == exact.time || near_enough) return std::nullopt;
   return found(time > exact.time ? LibraryFault::late : LibraryFault::early);
 }
 
@@ -71,7 +73,7 @@ std::optional<ExactContact> exact_contact(const AnyQuery& query) {
 }
 
 std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optional<ExactContact>& exact,
-                                   bool knows_times) {
+                                   bool knows_times, double late_tolerance) {
   const auto found = [&](LibraryFault fault, const std::string& more) {
     return FaultFound{fault, exact ? exact->kind : ContactKind::apart, fmt::format("{}: {}", name(fault), more)};
   };
@@ -81,10 +83,26 @@ std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optio
   if (code != NOLI_CCD_HIT && code != NOLI_CCD_NO_HIT)
     return found(LibraryFault::failure, fmt::format("code {}", code));
   const bool hit = code != NOLI_CCD_NO_HIT;
-  if (hit && exact) return fault_of_time(answer.given.time, *exact, knows_times);
+  if (hit && exact) return fault_of_time(answer.given.time, *exact, knows_times, late_tolerance);
   if (hit) return found(LibraryFault::false_positive, "hit, but they stay apart");
   if (!exact) return std::nullopt;
   return found(LibraryFault::false_negative, "no hit, " + words(*exact));
+}
+
+int rank(LibraryFault fault) {
+  switch (fault) {
+    case LibraryFault::false_negative: return 0;
+    case LibraryFault::crash: return 1;
+    case LibraryFault::hang: return 2;
+    case LibraryFault::memory: return 3;
+    case LibraryFault::failure: return 4;
+    case LibraryFault::bad_time: return 5;
+    case LibraryFault::no_time: return 6;
+    case LibraryFault::false_positive: return 7;
+    case LibraryFault::early: return 8;
+    case LibraryFault::late: return 9;
+  }
+  return 10;
 }
 
 }  // namespace noli::audit

@@ -5,7 +5,7 @@
 //
 // Faults, of a query whose features meet first at t*
 //   false_negative   "no hit", but they meet
-//   late             a time after t*, by however little
+//   late             a time after t*, by however little, or by more than `late_tolerance`
 //   bad_time         one outside [0, 1]
 //   no_time          none (NaN), though the library knows times (`knows_times`)
 //   failure          an answer but "hit" and "no hit"
@@ -36,9 +36,10 @@ namespace noli::audit {
 /// A library, and what it says of itself.
 struct LibraryUnderTest {
   std::filesystem::path path;
-  double tolerance = 1e-6;  ///< what it is told, a length
-  bool exact = false;       ///< it claims to be: false positives and early times are faults
-  HostOptions host;         ///< nothing is asked again, whatever `repeat_seconds`
+  double tolerance = 1e-6;    ///< what it is told, a length
+  bool exact = false;         ///< it claims to be: false positives and early times are faults
+  double late_tolerance = 0;  ///< times that are late by no more than that are no faults; part of the step
+  HostOptions host;           ///< nothing is asked again, whatever `repeat_seconds`
 };
 
 enum class LibraryFault {
@@ -121,7 +122,10 @@ struct FaultFound {
 /// What is wrong with an answer, false positives and early times included: whether they count is the caller's to say
 /// (`counts`). Nothing for a query that was not asked.
 std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optional<ExactContact>& exact,
-                                   bool knows_times);
+                                   bool knows_times, double late_tolerance = 0);
+
+/// Missed contacts first, then answers that are none, lateness last: the order in which a person should read findings.
+int rank(LibraryFault fault);
 
 /// Whether it is a finding with a library that claims that.
 constexpr bool counts(LibraryFault fault, bool exact) {

@@ -122,6 +122,9 @@ class LibraryFuzzing
       save(finding);
       different.push_back(std::move(finding));
     }
+    std::ranges::stable_sort(different, {}, [](const LibraryFinding& finding) {
+      return std::pair(rank(finding.found.fault), finding.found.kind != ContactKind::crossing);
+    });
     findings = std::move(different);
   }
 
@@ -139,7 +142,7 @@ class LibraryFuzzing
         const ReachingQuery reaching{{query, std::nullopt}, exact.has_value()};
         result.reached.try_emplace(whole_signature(query, answers[i], exact), reaching);
       }
-      const auto fault = fault_of(answers[i], exact, report_.knows_times);
+      const auto fault = fault_of(answers[i], exact, report_.knows_times, asked_.late_tolerance);
       if (!fault) continue;
       ++result.faults[static_cast<std::size_t>(fault->fault)];
       if (counts(fault->fault, asked_.exact))
@@ -226,7 +229,7 @@ ShrunkForLibrary shrink_for_library(const LibraryUnderTest& library, const AnyQu
       costly += state == AnswerState::hung || state == AnswerState::too_much_memory ? 1 : 0;
     }
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      const auto found = fault_of(answers[i], exact_contact(queries[i]), knows_times);
+      const auto found = fault_of(answers[i], exact_contact(queries[i]), knows_times, library.late_tolerance);
       if (found && found->is_like(fault)) return i;
     }
     return std::nullopt;
@@ -234,7 +237,7 @@ ShrunkForLibrary shrink_for_library(const LibraryUnderTest& library, const AnyQu
   const AnyQuery shrunk = minimise(query, first_failure);
   if (shrunk == query) return {query, fault};
   const std::vector<LibraryAnswer> again = ask(library, shrunk.pair, std::span(&shrunk, 1));
-  const auto found = fault_of(again[0], exact_contact(shrunk), knows_times);
+  const auto found = fault_of(again[0], exact_contact(shrunk), knows_times, library.late_tolerance);
   if (!found || !found->is_like(fault)) return {query, fault};  // another answer than before
   return {shrunk, *found};
 }
@@ -246,7 +249,7 @@ FaultsFound faults_of(const LibraryUnderTest& library, FeaturePair pair, std::sp
   const std::vector<LibraryAnswer> answers = ask(library, pair, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     result.asked += answers[i].given.state == AnswerState::not_asked ? 0 : 1;
-    const auto fault = fault_of(answers[i], exact_contact(queries[i]), knows_times);
+    const auto fault = fault_of(answers[i], exact_contact(queries[i]), knows_times, library.late_tolerance);
     if (fault && counts(fault->fault, library.exact)) result.faults[i] = fault;
   }
   return result;

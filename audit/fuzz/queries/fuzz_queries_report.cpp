@@ -7,6 +7,7 @@
 
 #include <noli/errors.h>
 #include "audit/fuzz/queries/minimise_query.h"
+#include "audit/fuzz/queries/saved_query.h"
 
 namespace noli::audit {
 namespace {
@@ -107,6 +108,7 @@ Json finding_json(const QueryFuzzSettings& options, const LibraryFinding& findin
           {"index", finding.index},
           {"alike", finding.alike},
           {"query", query_json(finding.shrunk)},
+          {"c_array", c_array(finding.shrunk)},
           {"distinct_coordinates", distinct_coordinates(finding.shrunk)},
           {"file", finding.file.string()},
           {"command", command_for(options, finding.file)}};
@@ -191,9 +193,9 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
 std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
   std::string text;
   for (const auto& finding : report.findings) {
-    text += fmt::format("{}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
-                        finding.found.words, finding.generator, finding.block, finding.index, finding.alike,
-                        distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
+    text += fmt::format("{}\n  {}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
+                        finding.found.words, c_array(finding.shrunk), finding.generator, finding.block, finding.index,
+                        finding.alike, distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
   }
   if (options.corpus) text += corpus_text(report.corpus);
   return text + "Generators (what each attacks):\n" + generators_text(options, report);

@@ -82,6 +82,16 @@ std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {
   return result;
 }
 
+std::string c_array(const AnyQuery& query) {
+  const auto point = [](const Point3& x) { return fmt::format("{{{:.17g}, {:.17g}, {:.17g}}}", x[0], x[1], x[2]); };
+  const auto points = [&](const auto& x) {
+    std::string text;
+    for (std::size_t i = 0; i < query.size(); ++i) text += (i == 0 ? "" : ", ") + point(x[i]);
+    return '{' + text + '}';
+  };
+  return fmt::format("double x[2][{}][3] = {{{}, {}}};", query.size(), points(query.x_t0), points(query.x_t1));
+}
+
 std::string quoted(const std::string& word) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./,:@";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;

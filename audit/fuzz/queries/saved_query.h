@@ -38,6 +38,9 @@ std::optional<QueryType> saved_type(std::string_view text);
 /// else they were asked: "# noli-fuzz ..." (audit/fuzz/queries/probe.h). Throws InputError.
 std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file);
 
+/// "double x[2][4][3] = {{...}, {...}};": its points at t = 0 and at t = 1, to paste into a test in C or C++.
+std::string c_array(const AnyQuery& query);
+
 /// A word of a shell's command line.
 std::string quoted(const std::string& word);
 

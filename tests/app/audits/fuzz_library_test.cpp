@@ -80,6 +80,51 @@ TEST_F(FuzzLibrary, ShrinksAndSavesWhatItFinds) {
   EXPECT_EQ(run_noli({"audit", "ccd", "--library", mutant("end_excluded"), file}).exit_code, 1);
 }
 
+TEST_F(FuzzLibrary, ShowsMissedCrossingsFirstAndLatenessLast) {
+  const Json document = json(plugin("textbook"), 1, {"--count", "3000"});
+  const auto order = [](const Json& report) {
+    return report["finding"] == "false_negative" ? (report["contact"] == "crossing" ? 0 : 1) : 2;
+  };
+  std::vector<int> orders;
+  for (const Json& report : document["reports"]) orders.push_back(order(report));
+  EXPECT_TRUE(std::is_sorted(orders.begin(), orders.end()));
+  EXPECT_EQ(document["reports"].back()["finding"], "late");
+}
+
+TEST_F(FuzzLibrary, GivesACArrayToPaste) {
+  const Process process = run(mutant("end_excluded"), {"--count", "1000", "--first-only"});
+  EXPECT_NE(process.out.find("\n  double x[2][4][3] = {{{"), std::string::npos) << process.out;
+  const std::string array =
+      json(mutant("end_excluded"), 1, {"--count", "1000", "--first-only"})["reports"][0]["c_array"];
+  const auto source =
+      folder.write("array.c", "int main(void) { " + array + " return x[0][0][0] == x[0][0][0] ? 0 : 1; }\n");
+  EXPECT_EQ(std::system((NOLI_C_COMPILER " -o '" + folder.path("array") + "' '" + source + "'").c_str()), 0) << array;
+}
+
+TEST_F(FuzzLibrary, AllowsTimesThatAreLateByNoMoreThanIsSaid) {
+  const Json strict = json(plugin("textbook"), 1, {"--count", "3000"});
+  const Json lenient = json(plugin("textbook"), 1, {"--count", "3000", "--late-tolerance", "1e-9"}),
+             blind = json(plugin("textbook"), 1, {"--count", "3000", "--late-tolerance", "1"});
+  EXPECT_GT(strict["faults"]["late"], 0);
+  EXPECT_LT(lenient["faults"]["late"], strict["faults"]["late"]);
+  EXPECT_EQ(blind["faults"]["late"], 0);
+  EXPECT_EQ(lenient["faults"]["false_negative"], strict["faults"]["false_negative"]);
+  const std::string command = lenient["reports"][0]["command"];
+  EXPECT_NE(command.find(" --late-tolerance 1e-09 "), std::string::npos) << command;
+}
+
+TEST_F(FuzzLibrary, ReplaysManyFiles) {
+  const Json found = json(plugin("textbook"), 1, {"--count", "2000"});
+  std::vector<std::string> words = {"fuzz", "queries", "--library", plugin("textbook"), "--replay"};
+  for (const Json& report : found["reports"]) words.push_back(report["file"]);
+  ASSERT_GT(found["reports"].size(), 2U);
+  const Json all = json_of(words, 1);
+  EXPECT_EQ(all["queries"], found["reports"].size());
+  EXPECT_EQ(all["findings"], found["reports"].size());
+  const std::string first = all["differences"][0];
+  EXPECT_TRUE(first.starts_with(found["reports"][0]["file"].get<std::string>() + ": ")) << first;
+}
+
 TEST_F(FuzzLibrary, GivesTheSameForAnyNumberOfThreads) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
     std::filesystem::remove_all(folder.path("out" + seed));  // findings that are there would be given other names
