@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+# Debian packages by CPack: noli, libnoli-dev, noli-doc. `scripts/package` makes them; what it generates (man pages, completions, the
+# documentation, copyright and changelogs as Debian wants them) lies in build/packages/generated, and is installed only where it is.
+set(generated "${CMAKE_SOURCE_DIR}/build/packages/generated")
+foreach(package noli libnoli-dev noli-doc)
+  set(component runtime)
+  if(package STREQUAL libnoli-dev)
+    set(component dev)
+  elseif(package STREQUAL noli-doc)
+    set(component doc)
+  endif()
+  install(DIRECTORY "${generated}/${package}/" DESTINATION . COMPONENT ${component} OPTIONAL
+          FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME noli)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "certify exactly that moving meshes do not touch")
+set(CPACK_PACKAGE_CONTACT "The Noli authors <noli@example.org>")
+set(CPACK_PACKAGE_DIRECTORY "${CMAKE_SOURCE_DIR}/build/packages")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL runtime dev doc)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME noli)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "noli-doc, libnoli-dev")
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Noli decides in exact arithmetic whether anything touched between the frames
+of a simulation, and writes a proof that a separate checker verifies. It also
+simulates scenes with certified contact, fuzzes collision detection libraries
+and audits how far their answers and floating-point numbers can be trusted.")
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libnoli-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "noli (= ${PROJECT_VERSION}), libcgal-dev, libfmt-dev, libgmp-dev, libmpfr-dev, libtbb-dev")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "C++ headers and static libraries of Noli: exact continuous collision detection
+for CGAL users, verification of frames in memory or in a solver's loop,
+certified simulation, and proofs; with examples and a CMake package.")
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME noli-doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOC_DESCRIPTION "Tutorials for certifying frames, simulating, fuzzing, auditing and checking
+proofs with Noli, and reference pages for commands, formats and the C++ API.")
+include(CPack)
+cpack_add_component(runtime)
+cpack_add_component(dev DEPENDS runtime)
+cpack_add_component(doc)
