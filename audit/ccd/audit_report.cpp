@@ -193,6 +193,14 @@ void append_findings(const AuditOutcome& outcome, const LibraryAudit& audit, std
   }
 }
 
+/// Below the tables.
+constexpr const char* legend =
+    "  false-  no hit, but the features meet: a missed contact    false+  a hit, but they stay apart\n"
+    "  late    the time is after the first contact: how often, and at worst by which part of the step\n"
+    "  early-  by which part of the step times before the first contact are early: median, worst\n"
+    "  bad-times  outside [0, 1], or none    changed  another answer when the same query is asked again\n"
+    "  x-textbook  time per query as a multiple of the textbook cubic solver's, in this run\n";
+
 }  // namespace
 
 Json errors_json(const TimeErrors& errors) {
@@ -258,6 +266,7 @@ report::Answer audit_answer(const AuditOutcome& outcome) {
   append_said(outcome, text);
   if (outcome.files.size() > 1) text += "All files:\n" + table_of_libraries(outcome);
   for (std::size_t i = 0; i < outcome.files.size(); ++i) append_file(outcome, i, text);
+  text += legend;
   for (const LibraryAudit& audit : outcome.audits) append_findings(outcome, audit, text);
   return answer;
 }

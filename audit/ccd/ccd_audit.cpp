@@ -72,12 +72,16 @@ class Marking {
       audit_.growth_per_query = static_cast<double>(answers_.growth) / static_cast<double>(answers_.repeated);
     }
     audit_.complete = answers_.complete;
+    for (AuditFinding& late : late_) {
+      if (audit_.findings.size() < max_reports_) audit_.findings.push_back(std::move(late));
+    }
     return std::move(audit_);
   }
 
  private:
   void report(std::size_t i, std::string_view what, const std::string& words = "") {
-    if (audit_.findings.size() < max_reports_) audit_.findings.push_back({i + 1, std::string(what), words});
+    auto& list = what == "late" ? late_ : audit_.findings;
+    if (list.size() < max_reports_) list.push_back({i + 1, std::string(what), words});
   }
 
   void mark(std::size_t i) {
@@ -133,6 +137,7 @@ class Marking {
   const Exam& exam_;
   const LibraryAnswers& answers_;
   std::size_t max_reports_;
+  std::vector<AuditFinding> late_;  ///< reported where others leave room
   bool knows_times_ = false;
   FileAudit audit_;
   AuditCounts& counts_ = audit_.counts;

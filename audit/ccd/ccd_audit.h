@@ -84,7 +84,7 @@ struct AuditFinding {
 struct FileAudit {
   std::size_t file = 0;  ///< in AuditOutcome::files
   AuditCounts counts;
-  std::vector<AuditFinding> findings;        ///< at most max_reports
+  std::vector<AuditFinding> findings;        ///< at most max_reports; late times behind all others
   std::vector<std::size_t> false_positives;  ///< queries, from 1; at most max_reports
   double growth_per_query = 0;               ///< bytes of memory, when asked again
   bool complete = true;
