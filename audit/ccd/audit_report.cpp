@@ -194,7 +194,7 @@ void append_findings(const AuditOutcome& outcome, const LibraryAudit& audit, std
 }
 
 /// Below the tables.
-constexpr const char* legend =
+constexpr const char* columns_explained =
     "  false-  no hit, but the features meet: a missed contact    false+  a hit, but they stay apart\n"
     "  late    the time is after the first contact: how often, and at worst by which part of the step\n"
     "  early-  by which part of the step times before the first contact are early: median, worst\n"
@@ -266,7 +266,7 @@ report::Answer audit_answer(const AuditOutcome& outcome) {
   append_said(outcome, text);
   if (outcome.files.size() > 1) text += "All files:\n" + table_of_libraries(outcome);
   for (std::size_t i = 0; i < outcome.files.size(); ++i) append_file(outcome, i, text);
-  text += legend;
+  text += columns_explained;
   for (const LibraryAudit& audit : outcome.audits) append_findings(outcome, audit, text);
   return answer;
 }
