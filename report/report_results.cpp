@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <noli/errors.h>
 #include "integrator/scene/json_text.h"
@@ -56,6 +58,7 @@ class Verified {
     if (!scene_) take_end_of_run();
     for (const std::string& line : lines()) report_.page["verdict"]["lines"].push_back(line);
     report_.page["statement"] = statement_in_words(result_.at("statement"));
+    put_weakenings();
     put_inputs();
   }
 
@@ -121,7 +124,30 @@ class Verified {
     for (const Json& feature : features) require_feature(feature);
     const std::uint64_t step = count(contact.at("step"), "step");
     if (step == 0 || step > steps_) refuse(fmt::format("lists a contact in step {} of {}", step, steps_));
-    return {{"step", step}, {"pair", contact.at("pair").get<std::string>()}, {"features", features}};
+    Json shown = {{"step", step}, {"pair", contact.at("pair").get<std::string>()}, {"features", features}};
+    add_details(contact, shown);
+    return shown;
+  }
+
+  /// Results of older versions lack some or all of these.
+  static void add_details(const Json& contact, Json& shown) {
+    const auto has = [&](const char* key) { return contact.contains(key) && !contact.at(key).is_null(); };
+    if (has("time")) shown["time"] = contact.at("time").get<double>();
+    if (has("kind")) shown["kind"] = contact.at("kind").get<std::string>();
+    if (has("cells")) shown["cells"] = contact.at("cells").get<std::array<std::vector<std::uint64_t>, 2>>();
+    if (has("bodies")) shown["bodies"] = contact.at("bodies").get<std::array<std::string, 2>>();
+    if (has("point")) shown["point"] = contact.at("point").get<std::array<double, 3>>();
+  }
+
+  /// How many contacts each step has; nothing where the result does not say.
+  Json per_step() const {
+    Json totals = Json::array();
+    for (const Json& step : result_.value("per_step", Json::array())) {
+      std::uint64_t total = 0;
+      for (const auto& [kind, number] : step.at("contacts").items()) total += count(number, kind);
+      totals.push_back(total);
+    }
+    return totals;
   }
 
   Json contacts() {
@@ -130,9 +156,12 @@ class Verified {
     if (all.size() > contacts_) refuse(fmt::format("lists {} contacts, but counts {}", all.size(), contacts_));
     Json list = Json::array();
     for (std::size_t i = 0; i < all.size() && i < most_listed; ++i) list.push_back(listed(all.at(i)));
+    const Json& first = result_.at("first");
     return {{"counts", result_.at("contacts")},
             {"total", contacts_},
             {"initial", count(result_.at("initial_intersections"), "initial_intersections")},
+            {"per_step", per_step()},
+            {"first", first.is_null() ? Json() : listed(first)},
             {"listed", list}};
   }
 
@@ -145,23 +174,34 @@ class Verified {
     end_ = end_text(run);
   }
 
+  /// What makes the claim weaker than the one that `noli check` asks by default.
+  void put_weakenings() const {
+    const Json claim = result_.value("claim", Json());
+    if (!claim.is_object() || claim.value("weaker", Json::array()).empty()) return;
+    report_.page["statement"].push_back({"weaker than the default claim", value_in_words(claim.at("weaker")), true});
+  }
+
   /// What was looked at, and by whom, below the statement.
   void put_inputs() const {
     Json& rows = report_.page["statement"];
     if (const Json noli = result_.value("noli", Json()); noli.is_object()) {
-      rows.push_back({"decided by", fmt::format("noli {} ({})", noli.at("version").get<std::string>(),
-                                                noli.at("commit").get<std::string>())});
+      rows.push_back(
+          {"decided by",
+           fmt::format("noli {} ({})", noli.at("version").get<std::string>(), noli.at("commit").get<std::string>()),
+           false});
     }
     if (const Json checker = result_.value("checker", Json()); checker.is_object()) {
       rows.push_back({"checked by",
                       fmt::format("{} {} ({})", checker.at("name").get<std::string>(),
-                                  checker.at("version").get<std::string>(), checker.at("commit").get<std::string>())});
+                                  checker.at("version").get<std::string>(), checker.at("commit").get<std::string>()),
+                      false});
     }
     const Json inputs = result_.value("inputs", Json::array());
     for (std::size_t i = 0; i < inputs.size() && i < most_inputs; ++i) {
-      rows.push_back({fmt::format("input {}", i + 1), input_in_words(inputs.at(i))});
+      rows.push_back({fmt::format("input {}", i + 1), input_in_words(inputs.at(i)), false});
     }
-    if (inputs.size() > most_inputs) rows.push_back({"more inputs", fmt::format("{}", inputs.size() - most_inputs)});
+    if (inputs.size() > most_inputs)
+      rows.push_back({"more inputs", fmt::format("{}", inputs.size() - most_inputs), false});
   }
 
   static std::string input_in_words(const Json& input) {
