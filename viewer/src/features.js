@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Features and contacts in words.
+import { number, words } from "./dom.js";
+
+const names = ["vertex", "edge", "face"];
+
+/** "edge 3-7", or "edge cloth[3]-cloth[7]" where the scene has several parts. */
+export function featureText(feature, parts = []) {
+  const vertex = (v) => {
+    const part = parts.length > 1 ? parts.find((p) => v >= p.first && v < p.first + p.vertices) : null;
+    return part ? `${part.name}[${v - part.first}]` : String(v);
+  };
+  return `${names[feature.length - 1]} ${feature.map(vertex).join("-")}`;
+}
+
+/** "edge 3-7 × vertex 9". */
+export const pairText = (contact, parts) => contact.features.map((f) => featureText(f, parts)).join(" × ");
+
+/** All that is known of a contact. `inStep`: times are parts of a step, else seconds. */
+export function contactText(contact, parts, inStep) {
+  const facts = [pairText(contact, parts)];
+  if (contact.kind) facts.push(words(contact.kind));
+  if (contact.bodies) facts.push(`${contact.bodies.join(" and ")}`);
+  facts.push(`${inStep ? "step" : "window"} ${number(contact.step)}`);
+  if (contact.time !== undefined) facts.push(inStep ? `t = ${number(contact.time)}` : `${number(contact.time)} s`);
+  if (contact.cells) facts.push(`cells ${contact.cells.map((cells) => cells.join(", ")).join(" × ")}`);
+  if (contact.point) facts.push(`at (${contact.point.map((x) => number(x, 5)).join(", ")})`);
+  return facts.join(" · ");
+}
+
+const same = (a, b) => a.step === b.step && JSON.stringify(a.features) === JSON.stringify(b.features);
+
+/** The contacts of a page by step and time, with the first one in front, whether or not it is among the listed. */
+export function inOrder({ listed, first }, most) {
+  const timed = listed.every((c) => c.time !== undefined);
+  const sorted = timed ? [...listed].sort((a, b) => a.step - b.step || a.time - b.time) : listed;
+  if (!first) return sorted;
+  const known = sorted.find((c) => same(c, first));
+  return [{ ...known, ...first }, ...sorted.filter((c) => c !== known)].slice(0, most);
+}
