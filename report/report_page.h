@@ -4,12 +4,14 @@
 //
 // What the page reads (viewer/src/data.js), as JSON:
 //   title, made      texts
-//   verdict          word, tone: "neutral", "good", "open" or "bad" (report_verdict.h), lines: texts
+//   verdict          word, tone: "neutral", "good", "open" or "bad" (report_verdict.h), lines: texts,
+//                    caveats: those of the lines that a page never folds
 //   facts            pairs of texts; statement: [name, text, shown], shown: to be read without unfolding anything
 //   scene            null, or dimension, vertices, cells {faces, edges, points},
 //                    parts [{name, first, vertices, fixed}], frames, times, unit, least, greatest,
 //                    steps {begin, list: the ends of the steps}, note
-//   contacts         null, or counts by kind, total, initial, per_step [totals], first: null or a contact, listed:
+//   contacts         null, or counts by kind, total, initial, per_step [totals], settled: no contact is earlier
+//                    than the first, first: null or a contact, listed:
 //                    contacts {step, pair, features, and if the result has them time, kind, cells, bodies, point}
 //   focus            of a run: null, or the pair that its motion opens with {meets, features, time, words}
 //   plots            [{title, x, y, log, times, series: [{name, values}]}]

@@ -56,7 +56,9 @@ class Verified {
     report_.page["contacts"] = contacts();
     take_verdict();
     if (!scene_) take_end_of_run();
+    report_.page["contacts"]["settled"] = settled();
     for (const std::string& line : lines()) report_.page["verdict"]["lines"].push_back(line);
+    for (const std::string& line : caveats()) add_caveat(line, report_);
     report_.page["statement"] = statement_in_words(result_.at("statement"));
     put_weakenings();
     put_inputs();
@@ -223,7 +225,6 @@ class Verified {
                     page_name(path_), looked_at_, steps_,
                     result_.at("statement").contains("windows") ? "window(s) were" : "step(s) were", contacts_)};
     if (!end_.empty()) lines.push_back(end_);
-    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not all that was asked for was decided.");
     add_first(lines);
     add_near(lines);
     add_proof(lines);
@@ -231,19 +232,28 @@ class Verified {
     return lines;
   }
 
+  bool first_only() const { return result_.at("statement").at("first_only").get<bool>(); }
+
+  /// Whether no contact can be earlier than the first.
+  bool settled() const { return result_.at("complete").get<bool>() && !first_only(); }
+
   void add_first(std::vector<std::string>& lines) const {
     const Json& first = result_.at("first");
     if (first.is_null()) return;
-    const bool any = result_.at("statement").at("first_only").get<bool>();
-    const bool settled = result_.at("complete").get<bool>() && !any;
-    lines.push_back(fmt::format("The first {}is a {}, in step {} at time {}.", settled ? "" : "that was found ",
+    lines.push_back(fmt::format("The first {}is a {}, in step {} at time {}.", settled() ? "" : "that was found ",
                                 first.at("kind").get<std::string>(), count(first.at("step"), "step"),
                                 digits17(first.at("time").get<double>())));
-    if (settled) return;
+  }
+
+  /// What is never folded, because it limits what the verdict says.
+  std::vector<std::string> caveats() const {
+    std::vector<std::string> lines;
+    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not all that was asked for was decided.");
+    if (settled() || result_.at("first").is_null()) return lines;
     lines.push_back(
-        fmt::format("What is said is of what was settled so far{}: there may be more contacts, and earlier "
-                    "ones.",
-                    any ? " (first contact only)" : ""));
+        fmt::format("What is said is of what was settled so far{}: there may be more contacts, and earlier ones.",
+                    first_only() ? " (first contact only)" : ""));
+    return lines;
   }
 
   void add_near(std::vector<std::string>& lines) const {

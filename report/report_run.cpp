@@ -51,6 +51,8 @@ class Run {
     const bool nothing = rows_.empty() && log_.last_end == "done";
     take_word(nothing ? "undecided" : word_of_end(log_.last_end, log_.going_on), report);
     add_lines(report.page["verdict"]["lines"]);
+    if (log_.going_on) add_caveat("The run has not ended, or was killed.", report);
+    if (reader_.open_window()) add_caveat("A window that was never committed follows; it is left out.", report);
     report.page["facts"] = facts();
     if (rows_.empty()) return;  // nothing moves
     report.page["plots"] = report_plots(rows_);
@@ -83,8 +85,6 @@ class Run {
   void add_lines(Json& lines) const {
     lines.push_back(rows_.empty() ? "No window was committed: nothing is claimed." : claim());
     if (const std::string end = end_line(); !end.empty()) lines.push_back(end);
-    if (log_.going_on) lines.push_back("The run has not ended, or was killed.");
-    if (reader_.open_window()) lines.push_back("A window that was never committed follows; it is left out.");
     if (rows_.empty()) return;
     lines.push_back(full()
                         ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."

@@ -18,15 +18,15 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> names[] = {
     {"excluded", "not compared"},
     {"min_distance", "least distance"},
-    {"min_distance_from_ring", "least distance between features this many edges apart"},
+    {"min_distance_from_ring", "features fewer edges apart need only be disjoint"},
     {"strict", "features of one cell are compared too"},
-    {"points", "vertices that nothing refers to are points"},
+    {"points", "unreferenced vertices count as points"},
     {"static", "each frame by itself, at rest"},
-    {"keep_going", "goes on behind the first step with contact"},
+    {"keep_going", "checks all steps instead of stopping at the first contact"},
     {"first_only", "stops at any contact, which need not be the earliest"},
     {"merge_identical", "vertices that are always in one place are merged"},
     {"merged_vertices", "vertices that were merged"},
-    {"unreferenced_vertices_left_out", "vertices left out, because nothing refers to them"},
+    {"unreferenced_vertices_left_out", "unreferenced vertices that are ignored"},
 };
 
 std::string name_of(const std::string& key) {

@@ -239,6 +239,8 @@ TEST_F(Report, HasEveryConditionOfTheStatement) {
   EXPECT_EQ(stated(json, "stops at any contact, which need not be the earliest"), "no");
   EXPECT_TRUE(says(json, "The first is a crossing")) << json["verdict"];
   EXPECT_FALSE(says(json, "there may be more"));
+  EXPECT_TRUE(json["verdict"]["caveats"].empty());
+  EXPECT_EQ(json["contacts"]["settled"], true);
   const std::string first = folder.path("first.json");
   ASSERT_EQ(run_noli({"verify", "--first-only", "--merge-identical", "--json", first, frames[0], frames[1]}).exit_code,
             1);
@@ -247,6 +249,8 @@ TEST_F(Report, HasEveryConditionOfTheStatement) {
   EXPECT_EQ(stated(any, "stops at any contact, which need not be the earliest"), "yes");
   EXPECT_TRUE(says(any, "The first that was found is a crossing"));
   EXPECT_TRUE(says(any, "(first contact only): there may be more contacts, and earlier ones"));
+  EXPECT_EQ(any["verdict"]["caveats"].size(), 1u);
+  EXPECT_EQ(any["contacts"]["settled"], false);
 }
 
 TEST_F(Report, ShowsWhatDiffersFromDefaults) {
