@@ -22,19 +22,25 @@ function bodyCell(value) {
   return element("td", { className: kind }, content);
 }
 
-/** `columns`: [head, row => value], heads with units. Columns in which no row has anything are left out. */
+const empty = (value) => value === undefined || value === null || value === "";
+
+/**
+ * `columns`: [head, row => value, rare], heads with units. Columns in which no row has anything are left out; those of
+ * faults, which are rare, too where all are 0, and are named below.
+ */
 export function columnTable(title, rows, columns) {
   if (!rows || rows.length === 0) return null;
   const shown = rows.slice(0, mostRows).map((row) => columns.map(([, of]) => of(row)));
-  const used = columns.map((_, i) => shown.some((row) => row[i] !== undefined && row[i] !== null && row[i] !== ""));
-  const keep = (_, i) => used[i];
-  const right = (i) => shown.every((row) => row[i] === undefined || row[i] === null || typeof row[i] === "number");
+  const none = columns.map(([, , rare], i) => Boolean(rare) && shown.every((row) => row[i] === 0));
+  const keep = (_, i) => !none[i] && shown.some((row) => !empty(row[i]));
+  const right = (i) => shown.every((row) => empty(row[i]) || typeof row[i] === "number");
   const head = columns.map(([name], i) => element("th", { scope: "col", className: right(i) ? "number" : "" }, name)).filter(keep);
+  const left = columns.filter((_, i) => none[i]).map(([name]) => name);
   return element("div", {}, title ? element("h3", {}, title) : null,
     element("div", { className: "scroll" }, element("table", { ariaLabel: title ?? "" },
       element("thead", {}, element("tr", {}, ...head)),
       element("tbody", {}, ...shown.map((row) => element("tr", {}, ...row.filter(keep).map(bodyCell)))))),
-    more(rows.length - mostRows));
+    more(rows.length - mostRows), left.length > 0 ? element("p", { className: "soft" }, `None: ${left.join(", ")}.`) : null);
 }
 
 /** Names and counts as bars; those that are 0 are named below. */

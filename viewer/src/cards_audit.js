@@ -2,7 +2,7 @@
 //
 // Results of noli audit.
 import { columnTable, fileName, fold, libraryName, mustBeNone, paragraphs } from "./cards.js";
-import { words } from "./dom.js";
+import { number, pairName, words } from "./dom.js";
 import { featureText } from "./features.js";
 import { plotGrid, scatter } from "./plots.js";
 
@@ -12,7 +12,7 @@ const nanoseconds = "time per query [ns]";
 /** "textbook, tolerance 1e-6"; the tolerance only where libraries were asked with several. */
 function nameOf(audit, audits) {
   const several = new Set(audits.map((a) => a.tolerance)).size > 1;
-  return libraryName(audit.library) + (several ? `, tolerance ${audit.tolerance}` : "");
+  return libraryName(audit.library) + (several ? `, tolerance ${number(audit.tolerance)}` : "");
 }
 
 /** Audits with their times, which stand apart because they differ from run to run. */
@@ -22,8 +22,13 @@ const faultColumns = [
   ["false negatives", (a) => a.false_negatives], ["false positives", (a) => a.false_positives],
   ["late times", (a) => a.late.count], ["worst late [part of step]", (a) => a.late.worst],
   ["median early [part of step]", (a) => a.early.median], ["worst early [part of step]", (a) => a.early.worst],
-  ["bad times", (a) => a.bad_times], ["changed answers", (a) => a.changed], ["failures", (a) => a.failures],
-  ["crashes", (a) => a.crashes], ["hangs", (a) => a.hangs], ["leaks", (a) => a.leaks],
+];
+const rareColumns = [
+  ["bad times", (a) => a.bad_times, true], ["changed answers", (a) => a.changed, true], ["failures", (a) => a.failures, true],
+  ["crashes", (a) => a.crashes, true], ["hangs", (a) => a.hangs, true], ["out of memory", (a) => a.memory, true], ["leaks", (a) => a.leaks, true],
+];
+const timeColumns = [
+  [nanoseconds, (a) => a.ns_per_query], ["time / textbook method", (a) => a.textbook], ["slowest query [ns]", (a) => a.slowest_ns],
 ];
 
 function ccdPlots(audits) {
@@ -48,16 +53,15 @@ function ccdFindings(audits) {
 
 function ccdFiles(audits) {
   const rows = audits.flatMap((a) => a.files.map((file) => ({ ...file, library: nameOf(a, audits), name: fileName(file.file) })));
-  return fold("By file", columnTable("", rows, [["file", (f) => f.name], count("library"), count("queries"), ...faultColumns]));
+  return fold("By file", columnTable("", rows, [["file", (f) => f.name], count("library"), count("queries"), ...faultColumns, ...rareColumns]));
 }
 
 function ccd(result) {
   const audits = withTimes(result);
   return [grid(ccdPlots(audits)),
-    columnTable("Libraries, all files", audits, [["library", (a) => libraryName(a.library)], ["tolerance [length]", (a) => a.tolerance], count("queries"), ...faultColumns,
-      [nanoseconds, (a) => a.ns_per_query], ["time / textbook method", (a) => a.textbook], ["slowest query [ns]", (a) => a.slowest_ns]]),
+    columnTable("Libraries, all files", audits, [["library", (a) => libraryName(a.library)], ["tolerance [length]", (a) => a.tolerance], count("queries"), ...faultColumns, ...timeColumns, ...rareColumns]),
     ccdFindings(audits),
-    columnTable("Files", result.files, [["file", (f) => fileName(f.file)], ["kind", (f) => words(f.kind)], count("queries"), count("contacts"), count("labelled"),
+    columnTable("Files", result.files, [["file", (f) => fileName(f.file)], ["kind", (f) => pairName(f.kind)], count("queries"), count("contacts"), count("labelled"),
       ["wrong labels", (f) => (f.wrong_labels ?? []).length]]),
     ccdFiles(audits)];
 }
@@ -71,8 +75,8 @@ function pipeline(result) {
     grid([scatter("Contacts that were missed", "time of search and queries [s]", "contacts",
       audits.map((a) => ({ name: nameOf(a, audits), points: [{ x: a.search_seconds + a.query_seconds, y: a.false_negatives + a.not_found }] })))]),
     columnTable("Libraries", audits, [["library", (a) => libraryName(a.library)], ["tolerance [length]", (a) => a.tolerance], ...both("candidates", "candidates"),
-      ["contacts not found", (a) => a.not_found], ["false negatives", (a) => a.false_negatives], ...both("false positives", "false_positives"),
-      ["late times", (a) => a.late.count], ["worst late [part of step]", (a) => a.late.worst], ["failures", (a) => a.failures],
+      ["contacts not found", (a) => a.not_found, true], ["false negatives", (a) => a.false_negatives], ...both("false positives", "false_positives"),
+      ["late times", (a) => a.late.count], ["worst late [part of step]", (a) => a.late.worst], ["bad times", (a) => a.bad_times, true], ["failures", (a) => a.failures, true], ["bad pairs", (a) => a.bad_pairs, true],
       ["search [s]", (a) => a.search_seconds], ["queries [s]", (a) => a.query_seconds], ["ended", (a) => words(a.ending)], ["words", (a) => a.words]]),
     columnTable("Findings that are listed", reports, [count("library"), ["contact", (r) => r.features.map((f) => featureText(f)).join(" × ")],
       ["finding", (r) => words(r.finding)], ["answer", (r) => r.words]]),

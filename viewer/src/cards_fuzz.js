@@ -2,11 +2,11 @@
 //
 // Results of noli fuzz.
 import { bars, columnTable, libraryName, mustBeNone } from "./cards.js";
-import { words } from "./dom.js";
+import { number, pairName, words } from "./dom.js";
 
 /** Findings that are listed, by what all fuzzers say of one. */
 function findings(result) {
-  return columnTable(`Findings that are listed: ${result.reports.length} of ${result.findings}`, result.reports, [
+  return columnTable(`Findings that are listed: ${number(result.reports.length)} of ${number(result.findings)}`, result.reports, [
     ["finding", (r) => (r.finding ? words(r.finding) : undefined)],
     ["what was found", (r) => r.words ?? r.difference],
     ["generator", (r) => r.generator],
@@ -17,7 +17,7 @@ function findings(result) {
     ["cells", (r) => r.cells],
     ["exit code", (r) => r.exit_code],
     ["run it again", (r) => r.command],
-    ["input", (r) => r.file ?? r.folder],
+    ["input", (r) => (r.command ? undefined : r.file ?? r.folder)],
   ]);
 }
 
@@ -42,7 +42,7 @@ export const fuzzCards = {
     title: "Fuzzer of queries: the kernel against the oracle",
     figures: (r) => [["queries", r.queries], mustBeNone("findings", r.findings), ["generators", r.generators.length], ["seed", r.seed], ["time [s]", r.timing.seconds]],
     body: (r) => [bars("Answers, queries", r.answers), bars("Decided by stage, queries", r.stages), findings(r),
-      generators(r.generators, "Queries by generator", [["pair", (g) => words(g.pair)], count("dimension"), ...countsOf(r.generators, "answers")])],
+      generators(r.generators, "Queries by generator", [["pair", (g) => pairName(g.pair)], count("dimension"), ...countsOf(r.generators, "answers")])],
   },
   "noli-fuzz-trajectories": {
     title: "Fuzzer of motions: verifier, proof and both checkers",

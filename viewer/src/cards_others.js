@@ -2,7 +2,7 @@
 //
 // Results of simulate, explain, check, ccd, info and reproduce.
 import { bars, columnTable, fileName, fold, mustBeNone, note, paragraphs } from "./cards.js";
-import { number, words } from "./dom.js";
+import { number, pairName, words } from "./dom.js";
 import { describe, text } from "./generic.js";
 
 const count = (head, key = head) => [head, (row) => row[key]];
@@ -36,7 +36,7 @@ function energySummary(energy) {
 }
 
 /** What a checker was asked, in the words of its claim. */
-const claimRows = (claim) => (claim ? columnTable("What was claimed", pairs(claim), [["condition", (c) => c.name], ["value", (c) => text(c.value)]]) : null);
+const claimRows = (claim) => (claim ? fold("What was claimed", columnTable("", pairs(claim), [["condition", (c) => c.name], ["value", (c) => text(c.value)]])) : null);
 
 /** Members of any kind of file, each under its name. */
 const described = (files) => files.map(({ file, ...rest }) => fold(fileName(file), ...describe(rest)));
@@ -79,7 +79,7 @@ export const otherCards = {
     title: "Queries of collision detection, decided exactly",
     figures: (r) => [["queries", r.queries], ["contacts", r.contacts], ["labelled", r.labelled], mustBeNone("labels that disagree", r.disagreements), [`time per query [ns]`, r.timing.ns_per_query]],
     body: (r) => [bars("Decided by stage, queries", r.stages),
-      columnTable("Files", r.files, [["file", (f) => fileName(f.file)], ["kind", (f) => words(f.kind)], count("queries"), count("contacts"), count("labelled"), ["labels that disagree", (f) => f.disagreements],
+      columnTable("Files", r.files, [["file", (f) => fileName(f.file)], ["kind", (f) => pairName(f.kind)], count("queries"), count("contacts"), count("labelled"), ["labels that disagree", (f) => f.disagreements],
         ["time per query [ns]", (f) => (r.timing.files.find((t) => t.file === f.file) ?? {}).ns_per_query]]),
       ...r.files.filter((f) => (f.disagreement_reports ?? []).length > 0).map((f) => fold(`Labels that disagree: ${fileName(f.file)}`, ...describe({ queries: f.disagreement_reports })))],
   },

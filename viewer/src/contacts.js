@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The contacts of a verdict: how many there are of each kind, and a list, a click on which shows one.
-import { counted, element, number, words } from "./dom.js";
+import { counted, element, number, pairName, words } from "./dom.js";
 import { pairText } from "./features.js";
 
 function cells(contact, parts) {
@@ -47,7 +47,7 @@ class Rows {
 }
 
 function summary(contacts) {
-  const kinds = Object.entries(contacts.counts).filter(([, n]) => n > 0).map(([kind, n]) => `${number(n)} ${kind.replace("_", "-")}`);
+  const kinds = Object.entries(contacts.counts).filter(([, n]) => n > 0).map(([kind, n]) => `${number(n)} ${pairName(kind)}`);
   const initial = contacts.initial > 0 ? `; ${counted(contacts.initial, "pair")} of cells intersect at the beginning` : "";
   return `${counted(contacts.total, "pair")} of features${kinds.length > 0 ? `: ${kinds.join(", ")}` : ""}${initial}.`;
 }

@@ -35,7 +35,7 @@ export function folded(title, make, open = false) {
 export function number(x, digits = 6) {
   const size = Math.abs(x);
   if (size >= 1e15 || (size > 0 && size < 1e-4)) return Number(x.toPrecision(digits)).toExponential();
-  return Number.isInteger(x) ? x.toLocaleString("en") : Number(x.toPrecision(digits)).toString();
+  return x.toLocaleString("en", Number.isInteger(x) ? {} : { maximumSignificantDigits: digits });
 }
 
 /** "vertex_face" as "vertex face". */
@@ -43,3 +43,6 @@ export const words = (key) => String(key).replaceAll("_", " ");
 
 /** "1 contact", "2 contacts". */
 export const counted = (n, one, many = `${one}s`) => `${number(n)} ${n === 1 ? one : many}`;
+
+/** "vertex_face" as "vertex-face". */
+export const pairName = (pair) => String(pair).replace("_", "-");

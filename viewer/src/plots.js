@@ -7,28 +7,43 @@ import { element, section } from "./dom.js";
 const strokes = ["#1c2330", "#3b78c4", "#d07a2d", "#3f9c6b", "#8e63b8", "#c0567a", "#5f8f9f", "#a2902f"];
 const height = 260;
 const mostBars = 500;
-export const contactRed = "#d8102a";
+const contactRed = "#d8102a";
 
 /** So that an axis tells small differences of large numbers. */
 const label = (value) => (value === null || value === undefined ? "" : Number(value.toPrecision(7)).toString());
 /** On logarithmic axes, powers of ten alone. */
 const power = (value) => (value === null ? "" : Number(value.toPrecision(3)).toExponential().replace("e+", "e"));
 
+const decade = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+/** Of logarithmic axes, lines at powers of ten alone. */
+const gridOf = (log) => ({ stroke: "#e4e8ee", width: 1, ...(log ? { filter: (_, splits) => splits.map((v) => (decade(v) ? v : null)) } : {}) });
+
 const stroke = (i) => strokes[i % strokes.length];
 
 function xAxis(plot) {
-  return { label: plot.x, size: 44, ...(plot.logX ? { values: (_, ticks) => ticks.map(power) } : {}) };
+  const whole = plot.bars ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000] } : {};
+  return { label: plot.x, size: 44, ...whole, grid: gridOf(plot.logX), ticks: gridOf(plot.logX), ...(plot.logX ? { values: (_, ticks) => ticks.map(power) } : {}) };
 }
 
 function yAxis(plot) {
-  return { label: plot.y, size: 84, values: (_, ticks) => ticks.map(plot.logX ? power : label) };
+  return { label: plot.y, size: plot.log ? 64 : 84, grid: gridOf(plot.log), ticks: gridOf(plot.log), values: (_, ticks) => ticks.map(plot.log ? power : label) };
 }
 
 function seriesOf(plot) {
-  const points = plot.points ? { show: true, size: 8 } : {};
-  const paths = plot.bars ? { paths: uPlot.paths.bars({ size: [0.9, 40] }), fill: contactRed, stroke: contactRed } : {};
+  const points = plot.points ? { show: true, size: 8 } : plot.bars ? { show: false } : {};
+  const paths = plot.bars ? { paths: uPlot.paths.bars({ size: [0.9, 40] }), fill: contactRed, stroke: contactRed, width: 0 } : {};
   return plot.series.map(({ name }, i) => ({ label: name, stroke: stroke(i), width: 1.4, value: (_, y) => label(y),
                                              spanGaps: Boolean(plot.points), points, ...paths }));
+}
+
+function scalesOf(plot) {
+  const x = { time: false, distr: plot.logX ? 3 : 1 }, y = { distr: plot.log ? 3 : 1 };
+  if (plot.bars) {
+    const half = plot.times.length > 1 ? (plot.times[1] - plot.times[0]) / 2 : 0.5;
+    x.range = (_, least, most) => [least - half, most + half];
+    y.range = (_, __, most) => [0, Math.max(1, 1.05 * most)];
+  }
+  return { x, y };
 }
 
 /** `plot`: x, y, log, times, series [{name, values}]; and logX, points, bars. */
@@ -37,9 +52,10 @@ function draw(plot, place, pick) {
     width: place.clientWidth,
     height,
     cursor: { drag: { x: !plot.points, y: false } },
-    scales: { x: { time: false, distr: plot.logX ? 3 : 1 }, y: { distr: plot.log ? 3 : 1, ...(plot.bars ? { range: (_, __, most) => [0, Math.max(1, 1.05 * most)] } : {}) } },
+    scales: scalesOf(plot),
     axes: [xAxis(plot), yAxis(plot)],
-    series: [{ label: plot.x, value: (_, x) => label(x) }, ...seriesOf(plot)],
+    series: [{ label: plot.points ? "" : plot.x, value: (_, x) => label(x) }, ...seriesOf(plot)],
+    legend: { live: !plot.points, show: !plot.bars },
     hooks: pick ? { ready: [(u) => u.over.addEventListener("click", () => pick(u.posToVal(u.cursor.left, "x")))] } : {},
   };
   const chart = new uPlot(options, [plot.times, ...plot.series.map((s) => s.values)], place);
