@@ -68,10 +68,10 @@ function hits({ positions: x, faces }, origin, direction, least) {
 
 function candidates(usual, list) {
   const around = [];
-  for (const x of [-1, 0, 1]) {
-    for (const y of [-1, 0, 1]) around.push(new THREE.Vector3(x, y, 0.5), new THREE.Vector3(x, y, -0.5));
+  for (const x of [-1, 1]) {
+    for (const y of [-1, 1]) around.push(new THREE.Vector3(x, y, 0.7), new THREE.Vector3(x, y, -0.7));
   }
-  const own = list.flatMap((n) => [n, n.clone().negate()]).filter((n) => n.lengthSq() > 0).slice(0, 8);
+  const own = list.flatMap((n) => [n, n.clone().negate()]).filter((n) => n.lengthSq() > 0).slice(0, 6);
   // A little aside of a normal, so that what stands upright on a face is not seen from its edge.
   const tilted = own.map((n) => n.clone().normalize().addScaledVector(usual, 0.5));
   return [usual, ...tilted, ...around].filter((d) => d.lengthSq() > 1e-9).map((d) => d.clone().normalize());

@@ -100,18 +100,22 @@ class Side {
 }
 
 export class Highlight {
-  /** `positions`: of all vertices, shared with the mesh; `cut`: the plane that cuts the mesh open. */
-  constructor(group, positions, cut) {
+  /** `positions`: of all vertices, shared with the mesh. */
+  constructor(group, positions) {
     this.positions = positions;
     this.two = [0, 1].map((which) => Object.assign(new Side(positions, which), { which }));
-    const aside = { color: colours.others, transparent: true, opacity: 0.45, depthWrite: false, clippingPlanes: [cut], polygonOffset: true, polygonOffsetFactor: -0.5, polygonOffsetUnits: -0.5 };
+    const aside = { color: colours.others, transparent: true, opacity: 0.45, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -0.5, polygonOffsetUnits: -0.5 };
     this.others = faces(positions, aside, 0);
     this.near = outline(positions, 0.2);
-    this.near.material.clippingPlanes = [cut];
     this.objects = [...this.two.flatMap((side) => side.objects), this.others, this.near];
     for (const object of this.objects) object.frustumCulled = false;
     group.add(...this.objects);
     this.clear();
+  }
+
+  /** Materials of what lies about a contact and does not meet there. */
+  background() {
+    return [this.others.material, this.near.material];
   }
 
   clear() {

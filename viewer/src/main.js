@@ -36,7 +36,6 @@ async function build() {
   const motion = page.scene ? await stageSection(page, report) : null;
   if (motion) {
     put(motion.node);
-    motion.open();
   } else if (page.contacts) {
     put(contactsAlone(page));
   }
@@ -47,6 +46,7 @@ async function build() {
   put(statement(page));
   put(facts(page));
   drawPlots();
+  if (motion) await motion.open();
   return report;
 }
 

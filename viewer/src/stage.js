@@ -87,7 +87,6 @@ class Stage {
   show(time) {
     this.view.move((array) => this.motion.write(time, array));
     this.showOthers(this.motion.stepAt(time));
-    this.view.draw();
   }
 
   /** The other listed contacts of a step. */
@@ -132,13 +131,16 @@ class Stage {
     if (box.top < 0 || box.bottom > innerHeight) this.place.scrollIntoView({ block: "start", behavior: "smooth" });
   }
 
+  /** Once it is in the page. Resolves when it has been drawn. */
   open() {
+    this.view.resize();
     const first = this.list[0] ?? this.page.focus;
     this.toContact.textContent = first && first.meets === false ? "Nearest pair" : "Contact";
     this.toContact.hidden = !first;
     if (first) this.pick(first);
     else this.player.show(this.motion.first);
     this.opened = true;
+    return this.view.changed();
   }
 }
 

@@ -19,17 +19,18 @@ export class Topology {
     this.vertices = vertices;
   }
 
-  /** The vertices of all cells of a kind that have all of these vertices. */
-  having(feature, cells, size, byVertex) {
-    const has = (cell, v) => cells.subarray(size * cell, size * (cell + 1)).includes(v);
-    const own = [...byVertex(feature[0])].filter((cell) => feature.every((v) => has(cell, v)));
-    return own.flatMap((cell) => [...cells.subarray(size * cell, size * (cell + 1))]);
+  /** Numbers of the faces that have all vertices of a feature. */
+  facesOf(feature) {
+    const { faces } = this.cells;
+    this.byVertex ??= cellsByVertex(faces, 3, this.vertices);
+    const has = (face, v) => faces[3 * face] === v || faces[3 * face + 1] === v || faces[3 * face + 2] === v;
+    return [...this.byVertex(feature[0])].filter((face) => feature.every((v) => has(face, v)));
   }
 
-  /** Corners of the faces that have this feature, three a face. */
-  facesOf(feature) {
-    this.faceList ??= cellsByVertex(this.cells.faces, 3, this.vertices);
-    return this.having(feature, this.cells.faces, 3, this.faceList);
+  /** Corners of the faces that have any of these features, three a face, each face once. */
+  cornersOf(features) {
+    const numbers = new Set(features.flatMap((feature) => this.facesOf(feature)));
+    return [...numbers].flatMap((face) => [...this.cells.faces.subarray(3 * face, 3 * face + 3)]);
   }
 
   /** Corners of the faces that have a vertex nearer to a point than `radius`. `positions`: of all vertices. */

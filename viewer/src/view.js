@@ -8,9 +8,22 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { aim } from "./aim.js";
 import * as colours from "./colours.js";
 import { Highlight } from "./highlight.js";
+import { surface } from "./surface.js";
 import { Topology } from "./topology.js";
 
 const fieldOfView = 35;
+const mostOutlined = 3000;  // faces about a contact; of more, lines hide what they outline
+
+/** Whether the browser has no GPU: there smooth edges double the time of each frame. */
+function drawsInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return false;
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : gl.getParameter(gl.RENDERER));
+  const lose = gl.getExtension("WEBGL_lose_context");
+  if (lose) lose.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
 
 /** A colour for each vertex: by the scene's parts, or by connected components where there is one part alone. */
 function coloursOf(scene, topology) {
@@ -33,7 +46,7 @@ export class View {
     this.cells = cells;
     this.topology = new Topology(cells, scene.vertices);
     this.drawn = 0;
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ antialias: !drawsInSoftware(), powerPreference: "high-performance" });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     stage.append(this.renderer.domElement);
     this.world = new THREE.Scene();
@@ -48,6 +61,7 @@ export class View {
     this.positions = new THREE.BufferAttribute(new Uint16Array(3 * scene.vertices), 3, true);
     this.positions.setUsage(THREE.DynamicDrawUsage);
     this.cut = new THREE.Plane();
+    this.materials = [];  // those that the plane cuts
     this.renderer.localClippingEnabled = true;
     this.colours = new THREE.BufferAttribute(coloursOf(scene, this.topology), 3, true);
     // What is drawn: positions from 0 to 1, which this group takes to the scene's box.
@@ -56,16 +70,13 @@ export class View {
     this.group.scale.fromArray(scene.greatest.map((x, k) => Math.max(x - scene.least[k], 1e-30)));
     this.world.add(this.group);
     const dot = { size: 7, sizeAttenuation: false };
-    this.add(THREE.Mesh, cells.faces,
-      new THREE.MeshLambertMaterial({ vertexColors: true, flatShading: true, side: THREE.DoubleSide, polygonOffset: true,
-                                      polygonOffsetFactor: 1, polygonOffsetUnits: 1 }), true);
+    this.add(THREE.Mesh, cells.faces, surface(), true);
     this.edges = this.add(THREE.LineSegments, [], new THREE.LineBasicMaterial({ color: colours.ink, transparent: true, opacity: 0.28 }));
     this.edges.renderOrder = 2;
     this.add(THREE.LineSegments, cells.edges, new THREE.LineBasicMaterial({ vertexColors: true }), true);
     this.add(THREE.Points, cells.points, new THREE.PointsMaterial({ ...dot, vertexColors: true }), true);
-    this.highlight = new Highlight(this.group, this.positions, this.cut);
-    this.light = new THREE.DirectionalLight(0xffffff, 1.4);
-    this.world.add(new THREE.HemisphereLight(0xffffff, 0x8a93a3, 2.2), this.light);
+    this.highlight = new Highlight(this.group, this.positions);
+    this.materials.push(...this.highlight.background());
   }
 
   add(Kind, indices, material, coloured) {
@@ -73,7 +84,8 @@ export class View {
     geometry.setAttribute("position", this.positions);
     if (coloured) geometry.setAttribute("color", this.colours);
     geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(indices), 1));
-    const object = new Kind(geometry, Object.assign(material, { clippingPlanes: [this.cut] }));
+    const object = new Kind(geometry, material);
+    this.materials.push(material);
     object.frustumCulled = false;  // its bounds change with each frame
     this.group.add(object);
     return object;
@@ -89,7 +101,7 @@ export class View {
     this.camera.up.set(0, this.flat ? 1 : 0, this.flat ? 0 : 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("start", () => { this.touched = true; });
-    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("change", () => this.changed());
     this.showAll();
   }
 
@@ -107,7 +119,7 @@ export class View {
     this.controls.target.copy(goal.centre);
     this.camera.position.copy(goal.centre).addScaledVector(goal.direction, distance);
     this.controls.update();
-    this.draw();
+    this.changed();
   }
 
   /** The position of a vertex as it is drawn. */
@@ -124,12 +136,13 @@ export class View {
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.stage;
-    if (width === 0 || height === 0) return;
+    if (width === 0 || height === 0 || (width === this.width && height === this.height)) return;
+    Object.assign(this, { width, height });
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.touched) this.fit(this.goal);
-    else this.draw();
+    else this.changed();
   }
 
   /** `write(array)` fills in the positions. */
@@ -137,6 +150,7 @@ export class View {
     write(this.positions.array);
     this.positions.needsUpdate = true;
     this.highlight.move();
+    this.changed();
   }
 
   showEdges(visible) {
@@ -145,7 +159,7 @@ export class View {
       this.edges.geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(this.topology.edges()), 1));
     }
     this.edges.visible = visible;
-    this.draw();
+    this.changed();
   }
 
   /** Whether these are features of this mesh: a damaged log may name others. */
@@ -156,12 +170,12 @@ export class View {
   /** Highlights the features of a contact, or nothing. */
   choose(contact) {
     if (!contact || !this.has(contact.features)) this.highlight.clear();
-    else this.highlight.set(contact.features, contact.features.map((f) => this.topology.facesOf(f)));
+    else this.highlight.set(contact.features, contact.features.map((f) => this.topology.cornersOf([f])));
   }
 
   showOthers(contacts) {
     const features = contacts.filter((c) => this.has(c.features)).flatMap((c) => c.features);
-    this.highlight.setOthers(features.flatMap((f) => this.topology.facesOf(f)));
+    this.highlight.setOthers(this.topology.cornersOf(features));
   }
 
   /** Turns the camera to a contact. Says whether the view is cut open for it. */
@@ -170,22 +184,35 @@ export class View {
     const mesh = { positions: this.allPositions(), faces: this.cells.faces };
     const points = (list) => list.map((v) => this.at(v));
     const goal = aim({
-      corners: contact.features.map((f) => points(this.topology.facesOf(f))),
+      corners: contact.features.map((f) => points(this.topology.cornersOf([f]))),
       features: contact.features.map(points),
       point: contact.point ? new THREE.Vector3(...contact.point) : null,
       usual: this.usual, flat: this.flat, sceneRadius: this.radius, mesh,
     });
-    this.highlight.setNear(this.topology.facesNear(mesh.positions, goal.centre, 2 * goal.radius));
+    const near = this.edges.visible ? [] : this.topology.facesNear(mesh.positions, goal.centre, goal.radius);
+    this.highlight.setNear(near.length < 3 * mostOutlined ? near : []);
     this.fit(goal);
     return Boolean(goal.cut);
   }
 
-  /** What the plane that cuts the view open takes away; from far off, nothing. */
+  /** Puts the plane that cuts the view open; from far off, nothing is cut. */
   moveCut(distance) {
     const { target } = this.controls;
+    const open = Boolean(this.goal.cut) && distance < 2 * this.distance;
+    for (const material of this.materials) material.clippingPlanes = open ? [this.cut] : null;
+    if (!open) return;
     this.cut.normal.copy(target).sub(this.camera.position).normalize();
-    const open = this.goal.cut && distance < 2 * this.distance;
-    this.cut.constant = open ? this.goal.cut - this.cut.normal.dot(target) : 1e30;
+    this.cut.constant = this.goal.cut - this.cut.normal.dot(target);
+  }
+
+  /** Draws with the next frame of the browser, however often it is asked to. */
+  changed() {
+    this.waiting ??= new Promise((done) => requestAnimationFrame(() => {
+      this.waiting = null;
+      this.draw();
+      done();
+    }));
+    return this.waiting;
   }
 
   draw() {
@@ -194,7 +221,6 @@ export class View {
     this.camera.far = distance + 4 * this.radius;
     this.camera.updateProjectionMatrix();
     this.moveCut(distance);
-    this.light.position.copy(this.camera.position);
     this.renderer.render(this.world, this.camera);
     ++this.drawn;
   }
