@@ -46,7 +46,7 @@ function outline(positions, opacity) {
 }
 
 /** Two vertices for each side of triangles. */
-const sidesOf = (corners) => corners.flatMap((v, i) => [v, corners[i % 3 === 2 ? i - 2 : i + 1]]);
+const sidesOf = (corners) => [...corners].flatMap((v, i) => [v, corners[i % 3 === 2 ? i - 2 : i + 1]]);
 
 function dots(fill, rim, pixels) {
   const geometry = new THREE.BufferGeometry();
@@ -111,11 +111,6 @@ export class Highlight {
     for (const object of this.objects) object.frustumCulled = false;
     group.add(...this.objects);
     this.clear();
-  }
-
-  /** Materials of what lies about a contact and does not meet there. */
-  background() {
-    return [this.others.material, this.near.material];
   }
 
   clear() {

@@ -5,7 +5,6 @@
 import * as THREE from "three";
 
 const vertex = `
-  #include <clipping_planes_pars_vertex>
   varying vec3 vColour;
   varying vec3 vSeen;
   void main() {
@@ -13,15 +12,12 @@ const vertex = `
     vColour = color;
     vSeen = mvPosition.xyz;
     gl_Position = projectionMatrix * mvPosition;
-    #include <clipping_planes_vertex>
   }`;
 
 const fragment = `
-  #include <clipping_planes_pars_fragment>
   varying vec3 vColour;
   varying vec3 vSeen;
   void main() {
-    #include <clipping_planes_fragment>
     vec3 normal = normalize(cross(dFdx(vSeen), dFdy(vSeen)));
     float facing = abs(dot(normal, normalize(vSeen)));
     gl_FragColor = vec4(vColour * (0.4 + 0.62 * facing), 1.0);
@@ -29,6 +25,6 @@ const fragment = `
 
 /** Colours are those of the vertices, as a screen shows them. */
 export function surface() {
-  return new THREE.ShaderMaterial({ vertexShader: vertex, fragmentShader: fragment, vertexColors: true, side: THREE.DoubleSide, clipping: true,
+  return new THREE.ShaderMaterial({ vertexShader: vertex, fragmentShader: fragment, vertexColors: true, side: THREE.DoubleSide,
                                     polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
 }

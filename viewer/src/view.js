@@ -8,6 +8,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { aim } from "./aim.js";
 import * as colours from "./colours.js";
 import { Highlight } from "./highlight.js";
+import { depths, frontToBack, notBefore } from "./order.js";
 import { surface } from "./surface.js";
 import { Topology } from "./topology.js";
 
@@ -39,6 +40,10 @@ function coloursOf(scene, topology) {
   return list;
 }
 
+function setIndex(geometry, indices) {
+  geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(indices), 1));
+}
+
 export class View {
   constructor(stage, scene, cells) {
     this.stage = stage;
@@ -60,9 +65,6 @@ export class View {
     const { scene, cells } = this;
     this.positions = new THREE.BufferAttribute(new Uint16Array(3 * scene.vertices), 3, true);
     this.positions.setUsage(THREE.DynamicDrawUsage);
-    this.cut = new THREE.Plane();
-    this.materials = [];  // those that the plane cuts
-    this.renderer.localClippingEnabled = true;
     this.colours = new THREE.BufferAttribute(coloursOf(scene, this.topology), 3, true);
     // What is drawn: positions from 0 to 1, which this group takes to the scene's box.
     this.group = new THREE.Group();
@@ -70,22 +72,20 @@ export class View {
     this.group.scale.fromArray(scene.greatest.map((x, k) => Math.max(x - scene.least[k], 1e-30)));
     this.world.add(this.group);
     const dot = { size: 7, sizeAttenuation: false };
-    this.add(THREE.Mesh, cells.faces, surface(), true);
+    this.faces = this.add(THREE.Mesh, cells.faces, surface(), true);
     this.edges = this.add(THREE.LineSegments, [], new THREE.LineBasicMaterial({ color: colours.ink, transparent: true, opacity: 0.28 }));
     this.edges.renderOrder = 2;
     this.add(THREE.LineSegments, cells.edges, new THREE.LineBasicMaterial({ vertexColors: true }), true);
     this.add(THREE.Points, cells.points, new THREE.PointsMaterial({ ...dot, vertexColors: true }), true);
     this.highlight = new Highlight(this.group, this.positions);
-    this.materials.push(...this.highlight.background());
   }
 
   add(Kind, indices, material, coloured) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", this.positions);
     if (coloured) geometry.setAttribute("color", this.colours);
-    geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(indices), 1));
+    setIndex(geometry, indices);
     const object = new Kind(geometry, material);
-    this.materials.push(material);
     object.frustumCulled = false;  // its bounds change with each frame
     this.group.add(object);
     return object;
@@ -106,8 +106,25 @@ export class View {
   }
 
   showAll() {
-    this.highlight.setNear([]);
-    this.fit({ centre: this.centre, radius: this.radius, direction: this.usual });
+    const goal = { centre: this.centre, radius: this.radius, direction: this.usual, cut: null };
+    this.layOut(goal, this.allPositions());
+    this.fit(goal);
+  }
+
+  /** Chooses what is drawn for a goal, at the positions that are seen: nothing that reaches before a cut. */
+  layOut({ centre, radius, direction, cut }, positions) {
+    this.depth = depths(positions, direction);
+    this.most = cut ? centre.dot(direction) + cut : Infinity;
+    setIndex(this.faces.geometry, frontToBack(this.kept(this.cells.faces, 3), this.depth));
+    setIndex(this.edges.geometry, this.kept(this.allEdges ?? [], 2));
+    this.highlight.setOthers(this.kept(this.others ?? [], 3));
+    const near = this.edges.visible || radius === this.radius ? [] : this.topology.facesNear(positions, centre, radius);
+    this.highlight.setNear(near.length < 3 * mostOutlined ? this.kept(near, 3) : []);
+  }
+
+  /** Those of the cells that no cut takes away. */
+  kept(cells, size) {
+    return notBefore(cells, size, this.depth, this.most);
   }
 
   /** Puts a sphere in the middle; it stays there when the view changes its size, until somebody moves the camera. */
@@ -154,9 +171,9 @@ export class View {
   }
 
   showEdges(visible) {
-    if (visible && !this.edgesMade) {
-      this.edgesMade = true;
-      this.edges.geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(this.topology.edges()), 1));
+    if (visible && !this.allEdges) {
+      this.allEdges = Uint32Array.from(this.topology.edges());
+      setIndex(this.edges.geometry, this.kept(this.allEdges, 2));
     }
     this.edges.visible = visible;
     this.changed();
@@ -175,7 +192,8 @@ export class View {
 
   showOthers(contacts) {
     const features = contacts.filter((c) => this.has(c.features)).flatMap((c) => c.features);
-    this.highlight.setOthers(this.topology.cornersOf(features));
+    this.others = this.topology.cornersOf(features);
+    this.highlight.setOthers(this.kept(this.others, 3));
   }
 
   /** Turns the camera to a contact. Says whether the view is cut open for it. */
@@ -189,20 +207,9 @@ export class View {
       point: contact.point ? new THREE.Vector3(...contact.point) : null,
       usual: this.usual, flat: this.flat, sceneRadius: this.radius, mesh,
     });
-    const near = this.edges.visible ? [] : this.topology.facesNear(mesh.positions, goal.centre, goal.radius);
-    this.highlight.setNear(near.length < 3 * mostOutlined ? near : []);
+    this.layOut(goal, mesh.positions);
     this.fit(goal);
     return Boolean(goal.cut);
-  }
-
-  /** Puts the plane that cuts the view open; from far off, nothing is cut. */
-  moveCut(distance) {
-    const { target } = this.controls;
-    const open = Boolean(this.goal.cut) && distance < 2 * this.distance;
-    for (const material of this.materials) material.clippingPlanes = open ? [this.cut] : null;
-    if (!open) return;
-    this.cut.normal.copy(target).sub(this.camera.position).normalize();
-    this.cut.constant = this.goal.cut - this.cut.normal.dot(target);
   }
 
   /** Draws with the next frame of the browser, however often it is asked to. */
@@ -220,7 +227,6 @@ export class View {
     this.camera.near = 0.02 * distance;
     this.camera.far = distance + 4 * this.radius;
     this.camera.updateProjectionMatrix();
-    this.moveCut(distance);
     this.renderer.render(this.world, this.camera);
     ++this.drawn;
   }
