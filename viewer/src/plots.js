@@ -11,33 +11,32 @@ const contactRed = "#d8102a";
 
 /** So that an axis tells small differences of large numbers. */
 const label = (value) => (value === null || value === undefined ? "" : Number(value.toPrecision(7)).toString());
-/** On logarithmic axes, powers of ten alone. */
-const power = (value) => (value === null ? "" : Number(value.toPrecision(3)).toExponential().replace("e+", "e"));
 
-const decade = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
-/** Of logarithmic axes, lines at powers of ten alone. */
-const gridOf = (log) => ({ stroke: "#e4e8ee", width: 1, ...(log ? { filter: (_, splits) => splits.map((v) => (decade(v) ? v : null)) } : {}) });
+// Logarithmic axes are linear ones of logarithms: those of uPlot end with magnitudes that doubles can have.
+const log = (values) => values.map((x) => (x !== null && x > 0 ? Math.log10(x) : null));
+const power = (exponent) => (Number.isInteger(exponent) ? `1e${exponent}` : Number((10 ** exponent).toPrecision(2)).toExponential().replace("e+", "e"));
+const decades = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200];
+const wholes = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000];
 
 const stroke = (i) => strokes[i % strokes.length];
 
-function xAxis(plot) {
-  const whole = plot.bars ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000] } : {};
-  return { label: plot.x, size: 44, ...whole, grid: gridOf(plot.logX), ticks: gridOf(plot.logX), ...(plot.logX ? { values: (_, ticks) => ticks.map(power) } : {}) };
-}
+const grid = { stroke: "#e4e8ee", width: 1 };
+const value = (isLog) => (_, x) => (x === null ? "" : isLog ? power(x) : label(x));
 
-function yAxis(plot) {
-  return { label: plot.y, size: plot.log ? 64 : 84, grid: gridOf(plot.log), ticks: gridOf(plot.log), values: (_, ticks) => ticks.map(plot.log ? power : label) };
+function axis(name, size, isLog, whole = false) {
+  return { label: name, size, grid, ticks: grid, ...(isLog ? { incrs: decades } : whole ? { incrs: wholes } : {}),
+           values: (_, ticks) => ticks.map(isLog ? power : label) };
 }
 
 function seriesOf(plot) {
   const points = plot.points ? { show: true, size: 8 } : plot.bars ? { show: false } : {};
   const paths = plot.bars ? { paths: uPlot.paths.bars({ size: [0.9, 40] }), fill: contactRed, stroke: contactRed, width: 0 } : {};
-  return plot.series.map(({ name }, i) => ({ label: name, stroke: stroke(i), width: 1.4, value: (_, y) => label(y),
+  return plot.series.map(({ name }, i) => ({ label: name, stroke: stroke(i), width: 1.4, value: value(plot.log),
                                              spanGaps: Boolean(plot.points), points, ...paths }));
 }
 
 function scalesOf(plot) {
-  const x = { time: false, distr: plot.logX ? 3 : 1 }, y = { distr: plot.log ? 3 : 1 };
+  const x = { time: false }, y = {};
   if (plot.bars) {
     const half = plot.times.length > 1 ? (plot.times[1] - plot.times[0]) / 2 : 0.5;
     x.range = (_, least, most) => [least - half, most + half];
@@ -53,12 +52,13 @@ function draw(plot, place, pick) {
     height,
     cursor: { drag: { x: !plot.points, y: false } },
     scales: scalesOf(plot),
-    axes: [xAxis(plot), yAxis(plot)],
-    series: [{ label: plot.points ? "" : plot.x, value: (_, x) => label(x) }, ...seriesOf(plot)],
+    axes: [axis(plot.x, 44, plot.logX, plot.bars), axis(plot.y, plot.log ? 64 : 84, plot.log)],
+    series: [{ label: plot.points ? "" : plot.x, value: value(plot.logX) }, ...seriesOf(plot)],
     legend: { live: !plot.points, show: !plot.bars },
     hooks: pick ? { ready: [(u) => u.over.addEventListener("click", () => pick(u.posToVal(u.cursor.left, "x")))] } : {},
   };
-  const chart = new uPlot(options, [plot.times, ...plot.series.map((s) => s.values)], place);
+  const data = [plot.logX ? log(plot.times) : plot.times, ...plot.series.map((s) => (plot.log ? log(s.values) : s.values))];
+  const chart = new uPlot(options, data, place);
   new ResizeObserver(() => chart.setSize({ width: place.clientWidth, height })).observe(place);
 }
 

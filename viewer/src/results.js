@@ -16,7 +16,7 @@ function contentOf(card, result) {
   try {
     return [figures(card.figures(result)), ...card.body(result).filter(Boolean)];
   } catch (error) {
-    console.info(error);
+    console.warn(`The card of ${result.schema} cannot show this result: ${error.message}`);
     return null;
   }
 }

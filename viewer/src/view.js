@@ -75,8 +75,10 @@ export class View {
     this.faces = this.add(THREE.Mesh, cells.faces, surface(), true);
     this.edges = this.add(THREE.LineSegments, [], new THREE.LineBasicMaterial({ color: colours.ink, transparent: true, opacity: 0.28 }));
     this.edges.renderOrder = 2;
-    this.add(THREE.LineSegments, cells.edges, new THREE.LineBasicMaterial({ vertexColors: true }), true);
-    this.add(THREE.Points, cells.points, new THREE.PointsMaterial({ ...dot, vertexColors: true }), true);
+    // Thin lines and dots are darker than faces, or nobody would see them.
+    const dark = { vertexColors: true, color: new THREE.Color(0.22, 0.22, 0.22) };
+    this.add(THREE.LineSegments, cells.edges, new THREE.LineBasicMaterial(dark), true);
+    this.add(THREE.Points, cells.points, new THREE.PointsMaterial({ ...dot, ...dark }), true);
     this.highlight = new Highlight(this.group, this.positions);
   }
 
