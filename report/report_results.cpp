@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +31,18 @@ auto as_written(const std::filesystem::path& path, F&& f) {
   } catch (const Json::exception& error) {
     throw InputError(path.string(), "", fmt::format("is no result of noli verify: {}", error.what()));
   }
+}
+
+/// How many contacts a page can list of each step, at least one, if they are so many.
+std::size_t quota(const std::map<std::uint64_t, std::size_t>& of_step) {
+  std::size_t most = most_listed;
+  const auto listed = [&] {
+    std::size_t sum = 0;
+    for (const auto& [step, number] : of_step) sum += std::min(number, most);
+    return sum;
+  };
+  while (most > 1 && listed() > most_listed) --most;
+  return most;
 }
 
 /// What is said of a run that ended before its scene does.
@@ -138,7 +152,15 @@ class Verified {
     if (has("kind")) shown["kind"] = contact.at("kind").get<std::string>();
     if (has("cells")) shown["cells"] = contact.at("cells").get<std::array<std::vector<std::uint64_t>, 2>>();
     if (has("bodies")) shown["bodies"] = contact.at("bodies").get<std::array<std::string, 2>>();
-    if (has("point")) shown["point"] = contact.at("point").get<std::array<double, 3>>();
+    if (has("point")) add_point(contact.at("point"), shown);
+  }
+
+  /// Unless it is beyond the range of doubles.
+  static void add_point(const Json& point, Json& shown) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (point.at(k).is_null()) return;
+    }
+    shown["point"] = point.get<std::array<double, 3>>();
   }
 
   /// How many contacts each step has; nothing where the result does not say.
@@ -152,17 +174,42 @@ class Verified {
     return totals;
   }
 
+  /// Steps in which contacts go on that were counted in the step before.
+  Json going_on() const {
+    Json steps = Json::array();
+    std::uint64_t step = 0;
+    for (const Json& counts : result_.value("per_step", Json::array())) {
+      ++step;
+      if (counts.value("goes_on", false)) steps.push_back(step);
+    }
+    return steps;
+  }
+
+  /// Which contacts the page lists: of each step as many as there is room for, its first ones.
+  std::vector<std::size_t> spread(const Json& all) const {
+    std::vector<std::uint64_t> steps;
+    std::map<std::uint64_t, std::size_t> of_step, taken;
+    for (const Json& contact : all) ++of_step[steps.emplace_back(count(contact.at("step"), "step"))];
+    const std::size_t most = quota(of_step);
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < steps.size() && chosen.size() < most_listed; ++i) {
+      if (++taken[steps[i]] <= most) chosen.push_back(i);
+    }
+    return chosen;
+  }
+
   Json contacts() {
     for (const auto& [kind, number] : result_.at("contacts").items()) contacts_ += count(number, kind);
     const Json& all = result_.at("reports").at("contacts");
     if (all.size() > contacts_) refuse(fmt::format("lists {} contacts, but counts {}", all.size(), contacts_));
     Json list = Json::array();
-    for (std::size_t i = 0; i < all.size() && i < most_listed; ++i) list.push_back(listed(all.at(i)));
+    for (const std::size_t i : spread(all)) list.push_back(listed(all.at(i)));
     const Json& first = result_.at("first");
     return {{"counts", result_.at("contacts")},
             {"total", contacts_},
             {"initial", count(result_.at("initial_intersections"), "initial_intersections")},
             {"per_step", per_step()},
+            {"goes_on", going_on()},
             {"first", first.is_null() ? Json() : listed(first)},
             {"listed", list}};
   }
@@ -220,10 +267,10 @@ class Verified {
 
   std::vector<std::string> lines() const {
     const auto word = result_.at("verdict").get<std::string>();
+    const bool run = result_.at("statement").contains("windows");
     std::vector<std::string> lines = {
-        fmt::format("noli verify says {} ({}): {} of {} {} looked at; {} pair(s) of features meet.", spoken(word),
-                    page_name(path_), looked_at_, steps_,
-                    result_.at("statement").contains("windows") ? "window(s) were" : "step(s) were", contacts_)};
+        fmt::format("noli verify says {} ({}): {} of {} {} checked, {} pairs of features meet.", spoken(word),
+                    page_name(path_), looked_at_, steps_, run ? "windows" : "steps", contacts_)};
     if (!end_.empty()) lines.push_back(end_);
     add_first(lines);
     add_near(lines);

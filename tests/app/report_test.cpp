@@ -323,6 +323,20 @@ TEST_F(Report, ListsAThousandContactsAndCountsAll) {
   EXPECT_EQ(json["contacts"]["listed"].size(), 1000u);
 }
 
+TEST_F(Report, ListsTheFirstContactsOfEachStep) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1), frame("2.obj", -2)};
+  Json result = Json::parse(bytes_of(verdict(frames, 1)));
+  Json one = result["reports"]["contacts"][0];
+  for (int i = 1; i < 2000; ++i) result["reports"]["contacts"].push_back(one);
+  one["step"] = 2;
+  for (int i = 0; i < 3; ++i) result["reports"]["contacts"].push_back(one);
+  result["contacts"]["vertex_face"] = 2003;
+  const Json listed = page({folder.write("many.json", result.dump())})["contacts"]["listed"];
+  ASSERT_EQ(listed.size(), 1000u);
+  EXPECT_EQ(listed[996]["step"], 1);
+  EXPECT_EQ(listed[997]["step"], 2);
+}
+
 TEST_F(Report, TheWorstOfAllResultsIsAtTheHead) {
   const auto result = [&](const std::string& word) {
     return folder.write(word + ".json", Json{{"verdict", word}}.dump());

@@ -2,12 +2,12 @@
 //
 // The contacts of a verdict: how many there are of each kind, and a list, a click on which shows one.
 import { counted, element, number, pairName, words } from "./dom.js";
-import { pairText } from "./features.js";
+import { bodiesText, pairText } from "./features.js";
 
 function cells(contact, parts) {
   const cell = (text, className = "") => element("td", { className }, text);
   const time = contact.time === undefined ? "" : number(contact.time, 4);
-  const facts = [contact.kind && words(contact.kind), contact.bodies && contact.bodies.join(" and ")].filter(Boolean).join(", ");
+  const facts = [contact.kind && words(contact.kind), bodiesText(contact)].filter(Boolean).join(", ");
   return [cell(number(contact.step), "number"), cell(time, "number"),
     element("td", { className: "pair" }, pairText(contact, parts), facts ? element("span", { className: "soft" }, facts) : null)];
 }

@@ -14,6 +14,9 @@ export function featureText(feature, parts = []) {
   return `${names[feature.length - 1]} ${feature.map(vertex).join("-")}`;
 }
 
+/** "cloth and ball"; nothing where they have no names. */
+export const bodiesText = ({ bodies = [] }) => bodies.filter(Boolean).join(" and ");
+
 /** "edge 3-7 × vertex 9". */
 export const pairText = (contact, parts) => contact.features.map((f) => featureText(f, parts)).join(" × ");
 
@@ -21,7 +24,7 @@ export const pairText = (contact, parts) => contact.features.map((f) => featureT
 export function contactText(contact, parts, inStep) {
   const facts = [pairText(contact, parts)];
   if (contact.kind) facts.push(words(contact.kind));
-  if (contact.bodies) facts.push(`${contact.bodies.join(" and ")}`);
+  if (bodiesText(contact)) facts.push(bodiesText(contact));
   facts.push(`${inStep ? "step" : "window"} ${number(contact.step)}`);
   if (contact.time !== undefined) facts.push(inStep ? `t = ${number(contact.time)}` : `${number(contact.time)} s`);
   if (contact.cells) facts.push(`cells ${contact.cells.map((cells) => cells.join(", ")).join(" × ")}`);

@@ -7,12 +7,15 @@ import { contactText } from "./features.js";
 /** Verdicts that one sentence says. */
 const plain = ["contact", "no_contact", "proved"];
 
+/** Whether times are parts of steps between frames, and not seconds of a run. */
+export const inSteps = ({ scene, statement: rows }) => (scene ? scene.unit !== "s" : !rows.some(([name]) => name === "windows"));
+
 /** The sentence that is read first. */
 function lead(page) {
   const { contacts, focus, scene, verdict } = page;
   if (contacts && contacts.first) {
     const name = contacts.settled === false ? "First contact that was found" : "First contact";
-    return `${name}: ${contactText(contacts.first, scene ? scene.parts : [], !scene || scene.unit !== "s")}.`;
+    return `${name}: ${contactText(contacts.first, scene ? scene.parts : [], inSteps(page))}.`;
   }
   return focus && focus.meets ? focus.words : verdict.lines[0];
 }
@@ -21,8 +24,8 @@ const paragraph = (text) => element("p", {}, text);
 
 function lines(page) {
   const { word, lines: all, caveats = [] } = page.verdict;
-  if (!page.scene || !plain.includes(word)) return all.map(paragraph);
   const first = lead(page);
+  if (!page.scene || !plain.includes(word)) return [...new Set([first, ...all])].filter(Boolean).map(paragraph);
   const rest = all.filter((line) => line !== first && !caveats.includes(line));
   return [first, ...caveats].filter(Boolean).map(paragraph)
     .concat(rest.length > 0 ? [folded("More about the verdict", () => rest.map(paragraph))] : []);

@@ -5,22 +5,20 @@ import * as data from "./data.js";
 import { contactList } from "./contacts.js";
 import { element, section } from "./dom.js";
 import { inOrder } from "./features.js";
-import { facts, head, statement } from "./head.js";
+import { facts, head, inSteps, statement } from "./head.js";
 import { contactBars, drawPlots, plotSection } from "./plots.js";
 import { resultSection } from "./results.js";
 import { contactsPerStep, stageSection } from "./stage.js";
 
 /** A verdict without its motion. */
-function contactsAlone({ contacts, statement: stated }) {
-  const run = stated.some(([name]) => name === "windows");
-  return element("section", {}, contactList(contacts, inOrder(contacts, 1000), [], !run, () => {}).node);
+function contactsAlone(page) {
+  return element("section", {}, contactList(page.contacts, inOrder(page.contacts, 1000), [], inSteps(page), () => {}).node);
 }
 
 function barsOf(page, report) {
   const perStep = contactsPerStep(page.contacts, page.scene ? page.scene.steps.list.length : 0);
   if (perStep.length < 2) return null;
-  const run = page.scene && page.scene.unit === "s";
-  return contactBars(perStep, run ? "window" : "step", (step) => report.stage && report.stage.pickStep(Math.min(step, perStep.length)));
+  return contactBars(perStep, inSteps(page) ? "step" : "window", (step) => report.stage && report.stage.pickStep(Math.min(step, perStep.length)));
 }
 
 function picture({ name, image }) {

@@ -6,12 +6,15 @@ import { counted, element, number } from "./dom.js";
 
 const mostBars = 400;
 
-/** Bars {from, to, step, total}: `step` is the first of theirs that has contacts. */
-export function bars(perStep, motion) {
+/**
+ * Bars {from, to, step, total}: `step` is the first of theirs that has contacts. Steps in `goesOn` have a bar, too:
+ * contacts that were counted before go on there.
+ */
+function barsOf(perStep, goesOn, motion) {
   const together = Math.ceil(perStep.length / mostBars);
   const list = [];
   perStep.forEach((total, i) => {
-    if (total === 0) return;
+    if (total === 0 && !goesOn.has(i + 1)) return;
     const bin = Math.floor(i / together);
     const [from, to] = motion.step(i + 1);
     const last = list[list.length - 1];
@@ -23,17 +26,17 @@ export function bars(perStep, motion) {
 
 function barNode({ from, to, step, total }, motion, most) {
   const part = (time) => (100 * (Math.min(Math.max(time, motion.first), motion.last) - motion.first)) / (motion.last - motion.first || 1);
-  const node = element("div", { className: "bar", title: `step ${number(step)}: ${counted(total, "contact")}` });
+  const node = element("div", { className: "bar", title: `step ${number(step)}: ${total > 0 ? counted(total, "contact") : "contacts go on"}` });
   node.style.left = `${part(from)}%`;
   node.style.width = `max(4px, ${part(to) - part(from)}% - 1px)`;
-  node.style.height = `${100 * (0.3 + (0.7 * Math.log1p(total)) / Math.log1p(most))}%`;
+  node.style.height = `${100 * (0.25 + (0.75 * Math.log1p(total)) / Math.log1p(most))}%`;
   return node;
 }
 
-/** `firsts`: for each step that has one, the time of a contact; `pick(step)` is called for the step of a bar. */
-export function markStrip(perStep, motion, firstTime, pick) {
-  const list = bars(perStep, motion);
-  const most = Math.max(...list.map((bar) => bar.total));
+/** `firstTime`: of the first contact, or null; `pick(step)` is called for the step of a bar. */
+export function markStrip(perStep, goesOn, motion, firstTime, pick) {
+  const list = barsOf(perStep, goesOn, motion);
+  const most = Math.max(1, ...list.map((bar) => bar.total));
   const strip = element("div", { className: "marks", role: "img" }, ...list.map((bar) => barNode(bar, motion, most)));
   strip.ariaLabel = `${counted(perStep.filter((n) => n > 0).length, "step has", "steps have")} contacts, the first is step ${number(list[0].step)}`;
   if (firstTime !== null) {

@@ -68,7 +68,10 @@ class Stage {
   timeLine() {
     const line = element("div", { className: "timeline" });
     const first = this.list.length > 0 && this.list[0].time !== undefined ? this.motion.timeOf(this.list[0]) : null;
-    if (this.perStep.some((n) => n > 0)) line.append(markStrip(this.perStep, this.motion, first, (step) => this.pickStep(step)));
+    if (this.perStep.some((n) => n > 0)) {
+      const goesOn = new Set(this.page.contacts.goes_on ?? []);
+      line.append(markStrip(this.perStep, goesOn, this.motion, first, (step) => this.pickStep(step)));
+    }
     line.append(this.player.slider);
     return line;
   }
@@ -121,7 +124,9 @@ class Stage {
     this.chosen = null;
     this.view.choose(null);
     this.player.stopAt(this.motion.step(step)[0]);
-    return this.say(`Step ${number(step)} has ${number(this.perStep[step - 1])} contacts. None of them is listed: noli verify --max-reports lists more.`, false);
+    const total = this.perStep[step - 1];
+    return this.say(total > 0 ? `Step ${number(step)} has ${number(total)} contacts. None of them is listed: noli verify --max-reports lists more.`
+      : `Contacts of the step before go on in step ${number(step)}.`, false);
   }
 
   /** So that a click on a contact below the view shows it on a small screen. */

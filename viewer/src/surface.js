@@ -20,7 +20,7 @@ const fragment = `
   void main() {
     vec3 normal = normalize(cross(dFdx(vSeen), dFdy(vSeen)));
     float facing = abs(dot(normal, normalize(vSeen)));
-    gl_FragColor = vec4(vColour * (0.4 + 0.62 * facing), 1.0);
+    gl_FragColor = vec4(vColour * (0.55 + 0.47 * facing), 1.0);
   }`;
 
 /** Colours are those of the vertices, as a screen shows them. */
