@@ -249,7 +249,7 @@ TEST_F(Report, HasEveryConditionOfTheStatement) {
   EXPECT_EQ(stated(any, "stops at any contact, which need not be the earliest"), "yes");
   EXPECT_TRUE(says(any, "The first that was found is a crossing"));
   EXPECT_TRUE(says(any, "(first contact only): there may be more contacts, and earlier ones"));
-  EXPECT_EQ(any["verdict"]["caveats"].size(), 1u);
+  EXPECT_EQ(any["verdict"]["caveats"].size(), 2u) << any["verdict"];
   EXPECT_EQ(any["contacts"]["settled"], false);
 }
 
@@ -258,7 +258,11 @@ TEST_F(Report, ShowsWhatDiffersFromDefaults) {
   const auto shown = [&](const Json& json) {
     std::vector<std::string> names;
     for (const Json& row : json["statement"]) {
-      if (row[2] == true) names.push_back(row[0]);
+      if (row[0] == "notes") {
+        EXPECT_EQ(row[2], row[1] != "nothing");
+      } else if (row[2] == true) {
+        names.push_back(row[0]);
+      }
     }
     return names;
   };
