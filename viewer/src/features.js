@@ -20,13 +20,16 @@ export const bodiesText = ({ bodies = [] }) => bodies.filter(Boolean).join(" and
 /** "edge 3-7 × vertex 9". */
 export const pairText = (contact, parts) => contact.features.map((f) => featureText(f, parts)).join(" × ");
 
-/** All that is known of a contact. `inStep`: times are parts of a step, else seconds. */
-export function contactText(contact, parts, inStep) {
-  const facts = [pairText(contact, parts)];
-  if (contact.kind) facts.push(words(contact.kind));
-  if (bodiesText(contact)) facts.push(bodiesText(contact));
-  facts.push(`${inStep ? "step" : "window"} ${number(contact.step)}`);
+/** What a reader asks first of a contact. `inStep`: times are parts of a step, else seconds. */
+export function shortText(contact, parts, inStep) {
+  const facts = [pairText(contact, parts), bodiesText(contact), contact.kind && words(contact.kind), `${inStep ? "step" : "window"} ${number(contact.step)}`];
   if (contact.time !== undefined) facts.push(inStep ? `t = ${number(contact.time)}` : `${number(contact.time)} s`);
+  return facts.filter(Boolean).join(" · ");
+}
+
+/** All that is known of it. */
+export function contactText(contact, parts, inStep) {
+  const facts = [shortText(contact, parts, inStep)];
   if (contact.cells) facts.push(`cells ${contact.cells.map((cells) => cells.join(", ")).join(" × ")}`);
   if (contact.point) facts.push(`at (${contact.point.map((x) => number(x, 5)).join(", ")})`);
   return facts.join(" · ");

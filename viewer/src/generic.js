@@ -54,7 +54,8 @@ export const more = (left) => (left > 0 ? element("p", { className: "soft" }, `a
 export function table(rows, open) {
   const shown = rows.slice(0, mostRows).map((row) => flat(row));
   const columns = [...new Set(shown.flat().filter(([, value]) => !isTable(value)).map(([key]) => key))];
-  const head = element("tr", {}, ...columns.map((c) => element("th", { scope: "col" }, title(c))));
+  const numeric = (c) => shown.every((row) => row.every(([key, value]) => key !== c || typeof value === "number"));
+  const head = element("tr", {}, ...columns.map((c) => element("th", { scope: "col", className: numeric(c) ? "number" : "" }, title(c))));
   const body = shown.flatMap((row) => {
     const values = new Map(row);
     const tables = row.filter(([, value]) => isTable(value));

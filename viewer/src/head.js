@@ -2,7 +2,7 @@
 //
 // Title and verdict. Beside the motion there is room for what decides alone; the rest is folded.
 import { element, folded, list, section, words } from "./dom.js";
-import { contactText } from "./features.js";
+import { shortText } from "./features.js";
 
 /** Verdicts that one sentence says. */
 const plain = ["contact", "no_contact", "proved"];
@@ -15,7 +15,7 @@ function lead(page) {
   const { contacts, focus, scene, verdict } = page;
   if (contacts && contacts.first) {
     const name = contacts.settled === false ? "First contact that was found" : "First contact";
-    return `${name}: ${contactText(contacts.first, scene ? scene.parts : [], inSteps(page))}.`;
+    return `${name}: ${shortText(contacts.first, scene ? scene.parts : [], inSteps(page))}.`;
   }
   return focus && focus.meets ? focus.words : verdict.lines[0];
 }
