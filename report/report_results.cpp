@@ -45,6 +45,8 @@ std::size_t quota(const std::map<std::uint64_t, std::size_t>& of_step) {
   return most;
 }
 
+std::string pairs(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "pair" : "pairs"); }
+
 /// What is said of a run that ended before its scene does.
 std::string end_text(const Json& run) {
   const Json &end = run.at("end"), &duration = run.at("duration");
@@ -163,12 +165,15 @@ class Verified {
     shown["point"] = point.get<std::array<double, 3>>();
   }
 
-  /// How many contacts each step has; nothing where the result does not say.
+  /// How many contacts each step has, and each frame at rest pairs of cells that intersect; nothing where the result
+  /// does not say.
   Json per_step() const {
+    const bool at_rest = result_.at("statement").at("static").get<bool>();
     Json totals = Json::array();
     for (const Json& step : result_.value("per_step", Json::array())) {
       std::uint64_t total = 0;
       for (const auto& [kind, number] : step.at("contacts").items()) total += count(number, kind);
+      if (at_rest) total += count(step.at("initial_intersections"), "initial_intersections");
       totals.push_back(total);
     }
     return totals;
@@ -198,6 +203,18 @@ class Verified {
     return chosen;
   }
 
+  /// Pairs of cells that intersect before anything moves. After merging, their numbers are not those of the mesh.
+  Json intersections() const {
+    Json list = Json::array();
+    if (count(result_.at("statement").at("merged_vertices"), "merged_vertices") > 0) return list;
+    const Json reports = result_.value("initial_reports", Json::object()).value("intersections", Json::array());
+    for (std::size_t i = 0; i < reports.size() && i < most_listed; ++i) {
+      const std::uint64_t step = count(reports.at(i).at("step"), "step");
+      list.push_back({{"step", step}, {"cells", reports.at(i).at("cells").get<std::array<std::uint64_t, 2>>()}});
+    }
+    return list;
+  }
+
   Json contacts() {
     for (const auto& [kind, number] : result_.at("contacts").items()) contacts_ += count(number, kind);
     const Json& all = result_.at("reports").at("contacts");
@@ -211,7 +228,8 @@ class Verified {
             {"per_step", per_step()},
             {"goes_on", going_on()},
             {"first", first.is_null() ? Json() : listed(first)},
-            {"listed", list}};
+            {"listed", list},
+            {"intersections", intersections()}};
   }
 
   /// A run that is not shown itself: its end stays all the same.
@@ -268,9 +286,12 @@ class Verified {
   std::vector<std::string> lines() const {
     const auto word = result_.at("verdict").get<std::string>();
     const bool run = result_.at("statement").contains("windows");
-    std::vector<std::string> lines = {
-        fmt::format("noli verify says {} ({}): {} of {} {} checked, {} pairs of features meet.", spoken(word),
-                    page_name(path_), looked_at_, steps_, run ? "windows" : "steps", contacts_)};
+    std::vector<std::string> lines = {fmt::format("noli verify says {} ({}): {} of {} {} checked, {} of features meet.",
+                                                  spoken(word), page_name(path_), looked_at_, steps_,
+                                                  run ? "windows" : "steps", pairs(contacts_))};
+    if (const auto initial = report_.page["contacts"]["initial"].get<std::uint64_t>(); initial > 0) {
+      lines.push_back(pairs(initial) + " of cells intersect before anything moves.");
+    }
     if (!end_.empty()) lines.push_back(end_);
     add_first(lines);
     add_near(lines);

@@ -297,6 +297,17 @@ TEST_F(Report, PassesOnWhatAContactHas) {
   }
 }
 
+TEST_F(Report, PassesOnCellsThatIntersectAtFirst) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
+  Json result = Json::parse(bytes_of(verdict(frames, 1)));
+  result["initial_intersections"] = 1;
+  result["initial_reports"]["intersections"].push_back({{"cells", {0, 1}}, {"step", 1}});
+  const Json json = page({folder.write("initial.json", result.dump())});
+  EXPECT_EQ(json["contacts"]["intersections"], Json::parse(R"([{"step": 1, "cells": [0, 1]}])"));
+  EXPECT_EQ(json["contacts"]["per_step"], Json::parse("[1]"));
+  EXPECT_TRUE(says(json, "1 pair of cells intersect before anything moves"));
+}
+
 TEST_F(Report, OfAVerdictAlone) {
   const Json json = page({verdict({frame("0.obj", 2), frame("1.obj", 1)}, 0)});
   EXPECT_EQ(json["verdict"]["word"], "proved");

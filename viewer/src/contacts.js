@@ -48,7 +48,7 @@ class Rows {
 
 function summary(contacts) {
   const kinds = Object.entries(contacts.counts).filter(([, n]) => n > 0).map(([kind, n]) => `${number(n)} ${pairName(kind)}`);
-  const initial = contacts.initial > 0 ? `; ${counted(contacts.initial, "pair")} of cells intersect at the beginning` : "";
+  const initial = contacts.initial > 0 ? `; ${counted(contacts.initial, "pair")} of cells intersect before anything moves` : "";
   return `${counted(contacts.total, "pair")} of features${kinds.length > 0 ? `: ${kinds.join(", ")}` : ""}${initial}.`;
 }
 
@@ -57,7 +57,7 @@ export function contactList(contacts, list, parts, inStep, pick) {
   const rows = list.map((contact) => element("tr", { className: "pick" }, ...cells(contact, parts)));
   const chooser = new Rows(rows, (i) => pick(list[i]));
   const head = element("tr", {}, ...[inStep ? "step" : "window", inStep ? "time" : "time [s]", "features, by vertex"].map((h) => element("th", { scope: "col" }, h)));
-  const left = contacts.total - list.length;
+  const left = contacts.total + contacts.initial - list.length;
   const node = element("div", { className: "contacts" }, element("h2", {}, "Contacts"), element("p", { className: "soft" }, summary(contacts)));
   if (list.length > 0) {
     node.append(element("div", { className: "scroll", tabIndex: -1 },

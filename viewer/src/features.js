@@ -45,3 +45,16 @@ export function inOrder({ listed, first }, most) {
   const known = sorted.find((c) => same(c, first));
   return [{ ...known, ...first }, ...sorted.filter((c) => c !== known)].slice(0, most);
 }
+
+/** The vertices of a cell by its number: faces come first, then edges, then points. */
+function verticesOf(cell, { faces, edges, points }) {
+  const edge = cell - faces.length / 3, point = edge - edges.length / 2;
+  if (edge < 0) return [...faces.subarray(3 * cell, 3 * cell + 3)];
+  return point < 0 ? [...edges.subarray(2 * edge, 2 * edge + 2)] : [...points.subarray(point, point + 1)];
+}
+
+/** Cells that intersect before anything moves, as contacts of these cells. */
+export function intersectionsOf({ intersections = [] }, cells) {
+  return intersections.map(({ step, cells: [a, b] }) => ({ step, kind: "intersection", features: [verticesOf(a, cells), verticesOf(b, cells)],
+                                                           cells: [[a], [b]], time: 0 })).filter(({ features }) => features.every((f) => f.length > 0));
+}

@@ -17,7 +17,8 @@ function lead(page) {
     const name = contacts.settled === false ? "First contact that was found" : "First contact";
     return `${name}: ${shortText(contacts.first, scene ? scene.parts : [], inSteps(page))}.`;
   }
-  return focus && focus.meets ? focus.words : verdict.lines[0];
+  if (focus && focus.meets) return focus.words;
+  return verdict.lines.find((line) => line.endsWith("intersect before anything moves.")) ?? verdict.lines[0];
 }
 
 const paragraph = (text) => element("p", {}, text);

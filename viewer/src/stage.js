@@ -4,7 +4,7 @@
 import { contactList } from "./contacts.js";
 import * as data from "./data.js";
 import { element, number } from "./dom.js";
-import { contactText, inOrder } from "./features.js";
+import { contactText, inOrder, intersectionsOf } from "./features.js";
 import { markStrip, stepButtons } from "./marks.js";
 import { Motion } from "./motion.js";
 import { Player } from "./player.js";
@@ -15,7 +15,7 @@ const mostWithEdges = 20000;  // faces: of more, edges are drawn when they are a
 
 /** Contacts of each step; where the page does not say, those that are listed. */
 export function contactsPerStep(contacts, steps) {
-  if (!contacts || contacts.total === 0) return [];
+  if (!contacts || contacts.total + contacts.initial === 0) return [];
   if (contacts.per_step && contacts.per_step.length > 0) return contacts.per_step;
   const counts = new Array(steps).fill(0);
   for (const { step } of contacts.listed) if (step <= steps) ++counts[step - 1];
@@ -38,7 +38,7 @@ class Stage {
     this.scene = page.scene;
     this.motion = new Motion(page.scene, frames);
     this.inStep = page.scene.unit !== "s";
-    this.list = page.contacts ? inOrder(page.contacts, mostListed) : [];
+    this.list = page.contacts ? [...inOrder(page.contacts, mostListed), ...intersectionsOf(page.contacts, cells)].slice(0, mostListed) : [];
     this.byStep = grouped(this.list);
     this.perStep = contactsPerStep(page.contacts, page.scene.steps.list.length);
     this.place = element("div", { className: "stage", ariaLabel: "The mesh; drag to turn, scroll or pinch to zoom", role: "img" });

@@ -44,6 +44,11 @@ look contacts '{"word": "contact", "tone": "bad", "listed": 1000, "frames": 6, "
 "$noli" report "$out/contacts.json" -o "$out/alone.html"
 look alone '{"word": "contact", "tone": "bad", "listed": 1000, "frames": 0, "shows": ["The first is a crossing"]}'
 
+# Frames at rest, in some of which cells intersect: it opens with the first of these.
+verify --no-check --static --keep-going --max-reports 1000 --json "$out/rest.json" "$out"/frames/*.ply
+"$noli" report "$out/rest.json" "$out"/frames/*.ply -o "$out/rest.html"
+look rest '{"word": "contact", "tone": "bad", "frames": 6, "meets": 0.005, "shows": ["pairs of cells intersect before anything moves", "intersection", "frame 5 of 6"], "folds": ["is cut into the triangles"]}'
+
 # A verdict with 100,000 contacts: it opens as fast as one without.
 mkdir "$out/many_frames"
 "$demo_frames" contact 175 "$out/many_frames"
