@@ -103,6 +103,7 @@ class Report {
         {"statement", Json::array()},
         {"scene", nullptr},
         {"contacts", nullptr},
+        {"focus", nullptr},
         {"plots", Json::array()},
         {"pictures", Json::array()},
         {"results", Json::array()}};
@@ -133,8 +134,15 @@ class Report {
         verified_ = VerifyResult{path, std::move(result)};
         continue;
       }
-      report_.page["results"].push_back({{"name", report::page_name(path)}, {"result", std::move(result)}});
+      report_.page["results"].push_back(
+          {{"name", report::page_name(path)}, {"tone", tone_of(result)}, {"result", std::move(result)}});
     }
+  }
+
+  /// Neutral where a result has no verdict.
+  static std::string_view tone_of(const Json& result) {
+    const Json word = result.value("verdict", Json("report"));
+    return report::name(report::tone_of(word.is_string() ? word.get_ref<const std::string&>() : ""));
   }
 
   /// After those of the run and of verify: of equals the first is at the head.

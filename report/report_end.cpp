@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <vector>
 
 #include "certify/json.h"
@@ -38,6 +39,23 @@ std::string what_ended(const LogFacts& log) {
     return words_of(log.last_end_line, log.names);
   } catch (const Json::exception&) {
     return "";
+  }
+}
+
+Json pair_that_ended(const LogFacts& log) {
+  if (log.going_on || log.last_end != "contact") return nullptr;
+  try {
+    const Json& first = log.last_end_line.at("first");
+    const auto features = first.at("features").get<std::array<std::vector<VertexId>, 2>>();
+    for (const auto& feature : features) {
+      if (feature.empty() || feature.size() > 3) return nullptr;
+    }
+    return {{"meets", true},
+            {"features", features},
+            {"time", log.last_end_line.at("first_time").get<double>()},
+            {"words", "The run ends before this contact: " + words_of(log.last_end_line, log.names) + "."}};
+  } catch (const Json::exception&) {
+    return nullptr;
   }
 }
 

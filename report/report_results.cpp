@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <noli/errors.h>
 #include "integrator/scene/json_text.h"
@@ -28,6 +32,20 @@ auto as_written(const std::filesystem::path& path, F&& f) {
     throw InputError(path.string(), "", fmt::format("is no result of noli verify: {}", error.what()));
   }
 }
+
+/// How many contacts a page can list of each step, at least one, if they are so many.
+std::size_t quota(const std::map<std::uint64_t, std::size_t>& of_step) {
+  std::size_t most = most_listed;
+  const auto listed = [&] {
+    std::size_t sum = 0;
+    for (const auto& [step, number] : of_step) sum += std::min(number, most);
+    return sum;
+  };
+  while (most > 1 && listed() > most_listed) --most;
+  return most;
+}
+
+std::string pairs(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "pair" : "pairs"); }
 
 /// What is said of a run that ended before its scene does.
 std::string end_text(const Json& run) {
@@ -54,8 +72,11 @@ class Verified {
     report_.page["contacts"] = contacts();
     take_verdict();
     if (!scene_) take_end_of_run();
+    report_.page["contacts"]["settled"] = settled();
     for (const std::string& line : lines()) report_.page["verdict"]["lines"].push_back(line);
+    for (const std::string& line : caveats()) add_caveat(line, report_);
     report_.page["statement"] = statement_in_words(result_.at("statement"));
+    put_weakenings();
     put_inputs();
   }
 
@@ -121,7 +142,77 @@ class Verified {
     for (const Json& feature : features) require_feature(feature);
     const std::uint64_t step = count(contact.at("step"), "step");
     if (step == 0 || step > steps_) refuse(fmt::format("lists a contact in step {} of {}", step, steps_));
-    return {{"step", step}, {"pair", contact.at("pair").get<std::string>()}, {"features", features}};
+    Json shown = {{"step", step}, {"pair", contact.at("pair").get<std::string>()}, {"features", features}};
+    add_details(contact, shown);
+    return shown;
+  }
+
+  /// Results of older versions lack some or all of these.
+  static void add_details(const Json& contact, Json& shown) {
+    const auto has = [&](const char* key) { return contact.contains(key) && !contact.at(key).is_null(); };
+    if (has("time")) shown["time"] = contact.at("time").get<double>();
+    if (has("kind")) shown["kind"] = contact.at("kind").get<std::string>();
+    if (has("cells")) shown["cells"] = contact.at("cells").get<std::array<std::vector<std::uint64_t>, 2>>();
+    if (has("bodies")) shown["bodies"] = contact.at("bodies").get<std::array<std::string, 2>>();
+    if (has("point")) add_point(contact.at("point"), shown);
+  }
+
+  /// Unless it is beyond the range of doubles.
+  static void add_point(const Json& point, Json& shown) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (point.at(k).is_null()) return;
+    }
+    shown["point"] = point.get<std::array<double, 3>>();
+  }
+
+  /// How many contacts each step has, and each frame at rest pairs of cells that intersect; nothing where the result
+  /// does not say.
+  Json per_step() const {
+    const bool at_rest = result_.at("statement").at("static").get<bool>();
+    Json totals = Json::array();
+    for (const Json& step : result_.value("per_step", Json::array())) {
+      std::uint64_t total = 0;
+      for (const auto& [kind, number] : step.at("contacts").items()) total += count(number, kind);
+      if (at_rest) total += count(step.at("initial_intersections"), "initial_intersections");
+      totals.push_back(total);
+    }
+    return totals;
+  }
+
+  /// Steps in which contacts go on that were counted in the step before.
+  Json going_on() const {
+    Json steps = Json::array();
+    std::uint64_t step = 0;
+    for (const Json& counts : result_.value("per_step", Json::array())) {
+      ++step;
+      if (counts.value("goes_on", false)) steps.push_back(step);
+    }
+    return steps;
+  }
+
+  /// Which contacts the page lists: of each step as many as there is room for, its first ones.
+  std::vector<std::size_t> spread(const Json& all) const {
+    std::vector<std::uint64_t> steps;
+    std::map<std::uint64_t, std::size_t> of_step, taken;
+    for (const Json& contact : all) ++of_step[steps.emplace_back(count(contact.at("step"), "step"))];
+    const std::size_t most = quota(of_step);
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < steps.size() && chosen.size() < most_listed; ++i) {
+      if (++taken[steps[i]] <= most) chosen.push_back(i);
+    }
+    return chosen;
+  }
+
+  /// Pairs of cells that intersect before anything moves. After merging, their numbers are not those of the mesh.
+  Json intersections() const {
+    Json list = Json::array();
+    if (count(result_.at("statement").at("merged_vertices"), "merged_vertices") > 0) return list;
+    const Json reports = result_.value("initial_reports", Json::object()).value("intersections", Json::array());
+    for (std::size_t i = 0; i < reports.size() && i < most_listed; ++i) {
+      const std::uint64_t step = count(reports.at(i).at("step"), "step");
+      list.push_back({{"step", step}, {"cells", reports.at(i).at("cells").get<std::array<std::uint64_t, 2>>()}});
+    }
+    return list;
   }
 
   Json contacts() {
@@ -129,11 +220,16 @@ class Verified {
     const Json& all = result_.at("reports").at("contacts");
     if (all.size() > contacts_) refuse(fmt::format("lists {} contacts, but counts {}", all.size(), contacts_));
     Json list = Json::array();
-    for (std::size_t i = 0; i < all.size() && i < most_listed; ++i) list.push_back(listed(all.at(i)));
+    for (const std::size_t i : spread(all)) list.push_back(listed(all.at(i)));
+    const Json& first = result_.at("first");
     return {{"counts", result_.at("contacts")},
             {"total", contacts_},
             {"initial", count(result_.at("initial_intersections"), "initial_intersections")},
-            {"listed", list}};
+            {"per_step", per_step()},
+            {"goes_on", going_on()},
+            {"first", first.is_null() ? Json() : listed(first)},
+            {"listed", list},
+            {"intersections", intersections()}};
   }
 
   /// A run that is not shown itself: its end stays all the same.
@@ -145,23 +241,34 @@ class Verified {
     end_ = end_text(run);
   }
 
+  /// What makes the claim weaker than the one that `noli check` asks by default.
+  void put_weakenings() const {
+    const Json claim = result_.value("claim", Json());
+    if (!claim.is_object() || claim.value("weaker", Json::array()).empty()) return;
+    report_.page["statement"].push_back({"weaker than the default claim", value_in_words(claim.at("weaker")), true});
+  }
+
   /// What was looked at, and by whom, below the statement.
   void put_inputs() const {
     Json& rows = report_.page["statement"];
     if (const Json noli = result_.value("noli", Json()); noli.is_object()) {
-      rows.push_back({"decided by", fmt::format("noli {} ({})", noli.at("version").get<std::string>(),
-                                                noli.at("commit").get<std::string>())});
+      rows.push_back(
+          {"decided by",
+           fmt::format("noli {} ({})", noli.at("version").get<std::string>(), noli.at("commit").get<std::string>()),
+           false});
     }
     if (const Json checker = result_.value("checker", Json()); checker.is_object()) {
       rows.push_back({"checked by",
                       fmt::format("{} {} ({})", checker.at("name").get<std::string>(),
-                                  checker.at("version").get<std::string>(), checker.at("commit").get<std::string>())});
+                                  checker.at("version").get<std::string>(), checker.at("commit").get<std::string>()),
+                      false});
     }
     const Json inputs = result_.value("inputs", Json::array());
     for (std::size_t i = 0; i < inputs.size() && i < most_inputs; ++i) {
-      rows.push_back({fmt::format("input {}", i + 1), input_in_words(inputs.at(i))});
+      rows.push_back({fmt::format("input {}", i + 1), input_in_words(inputs.at(i)), false});
     }
-    if (inputs.size() > most_inputs) rows.push_back({"more inputs", fmt::format("{}", inputs.size() - most_inputs)});
+    if (inputs.size() > most_inputs)
+      rows.push_back({"more inputs", fmt::format("{}", inputs.size() - most_inputs), false});
   }
 
   static std::string input_in_words(const Json& input) {
@@ -178,12 +285,14 @@ class Verified {
 
   std::vector<std::string> lines() const {
     const auto word = result_.at("verdict").get<std::string>();
-    std::vector<std::string> lines = {
-        fmt::format("noli verify says {} ({}): {} of {} {} looked at; {} pair(s) of features meet.", spoken(word),
-                    page_name(path_), looked_at_, steps_,
-                    result_.at("statement").contains("windows") ? "window(s) were" : "step(s) were", contacts_)};
+    const bool run = result_.at("statement").contains("windows");
+    std::vector<std::string> lines = {fmt::format("noli verify says {} ({}): {} of {} {} checked, {} of features meet.",
+                                                  spoken(word), page_name(path_), looked_at_, steps_,
+                                                  run ? "windows" : "steps", pairs(contacts_))};
+    if (const auto initial = report_.page["contacts"]["initial"].get<std::uint64_t>(); initial > 0) {
+      lines.push_back(pairs(initial) + " of cells intersect before anything moves.");
+    }
     if (!end_.empty()) lines.push_back(end_);
-    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not all that was asked for was decided.");
     add_first(lines);
     add_near(lines);
     add_proof(lines);
@@ -191,19 +300,28 @@ class Verified {
     return lines;
   }
 
+  bool first_only() const { return result_.at("statement").at("first_only").get<bool>(); }
+
+  /// Whether no contact can be earlier than the first.
+  bool settled() const { return result_.at("complete").get<bool>() && !first_only(); }
+
   void add_first(std::vector<std::string>& lines) const {
     const Json& first = result_.at("first");
     if (first.is_null()) return;
-    const bool any = result_.at("statement").at("first_only").get<bool>();
-    const bool settled = result_.at("complete").get<bool>() && !any;
-    lines.push_back(fmt::format("The first {}is a {}, in step {} at time {}.", settled ? "" : "that was found ",
+    lines.push_back(fmt::format("The first {}is a {}, in step {} at time {}.", settled() ? "" : "that was found ",
                                 first.at("kind").get<std::string>(), count(first.at("step"), "step"),
                                 digits17(first.at("time").get<double>())));
-    if (settled) return;
+  }
+
+  /// What is never folded, because it limits what the verdict says.
+  std::vector<std::string> caveats() const {
+    std::vector<std::string> lines;
+    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not all that was asked for was decided.");
+    if (settled() || result_.at("first").is_null()) return lines;
     lines.push_back(
-        fmt::format("What is said is of what was settled so far{}: there may be more contacts, and earlier "
-                    "ones.",
-                    any ? " (first contact only)" : ""));
+        fmt::format("What is said is of what was settled so far{}: there may be more contacts, and earlier ones.",
+                    first_only() ? " (first contact only)" : ""));
+    return lines;
   }
 
   void add_near(std::vector<std::string>& lines) const {

@@ -51,9 +51,12 @@ class Run {
     const bool nothing = rows_.empty() && log_.last_end == "done";
     take_word(nothing ? "undecided" : word_of_end(log_.last_end, log_.going_on), report);
     add_lines(report.page["verdict"]["lines"]);
+    if (log_.going_on) add_caveat("The run has not ended, or was killed.", report);
+    if (reader_.open_window()) add_caveat("A window that was never committed follows; it is left out.", report);
     report.page["facts"] = facts();
     if (rows_.empty()) return;  // nothing moves
     report.page["plots"] = report_plots(rows_);
+    report.page["focus"] = focus();
     PackedFrames frames = packer_.pack();  // before scene(), which tells how many frames are left
     put_scene(scene(), std::move(frames), report);
   }
@@ -82,8 +85,6 @@ class Run {
   void add_lines(Json& lines) const {
     lines.push_back(rows_.empty() ? "No window was committed: nothing is claimed." : claim());
     if (const std::string end = end_line(); !end.empty()) lines.push_back(end);
-    if (log_.going_on) lines.push_back("The run has not ended, or was killed.");
-    if (reader_.open_window()) lines.push_back("A window that was never committed follows; it is left out.");
     if (rows_.empty()) return;
     lines.push_back(full()
                         ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."
@@ -144,6 +145,22 @@ class Run {
       if (nearest.layer == 0 || row.nearest.distance < nearest.distance) nearest = row.nearest;
     }
     return nearest;
+  }
+
+  /// The pair that the motion opens with: the one that ended the run, else the nearest at an impulse of contact.
+  Json focus() const {
+    if (const Json pair = pair_that_ended(log_); !pair.is_null()) return pair;
+    const ActingLayer nearest = nearest_layer();
+    if (nearest.layer == 0) return nullptr;
+    const auto first = nearest.vertices.begin();
+    const auto between = first + static_cast<std::ptrdiff_t>(first_size(nearest.pair));
+    const auto end = first + static_cast<std::ptrdiff_t>(point_count(nearest.pair));
+    return {
+        {"meets", false},
+        {"features", {std::vector<VertexId>(first, between), std::vector<VertexId>(between, end)}},
+        {"time", nearest.time},
+        {"words", fmt::format("Nearest at an impulse of contact: {}, {:.4g} m apart, at {:.6g} s.",
+                              log_.names.pair(nearest.pair, nearest.vertices, "and"), nearest.distance, nearest.time)}};
   }
 
   ReportScene scene() const {

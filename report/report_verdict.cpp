@@ -33,7 +33,13 @@ std::string_view name(Tone tone) {
   return "";
 }
 
-Json no_verdict() { return {{"word", "report"}, {"tone", name(Tone::neutral)}, {"lines", Json::array()}}; }
+Json no_verdict() {
+  return {{"word", "report"}, {"tone", name(Tone::neutral)}, {"lines", Json::array()}, {"caveats", Json::array()}};
+}
+
+void add_caveat(const std::string& line, ReportPage& report) {
+  for (const char* const list : {"lines", "caveats"}) report.page["verdict"][list].push_back(line);
+}
 
 void take_word(const std::string& word, ReportPage& report) {
   Json& verdict = report.page["verdict"];

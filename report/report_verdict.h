@@ -26,6 +26,9 @@ Json no_verdict();
 /// inputs. "proved" says more than "no_contact", and takes its place.
 void take_word(const std::string& word, ReportPage& report);
 
+/// Adds a line that limits what the verdict says: a page never folds it.
+void add_caveat(const std::string& line, ReportPage& report);
+
 /// What a run says of itself that ended so, and whether it goes on still: "no_contact" if it is done, or why it ended,
 /// or "undecided".
 std::string word_of_end(std::string_view end, bool going_on);

@@ -113,6 +113,11 @@ TEST_F(Report, OfARunThatEndsInContact) {
   EXPECT_TRUE(says(json, "something touches"));
   EXPECT_TRUE(says(json, "upright[0] meets ")) << json["verdict"];
   EXPECT_TRUE(says(json, "at 0.3125 s"));
+  EXPECT_EQ(json["focus"]["meets"], true);
+  EXPECT_EQ(json["focus"]["time"], 0.3125);
+  EXPECT_EQ(json["focus"]["features"].size(), 2u);
+  change_end(run, {{"first", "damaged"}});
+  EXPECT_TRUE(page({run})["focus"].is_null());
 }
 
 TEST_F(Report, OfARunWithoutAnyWindow) {
@@ -234,6 +239,8 @@ TEST_F(Report, HasEveryConditionOfTheStatement) {
   EXPECT_EQ(stated(json, "stops at any contact, which need not be the earliest"), "no");
   EXPECT_TRUE(says(json, "The first is a crossing")) << json["verdict"];
   EXPECT_FALSE(says(json, "there may be more"));
+  EXPECT_TRUE(json["verdict"]["caveats"].empty());
+  EXPECT_EQ(json["contacts"]["settled"], true);
   const std::string first = folder.path("first.json");
   ASSERT_EQ(run_noli({"verify", "--first-only", "--merge-identical", "--json", first, frames[0], frames[1]}).exit_code,
             1);
@@ -242,6 +249,63 @@ TEST_F(Report, HasEveryConditionOfTheStatement) {
   EXPECT_EQ(stated(any, "stops at any contact, which need not be the earliest"), "yes");
   EXPECT_TRUE(says(any, "The first that was found is a crossing"));
   EXPECT_TRUE(says(any, "(first contact only): there may be more contacts, and earlier ones"));
+  EXPECT_EQ(any["verdict"]["caveats"].size(), 2u) << any["verdict"];
+  EXPECT_EQ(any["contacts"]["settled"], false);
+}
+
+TEST_F(Report, ShowsWhatDiffersFromDefaults) {
+  const std::vector<std::string> frames = {frame("0.obj", 2), frame("1.obj", 1)};
+  const auto shown = [&](const Json& json) {
+    std::vector<std::string> names;
+    for (const Json& row : json["statement"]) {
+      if (row[0] == "notes") {
+        EXPECT_EQ(row[2], row[1] != "nothing");
+      } else if (row[2] == true) {
+        names.push_back(row[0]);
+      }
+    }
+    return names;
+  };
+  EXPECT_EQ(shown(page({verdict(frames, 0)})), std::vector<std::string>{"claim"});
+  const std::string near = folder.path("near.json");
+  ASSERT_EQ(run_noli({"verify", "--min-distance", "0.5", "--json", near, frames[0], frames[1]}).exit_code, 0);
+  EXPECT_EQ(shown(page({near})), (std::vector<std::string>{"claim", "least distance"}));
+  const std::string rest = folder.path("rest.json");
+  ASSERT_EQ(run_noli({"verify", "--static", "--json", rest, frames[0], frames[1]}).exit_code, 0);
+  EXPECT_EQ(shown(page({rest})),
+            (std::vector<std::string>{"claim", "each frame by itself, at rest", "weaker than the default claim"}));
+}
+
+TEST_F(Report, PassesOnWhatAContactHas) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
+  Json result = Json::parse(bytes_of(verdict(frames, 1)));
+  const Json details = {{"time", 0.5},
+                        {"kind", "crossing"},
+                        {"cells", Json::parse("[[1], [0]]")},
+                        {"bodies", {"a", "b"}},
+                        {"point", {0.0, 0.25, 0.0}}};
+  result["reports"]["contacts"][0].update(details);
+  const std::string path = folder.write("details.json", result.dump());
+  const Json contacts = page({path})["contacts"];
+  EXPECT_EQ(contacts["first"]["features"], contacts["listed"][0]["features"]);
+  EXPECT_EQ(contacts["per_step"], Json::parse("[1]"));
+  for (const auto& [key, value] : details.items()) {
+    EXPECT_EQ(contacts["listed"][0][key], value);
+    Json wrong = result;
+    wrong["reports"]["contacts"][0][key] = Json::object();
+    write({folder.write("wrong.json", wrong.dump())}, 3, "is no result of noli verify");
+  }
+}
+
+TEST_F(Report, PassesOnCellsThatIntersectAtFirst) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
+  Json result = Json::parse(bytes_of(verdict(frames, 1)));
+  result["initial_intersections"] = 1;
+  result["initial_reports"]["intersections"].push_back({{"cells", {0, 1}}, {"step", 1}});
+  const Json json = page({folder.write("initial.json", result.dump())});
+  EXPECT_EQ(json["contacts"]["intersections"], Json::parse(R"([{"step": 1, "cells": [0, 1]}])"));
+  EXPECT_EQ(json["contacts"]["per_step"], Json::parse("[1]"));
+  EXPECT_TRUE(says(json, "1 pair of cells intersect before anything moves"));
 }
 
 TEST_F(Report, OfAVerdictAlone) {
@@ -259,6 +323,7 @@ TEST_F(Report, OfOtherResultsAndPictures) {
   EXPECT_EQ(json["verdict"]["word"], "finding");
   EXPECT_EQ(json["results"][0]["result"]["rows"][0]["b"]["c"], 2);
   EXPECT_EQ(json["results"][0]["name"], "audit.json");
+  EXPECT_EQ(json["results"][0]["tone"], "bad");
   EXPECT_EQ(json["pictures"][0]["image"].get<std::string>().substr(0, 26), "data:image/svg+xml;base64,");
 }
 
@@ -271,6 +336,20 @@ TEST_F(Report, ListsAThousandContactsAndCountsAll) {
   const Json json = page({folder.write("many.json", result.dump()), frames[0], frames[1]});
   EXPECT_EQ(json["contacts"]["total"], 100'000);
   EXPECT_EQ(json["contacts"]["listed"].size(), 1000u);
+}
+
+TEST_F(Report, ListsTheFirstContactsOfEachStep) {
+  const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1), frame("2.obj", -2)};
+  Json result = Json::parse(bytes_of(verdict(frames, 1)));
+  Json one = result["reports"]["contacts"][0];
+  for (int i = 1; i < 2000; ++i) result["reports"]["contacts"].push_back(one);
+  one["step"] = 2;
+  for (int i = 0; i < 3; ++i) result["reports"]["contacts"].push_back(one);
+  result["contacts"]["vertex_face"] = 2003;
+  const Json listed = page({folder.write("many.json", result.dump())})["contacts"]["listed"];
+  ASSERT_EQ(listed.size(), 1000u);
+  EXPECT_EQ(listed[996]["step"], 1);
+  EXPECT_EQ(listed[997]["step"], 2);
 }
 
 TEST_F(Report, TheWorstOfAllResultsIsAtTheHead) {

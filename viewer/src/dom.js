@@ -16,9 +16,33 @@ export function section(title, ...children) {
   return element("section", {}, element("h2", {}, title), ...children);
 }
 
-/** Whole numbers in full, others to six digits; with an exponent where there would be too many digits to be read. */
-export function number(x) {
-  const size = Math.abs(x);
-  if (size >= 1e15 || (size > 0 && size < 1e-4)) return Number(x.toPrecision(6)).toExponential();
-  return Number.isInteger(x) ? x.toLocaleString("en") : Number(x.toPrecision(6)).toString();
+/** `make()` returns the content as a list of nodes; it is called once, when the element is first opened. */
+export function folded(title, make, open = false) {
+  const details = element("details", {}, element("summary", {}, title));
+  let made = false;
+  const fill = () => {
+    if (made || !details.open) return;
+    made = true;
+    details.append(...make());
+  };
+  details.ontoggle = fill;
+  details.open = open;
+  fill();
+  return details;
 }
+
+/** Whole numbers in full, others to `digits` digits; with an exponent where there would be too many to be read. */
+export function number(x, digits = 6) {
+  const size = Math.abs(x);
+  if (size >= 1e15 || (size > 0 && size < 1e-4)) return Number(x.toPrecision(digits)).toExponential();
+  return x.toLocaleString("en", Number.isInteger(x) ? {} : { maximumSignificantDigits: digits });
+}
+
+/** "vertex_face" as "vertex face". */
+export const words = (key) => String(key).replaceAll("_", " ");
+
+/** "1 contact", "2 contacts". */
+export const counted = (n, one, many = `${one}s`) => `${number(n)} ${n === 1 ? one : many}`;
+
+/** "vertex_face" as "vertex-face". */
+export const pairName = (pair) => String(pair).replace("_", "-");
