@@ -17,6 +17,7 @@
 #include "app/commands.h"
 #include "app/help.h"
 #include "app/output.h"
+#include "app/parts.h"
 #include "app/process.h"
 #include "app/terminal.h"
 #include "app/wrong_usage.h"
@@ -45,6 +46,8 @@ ExitCode complain(ExitCode code, const std::string& message) {
   return code;
 }
 
+std::string version_and_parts() { return version_text() + parts_text(); }
+
 /// `noli help COMMAND...`
 Command add_help(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("help", "Print the help of a command");
@@ -71,7 +74,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   use_help(app);
   app.footer(program_footer);
   app.require_subcommand(1);
-  app.set_version_flag("-V,--version", version_text, "Print version, commit, arithmetic libraries, rounding self-test");
+  app.set_version_flag("-V,--version", version_and_parts,
+                       "Print version, commit, libraries, rounding self-test, and parts");
   std::vector<Command> commands = {
       add_verify(app), add_check(app),  add_simulate(app), add_explain(app),
       add_export(app), add_report(app), add_info(app),     add_ccd(app),
@@ -86,7 +90,7 @@ ExitCode parse_and_run(int argc, char** argv) {
     write_standard_output(app.help());  // of the subcommand, where one was given
     return ExitCode::holds;
   } catch (const CLI::CallForVersion&) {
-    write_standard_output(version_text());
+    write_standard_output(version_and_parts());
     return ExitCode::holds;
   } catch (const CLI::ParseError& error) {
     if (const auto wrong = wrong_usage(app, arguments, error)) return complain(ExitCode::bad_input, *wrong);

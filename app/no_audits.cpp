@@ -2,10 +2,13 @@
 //
 // What stands for `noli fuzz` and `noli audit` in a noli that is built without them (NOLI_WITH_AUDIT=OFF).
 #include "app/commands.h"
+#include "app/parts.h"
 
 #include <noli/errors.h>
 
 namespace noli::app {
+
+bool has_audits() { return false; }
 
 std::vector<Command> add_audits(CLI::App& app) {
   std::vector<Command> commands;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <memory>
@@ -40,7 +42,7 @@ constexpr const char* report_footer =
     "`noli verify` is about; pictures (.svg).\n"
     "Examples:\n"
     "  noli verify a.ply b.ply --json ab.json; noli report ab.json a.ply b.ply -o ab.html\n"
-    "  noli report runs/cloth -o cloth.html\n"
+    "  noli report runs/cloth -o cloth.html --open\n"
     "  noli verify runs/cloth --json cloth.json; noli report runs/cloth cloth.json -o cloth.html\n"
     "  noli report audit.json audit.svg -o audit.html\n";
 
@@ -51,6 +53,7 @@ struct ReportArguments {
   fs::path output;
   report::ReportLimits limits;
   bool force = false;
+  bool open = false;  ///< in a browser, once it is written
   FrameOrder order = FrameOrder::checked;
   std::optional<std::string> title;
   std::string time_limit;
@@ -235,6 +238,18 @@ CLI::Validator is_rate() {
       "");
 }
 
+/// By the program that the desktop, or $BROWSER, has for it. A machine without one gets a note.
+void open_in_browser(const fs::path& page) {
+  const char* const chosen = std::getenv("BROWSER");
+  const std::string browser = chosen != nullptr && *chosen != '\0' ? chosen : "xdg-open";
+  const std::string path = fs::absolute(page).string();
+  std::vector<char*> words = {const_cast<char*>(browser.c_str()), const_cast<char*>(path.c_str()), nullptr};
+  pid_t child = 0;
+  if (::posix_spawnp(&child, browser.c_str(), nullptr, nullptr, words.data(), environ) != 0) {
+    tell_note(fmt::format("{} cannot be started; open {} in a browser", browser, path));
+  }
+}
+
 ExitCode run(const ReportArguments& arguments) {
   begin_work(arguments.time_limit);
   if (!report::has_report_page())
@@ -245,6 +260,7 @@ ExitCode run(const ReportArguments& arguments) {
   const std::string html = report::report_html(page);
   replace_file(arguments.output, html);
   const Json& scene = page.page["scene"];
+  if (arguments.open) open_in_browser(arguments.output);
   write_standard_output(fmt::format("report bytes {} frames {}\n", html.size(),
                                     scene.is_null() ? 0 : scene["frames"].get<std::uint64_t>()));
   return ExitCode::holds;
@@ -267,6 +283,7 @@ Command add_report(CLI::App& app) {
       ->check(is_positive())
       ->check(is_rate())
       ->capture_default_str();
+  command->add_flag("--open", arguments->open, "Open the page in a browser");
   command->add_flag("--force", arguments->force, "Replace a page that is there");
   add_time_limit_option(*command, arguments->time_limit, "Stop after this time, without a page: 500ms, 60s, 5m, 1h");
   return {command, [arguments] { return run(*arguments); }};

@@ -2,8 +2,11 @@
 //
 // The commands below `noli fuzz` and `noli audit`.
 #include "app/commands.h"
+#include "app/parts.h"
 
 namespace noli::app {
+
+bool has_audits() { return true; }
 
 std::vector<Command> add_audits(CLI::App& app) {
   CLI::App& fuzz = *app.add_subcommand("fuzz", "Look for wrong answers with adversarial input");

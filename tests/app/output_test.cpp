@@ -37,6 +37,14 @@ TEST(Version, NamesLibrariesAndTestsRounding) {
   }
 }
 
+TEST(Version, SaysWhatItIsWithout) {
+  const std::string out = run_noli({"--version"}).out;
+  const std::size_t at = out.find("\nwith");
+  ASSERT_NE(at, std::string::npos) << out;
+  const bool reports = run_noli({"report", "absent", "-o", "x.html"}).err.find("NOLI_WITH_REPORT") == std::string::npos;
+  EXPECT_EQ(out.find("reports", at) == std::string::npos, reports) << out;
+}
+
 class JsonOutput : public testing::Test {
  protected:
   Process run(const std::string& out) const { return run_noli({"info", mesh, "--force", "--json", out}); }

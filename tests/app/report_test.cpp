@@ -2,7 +2,11 @@
 //
 // `noli report`: what is in a page. How it looks in a browser is tested by viewer/test.
 #include <gtest/gtest.h>
+
+#include <chrono>
+
 #include <sys/stat.h>
+#include <thread>
 
 #include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/worked_example.h"
@@ -83,6 +87,22 @@ class Report : public Simulate {
 
   bool built_ = false;
 };
+
+TEST_F(Report, IsOpenedInABrowserWhenAsked) {
+  const std::string run = run_path("run"), page = folder.path("page.html"), told = folder.path("told");
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run, "--until", "0.02"}).exit_code, 0);
+  const std::string browser = folder.write("browser", "#!/bin/sh\nprintf %s \"$1\" >'" + told + "'\n");
+  fs::permissions(browser, fs::perms::owner_all);
+  ProcessOptions options;
+  options.environment = {{"BROWSER", browser}};
+  ASSERT_EQ(run_noli({"report", run, "-o", page, "--open"}, options).exit_code, 0);
+  for (int i = 0; i < 100 && bytes_of(told) != page; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(bytes_of(told), page);
+  options.environment = {{"BROWSER", "/nowhere/browser"}};
+  const Process without = run_noli({"report", run, "-o", page, "--open", "--force"}, options);
+  EXPECT_EQ(without.exit_code, 0);
+  EXPECT_NE(without.err.find("note: /nowhere/browser cannot be started; open "), std::string::npos) << without.err;
+}
 
 TEST_F(Report, OfARun) {
   const std::string run = run_path("run");
